@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# What the static libraries need when something links against them. The build of Trisect and the
+# installed package both include this file, so the two cannot drift apart.
+include(CMakeFindDependencyMacro)
+
+find_dependency(Threads)
+find_dependency(TBB)
+
+# GMP ships no CMake package. Its headers stay inside our .cpp files; consumers only link.
+if(NOT TARGET trisect::gmp)
+    find_library(TRISECT_GMP_LIBRARY gmp)
+    find_path(TRISECT_GMP_INCLUDE_DIR gmp.h)
+    mark_as_advanced(TRISECT_GMP_LIBRARY TRISECT_GMP_INCLUDE_DIR)
+    if(TRISECT_GMP_LIBRARY AND TRISECT_GMP_INCLUDE_DIR)
+        add_library(trisect::gmp UNKNOWN IMPORTED)
+        set_target_properties(
+            trisect::gmp
+            PROPERTIES
+                IMPORTED_LOCATION "${TRISECT_GMP_LIBRARY}"
+                INTERFACE_INCLUDE_DIRECTORIES "${TRISECT_GMP_INCLUDE_DIR}"
+        )
+    elseif(CMAKE_FIND_PACKAGE_NAME STREQUAL "trisect")
+        set(trisect_FOUND FALSE)
+        set(trisect_NOT_FOUND_MESSAGE "Trisect needs GMP (Debian: libgmp-dev)")
+        return()
+    else()
+        message(FATAL_ERROR "Trisect needs GMP (Debian: libgmp-dev, or run scripts/install-deps)")
+    endif()
+endif()

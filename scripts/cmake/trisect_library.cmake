@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+
+# trisect_add_library(<layer>): the static library trisect_<layer>, known to users as
+# trisect::<layer>, in the build tree and installed.
+function(trisect_add_library layer)
+    set(target trisect_${layer})
+    add_library(${target} STATIC)
+    add_library(trisect::${layer} ALIAS ${target})
+    set_target_properties(
+        ${target} PROPERTIES EXPORT_NAME ${layer} POSITION_INDEPENDENT_CODE ON
+    )
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_include_directories(
+        ${target}
+        PUBLIC
+            $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    )
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:trisect_options>)
+endfunction()
+
+# trisect_add_subfolders(<folder>...): enters those folders that exist.
+function(trisect_add_subfolders)
+    foreach(folder IN LISTS ARGN)
+        if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/CMakeLists.txt)
+            add_subdirectory(${folder})
+        endif()
+    endforeach()
+endfunction()
+
+# trisect_allow_empty(<target>): gives a library that has no source yet an empty one.
+function(trisect_allow_empty target)
+    get_target_property(sources ${target} SOURCES)
+    if(NOT sources)
+        set(empty ${CMAKE_CURRENT_BINARY_DIR}/${target}_empty.cpp)
+        file(WRITE ${empty} "")
+        target_sources(${target} PRIVATE ${empty})
+    endif()
+endfunction()

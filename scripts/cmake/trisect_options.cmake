@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# trisect_options: how our own code is compiled. Linked privately by every target of ours, never
+# installed; what a consumer must know sits on trisect_kernel instead.
+add_library(trisect_options INTERFACE)
+target_compile_features(trisect_options INTERFACE cxx_std_20)
+
+# A fused multiply-add rounds once where the error bounds of the filters count two roundings.
+target_compile_options(
+    trisect_options
+    INTERFACE
+        -Wall
+        -Wextra
+        -Wpedantic
+        -Wshadow
+        -Wconversion
+        -ffp-contract=off
+        $<$<BOOL:${TRISECT_WERROR}>:-Werror>
+        $<$<BOOL:${TRISECT_NATIVE}>:-march=x86-64-v3>
+)
+
+# Flags that everything in one program must share, the consumer test included.
+set(TRISECT_INSTRUMENTATION "")
+if(TRISECT_SANITIZE)
+    list(APPEND TRISECT_INSTRUMENTATION -fsanitize=${TRISECT_SANITIZE} -fno-omit-frame-pointer)
+    if(TRISECT_SANITIZE MATCHES "undefined")
+        list(APPEND TRISECT_INSTRUMENTATION -fno-sanitize-recover=undefined)
+    endif()
+endif()
+if(TRISECT_COVERAGE)
+    list(APPEND TRISECT_INSTRUMENTATION --coverage)
+endif()
+target_compile_options(trisect_options INTERFACE ${TRISECT_INSTRUMENTATION})
+target_link_options(trisect_options INTERFACE ${TRISECT_INSTRUMENTATION})
