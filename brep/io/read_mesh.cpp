@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a path or bytes to the reader of the right format. The extension decides, because a user
+// who names a file `.off` expects an error about OFF rather than a guess; the content decides
+// where the extension says nothing, and between the two kinds of STL.
+#include <trisect/brep/io/read_mesh.h>
+
+#include <trisect/brep/io/detail/formats.h>
+#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+namespace {
+
+MeshFormat format_of(const std::filesystem::path& path, std::string_view data,
+                     const ReadOptions& options) {
+    if (options.format) return *options.format;
+    if (const auto by_name = mesh_format_of_extension(path)) return *by_name;
+    if (const auto by_content = detect_mesh_format(data)) return *by_content;
+    throw InputError(FilePlace{path.string(), 0, 0, 0},
+                     "neither the extension nor the content tells the format; known are obj, stl, "
+                     "off and ply");
+}
+
+}  // namespace
+
+PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,
+                      const ReadOptions& options) {
+    if (format == MeshFormat::Stl) format = detect_stl_kind(data);
+    const bool binary = format == MeshFormat::StlBinary;
+    const detail::Source source(data, name, options.limits, binary);
+    if (data.size() > options.limits.bytes) {
+        throw LimitError(name + ": more than " + std::to_string(options.limits.bytes) +
+                         " bytes, the limit for a file");
+    }
+    if (data.empty()) source.fail(source.begin(), "the file is empty");
+    switch (format) {
+        case MeshFormat::Obj: return detail::read_obj(source);
+        case MeshFormat::Off: return detail::read_off(source);
+        case MeshFormat::Ply: return detail::read_ply(source);
+        case MeshFormat::StlBinary: return detail::read_stl_binary(source);
+        case MeshFormat::Stl:
+        case MeshFormat::StlAscii: break;
+    }
+    return detail::read_stl_ascii(source);
+}
+
+PolygonMesh read_mesh(std::span<const std::byte> data, MeshFormat format, const std::string& name,
+                      const ReadOptions& options) {
+    // Looking at objects through char is always allowed.
+    return read_mesh(std::string_view(reinterpret_cast<const char*>(data.data()), data.size()),
+                     format, name, options);
+}
+
+PolygonMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    const FileBytes bytes = read_file(path, options.limits.bytes);
+    return read_mesh(bytes.view(), format_of(path, bytes.view(), options), path.string(), options);
+}
+
+}  // namespace trisect

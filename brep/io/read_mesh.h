@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reading meshes: OBJ, STL (ASCII and binary), OFF and PLY (all three encodings) into PolygonMesh.
+//
+// What is kept: every coordinate as the double nearest to its text, or the exact value of its
+// float; every polygon with its loop as written, also when corners repeat or the polygon has no
+// area (validation reports those, a reader does not repair); every vertex, also unused ones, in
+// the order of the file. STL has no indices: corners with equal coordinates become one vertex
+// (-0.0 equals 0.0; the first one's spelling stays), numbered by first appearance.
+//
+// What is ignored: normals, texture coordinates, colours, materials, groups, lines, points and, in
+// PLY, every other element and property.
+//
+// What is refused, with its place: a number that is not finite or does not end where its word ends;
+// an index out of range; a face with fewer than three corners; a file that ends early; anything but
+// white space (and, in binary files, zero bytes) after the end of the data, since dropping what may
+// be a part of the model is worse than an error. Counts in headers never cause an allocation that
+// the size of the file does not justify.
+//
+// Byte order marks, CR LF, and files with bare CR line ends are read. The leniencies of one format
+// are listed at the top of its source file (obj.cpp, stl.cpp, off.cpp, ply.cpp).
+#pragma once
+
+#include <trisect/brep/io/mesh_format.h>
+#include <trisect/brep/polygon_mesh.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace trisect {
+
+/// What one file may ask for. Going beyond is a LimitError that names the place.
+struct ReadLimits {
+    std::uint64_t bytes = std::uint64_t{2} << 30;
+    std::uint64_t vertices = 50'000'000;  ///< at most 2^32 - 2 in any case
+    std::uint64_t faces = 100'000'000;
+    std::uint64_t loop_corners = 1'000'000;     ///< corners of one face
+    std::uint64_t line_bytes = 1U << 20;        ///< one line of text
+    std::uint64_t literal_characters = 4'096;  ///< one number in text
+};
+
+struct ReadOptions {
+    std::optional<MeshFormat> format;  ///< default: by extension, else by content
+    ReadLimits limits;
+};
+
+/// Reads a file. Errors: InputError (unreadable, unknown format, malformed), LimitError.
+/// Cost: linear in the size of the file; holds the file and the mesh in memory.
+[[nodiscard]] PolygonMesh read_mesh(const std::filesystem::path& path,
+                                    const ReadOptions& options = {});
+
+/// Reads bytes that are already in memory; `name` stands for the file in messages and
+/// `options.format` is not looked at.
+[[nodiscard]] PolygonMesh read_mesh(std::string_view data, MeshFormat format,
+                                    const std::string& name, const ReadOptions& options = {});
+[[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> data, MeshFormat format,
+                                    const std::string& name, const ReadOptions& options = {});
+
+}  // namespace trisect

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// PredicateCounters: which stage decided how many signs. Counting is per thread, so that it costs
+// one increment and needs no synchronisation.
+#pragma once
+
+#include <cstdint>
+
+namespace trisect {
+
+struct PredicateCounters {
+    std::uint64_t symbolic = 0;  ///< On by construction, no arithmetic
+    std::uint64_t filtered = 0;  ///< decided in double precision with a proved bound
+    std::uint64_t exact_narrow = 0;  ///< decided in 256 bits
+    std::uint64_t exact_wide = 0;    ///< decided in 512 bits
+
+    [[nodiscard]] std::uint64_t total() const {
+        return symbolic + filtered + exact_narrow + exact_wide;
+    }
+    PredicateCounters& operator+=(const PredicateCounters& o) {
+        symbolic += o.symbolic;
+        filtered += o.filtered;
+        exact_narrow += o.exact_narrow;
+        exact_wide += o.exact_wide;
+        return *this;
+    }
+};
+
+/// The counters of the calling thread.
+[[nodiscard]] PredicateCounters& predicate_counters() noexcept;
+
+}  // namespace trisect

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lattice: the grid of integers times a power of two on which the corners of a solid lie.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/kernel/lattice_point.h>
+
+namespace trisect {
+
+/// The unit is 2^exponent; the exponent is a multiple of 8. Value type.
+struct Lattice {
+    int exponent = 0;
+
+    /// The coordinate in the user's units, rounded once (exact unless it underflows).
+    [[nodiscard]] double to_double(double lattice_units) const;
+    friend constexpr auto operator<=>(const Lattice&, const Lattice&) = default;
+};
+
+/// What import to a lattice changed. Nothing is rounded in silence.
+struct LatticeReport {
+    Lattice lattice;
+    bool lossless = true;
+    std::size_t moved = 0;        ///< points with a rounded coordinate
+    double max_move = 0;          ///< largest change of one coordinate, user's units
+    std::size_t flipped_faces = 0;  ///< faces that were turned over or became flat by rounding
+};
+
+/// Bits left free above the largest coordinate when the lattice is chosen automatically.
+inline constexpr int growth_bits = 8;
+
+/// The coarsest lattice that represents every coordinate without loss and leaves growth_bits free;
+/// if there is none, the finest that leaves them. Non-finite values are the caller's error.
+/// O(n). An empty or all-zero set gets exponent 0.
+[[nodiscard]] Lattice choose_lattice(std::span<const std::array<double, 3>> points);
+
+/// Rounds to the nearest lattice point (ties to even) and reports.
+/// \throw LimitError when a coordinate is not finite or leaves the lattice's range.
+[[nodiscard]] std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points,
+                                                   Lattice lattice, LatticeReport& report);
+
+}  // namespace trisect

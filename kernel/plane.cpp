@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/kernel/plane.h>
+
+#include <trisect/kernel/contract.h>
+
+namespace trisect {
+
+namespace {
+
+constexpr Int128 narrow_normal_limit = Int128{1} << 54;
+constexpr int narrow_offset_bits = 81;
+
+Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
+
+// Differences of coordinates have 54 bits and their products 108: Int128 is wide enough.
+std::array<Int128, 3> cross(const LatticePoint& u, const LatticePoint& v) {
+    return {Int128{u.y} * v.z - Int128{u.z} * v.y, Int128{u.z} * v.x - Int128{u.x} * v.z,
+            Int128{u.x} * v.y - Int128{u.y} * v.x};
+}
+
+Plane::Offset offset_through(const std::array<Int128, 3>& n, const LatticePoint& a) {
+    using W2 = WideInt<2>;
+    Plane::Offset d = multiply<3>(W2(n[0]), WideInt<1>(a.x));
+    d += multiply<3>(W2(n[1]), WideInt<1>(a.y));
+    d += multiply<3>(W2(n[2]), WideInt<1>(a.z));
+    return -d;
+}
+
+}  // namespace
+
+Plane::Plane(Int128 nx, Int128 ny, Int128 nz, const Offset& d) : n_{nx, ny, nz}, d_(d) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        fn_[i] = static_cast<double>(n_[i]);
+        narrow_ = narrow_ && magnitude(n_[i]) < narrow_normal_limit;
+    }
+    fd_ = d_.to_double();
+    narrow_ = narrow_ && d_.bit_length() <= narrow_offset_bits;
+    TRISECT_AUDIT_CHECK(d_.bit_length() <= 163, "plane offset exceeds its bound");
+}
+
+Plane Plane::through(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    const auto n = cross(b - a, c - a);
+    TRISECT_EXPECTS(n[0] != 0 || n[1] != 0 || n[2] != 0, "plane through collinear points");
+    return {n[0], n[1], n[2], offset_through(n, a)};
+}
+
+Plane Plane::along_axis(const LatticePoint& a, const LatticePoint& b, int axis) {
+    const LatticePoint e{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
+    const auto n = cross(b - a, e);
+    TRISECT_EXPECTS(n[0] != 0 || n[1] != 0 || n[2] != 0, "edge parallel to the axis of its plane");
+    return {n[0], n[1], n[2], offset_through(n, a)};
+}
+
+Plane Plane::axis_aligned(int axis, std::int64_t scale, std::int64_t position) {
+    std::array<Int128, 3> n{};
+    n[static_cast<std::size_t>(axis)] = scale;
+    return {n[0], n[1], n[2], -Offset(position)};
+}
+
+Plane Plane::flipped() const { return {-n_[0], -n_[1], -n_[2], -d_}; }
+
+int Plane::dominant_axis() const {
+    int best = 0;
+    for (int i = 1; i < 3; ++i)
+        if (magnitude(normal(i)) > magnitude(normal(best))) best = i;
+    return best;
+}
+
+bool are_collinear(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    const auto n = cross(b - a, c - a);
+    return n[0] == 0 && n[1] == 0 && n[2] == 0;
+}
+
+}  // namespace trisect
