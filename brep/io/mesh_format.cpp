@@ -29,9 +29,8 @@ constexpr char lower(char c) noexcept {
 }
 
 bool same_word(std::string_view a, std::string_view b) noexcept {
-    return a.size() == b.size() &&
-           std::equal(a.begin(), a.end(), b.begin(),
-                      [](char x, char y) { return lower(x) == lower(y); });
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
+                                              [](char x, char y) { return lower(x) == lower(y); });
 }
 
 bool is_space(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -62,7 +61,7 @@ bool is_off_keyword(std::string_view word) noexcept {
 }
 
 bool is_obj_keyword(std::string_view word) noexcept {
-    constexpr std::array<std::string_view, 10> keywords{"v",  "vt", "vn", "vp",     "f",
+    constexpr std::array<std::string_view, 10> keywords{"v", "vt", "vn", "vp",     "f",
                                                         "g", "o",  "s",  "mtllib", "usemtl"};
     return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
 }

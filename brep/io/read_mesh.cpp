@@ -36,12 +36,17 @@ PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::strin
     }
     if (data.empty()) source.fail(source.begin(), "the file is empty");
     switch (format) {
-        case MeshFormat::Obj: return detail::read_obj(source);
-        case MeshFormat::Off: return detail::read_off(source);
-        case MeshFormat::Ply: return detail::read_ply(source);
-        case MeshFormat::StlBinary: return detail::read_stl_binary(source);
+        case MeshFormat::Obj:
+            return detail::read_obj(source);
+        case MeshFormat::Off:
+            return detail::read_off(source);
+        case MeshFormat::Ply:
+            return detail::read_ply(source);
+        case MeshFormat::StlBinary:
+            return detail::read_stl_binary(source);
         case MeshFormat::Stl:
-        case MeshFormat::StlAscii: break;
+        case MeshFormat::StlAscii:
+            break;
     }
     return detail::read_stl_ascii(source);
 }

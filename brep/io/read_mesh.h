@@ -39,8 +39,8 @@ struct ReadLimits {
     std::uint64_t bytes = std::uint64_t{2} << 30;
     std::uint64_t vertices = 50'000'000;  ///< at most 2^32 - 2 in any case
     std::uint64_t faces = 100'000'000;
-    std::uint64_t loop_corners = 1'000'000;     ///< corners of one face
-    std::uint64_t line_bytes = 1U << 20;        ///< one line of text
+    std::uint64_t loop_corners = 1'000'000;    ///< corners of one face
+    std::uint64_t line_bytes = 1U << 20;       ///< one line of text
     std::uint64_t literal_characters = 4'096;  ///< one number in text
 };
 

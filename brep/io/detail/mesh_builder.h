@@ -4,9 +4,9 @@
 // are checked. Every index passes add_corner exactly once.
 //
 // A corner may name a vertex that comes later in the file (OBJ with faces first, PLY with the face
-// element first). Such a corner can only be judged at the end, so its place is kept; only those that
-// reach further than all before them matter, because if one of the others is out of range, then so
-// is the first one that reached as far.
+// element first). Such a corner can only be judged at the end, so its place is kept; only those
+// that reach further than all before them matter, because if one of the others is out of range,
+// then so is the first one that reached as far.
 #pragma once
 
 #include <trisect/brep/io/detail/source.h>
@@ -41,11 +41,12 @@ public:
     [[nodiscard]] std::vector<Point3d>& points() noexcept { return mesh_.points; }
 
     void add_point(const Point3d& point, const char* at) {
-        check_point_room(at);
         mesh_.points.push_back(point);
+        check_point_count(at);
     }
-    void check_point_room(const char* at) const {
-        if (mesh_.points.size() >= vertex_limit_) {
+    /// To be called after a point was added to points().
+    void check_point_count(const char* at) const {
+        if (mesh_.points.size() > vertex_limit_) {
             source_.fail_limit(at, "more than " + std::to_string(vertex_limit_) +
                                        " vertices, the limit for a file");
         }
@@ -83,8 +84,8 @@ public:
 
 private:
     void start_face() noexcept {
-        corner_stop_ = std::min<std::uint64_t>(
-            mesh_.corners.size() + source_.limits().loop_corners, 0xFFFF'FFFFU);
+        corner_stop_ = std::min<std::uint64_t>(mesh_.corners.size() + source_.limits().loop_corners,
+                                               0xFFFF'FFFFU);
     }
 
     void note_ahead(std::uint64_t index, const char* at) {

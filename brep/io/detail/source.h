@@ -50,7 +50,8 @@ public:
         FilePlace p{name_, 0, 0, static_cast<std::uint64_t>(at - begin())};
         if (binary_) return p;
         const std::string_view before = bytes_.substr(0, p.offset);
-        p.line = 1 + static_cast<std::uint64_t>(std::count(before.begin(), before.end(), line_end_));
+        p.line =
+            1 + static_cast<std::uint64_t>(std::count(before.begin(), before.end(), line_end_));
         const std::size_t eol = before.rfind(line_end_);
         p.column = p.offset - (eol == std::string_view::npos ? 0 : eol + 1) + 1;
         return p;
@@ -65,7 +66,7 @@ private:
 };
 
 /// A word of the file as it may stand in a message: quoted, short, without control characters.
-[[nodiscard]] inline std::string quoted(std::string_view word) {
+[[nodiscard]] inline std::string shown_word(std::string_view word) {
     constexpr std::size_t longest = 40;
     std::string s = "'";
     for (const char c : word.substr(0, longest)) {

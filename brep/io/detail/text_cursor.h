@@ -11,6 +11,7 @@
 
 #include <trisect/brep/io/detail/source.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,9 @@ public:
         if (source.bytes().starts_with("\xEF\xBB\xBF")) next_line_ += 3;
         here_ = line_end_ = next_line_;
     }
+    /// Begins at `from` instead of the start of the file.
+    TextCursor(const Source& source, TextRules rules, const char* from)
+        : source_(source), rules_(rules), here_(from), line_end_(from), next_line_(from) {}
 
     /// Moves to the start of the next line; false at the end of the file.
     bool next_line() {
@@ -102,9 +106,12 @@ public:
         const char* first = here_ + (*here_ == '+' ? 1 : 0);
         double value = 0;
         auto [stop, error] = std::from_chars(first, line_end_, value);
-        if (first != here_ && first != line_end_ && *first == '-') error = std::errc::invalid_argument;
-        if (error == std::errc::result_out_of_range) value = beyond_range(first, stop, what);
-        else if (error != std::errc{}) fail_word(what, "is not a number");
+        if (first != here_ && first != line_end_ && *first == '-')
+            error = std::errc::invalid_argument;
+        if (error == std::errc::result_out_of_range)
+            value = beyond_range(first, stop, what);
+        else if (error != std::errc{})
+            fail_word(what, "is not a number");
         end_number(stop, what);
         return value;
     }
@@ -135,19 +142,25 @@ public:
         return value;
     }
 
+    /// Goes back to a place in the current line.
+    void go_back_to(const char* place) noexcept { here_ = place; }
+
     /// Inside a word: takes one character if it is `c`.
     bool take(char c) noexcept {
         if (here_ == line_end_ || *here_ != c) return false;
         ++here_;
         return true;
     }
+    [[nodiscard]] bool at(char c) const noexcept { return here_ != line_end_ && *here_ == c; }
     [[nodiscard]] bool inside_word() const noexcept {
         return here_ != line_end_ && !is_blank(*here_);
     }
 
     /// Fails unless the line has no further word.
     void expect_line_end() {
-        if (!at_line_end()) source_.fail(here_, "unexpected " + quoted(word()) + " in this line");
+        if (at_line_end()) return;
+        const std::string_view extra = word();
+        source_.fail(extra.data(), "unexpected " + shown_word(extra) + " in this line");
     }
 
     /// Fails about the word whose number was read last.
@@ -155,7 +168,7 @@ public:
         const char* stop = word_;
         while (stop != line_end_ && !is_blank(*stop)) ++stop;
         const std::string_view text(word_, static_cast<std::size_t>(stop - word_));
-        source_.fail(word_, quoted(text) + ", read as " + what + ", " + why);
+        source_.fail(word_, shown_word(text) + ", read as " + what + ", " + why);
     }
     [[nodiscard]] const char* last_number() const noexcept { return word_; }
 
@@ -182,18 +195,27 @@ private:
     }
 
     /// from_chars reports overflow and underflow alike. What rounds to zero is zero, correctly
-    /// rounded; it is told apart by the sign of its exponent (a number without one would need more
-    /// than 300 digits: then the place of its first non-zero digit tells).
+    /// rounded; the two are told apart by the decimal position of the first non-zero digit.
     double beyond_range(const char* first, const char* stop, const char* what) const {
         const std::string_view text(first, static_cast<std::size_t>(stop - first));
-        const std::size_t e = text.find_first_of("eE");
+        const std::size_t e = std::min(text.find_first_of("eE"), text.size());
         const std::string_view mantissa = text.substr(0, e);
-        const std::size_t digit = mantissa.find_first_of("123456789");
         const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
-        const bool small_exponent = e != std::string_view::npos && text.substr(e + 1, 1) == "-";
-        const bool no_exponent = e == std::string_view::npos;
-        if (small_exponent || (no_exponent && digit > point)) return text[0] == '-' ? -0.0 : 0.0;
-        fail_word(what, "is too large for a double");
+        const std::size_t digit = std::min(mantissa.find_first_of("123456789"), mantissa.size());
+        const auto position = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(digit);
+        if (position + exponent(text.substr(e)) > 0) fail_word(what, "is too large for a double");
+        return text[0] == '-' ? -0.0 : 0.0;
+    }
+
+    /// The number after the `e`, cut off at a size that no mantissa can make up for.
+    static std::int64_t exponent(std::string_view text) noexcept {
+        constexpr std::int64_t huge = std::int64_t{1} << 62;
+        if (text.empty()) return 0;
+        text.remove_prefix(text.substr(1, 1) == "+" ? 2 : 1);
+        std::int64_t value = 0;
+        const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
+        if (error == std::errc::result_out_of_range) return text[0] == '-' ? -huge : huge;
+        return std::min(std::max(value, -huge), huge);
     }
 
     const Source& source_;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writing with the calls of the system, because streams hide why something failed. The naive way,
+// opening the target itself, destroys the user's last good file when the disk is full.
+#include <trisect/brep/io/output_file.h>
+
+#include <trisect/kernel/error.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <system_error>
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+namespace trisect {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& name, int error) {
+    throw Error(ErrorCode::Input,
+                name + ": cannot write: " + std::generic_category().message(error));
+}
+
+/// While it lives, a closed pipe gives EPIPE in this thread and no signal. A library may not change
+/// what the program does with the signal, so it is held back and, if it came, taken out again.
+class NoPipeSignal {
+public:
+    NoPipeSignal() noexcept {
+        sigemptyset(&pipe_);
+        sigaddset(&pipe_, SIGPIPE);
+        sigset_t pending;
+        sigemptyset(&pending);
+        sigpending(&pending);
+        was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+        pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+    }
+    NoPipeSignal(const NoPipeSignal&) = delete;
+    NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+    ~NoPipeSignal() {
+        const timespec at_once{};
+        if (!was_pending_) {
+            while (sigtimedwait(&pipe_, nullptr, &at_once) < 0 && errno == EINTR) {
+            }
+        }
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+
+private:
+    sigset_t pipe_{};
+    sigset_t before_{};
+    bool was_pending_ = false;
+};
+
+/// Writes all bytes; returns 0 or the error of the system.
+int write_all(int descriptor, std::string_view bytes) noexcept {
+    constexpr std::size_t most = std::size_t{1} << 30;  // Linux transfers less than 2 GiB at once
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(descriptor, bytes.data(), std::min(bytes.size(), most));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return errno;
+        if (n == 0) return EIO;  // would loop for ever
+        bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return 0;
+}
+
+/// A file under a name of its own that is removed again unless it was renamed.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const fs::path& target) : target_(target) {
+        static std::atomic<std::uint32_t> serial{0};
+        const std::string stem = ".trisect-" + std::to_string(::getpid()) + "-";
+        for (int attempt = 0; attempt < 1000; ++attempt) {
+            path_ = target.parent_path() / (stem + std::to_string(serial++));
+            descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (descriptor_ >= 0 || errno != EEXIST) break;
+        }
+        if (descriptor_ < 0) fail(target.string(), errno);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!renamed_) ::unlink(path_.c_str());
+    }
+
+    void set_mode(mode_t mode) noexcept { (void)::fchmod(descriptor_, mode & 0777); }
+
+    void write(std::string_view bytes) {
+        if (const int error = write_all(descriptor_, bytes)) fail(target_.string(), error);
+        const int closed = ::close(descriptor_);  // a quota or network file system may fail here
+        descriptor_ = -1;
+        if (closed != 0) fail(target_.string(), errno);
+    }
+
+    void rename_to_target() {
+        if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_.string(), errno);
+        renamed_ = true;
+    }
+
+private:
+    fs::path target_;
+    fs::path path_;
+    int descriptor_ = -1;
+    bool renamed_ = false;
+};
+
+void write_directly(const fs::path& path, std::string_view bytes) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(path.string(), errno);
+    const NoPipeSignal quiet;
+    int error = write_all(descriptor, bytes);
+    if (::close(descriptor) != 0 && error == 0) error = errno;
+    if (error != 0) fail(path.string(), error);
+}
+
+/// The file that a symbolic link stands for.
+fs::path without_links(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) return path;
+    fs::path target = fs::weakly_canonical(path, error);
+    if (error) fail(path.string(), error.value());
+    return target;
+}
+
+}  // namespace
+
+void write_descriptor(int descriptor, const std::string& name, std::string_view bytes) {
+    const NoPipeSignal quiet;
+    if (const int error = write_all(descriptor, bytes)) fail(name, error);
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    struct stat status {};
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes);
+    TemporaryFile file(without_links(path));
+    if (exists) file.set_mode(status.st_mode);
+    file.write(bytes);
+    file.rename_to_target();
+}
+
+}  // namespace trisect

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writing a file completely or not at all.
+//
+// The bytes go to a new file in the folder of the target, which is then renamed onto it; a reader
+// sees the old file or the new one, and after a failure (full disk, folder not writable) the old
+// one is there and nothing else. The new file has the permissions of the one it replaces. Through a
+// symbolic link the file it points to is replaced. A target that is not a regular file (a pipe, a
+// device) is written directly, since renaming would replace it.
+//
+// Errors: Error with ErrorCode::Input, naming the file and the reason of the system. A reader that
+// closes its end of a pipe is such an error too and raises no signal.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace trisect {
+
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Writes to an open descriptor, such as 1 for the standard output, which stays open; `name` stands
+/// for it in messages. What was written before a failure cannot be taken back.
+void write_descriptor(int descriptor, const std::string& name, std::string_view bytes);
+
+}  // namespace trisect
