@@ -27,7 +27,9 @@ int ceil_to_multiple_of_8(int e) { return -floor_to_multiple_of_8(-e); }
 
 }  // namespace
 
-double Lattice::to_double(double lattice_units) const { return std::ldexp(lattice_units, exponent); }
+double Lattice::to_double(double lattice_units) const {
+    return std::ldexp(lattice_units, exponent);
+}
 
 Lattice choose_lattice(std::span<const std::array<double, 3>> points) {
     int lowest = std::numeric_limits<int>::max();
@@ -63,10 +65,12 @@ std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> poin
                                  std::to_string(lattice.exponent));
             const double r = std::nearbyint(scaled);
             c[k] = static_cast<std::int64_t>(r);
-            if (r != scaled) {
+            // Scaling a tiny coordinate may underflow to the zero that it is rounded to.
+            if (r != scaled || (r == 0 && points[i][k] != 0)) {
                 moved = true;
-                report.max_move =
-                    std::max(report.max_move, std::ldexp(std::fabs(r - scaled), lattice.exponent));
+                const double move = r == 0 ? std::fabs(points[i][k])
+                                           : std::ldexp(std::fabs(r - scaled), lattice.exponent);
+                report.max_move = std::max(report.max_move, move);
             }
         }
         if (moved) ++report.moved;

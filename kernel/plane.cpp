@@ -8,8 +8,9 @@ namespace trisect {
 
 namespace {
 
-constexpr Int128 narrow_normal_limit = Int128{1} << 54;
-constexpr int narrow_offset_bits = 81;
+// The largest limits for which 256 bits suffice (see predicates.cpp).
+constexpr Int128 narrow_normal_limit = Int128{1} << 56;
+constexpr int narrow_offset_bits = 83;
 
 Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Widths of the exact stage. Narrow planes have |n_i| < 2^54, |d| < 2^81; all planes have
-// |n_i| < 2^109, |d| < 2^163 (plane.h). With Hadamard's bound for 3×3 determinants:
+// Widths of the exact stage. Narrow planes have |n_i| < 2^56, |d| < 2^83; all planes have
+// |n_i| < 2^109, |d| < 2^163 (plane.h). With Hadamard's bound for determinants, 3√3 = 5.2 times the
+// product of the largest entries for 3×3, 16 times for 4×4:
 //
-//                 w = det(n,n,n)      x = det(n,n,d)            n·x + d·w
-//   narrow        3√3·2^162 < 2^165   3√3·2^(108+81) < 2^192    < 2^248   -> 3, 4 and 4 limbs
-//   all           3√3·2^327 < 2^330   3√3·2^(218+163) < 2^384   < 2^496   -> 6, 7 and 8 limbs
+//             w = det(n,n,n)       x = det(n,n,d)             n·x + d·w = det(n,n,n,d)
+//   narrow    3√3·2^168 < 2^171    3√3·2^(112+83) < 2^198     16·2^(168+83) = 2^255
+//   all       3√3·2^327 < 2^330    3√3·2^(218+163) < 2^384    16·2^(327+163) = 2^494
+//   digits    3 and 6              4 and 7                    4 and 8 columns
+//
+// N digits (detail/digits.h) hold 56 (N-1) + 62 bits. The columns of a sum are formed exactly
+// whatever its terms: they hold at most 21 products below 2^118 each.
 //
 // Bernstein and Fussell (2009) introduced predicates on planes alone; keeping the homogeneous point
 // follows Nehring-Wirxel, Trettner, Kobbelt (2021), sec. 3; the tighter bound on det4 (4096 V^9
@@ -14,12 +19,25 @@
 #include <trisect/kernel/predicates.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/detail/digits.h>
 
 namespace trisect {
+
+using detail::add_product;
+using detail::carried;
+using detail::Columns;
+using detail::Digits;
+using detail::negate_if;
+using detail::sign_of;
+using detail::subtract_product;
+using detail::to_digits;
+using detail::to_wide_int;
 
 PredicateCounters& predicate_counters() noexcept {
     thread_local PredicateCounters counters;
@@ -28,71 +46,132 @@ PredicateCounters& predicate_counters() noexcept {
 
 namespace {
 
-// Register widths of one tier, in limbs.
+// Widths of one tier in digits of 56 bits; the top digit may have 62 bits.
 struct Narrow {
-    static constexpr int normal = 1, offset = 2, cross = 2, w = 3, xyz = 4, side = 4;
+    static constexpr int normal = 1, offset = 2, cross = 2, w = 3, xyz = 4;
 };
 struct Wide {
-    static constexpr int normal = 2, offset = 3, cross = 4, w = 6, xyz = 7, side = 8;
+    static constexpr int normal = 2, offset = 3, cross = 4, w = 6, xyz = 7;
 };
 
 template <class T>
-using Normal = std::array<WideInt<T::normal>, 3>;
+using Normal = std::array<Digits<T::normal>, 3>;
+
+template <class T>
+using Cross = std::array<Digits<T::cross>, 3>;
 
 template <class T>
 Normal<T> normal_of(const Plane& p) {
-    return {WideInt<T::normal>(p.normal(0)), WideInt<T::normal>(p.normal(1)),
-            WideInt<T::normal>(p.normal(2))};
+    return {to_digits<T::normal>(p.normal(0)), to_digits<T::normal>(p.normal(1)),
+            to_digits<T::normal>(p.normal(2))};
 }
 
 template <class T>
-using Cross = std::array<WideInt<T::cross>, 3>;
+Cross<T> cross(const Normal<T>& a, const Normal<T>& b) {
+    Cross<T> out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t l = (i + 2) % 3;
+        Columns<2 * T::normal - 1> minor;
+        add_product(minor, a[j], b[l]);
+        subtract_product(minor, a[l], b[j]);
+        out[i] = carried<T::cross>(minor);
+    }
+    return out;
+}
 
 template <class T>
-Cross<T> cross(const Normal<T>& a, const Normal<T>& b) {
-    constexpr int c = T::cross;
-    return {multiply<c>(a[1], b[2]) - multiply<c>(a[2], b[1]),
-            multiply<c>(a[2], b[0]) - multiply<c>(a[0], b[2]),
-            multiply<c>(a[0], b[1]) - multiply<c>(a[1], b[0])};
+Columns<T::cross + T::normal - 1> det(const Normal<T>& a, const Cross<T>& b_cross_c) {
+    Columns<T::cross + T::normal - 1> sum;
+    for (std::size_t i = 0; i < 3; ++i) add_product(sum, b_cross_c[i], a[i]);
+    return sum;
 }
 
 template <class T>
 struct TierPoint {
-    std::array<WideInt<T::xyz>, 3> xyz;
-    WideInt<T::w> w;
+    std::array<Digits<T::xyz>, 3> xyz;
+    Digits<T::w> w;
+    int sign_w = 0;  // before w was made positive
 };
 
 // Cramer's rule in the form  point = -(d_p q×r + d_q r×p + d_r p×q) / (p · q×r).
+// Not inlined: its hundreds of products leave no register to a caller's values.
 template <class T>
-TierPoint<T> cramer(const Plane& p, const Plane& q, const Plane& r) {
+[[gnu::noinline]] TierPoint<T> cramer(const Plane& p, const Plane& q, const Plane& r) {
     const auto np = normal_of<T>(p);
     const auto nq = normal_of<T>(q);
     const auto nr = normal_of<T>(r);
     const auto qr = cross<T>(nq, nr);
     const auto rp = cross<T>(nr, np);
     const auto pq = cross<T>(np, nq);
-    const WideInt<T::offset> dp(p.offset());
-    const WideInt<T::offset> dq(q.offset());
-    const WideInt<T::offset> dr(r.offset());
+    const auto dp = to_digits<T::offset>(p.offset());
+    const auto dq = to_digits<T::offset>(q.offset());
+    const auto dr = to_digits<T::offset>(r.offset());
     TierPoint<T> out;
-    out.w = multiply<T::w>(qr[0], np[0]) + multiply<T::w>(qr[1], np[1]) +
-            multiply<T::w>(qr[2], np[2]);
-    const bool negate = !out.w.is_negative();
+    auto w = det<T>(np, qr);
+    out.sign_w = sign_of(w);
+    negate_if(w, out.sign_w < 0);
+    out.w = carried<T::w>(w);
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto sum = multiply<T::xyz>(qr[i], dp) + multiply<T::xyz>(rp[i], dq) +
-                         multiply<T::xyz>(pq[i], dr);
-        out.xyz[i] = negate ? -sum : sum;
+        Columns<T::cross + T::offset - 1> x;
+        add_product(x, qr[i], dp);
+        add_product(x, rp[i], dq);
+        add_product(x, pq[i], dr);
+        negate_if(x, out.sign_w > 0);
+        out.xyz[i] = carried<T::xyz>(x);
     }
-    if (!negate) out.w = -out.w;
     return out;
+}
+
+template <class T>
+HomogeneousPoint homogeneous(const TierPoint<T>& x) {
+    return {{to_wide_int<7>(x.xyz[0]), to_wide_int<7>(x.xyz[1]), to_wide_int<7>(x.xyz[2])},
+            to_wide_int<6>(x.w)};
 }
 
 template <class T>
 int sign_at(const TierPoint<T>& x, const Plane& s) {
     const auto n = normal_of<T>(s);
-    WideInt<T::side> sum = multiply<T::side>(x.w, WideInt<T::offset>(s.offset()));
-    for (std::size_t i = 0; i < 3; ++i) sum += multiply<T::side>(x.xyz[i], n[i]);
-    return sum.sign();
+    Columns<T::xyz + T::normal - 1> sum;
+    for (std::size_t i = 0; i < 3; ++i) add_product(sum, x.xyz[i], n[i]);
+    add_product(sum, x.w, to_digits<T::offset>(s.offset()));
+    return sign_of(sum);
+}
+
+template <class T>
+TierPoint<T> tier_point(const HomogeneousPoint& p) {
+    return {{to_digits<T::xyz>(p.xyz[0]), to_digits<T::xyz>(p.xyz[1]), to_digits<T::xyz>(p.xyz[2])},
+            to_digits<T::w>(p.w),
+            1};
+}
+
+// Whether the digits of the narrow tier hold the point: |x| < 2^229 (of 230), w < 2^173 (of 174).
+bool fits_narrow(const HomogeneousPoint& p) {
+    bool fits =
+        p.w.limb(2) < (std::uint64_t{1} << 45) && (p.w.limb(3) | p.w.limb(4) | p.w.limb(5)) == 0;
+    constexpr std::uint64_t half = std::uint64_t{1} << 37;
+    for (const auto& x : p.xyz) {
+        const std::uint64_t sign = x.is_negative() ? ~std::uint64_t{0} : 0;
+        const std::uint64_t above = (x.limb(4) ^ sign) | (x.limb(5) ^ sign) | (x.limb(6) ^ sign);
+        fits = fits && above == 0 && x.limb(3) + half < 2 * half;
+    }
+    return fits;
+}
+
+template <class T>
+int sign_of_cross(const Plane& a, const Plane& b, int j, int l) {
+    Columns<2 * T::normal - 1> minor;
+    add_product(minor, to_digits<T::normal>(a.normal(j)), to_digits<T::normal>(b.normal(l)));
+    subtract_product(minor, to_digits<T::normal>(a.normal(l)), to_digits<T::normal>(b.normal(j)));
+    return sign_of(minor);
+}
+
+template <class T>
+int sign_of_dot(const Plane& a, const Plane& b) {
+    Columns<2 * T::normal - 1> sum;
+    for (int i = 0; i < 3; ++i)
+        add_product(sum, to_digits<T::normal>(a.normal(i)), to_digits<T::normal>(b.normal(i)));
+    return sign_of(sum);
 }
 
 bool all_narrow(const Plane& p, const Plane& q, const Plane& r) {
@@ -141,19 +220,14 @@ constexpr double relative_bound = 0x1p-49;  // 16 u
 }  // namespace
 
 std::optional<HomogeneousPoint> intersect(const Plane& p, const Plane& q, const Plane& r) {
-    HomogeneousPoint out;
     if (all_narrow(p, q, r)) {
         const auto t = cramer<Narrow>(p, q, r);
-        if (t.w.is_zero()) return std::nullopt;
-        for (std::size_t i = 0; i < 3; ++i) out.xyz[i] = WideInt<7>(t.xyz[i]);
-        out.w = WideInt<6>(t.w);
-        return out;
+        if (t.sign_w == 0) return std::nullopt;
+        return homogeneous(t);
     }
     const auto t = cramer<Wide>(p, q, r);
-    if (t.w.is_zero()) return std::nullopt;
-    out.xyz = t.xyz;
-    out.w = t.w;
-    return out;
+    if (t.sign_w == 0) return std::nullopt;
+    return homogeneous(t);
 }
 
 int sign_of_det(const Plane& a, const Plane& b, const Plane& c) {
@@ -175,14 +249,12 @@ int sign_of_det(const Plane& a, const Plane& b, const Plane& c) {
     }
     if (all_narrow(a, b, c)) {
         ++counters.exact_narrow;
-        const auto x = cross<Narrow>(normal_of<Narrow>(b), normal_of<Narrow>(c));
-        const auto n = normal_of<Narrow>(a);
-        return (multiply<3>(x[0], n[0]) + multiply<3>(x[1], n[1]) + multiply<3>(x[2], n[2])).sign();
+        return sign_of(det<Narrow>(normal_of<Narrow>(a),
+                                   cross<Narrow>(normal_of<Narrow>(b), normal_of<Narrow>(c))));
     }
     ++counters.exact_wide;
-    const auto x = cross<Wide>(normal_of<Wide>(b), normal_of<Wide>(c));
-    const auto n = normal_of<Wide>(a);
-    return (multiply<6>(x[0], n[0]) + multiply<6>(x[1], n[1]) + multiply<6>(x[2], n[2])).sign();
+    return sign_of(
+        det<Wide>(normal_of<Wide>(a), cross<Wide>(normal_of<Wide>(b), normal_of<Wide>(c))));
 }
 
 bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
@@ -228,36 +300,32 @@ Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
 
 double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator) {
     if (numerator.is_zero()) return 0;
-    const bool negative = numerator.is_negative();
-    // Scale so that the integer quotient has at least 66 bits, compute it by restoring division bit
-    // by bit on 54 bits: exact, and this function is not on a hot path.
-    using W = WideInt<16>;
-    const W n(numerator.abs());
-    const W d(denominator);
-    // 2^(e-1) < n/d < 2^(e+1)
-    int e = n.bit_length() - d.bit_length();
-    // mantissa m in [2^52, 2^53): n/d = m · 2^(s), s = e - 52 or one less.
-    const auto scaled = [&](int s) {  // compare-ready pair n·2^max(-s,0), d·2^max(s,0)
-        return std::pair<W, W>{s < 0 ? n.shifted_left(-s) : n, s > 0 ? d.shifted_left(s) : d};
-    };
-    {
-        const auto [a, b] = scaled(e);
-        if (a < b) --e;  // now 2^e <= n/d < 2^(e+1)
+    // Scale so that the integer quotient q has 55 or 56 bits: n = |numerator| 2^k, or the divisor
+    // takes 2^-k. The scaled numbers have at most 385 bits.
+    WideInt<7> n = numerator.abs();
+    WideInt<7> d(denominator);
+    const int k = 55 - (n.bit_length() - d.bit_length());
+    (k >= 0 ? n : d) = (k >= 0 ? n : d).shifted_left(std::abs(k));
+    // Two quotients of doubles leave an error of a few units; the exact remainder corrects it and
+    // proves q: 0 <= rest < d.
+    const double divisor = d.to_double();
+    std::int64_t q = 0;
+    WideInt<7> rest = n;
+    for (int step = 0; step < 2; ++step) {
+        const auto t = static_cast<std::int64_t>(rest.to_double() / divisor);
+        q += t;
+        rest -= multiply<7>(d, WideInt<1>(t));
     }
-    auto [a, b] = scaled(e - 52);
-    // a / b in [2^52, 2^53): restoring division.
-    std::uint64_t m = 0;
-    for (int bit = 52; bit >= 0; --bit) {
-        const W t = b.shifted_left(bit);
-        if (a >= t) {
-            a -= t;
-            m |= std::uint64_t{1} << bit;
-        }
-    }
-    const W twice = a + a;
-    if (twice > b || (twice == b && (m & 1U) != 0)) ++m;
-    const double r = std::ldexp(static_cast<double>(m), e - 52);
-    return negative ? -r : r;
+    for (; rest.is_negative(); rest += d) --q;
+    for (; rest >= d; rest -= d) ++q;
+    // Round to 53 bits, to nearest, ties to even.
+    const int dropped = 11 - std::countl_zero(static_cast<std::uint64_t>(q));
+    const std::int64_t half = std::int64_t{1} << (dropped - 1);
+    const std::int64_t low = q & (2 * half - 1);
+    std::int64_t m = q >> dropped;
+    if (low > half || (low == half && (!rest.is_zero() || (m & 1) != 0))) ++m;
+    const double r = std::ldexp(static_cast<double>(m), dropped - k);
+    return numerator.is_negative() ? -r : r;
 }
 
 std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
@@ -283,8 +351,13 @@ Side side_of(const LatticePoint& point, const Plane& plane) {
 }
 
 Side side_of(const HomogeneousPoint& point, const Plane& plane) {
-    ++predicate_counters().exact_wide;
-    return side_from_sign(sign_at(TierPoint<Wide>{point.xyz, point.w}, plane));
+    auto& counters = predicate_counters();
+    if (plane.is_narrow() && fits_narrow(point)) {
+        ++counters.exact_narrow;
+        return side_from_sign(sign_at(tier_point<Narrow>(point), plane));
+    }
+    ++counters.exact_wide;
+    return side_from_sign(sign_at(tier_point<Wide>(point), plane));
 }
 
 Side side_of(const Approximation& approximation, const Plane& p, const Plane& q, const Plane& r,
@@ -323,17 +396,38 @@ int sign_of_cross(const Plane& a, const Plane& b, int axis) {
         ++counters.filtered;
         return s > t ? 1 : -1;
     }
+    if (s == 0 && t == 0) {  // products of integers: zero only when exactly zero
+        ++counters.filtered;
+        return 0;
+    }
+    if (a.is_narrow() && b.is_narrow()) {
+        ++counters.exact_narrow;
+        return sign_of_cross<Narrow>(a, b, j, l);
+    }
     ++counters.exact_wide;
-    const auto left = multiply<4>(WideInt<2>(a.normal(j)), WideInt<2>(b.normal(l)));
-    const auto right = multiply<4>(WideInt<2>(a.normal(l)), WideInt<2>(b.normal(j)));
-    return (left - right).sign();
+    return sign_of_cross<Wide>(a, b, j, l);
 }
 
 int sign_of_dot(const Plane& a, const Plane& b) {
-    WideInt<4> sum;
-    for (int i = 0; i < 3; ++i)
-        sum += multiply<4>(WideInt<2>(a.normal(i)), WideInt<2>(b.normal(i)));
-    return sum.sign();
+    double sum = 0;
+    double magnitude = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double t = a.approx_normal(i) * b.approx_normal(i);
+        sum += t;
+        magnitude += std::fabs(t);
+    }
+    // A product of two rounded factors is within 3u of itself, two additions make it 5u.
+    auto& counters = predicate_counters();
+    if (std::fabs(sum) > 0x1p-50 * magnitude) {
+        ++counters.filtered;
+        return sum > 0 ? 1 : -1;
+    }
+    if (a.is_narrow() && b.is_narrow()) {
+        ++counters.exact_narrow;
+        return sign_of_dot<Narrow>(a, b);
+    }
+    ++counters.exact_wide;
+    return sign_of_dot<Wide>(a, b);
 }
 
 bool is_same_plane(const Plane& a, const Plane& b) {

@@ -12,11 +12,58 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 namespace trisect {
 
 __extension__ typedef __int128 Int128;
 __extension__ typedef unsigned __int128 Uint128;
+
+namespace detail {
+
+// One step of a carry chain. Compilers of our time do not find the add-with-carry instruction in
+// portable code, which makes chains several times longer; so it is named where it exists.
+constexpr std::uint64_t add_with_carry(std::uint64_t a, std::uint64_t b, unsigned char& carry) {
+#if defined(__x86_64__)
+    if (!std::is_constant_evaluated()) {
+        unsigned long long sum = 0;
+        carry = __builtin_ia32_addcarryx_u64(carry, a, b, &sum);
+        return sum;
+    }
+#endif
+    const Uint128 s = Uint128{a} + b + carry;
+    carry = static_cast<unsigned char>(s >> 64);
+    return static_cast<std::uint64_t>(s);
+}
+
+constexpr std::uint64_t subtract_with_borrow(std::uint64_t a, std::uint64_t b,
+                                             unsigned char& borrow) {
+#if defined(__x86_64__)
+    if (!std::is_constant_evaluated()) {
+        unsigned long long difference = 0;
+#if defined(__clang__)
+        borrow = __builtin_ia32_subborrow_u64(borrow, a, b, &difference);
+#else
+        borrow = __builtin_ia32_sbb_u64(borrow, a, b, &difference);
+#endif
+        return difference;
+    }
+#endif
+    const Uint128 s = Uint128{a} - b - borrow;
+    borrow = static_cast<unsigned char>((s >> 64) & 1U);
+    return static_cast<std::uint64_t>(s);
+}
+
+// f(0), ..., f(N - 1) with the index as a constant: loops over limbs are unrolled at every
+// optimisation level, and limbs live in registers.
+template <int N, class F>
+constexpr void for_each_index(F&& f) {
+    [&f]<int... I>(std::integer_sequence<int, I...>) { (f(std::integral_constant<int, I>{}), ...); }
+    (std::make_integer_sequence<int, N>{});
+}
+
+}  // namespace detail
 
 /// Two's complement integer of N 64-bit limbs, least significant limb first.
 ///
@@ -28,7 +75,8 @@ class WideInt {
 
 public:
     constexpr WideInt() = default;
-    constexpr WideInt(std::int64_t v) {  // NOLINT(google-explicit-constructor): a number is a number
+    constexpr WideInt(
+        std::int64_t v) {  // NOLINT(google-explicit-constructor): a number is a number
         limb_[0] = static_cast<std::uint64_t>(v);
         fill_from(1, v < 0);
     }
@@ -60,20 +108,16 @@ public:
 
     constexpr WideInt& operator+=(const WideInt& o) {
         unsigned char carry = 0;
-        for (int i = 0; i < N; ++i) {
-            const Uint128 s = Uint128{limb_[idx(i)]} + o.limb_[idx(i)] + carry;
-            limb_[idx(i)] = static_cast<std::uint64_t>(s);
-            carry = static_cast<unsigned char>(s >> 64);
-        }
+        detail::for_each_index<N>([&](auto i) {
+            limb_[idx(i)] = detail::add_with_carry(limb_[idx(i)], o.limb_[idx(i)], carry);
+        });
         return *this;
     }
     constexpr WideInt& operator-=(const WideInt& o) {
         unsigned char borrow = 0;
-        for (int i = 0; i < N; ++i) {
-            const Uint128 s = Uint128{limb_[idx(i)]} - o.limb_[idx(i)] - borrow;
-            limb_[idx(i)] = static_cast<std::uint64_t>(s);
-            borrow = static_cast<unsigned char>((s >> 64) & 1U);
-        }
+        detail::for_each_index<N>([&](auto i) {
+            limb_[idx(i)] = detail::subtract_with_borrow(limb_[idx(i)], o.limb_[idx(i)], borrow);
+        });
         return *this;
     }
     friend constexpr WideInt operator+(WideInt a, const WideInt& b) { return a += b; }
@@ -121,7 +165,11 @@ public:
         while (top > 0 && a.limb(top) == 0) --top;
         const int low = top >= 1 ? top - 1 : 0;
         for (int i = top; i >= low; --i) r = r * 0x1p64 + static_cast<double>(a.limb(i));
-        r = std::ldexp(r, 64 * low);
+        if constexpr (N <= 17) {  // 2^(64 low) is a double: spares a call
+            r *= std::bit_cast<double>(static_cast<std::uint64_t>(1023 + 64 * low) << 52);
+        } else {
+            r = std::ldexp(r, 64 * low);
+        }
         return negative ? -r : r;
     }
 
@@ -138,28 +186,30 @@ private:
 template <int R, int A, int B>
 [[nodiscard]] constexpr WideInt<R> multiply(const WideInt<A>& a, const WideInt<B>& b) {
     WideInt<R> r;
-    for (int i = 0; i < A && i < R; ++i) {
+    // Limbs as unsigned numbers, one row per limb of a.
+    detail::for_each_index<(A < R ? A : R)>([&](auto i) {
         std::uint64_t carry = 0;
-        const std::uint64_t ai = a.limb(i);
-        for (int j = 0; j < B && i + j < R; ++j) {
-            const Uint128 t = Uint128{ai} * b.limb(j) + r.limb(i + j) + carry;
+        detail::for_each_index<(B < R - i ? B : R - i)>([&](auto j) {
+            const Uint128 t = Uint128{a.limb(i)} * b.limb(j) + r.limb(i + j) + carry;
             r.set_limb(i + j, static_cast<std::uint64_t>(t));
             carry = static_cast<std::uint64_t>(t >> 64);
-        }
-        if (i + B < R) r.set_limb(i + B, carry);
-    }
-    // The limbs were multiplied as unsigned numbers; a negative factor counts 2^(64 A) too much.
-    const auto subtract_from = [&r](int at, const auto& v, int limbs) {
+        });
+        if constexpr (i + B < R) r.set_limb(i + B, carry);
+    });
+    // That counts a negative factor 2^(64 A) too large. Masks instead of branches: signs are
+    // random.
+    const auto correct = [&r](auto at, const auto& v, auto limbs, bool negative) {
+        const std::uint64_t mask = negative ? ~std::uint64_t{0} : 0;
         unsigned char borrow = 0;
-        for (int i = at; i < R; ++i) {
-            const std::uint64_t s = i - at < limbs ? v.limb(i - at) : 0;
-            const Uint128 t = Uint128{r.limb(i)} - s - borrow;
-            r.set_limb(i, static_cast<std::uint64_t>(t));
-            borrow = static_cast<unsigned char>((t >> 64) & 1U);
-        }
+        detail::for_each_index<(at < R ? R - at : 0)>([&](auto k) {
+            std::uint64_t s = 0;
+            if constexpr (k < limbs) s = v.limb(k) & mask;
+            r.set_limb(at + k, detail::subtract_with_borrow(r.limb(at + k), s, borrow));
+        });
     };
-    if (a.is_negative()) subtract_from(A, b, B);
-    if (b.is_negative()) subtract_from(B, a, A);
+    using std::integral_constant;
+    correct(integral_constant<int, A>{}, b, integral_constant<int, B>{}, a.is_negative());
+    correct(integral_constant<int, B>{}, a, integral_constant<int, A>{}, b.is_negative());
     return r;
 }
 
