@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sign of the volume that triangles bound: which way a closed shell is turned.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <trisect/kernel/lattice_point.h>
+
+namespace trisect::detail {
+
+/// -1, 0 or 1, exact: positive when the triangles are counter-clockwise seen from outside.
+/// For an open surface the volume of the cone to the first corner. O(n).
+[[nodiscard]] int volume_sign(std::span<const LatticePoint> points,
+                              std::span<const std::array<std::uint32_t, 3>> triangles);
+
+}  // namespace trisect::detail
