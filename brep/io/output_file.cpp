@@ -89,28 +89,35 @@ public:
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
-        if (!renamed_) ::unlink(path_.c_str());
+        if (!gone_) ::unlink(path_.c_str());
     }
 
     void set_mode(mode_t mode) noexcept { (void)::fchmod(descriptor_, mode & 0777); }
 
     void write(std::string_view bytes) {
-        if (const int error = write_all(descriptor_, bytes)) fail(target_.string(), error);
+        if (const int error = write_all(descriptor_, bytes)) abandon(error);
         const int closed = ::close(descriptor_);  // a quota or network file system may fail here
         descriptor_ = -1;
-        if (closed != 0) fail(target_.string(), errno);
+        if (closed != 0) abandon(errno);
     }
 
     void rename_to_target() {
-        if (::rename(path_.c_str(), target_.c_str()) != 0) fail(target_.string(), errno);
-        renamed_ = true;
+        if (::rename(path_.c_str(), target_.c_str()) != 0) abandon(errno);
+        gone_ = true;
     }
 
 private:
+    /// Removes the file before it throws: an exception that nobody catches runs no destructor.
+    [[noreturn]] void abandon(int error) {
+        ::unlink(path_.c_str());
+        gone_ = true;
+        fail(target_.string(), error);
+    }
+
     fs::path target_;
     fs::path path_;
     int descriptor_ = -1;
-    bool renamed_ = false;
+    bool gone_ = false;  ///< renamed or removed
 };
 
 void write_directly(const fs::path& path, std::string_view bytes) {

@@ -32,6 +32,8 @@ public:
 
     /// Room for counts that the caller has bounded by the size of the file.
     void reserve(std::uint64_t points, std::uint64_t faces, std::uint64_t corners) {
+        points = std::min(points, vertex_limit_);
+        faces = std::min(faces, source_.limits().faces);
         mesh_.points.reserve(static_cast<std::size_t>(points));
         mesh_.face_begin.reserve(static_cast<std::size_t>(faces + 1));
         mesh_.corners.reserve(static_cast<std::size_t>(corners));
