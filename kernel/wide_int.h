@@ -185,6 +185,7 @@ private:
 /// The product, modulo 2^(64 R); exact when it fits into R limbs.
 template <int R, int A, int B>
 [[nodiscard]] constexpr WideInt<R> multiply(const WideInt<A>& a, const WideInt<B>& b) {
+    if constexpr (R > A + B) return WideInt<R>(multiply<A + B>(a, b));
     WideInt<R> r;
     // Limbs as unsigned numbers, one row per limb of a.
     detail::for_each_index<(A < R ? A : R)>([&](auto i) {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/kernel/plane.h>
+
+#include <gtest/gtest.h>
+
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/predicates.h>
+
+#include "gmp_oracle.h"
+
+namespace {
+
+using oracle::numbers;
+using trisect::are_collinear;
+using trisect::Int128;
+using trisect::LatticePoint;
+using trisect::Plane;
+using trisect::Side;
+using trisect::side_of;
+
+constexpr std::int64_t far = trisect::coordinate_limit - 1;
+
+void expect_doubles(const Plane& p) {
+    const auto n = numbers(p);
+    for (int i = 0; i < 3; ++i) {
+        const mpz_class& c = n.n[static_cast<std::size_t>(i)];
+        EXPECT_LE(abs(mpz_class(p.approx_normal(i)) - c) << 53, abs(c));  // nearest
+    }
+    EXPECT_LE(abs(mpz_class(p.approx_offset()) - n.d) << 52, abs(n.d));
+}
+
+TEST(Plane, ThroughThreePoints) {
+    const Plane p = Plane::through({0, 0, 5}, {1, 0, 5}, {0, 1, 5});
+    EXPECT_EQ(side_of(LatticePoint{3, 4, 5}, p), Side::On);
+    EXPECT_EQ(side_of(LatticePoint{3, 4, 6}, p), Side::Above);
+    EXPECT_EQ(side_of(LatticePoint{3, 4, 4}, p), Side::Below);
+    EXPECT_TRUE(p.is_narrow());
+    EXPECT_TRUE(p.is_valid());
+    EXPECT_FALSE(Plane{}.is_valid());
+}
+
+TEST(Plane, ThroughAgreesWithGmp) {
+    oracle::Source random(1);
+    for (int round = 0; round < 5000; ++round) {
+        const int bits = static_cast<int>(1 + random.below(53));
+        const LatticePoint a = random.point(bits);
+        const LatticePoint b = random.point(bits);
+        const LatticePoint c = random.point(bits);
+        const auto x = [](const LatticePoint& p, int i) { return oracle::integer(p[i]); };
+        bool collinear = true;
+        std::array<mpz_class, 3> n;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            const int l = (i + 2) % 3;
+            n[static_cast<std::size_t>(i)] = (x(b, j) - x(a, j)) * (x(c, l) - x(a, l)) -
+                                             (x(b, l) - x(a, l)) * (x(c, j) - x(a, j));
+            collinear = collinear && n[static_cast<std::size_t>(i)] == 0;
+        }
+        EXPECT_EQ(are_collinear(a, b, c), collinear);
+        if (collinear) {
+            EXPECT_THROW((void)Plane::through(a, b, c), trisect::Error);
+            continue;
+        }
+        const Plane p = Plane::through(a, b, c);
+        EXPECT_EQ(numbers(p).n, n);
+        EXPECT_EQ(numbers(p).d, -(n[0] * x(a, 0) + n[1] * x(a, 1) + n[2] * x(a, 2)));
+        expect_doubles(p);
+        EXPECT_EQ(Plane::through(b, c, a), p);
+        EXPECT_EQ(Plane::through(b, a, c), p.flipped());
+        EXPECT_EQ(p.flipped().flipped(), p);
+        expect_doubles(p.flipped());
+    }
+}
+
+TEST(Plane, AlongAxis) {
+    oracle::Source random(2);
+    for (int round = 0; round < 3000; ++round) {
+        const int bits = static_cast<int>(1 + random.below(53));
+        const LatticePoint a = random.point(bits);
+        const LatticePoint b = random.point(bits);
+        const int axis = static_cast<int>(random.below(3));
+        const LatticePoint along = b - a;
+        if (along[(axis + 1) % 3] == 0 && along[(axis + 2) % 3] == 0) {
+            EXPECT_THROW((void)Plane::along_axis(a, b, axis), trisect::Error);
+            continue;
+        }
+        const Plane p = Plane::along_axis(a, b, axis);
+        EXPECT_EQ(p.normal(axis), 0);
+        EXPECT_EQ(side_of(a, p), Side::On);
+        EXPECT_EQ(side_of(b, p), Side::On);
+        // Parallel to the axis: a shifted along it stays on the plane.
+        LatticePoint shifted = a;
+        (axis == 0 ? shifted.x : (axis == 1 ? shifted.y : shifted.z)) = far;
+        EXPECT_EQ(side_of(shifted, p), Side::On);
+        // Above is where (b - a) × e points to.
+        const Plane q = Plane::through(a, b, a + LatticePoint{axis == 0, axis == 1, axis == 2});
+        EXPECT_TRUE(is_same_plane(p, q));
+        EXPECT_TRUE(same_orientation(p, q));
+        expect_doubles(p);
+    }
+}
+
+TEST(Plane, AxisAligned) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const Plane p = Plane::axis_aligned(axis, 2, 7);  // between 3 and 4
+        LatticePoint low{0, 0, 0};
+        LatticePoint high{0, 0, 0};
+        (axis == 0 ? low.x : (axis == 1 ? low.y : low.z)) = 3;
+        (axis == 0 ? high.x : (axis == 1 ? high.y : high.z)) = 4;
+        EXPECT_EQ(side_of(low, p), Side::Below);
+        EXPECT_EQ(side_of(high, p), Side::Above);
+        EXPECT_EQ(p.dominant_axis(), axis);
+        EXPECT_EQ(numbers(p).d, -7);
+    }
+}
+
+TEST(Plane, DominantAxisPrefersTheFirst) {
+    EXPECT_EQ(Plane(1, 1, 1, Plane::Offset(0)).dominant_axis(), 0);
+    EXPECT_EQ(Plane(1, -2, 2, Plane::Offset(0)).dominant_axis(), 1);
+    EXPECT_EQ(Plane(1, -2, -3, Plane::Offset(0)).dominant_axis(), 2);
+}
+
+TEST(Plane, NarrowAtItsLimits) {
+    const Int128 n = Int128{1} << 56;
+    const Plane::Offset d = Plane::Offset(1).shifted_left(83);
+    const Plane::Offset one(1);
+    EXPECT_TRUE(Plane(n - 1, 0, 0, one).is_narrow());
+    EXPECT_TRUE(Plane(0, 1 - n, 0, one).is_narrow());
+    EXPECT_FALSE(Plane(0, 0, n, one).is_narrow());
+    EXPECT_FALSE(Plane(-n, 0, 0, one).is_narrow());
+    EXPECT_TRUE(Plane(1, 0, 0, d - one).is_narrow());
+    EXPECT_TRUE(Plane(1, 0, 0, one - d).is_narrow());
+    EXPECT_FALSE(Plane(1, 0, 0, d).is_narrow());
+    EXPECT_FALSE(Plane(1, 0, 0, -d).is_narrow());
+}
+
+TEST(Plane, LatticesOf26BitsAreNarrow) {
+    // The largest coefficients come from corners of the cube.
+    const std::int64_t v = (std::int64_t{1} << 26) - 1;
+    for (int a = 0; a < 8; ++a)
+        for (int b = 0; b < 8; ++b)
+            for (int c = 0; c < 8; ++c) {
+                const auto corner = [v](int k) {
+                    return LatticePoint{(k & 1) != 0 ? v : -v, (k & 2) != 0 ? v : -v,
+                                        (k & 4) != 0 ? v : -v};
+                };
+                if (are_collinear(corner(a), corner(b), corner(c))) continue;
+                EXPECT_TRUE(Plane::through(corner(a), corner(b), corner(c)).is_narrow());
+            }
+}
+
+}  // namespace

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/kernel/predicates.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/point.h>
+
+#include "gmp_oracle.h"
+
+namespace {
+
+using trisect::Approximation;
+using trisect::HomogeneousPoint;
+using trisect::LatticePoint;
+using trisect::Plane;
+using trisect::Point;
+using trisect::predicate_counters;
+using trisect::PredicateCounters;
+using trisect::Side;
+
+const Approximation vague{{0, 0, 0}, 1e300};  // forces the later stages
+
+// Four planes of one size, on small grids often through common points, lines or each other.
+std::array<Plane, 4> four_planes(oracle::Source& random) {
+    const std::array<int, 8> sizes{1, 2, 3, 10, 25, 26, 40, 53};
+    const int bits = sizes[random.below(sizes.size())];
+    return {random.plane(bits), random.plane(bits), random.plane(bits), random.plane(bits)};
+}
+
+// ---------------------------------------------------------------- laws
+
+TEST(Laws, SideFlipsWithThePlane) {
+    oracle::Source random(1);
+    for (int round = 0; round < 5000; ++round) {
+        const auto [p, q, r, s] = four_planes(random);
+        const LatticePoint x = random.point(static_cast<int>(1 + random.below(53)));
+        EXPECT_EQ(side_of(x, s.flipped()), opposite(side_of(x, s)));
+        if (!meet_in_a_point(p, q, r)) continue;
+        const Approximation a = approximate(p, q, r);
+        const HomogeneousPoint h = *intersect(p, q, r);
+        const Side side = side_of(a, p, q, r, s);
+        EXPECT_EQ(side_of(a, p, q, r, s.flipped()), opposite(side));
+        EXPECT_EQ(side_of(vague, p, q, r, s.flipped()), opposite(side));
+        EXPECT_EQ(side_of(h, s.flipped()), opposite(side));
+        EXPECT_EQ(side_of(h, s), side);
+    }
+}
+
+TEST(Laws, AnyOrderAndOrientationNamesTheSamePoint) {
+    oracle::Source random(2);
+    for (int round = 0; round < 1500; ++round) {
+        auto planes = four_planes(random);
+        if (!meet_in_a_point(planes[0], planes[1], planes[2])) continue;
+        const auto expected = oracle::rational(planes[0], planes[1], planes[2]);
+        const auto side = static_cast<Side>(oracle::side(expected, planes[3]));
+        std::array<std::size_t, 3> order{0, 1, 2};
+        do {
+            for (unsigned flips = 0; flips < 8; ++flips) {
+                std::array<Plane, 3> n;
+                for (std::size_t i = 0; i < 3; ++i)
+                    n[i] = (flips >> i & 1U) != 0 ? planes[order[i]].flipped() : planes[order[i]];
+                const auto h = intersect(n[0], n[1], n[2]);
+                ASSERT_TRUE(h.has_value());
+                EXPECT_EQ(h->w.sign(), 1);
+                EXPECT_EQ(oracle::rational(*h), expected);
+                EXPECT_EQ(side_of(vague, n[0], n[1], n[2], planes[3]), side);
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+}
+
+TEST(Laws, DeterminantAlternates) {
+    oracle::Source random(3);
+    for (int round = 0; round < 5000; ++round) {
+        const auto [p, q, r, s] = four_planes(random);
+        const int d = sign_of_det(p, q, r);
+        EXPECT_EQ(
+            d, sgn(oracle::det3(oracle::numbers(p).n, oracle::numbers(q).n, oracle::numbers(r).n)));
+        EXPECT_EQ(sign_of_det(q, r, p), d);
+        EXPECT_EQ(sign_of_det(q, p, r), -d);
+        EXPECT_EQ(sign_of_det(p.flipped(), q, r), -d);
+        EXPECT_EQ(sign_of_det(p, p, s), 0);
+        EXPECT_EQ(sign_of_det(p, s, s.flipped()), 0);
+        EXPECT_EQ(meet_in_a_point(p, q, r), d != 0);
+        EXPECT_EQ(intersect(p, q, r).has_value(), d != 0);
+    }
+}
+
+TEST(Laws, CrossAndDot) {
+    oracle::Source random(4);
+    for (int round = 0; round < 5000; ++round) {
+        const auto [p, q, r, s] = four_planes(random);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(sign_of_cross(p, q, axis), -sign_of_cross(q, p, axis));
+            EXPECT_EQ(sign_of_cross(p.flipped(), q, axis), -sign_of_cross(p, q, axis));
+            EXPECT_EQ(sign_of_cross(p, p, axis), 0);
+            EXPECT_EQ(sign_of_cross(p, p.flipped(), axis), 0);
+            const auto a = oracle::numbers(r).n;
+            const auto b = oracle::numbers(s).n;
+            const auto j = static_cast<std::size_t>((axis + 1) % 3);
+            const auto l = static_cast<std::size_t>((axis + 2) % 3);
+            EXPECT_EQ(sign_of_cross(r, s, axis), sgn(mpz_class(a[j] * b[l] - a[l] * b[j])));
+        }
+        EXPECT_EQ(sign_of_dot(p, q), sign_of_dot(q, p));
+        EXPECT_EQ(sign_of_dot(p.flipped(), q), -sign_of_dot(p, q));
+        EXPECT_EQ(sign_of_dot(p, p), 1);
+        const auto a = oracle::numbers(p).n;
+        const auto b = oracle::numbers(q).n;
+        EXPECT_EQ(sign_of_dot(p, q), sgn(mpz_class(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])));
+    }
+}
+
+TEST(Laws, SamePlaneWhateverTheCoefficients) {
+    oracle::Source random(5);
+    for (int round = 0; round < 3000; ++round) {
+        const int bits = static_cast<int>(2 + random.below(49));
+        const LatticePoint a = random.point(bits);
+        const LatticePoint u = random.point(bits);
+        const LatticePoint v = random.point(bits);
+        if (are_collinear(a, a + u, a + v)) continue;
+        const auto times = [](std::int64_t k, LatticePoint p) {
+            return LatticePoint{k * p.x, k * p.y, k * p.z};
+        };
+        const Plane p = Plane::through(a, a + u, a + v);
+        const Plane q = Plane::through(a + v, a + times(3, u), a + times(-2, v));
+        EXPECT_TRUE(is_same_plane(p, q));
+        EXPECT_TRUE(is_same_plane(q, p.flipped()));
+        EXPECT_EQ(same_orientation(p, q), !same_orientation(p.flipped(), q));
+        // One unit off is another plane, parallel or not.
+        const LatticePoint e{0, 0, 1};
+        const Plane off = Plane::through(a + e, a + u + e, a + v + e);
+        EXPECT_EQ(is_same_plane(p, off), p.normal(2) == 0);
+        EXPECT_FALSE(is_same_plane(
+            p, Plane(p.normal(0), p.normal(1), p.normal(2), p.offset() + Plane::Offset(1))));
+    }
+}
+
+// ---------------------------------------------------------------- coverage of the stages
+
+PredicateCounters counted(const auto& predicate) {
+    predicate_counters() = {};
+    predicate();
+    return predicate_counters();
+}
+
+TEST(Coverage, LatticePoint) {
+    const Plane narrow = Plane::through({0, 0, 0}, {3, 1, 5}, {1, 7, 2});
+    EXPECT_EQ(counted([&] { (void)side_of(LatticePoint{9, 9, 99}, narrow); }).filtered, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(LatticePoint{3, 1, 5}, narrow); }).exact_narrow, 1U);
+    const std::int64_t f = trisect::coordinate_limit - 1;
+    const Plane wide = Plane::through({f, -f, 3}, {-f, 7, f}, {5, f, f - 9});
+    EXPECT_EQ(counted([&] { (void)side_of(LatticePoint{f, -f, 3}, wide); }).exact_wide, 1U);
+    EXPECT_EQ(side_of(LatticePoint{f, -f, 3}, wide), Side::On);
+    EXPECT_NE(side_of(LatticePoint{f, -f, 4}, wide), Side::On);
+}
+
+TEST(Coverage, PointOfPlanes) {
+    const Plane p = Plane::through({0, 0, 0}, {7, 0, 1}, {0, 7, 2});
+    const Plane q = Plane::through({1, 0, 0}, {2, 5, 0}, {1, 1, 7});
+    const Plane r = Plane::through({0, 1, 0}, {5, 2, 0}, {0, 1, 9});
+    const Approximation a = approximate(p, q, r);
+    const Plane clear = Plane::axis_aligned(0, 1, 100);
+    EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, clear); }).filtered, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, q); }).symbolic, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, r.flipped()); }).exact_narrow, 1U);
+    const Plane huge(p.normal(0) << 60, p.normal(1) << 60, p.normal(2) << 60,
+                     p.offset().shifted_left(60));
+    ASSERT_FALSE(huge.is_narrow());
+    const PredicateCounters c = counted([&] {
+        EXPECT_EQ(side_of(a, p, q, r, huge), Side::On);
+        EXPECT_EQ(side_of(a, huge, q, r, p), Side::On);
+    });
+    EXPECT_EQ(c.exact_wide, 2U);
+    EXPECT_EQ(c.total(), 2U);
+    const HomogeneousPoint h = *intersect(p, q, r);
+    EXPECT_EQ(counted([&] { (void)side_of(h, p); }).exact_narrow, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(h, huge); }).exact_wide, 1U);
+    const Point named(p, q, r);
+    ASSERT_FALSE(named.is_lattice());
+    EXPECT_EQ(counted([&] { (void)side_of(named, clear); }).filtered, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(named, p); }).symbolic, 1U);
+    EXPECT_EQ(counted([&] { (void)side_of(named, p.flipped()); }).exact_narrow, 1U);
+}
+
+TEST(Coverage, SignsOfPlanes) {
+    const Plane p = Plane::through({0, 0, 0}, {7, 0, 1}, {0, 7, 2});
+    const Plane x = Plane::axis_aligned(0, 1, 0);
+    const Plane y = Plane::axis_aligned(1, 1, 0);
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_cross(x, y, 2), 1); }).filtered, 1U);
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_cross(x, y, 0), 0); }).filtered, 1U);
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_cross(p, p, 0), 0); }).exact_narrow, 1U);
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_det(p, p, x), 0); }).exact_narrow, 1U);
+    const Plane a(3, 5, 0, Plane::Offset(0));
+    const Plane b(5, -3, 0, Plane::Offset(0));
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_dot(a, b), 0); }).exact_narrow, 1U);
+    EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_dot(a, a), 1); }).filtered, 1U);
+}
+
+// The filter must decide nearly everything on inputs in general position.
+TEST(Coverage, TheFilterDecidesGeneralPosition) {
+    oracle::Source random(6);
+    predicate_counters() = {};
+    for (int round = 0; round < 2000; ++round) {
+        const int bits = static_cast<int>(20 + random.below(34));
+        const Plane p = random.plane(bits);
+        const Plane q = random.plane(bits);
+        const Plane r = random.plane(bits);
+        const Plane s = random.plane(bits);
+        (void)side_of(approximate(p, q, r), p, q, r, s);
+        (void)side_of(random.point(bits), s);
+        (void)sign_of_det(p, q, r);
+    }
+    const PredicateCounters c = predicate_counters();
+    EXPECT_EQ(c.total(), 6000U);
+    EXPECT_GE(c.filtered, 5990U);
+}
+
+TEST(Coverage, CountersAddUp) {
+    PredicateCounters a{1, 2, 3, 4};
+    a += PredicateCounters{10, 20, 30, 40};
+    EXPECT_EQ(a.symbolic, 11U);
+    EXPECT_EQ(a.filtered, 22U);
+    EXPECT_EQ(a.exact_narrow, 33U);
+    EXPECT_EQ(a.exact_wide, 44U);
+    EXPECT_EQ(a.total(), 110U);
+}
+
+// ---------------------------------------------------------------- consistency
+
+TEST(Consistency, AllNamesOfALatticePointAgree) {
+    oracle::Source random(7);
+    for (int round = 0; round < 5000; ++round) {
+        const int bits = static_cast<int>(1 + random.below(53));
+        const LatticePoint x = random.point(bits);
+        const Plane px = Plane::axis_aligned(0, 1, x.x);
+        const Plane py = Plane::axis_aligned(1, 1, x.y);
+        const Plane pz = Plane::axis_aligned(2, 1, x.z);
+        const Plane s = random.coin() ? random.plane(bits) : [&] {
+            for (;;) {
+                const LatticePoint b = random.point(bits);
+                const LatticePoint c = random.point(bits);
+                if (!are_collinear(x, b, c)) return Plane::through(x, b, c);
+            }
+        }();
+        const Side side = side_of(x, s);
+        EXPECT_EQ(static_cast<int>(side), oracle::side(oracle::rational(x), s));
+        EXPECT_EQ(side_of(*intersect(px, py, pz), s), side);
+        EXPECT_EQ(side_of(vague, px, py, pz, s), side);
+        EXPECT_EQ(side_of(approximate(px, py, pz), px, py, pz, s), side);
+        EXPECT_EQ(side_of(Point(px, py, pz), s), side);
+        EXPECT_EQ(side_of(Point(x), s), side);
+    }
+}
+
+TEST(Consistency, TheFilterNeverContradictsTheExactStage) {
+    oracle::Source random(8);
+    for (int round = 0; round < 5000; ++round) {
+        const auto [p, q, r, s] = four_planes(random);
+        if (!meet_in_a_point(p, q, r)) continue;
+        const auto x = oracle::rational(p, q, r);
+        const HomogeneousPoint h = *intersect(p, q, r);
+        for (const Approximation& a : {approximate(p, q, r), approximate(h)}) {
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_LE(abs(x[i] - mpq_class(a.c[i])), mpq_class(a.error));
+            for (const Plane& plane : {p, q, r, s}) {
+                const auto f = filtered_side(a, plane);
+                if (f) {
+                    EXPECT_EQ(static_cast<int>(*f), oracle::side(x, plane));
+                }
+            }
+        }
+    }
+}
+
+TEST(Consistency, CompareCoordinateIsTheOrderOfNumbers) {
+    oracle::Source random(9);
+    for (int round = 0; round < 3000; ++round) {
+        const auto [p, q, r, s] = four_planes(random);
+        const auto a = intersect(p, q, r);
+        const auto b = intersect(p, q, s);
+        if (!a || !b) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const int expected = cmp(oracle::rational(*a)[i], oracle::rational(*b)[i]);
+            const auto order = compare_coordinate(*a, *b, axis);
+            EXPECT_EQ(order < 0 ? -1 : (order > 0 ? 1 : 0),
+                      expected > 0 ? 1 : (expected < 0 ? -1 : 0));
+            EXPECT_TRUE(compare_coordinate(*a, *a, axis) == 0);
+        }
+    }
+}
+
+TEST(Consistency, ApproximatingParallelPlanesIsRefused) {
+    const Plane a = Plane::axis_aligned(0, 1, 0);
+    const Plane b = Plane::axis_aligned(0, 1, 1);
+    const Plane c = Plane::axis_aligned(1, 1, 1);
+    EXPECT_FALSE(intersect(a, b, c).has_value());
+    EXPECT_THROW((void)approximate(a, b, c), trisect::Error);
+}
+
+}  // namespace
