@@ -104,14 +104,16 @@ struct BrepCounts {
 ///     solid lies below it.
 ///  4. The halfedges leaving a vertex form one cycle under h -> twin(prev(h)).
 ///  5. Every entity is used: no isolated vertex, no empty shell.
+///  6. A face is connected. Its loops do not touch each other; where one touches itself, its
+///     corners there have disjoint interior wedges that contain no edge.
 ///
 /// Where the solid touches itself the set is not a manifold. There the boundary is taken apart by
 /// an infinitesimal amount, so that the solid's inside decides what stays connected: two cubes
 /// that share an edge become two shells, each with its own copy of the edge and its ends. Copies
-/// know each other (`copies`). Two edges may join the same two vertices.
+/// know each other (`copies`). Two copies of an edge may join the same two vertices, where the
+/// boundary stays connected at both.
 ///
-/// A loop may touch itself or another loop of its face in vertices. The two faces of an edge may
-/// be the same one. The empty Brep bounds the empty set.
+/// The two faces of an edge may be the same one. The empty Brep bounds the empty set.
 ///
 /// Immutable; made by BrepBuilder. Copying is O(size). Safe to read from many threads.
 class Brep {

@@ -22,6 +22,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include <trisect/brep/radial_order.h>
 #include <trisect/kernel/contract.h>
@@ -45,7 +46,7 @@ public:
 
 private:
     struct DirectedEdge {
-        std::uint32_t far = 0;       // the larger of the two vertices
+        std::uint32_t far = 0;  // the larger of the two vertices
         std::uint32_t halfedge = 0;
     };
 
@@ -111,9 +112,10 @@ private:
         const std::uint32_t from = start_of(group[0].halfedge);
         const std::uint32_t to = end_of(group[0].halfedge);
         const auto along = [&](const DirectedEdge& e) { return start_of(e.halfedge) == from; };
-        const auto forward = static_cast<std::size_t>(
-            std::count_if(group.begin(), group.end(), along));
-        if (2 * forward != group.size()) throw unbalanced(from, to, forward, group.size() - forward);
+        const auto forward =
+            static_cast<std::size_t>(std::count_if(group.begin(), group.end(), along));
+        if (2 * forward != group.size())
+            throw unbalanced(from, to, forward, group.size() - forward);
         if (group.size() == 2) {
             link(group[0].halfedge, group[1].halfedge);
             return;
@@ -122,8 +124,8 @@ private:
         faces.reserve(group.size());
         for (const DirectedEdge& e : group)
             faces.push_back({&out_.plane(out_.face(HalfedgeId(e.halfedge))), along(e)});
-        const auto partner = pair_across_inside(
-            faces, direction_between(in_.points_[from], in_.points_[to]));
+        const auto partner =
+            pair_across_inside(faces, direction_between(in_.points_[from], in_.points_[to]));
         contacts_.emplace_back();
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (partner[i] < i) continue;
@@ -276,18 +278,59 @@ std::uint32_t BrepBuilder::add_vertex(const Point& p) {
 void BrepBuilder::add_face(const Plane& plane, const std::vector<std::vector<std::uint32_t>>& loops,
                            FaceSource source) {
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
+    ++call_;
+    bool touches = false;
+    for (const IndexLoop& loop : loops) {
+        check_loop(plane, loop);
+        touches = repeats_a_vertex(loop) || touches;
+    }
+    if (touches) {
+        append_regions(plane, loops, source);
+        return;
+    }
     append_face(plane, source);
-    for (const auto& loop : loops) append_loop(loop);
+    for (const IndexLoop& loop : loops) append_loop(loop);
 }
 
 void BrepBuilder::add_polygon(const Plane& plane, std::span<const std::uint32_t> loop,
                               FaceSource source) {
+    ++call_;
+    check_loop(plane, loop);
+    if (loop.size() > 3 && repeats_a_vertex(loop)) {
+        append_regions(plane, std::vector<IndexLoop>{{loop.begin(), loop.end()}}, source);
+        return;
+    }
     append_face(plane, source);
     append_loop(loop);
 }
 
-void BrepBuilder::append_face(const Plane& plane, FaceSource source) {
+void BrepBuilder::check_loop(const Plane& plane, std::span<const std::uint32_t> loop) const {
     TRISECT_EXPECTS(plane.is_valid(), "a face has a plane");
+    TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+    for (const std::uint32_t v : loop) {
+        TRISECT_EXPECTS(v < points_.size(), "a loop names an unknown vertex");
+        TRISECT_AUDIT_CHECK(side_of(points_[v], plane) == Side::On,
+                            "a corner lies on the plane of its face");
+    }
+}
+
+// Whether a corner of the loop was used before by the same call.
+bool BrepBuilder::repeats_a_vertex(std::span<const std::uint32_t> loop) {
+    if (seen_.size() < points_.size()) seen_.resize(points_.size(), 0);
+    bool repeats = false;
+    for (const std::uint32_t v : loop) repeats = std::exchange(seen_[v], call_) == call_ || repeats;
+    return repeats;
+}
+
+void BrepBuilder::append_regions(const Plane& plane, std::span<const IndexLoop> loops,
+                                 FaceSource source) {
+    for (const auto& region : connected_regions(plane, points_, loops)) {
+        append_face(plane, source);
+        for (const IndexLoop& loop : region) append_loop(loop);
+    }
+}
+
+void BrepBuilder::append_face(const Plane& plane, FaceSource source) {
     faces_.push_back({static_cast<std::uint32_t>(loop_begin_.size()), source});
     planes_.push_back(plane);
 }
@@ -297,12 +340,7 @@ void BrepBuilder::append_loop(std::span<const std::uint32_t> loop) {
     if (corners_.size() + loop.size() >= HalfedgeId::none)
         throw LimitError("more than 2^32 - 2 halfedges");
     loop_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
-    for (const std::uint32_t v : loop) {
-        TRISECT_EXPECTS(v < points_.size(), "a loop names an unknown vertex");
-        TRISECT_AUDIT_CHECK(side_of(points_[v], planes_.back()) == Side::On,
-                            "a corner lies on the plane of its face");
-        corners_.push_back(v);
-    }
+    corners_.insert(corners_.end(), loop.begin(), loop.end());
 }
 
 Brep BrepBuilder::build() && { return BrepConnector(std::move(*this)).run(); }

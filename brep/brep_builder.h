@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/planar_loops.h>
 
 namespace trisect {
 
@@ -15,7 +16,7 @@ namespace trisect {
 ///
 /// Mutable, for one thread, used once. Vertices are numbered by the builder; two different numbers
 /// promise two different points. Neither the order nor the number of vertices changes the result
-/// beyond the numbering: faces keep their order, vertices are numbered by their first use.
+/// beyond the numbering: faces keep their order, vertices are numbered by their first use in it.
 class BrepBuilder {
 public:
     explicit BrepBuilder(Lattice lattice) : lattice_(lattice) {}
@@ -24,8 +25,10 @@ public:
 
     std::uint32_t add_vertex(const Point& p);
     /// loops[0] is the outer loop, counter-clockwise seen from outside; the others are holes,
-    /// clockwise. A loop has at least three corners and is simple or touches itself in vertices
-    /// only. \pre all corners lie on the plane, whose normal points outward.
+    /// clockwise. A loop has at least three corners; loops may touch themselves and each other in
+    /// vertices. Then they are linked anew into the form that Brep states (invariant 6), and a face
+    /// that falls apart becomes several with the same source.
+    /// \pre all corners lie on the plane, whose normal points outward.
     /// \throw Error Internal when a loop is too short or names an unknown vertex.
     void add_face(const Plane& plane, const std::vector<std::vector<std::uint32_t>>& loops,
                   FaceSource source);
@@ -49,6 +52,9 @@ private:
         FaceSource source;
     };
 
+    void check_loop(const Plane& plane, std::span<const std::uint32_t> loop) const;
+    bool repeats_a_vertex(std::span<const std::uint32_t> loop);
+    void append_regions(const Plane& plane, std::span<const IndexLoop> loops, FaceSource source);
     void append_loop(std::span<const std::uint32_t> loop);
     void append_face(const Plane& plane, FaceSource source);
 
@@ -58,6 +64,8 @@ private:
     std::vector<std::uint32_t> loop_begin_;
     std::vector<Face> faces_;
     std::vector<Plane> planes_;
+    std::vector<std::uint32_t> seen_;  // by vertex: the last call of add_face that used it
+    std::uint32_t call_ = 0;
 };
 
 }  // namespace trisect

@@ -9,10 +9,11 @@
 //     t = s · n × d.
 //
 // Look at the plane across the edge with d pointing at the viewer. n × d is n turned clockwise by a
-// quarter (and scaled by |d|), the same turn for every face, so the t are in the same circular order
-// as the vectors m = s·n. For two of them
+// quarter (and scaled by |d|), the same turn for every face, so the t are in the same circular
+// order as the vectors m = s·n. For two of them
 //
-//     sign d·(m_a × m_b) = s_a s_b · sign d·(n_a × n_b),      sign m_a·m_b = s_a s_b · sign n_a·n_b,
+//     sign d·(m_a × m_b) = s_a s_b · sign d·(n_a × n_b),      sign m_a·m_b = s_a s_b · sign
+//     n_a·n_b,
 //
 // and n_a × n_b is parallel to d, so one component of it and of d decide the first sign. The naive
 // way, angles of rounded normals, fails exactly for the faces that matter: nearly coplanar ones.

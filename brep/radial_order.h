@@ -34,7 +34,8 @@ struct RadialFace {
 /// Exact, from the signs of cross and dot products of the planes' normals alone. Faces in the same
 /// half-plane (a solid touching itself along a face) are ordered so that the material on both sides
 /// stays apart. Where the winding number exceeds 1 the wedges nest like parentheses.
-/// O(n log n). \pre every plane contains the edge; as many faces run along the direction as against.
+/// O(n log n). \pre every plane contains the edge; as many faces run along the direction as
+/// against.
 [[nodiscard]] std::vector<std::uint32_t> pair_across_inside(std::span<const RadialFace> faces,
                                                             AxisDirection direction);
 

@@ -60,7 +60,8 @@ TEST(BrepBuilder, CubeFromQuads) {
 TEST(BrepBuilder, Tetrahedron) {
     SolidSketch s;
     const LatticePoint o{0, 0, 0}, x{5, 0, 0}, y{0, 5, 0}, z{0, 0, 5};
-    const Brep b = s.face({{o, y, x}}).face({{o, x, z}}).face({{o, z, y}}).face({{x, y, z}}).build();
+    const Brep b =
+        s.face({{o, y, x}}).face({{o, x, z}}).face({{o, z, y}}).face({{x, y, z}}).build();
     expect_invariants(b);
     EXPECT_EQ(b.counts(), (BrepCounts{4, 12, 6, 4, 4, 1}));
 }
@@ -76,8 +77,7 @@ TEST(BrepBuilder, ThroughHoleHasGenusOne) {
 }
 
 TEST(BrepBuilder, CavityIsAShellOfItsOwn) {
-    const Brep b =
-        SolidSketch().box({0, 0, 0}, {9, 9, 9}).box({3, 3, 3}, {6, 6, 6}, false).build();
+    const Brep b = SolidSketch().box({0, 0, 0}, {9, 9, 9}).box({3, 3, 3}, {6, 6, 6}, false).build();
     expect_invariants(b);
     EXPECT_EQ(b.counts().shells, 2U);
     EXPECT_EQ(b.faces(ShellId(1)).front(), FaceId(6));
@@ -187,6 +187,52 @@ TEST(BrepBuilder, RingClosedByAnEdgeContactOpens) {
     expect_invariants(b);
     EXPECT_EQ(b.counts().shells, 1U);
     EXPECT_EQ(b.edge_contact_count(), 1U);
+}
+
+// The plate is a ring that is open by an infinitesimal gap where the hole touches the rim.
+TEST(BrepBuilder, HoleThatTouchesTheRimOpensTheRing) {
+    const Polygon outline{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+    const Brep b = prism({outline, {{4, 0, 0}, {3, 3, 0}, {5, 3, 0}}}, 2);
+    expect_invariants(b);
+    EXPECT_EQ(b.counts(), (BrepCounts{16, 48, 24, 10, 10, 1}));
+    EXPECT_EQ(b.genus(ShellId(0)), 0);
+    EXPECT_EQ(b.edge_contact_count(), 1U);
+    EXPECT_EQ(b.vertex_contact_count(), 2U);
+}
+
+// The same ring from outlines that touch themselves: one boundary, whatever the description.
+TEST(BrepBuilder, HoleAndOutlineMayBeOneLoop) {
+    const Polygon one{{0, 0, 0}, {4, 0, 0}, {3, 3, 0}, {5, 3, 0},
+                      {4, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}};
+    const Brep b = prism({one}, 2);
+    expect_invariants(b);
+    EXPECT_EQ(b.counts(), (BrepCounts{16, 48, 24, 10, 10, 1}));
+    EXPECT_EQ(b.genus(ShellId(0)), 0);
+}
+
+// A pit whose mouth touches the rim in a vertex, narrowing below: no material is cut.
+TEST(BrepBuilder, PitThatTouchesTheRimKeepsTheVertex) {
+    SolidSketch s;
+    const LatticePoint rim{4, 0, 8}, p{3, 3, 8}, q{5, 3, 8}, bottom{4, 2, 4};
+    const Polygon outline{{0, 0, 8}, rim, {8, 0, 8}, {8, 8, 8}, {0, 8, 8}};
+    const Polygon base = lifted(outline, -8);
+    s.face(Plane(0, 0, 1, Plane::Offset(-8)), {outline, {rim, p, q}});
+    s.face(Plane(0, 0, -1, Plane::Offset(0)), {reversed(base)});
+    s.walls(base, 8);
+    s.face({{p, rim, bottom}}).face({{q, p, bottom}}).face({{rim, q, bottom}});
+    const Brep b = s.build();
+    expect_invariants(b);
+    EXPECT_EQ(b.vertex_contact_count(), 0U);
+    EXPECT_EQ(b.counts().shells, 1U);
+    EXPECT_EQ(b.genus(ShellId(0)), 0);
+}
+
+TEST(BrepBuilder, FaceCutByItsHoleBecomesTwo) {
+    const Polygon hole{{0, 0, 0}, {3, 5, 0}, {8, 8, 0}, {5, 3, 0}};
+    const Brep b = prism({rectangle(0, 0, 8, 8), hole}, 2);
+    expect_invariants(b);
+    EXPECT_EQ(b.counts(), (BrepCounts{16, 48, 24, 12, 12, 2}));
+    EXPECT_EQ(b.source(FaceId(8)), b.source(FaceId(9)));
 }
 
 TEST(BrepBuilder, OpenBoundaryNamesTheEdge) {

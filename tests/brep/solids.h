@@ -43,12 +43,8 @@ public:
             return LatticePoint{(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y,
                                 (i & 4) != 0 ? hi.z : lo.z};
         };
-        constexpr std::array<std::array<int, 4>, 6> quads{{{0, 2, 3, 1},
-                                                           {4, 5, 7, 6},
-                                                           {0, 1, 5, 4},
-                                                           {2, 6, 7, 3},
-                                                           {0, 4, 6, 2},
-                                                           {1, 3, 7, 5}}};
+        constexpr std::array<std::array<int, 4>, 6> quads{
+            {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
         for (const auto& q : quads) {
             Polygon loop{corner(q[0]), corner(q[1]), corner(q[2]), corner(q[3])};
             if (!outward) loop = {loop[3], loop[2], loop[1], loop[0]};

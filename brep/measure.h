@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Measures of boundaries: volume, area, centroid and bounds.
+//
+// All results are in the user's units. Volume, moments and therefore the centroid of a solid are
+// rational numbers and available exactly; the doubles are those exact values rounded once, and
+// mostly come from a cheaper computation with an enclosure of the error.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/lattice_mesh.h>
+#include <trisect/brep/polygon_mesh.h>
+
+namespace trisect {
+
+/// The signed volume below the faces: negative for a boundary that is turned inside out.
+/// Linear for lattice points. Plane points have different denominators, so the fraction of a
+/// solid with n of them has about n times their bits; it is summed by a balanced tree.
+[[nodiscard]] ExactRational exact_volume(const Brep& brep);
+[[nodiscard]] ExactRational exact_volume(const Brep& brep, ShellId shell);
+[[nodiscard]] ExactRational exact_volume(const LatticeMesh& mesh);
+
+/// The exact volume, correctly rounded. Linear.
+[[nodiscard]] double volume(const Brep& brep);
+[[nodiscard]] double volume(const Brep& brep, ShellId shell);
+[[nodiscard]] double volume(const LatticeMesh& mesh);
+
+/// -1 for a shell that bounds a cavity, 1 for one that bounds material.
+[[nodiscard]] int sign_of_volume(const Brep& brep, ShellId shell);
+
+/// A sum of square roots of rationals.
+struct Area {
+    /// Correctly rounded, unless the exact value is within a 2^-120th of the middle between two
+    /// doubles without being rational.
+    double value = 0;
+    /// Present when the area of every face is rational, as it is for axis-aligned faces.
+    std::optional<ExactRational> exact;
+};
+[[nodiscard]] Area area(const Brep& brep);
+[[nodiscard]] Area area(const Brep& brep, FaceId face);
+[[nodiscard]] Area area(const LatticeMesh& mesh);
+
+/// The centre of mass of the solid, or nothing when its volume is 0.
+[[nodiscard]] std::optional<std::array<ExactRational, 3>> exact_centroid(const Brep& brep);
+[[nodiscard]] std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& mesh);
+/// The same, correctly rounded.
+[[nodiscard]] std::optional<Point3d> centroid(const Brep& brep);
+[[nodiscard]] std::optional<Point3d> centroid(const LatticeMesh& mesh);
+
+/// An axis-aligned box. Its ends are the solid's extremes, correctly rounded.
+struct Bounds {
+    Point3d lower{};
+    Point3d upper{};
+    friend bool operator==(const Bounds&, const Bounds&) = default;
+};
+/// Nothing for the empty set.
+[[nodiscard]] std::optional<Bounds> bounds(const Brep& brep);
+/// Of the points that triangles use.
+[[nodiscard]] std::optional<Bounds> bounds(const LatticeMesh& mesh);
+
+}  // namespace trisect

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// PlanarLoops: the loops of a planar face as a figure in two dimensions, brought into a form in
+// which corners at the same place do not interfere. Shared by the builder and the triangulation.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <trisect/kernel/plane.h>
+#include <trisect/kernel/point.h>
+
+namespace trisect {
+
+using IndexLoop = std::vector<std::uint32_t>;
+
+/// Points of one plane, projected along its dominant axis and seen from above. All answers are
+/// exact: doubles with an error bound first, integers otherwise.
+class PlaneProjection {
+public:
+    PlaneProjection(const Plane& plane, std::span<const Point> points);
+
+    /// Rounded coordinates of a point in the projection.
+    [[nodiscard]] double u(std::uint32_t i) const { return rounded(i, u_); }
+    [[nodiscard]] double v(std::uint32_t i) const { return rounded(i, v_); }
+    /// Lexicographic order in the projection.
+    [[nodiscard]] std::strong_ordering compare(std::uint32_t a, std::uint32_t b) const;
+    /// 1 when a, b, c turn left, 0 when they lie on one line.
+    [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+private:
+    [[nodiscard]] double rounded(std::uint32_t i, int axis) const {
+        return points_[i].approximation().c[static_cast<std::size_t>(axis)];
+    }
+    [[nodiscard]] int filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+    [[nodiscard]] int lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+    [[nodiscard]] int exact_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+    std::span<const Point> points_;
+    int u_ = 0;
+    int v_ = 1;
+};
+
+/// The corners of a face, linked to loops whose interior wedges are disjoint.
+///
+/// A *place* is a point of the projection that has corners; its number is its lexicographic rank.
+/// At a place with several corners, each outgoing edge is linked to the incoming edge that ends the
+/// interior wedge to its left, so no wedge contains an edge. Hence a hole that touches the outline
+/// has become part of it, an outline that is cut by what touches it has come apart, and the
+/// loops that remain do not touch each other (a loop may still touch itself).
+class PlanarLoops {
+public:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+    struct Corner {
+        std::uint32_t point = 0;  ///< the caller's index
+        std::uint32_t place = 0;
+        std::uint32_t prev = 0;
+        std::uint32_t next = 0;
+    };
+
+    /// O(n log n). \pre the loops bound a region to their left and its points are on the plane.
+    /// \throw Error Internal when they do not and it shows.
+    PlanarLoops(const Plane& plane, std::span<const Point> points,
+                std::span<const IndexLoop> loops);
+
+    [[nodiscard]] std::size_t corner_count() const { return corners_.size(); }
+    [[nodiscard]] std::span<const Corner> corners() const { return corners_; }
+    [[nodiscard]] const Corner& corner(std::uint32_t c) const { return corners_[c]; }
+    [[nodiscard]] std::uint32_t place_of(std::uint32_t c) const { return corners_[c].place; }
+    [[nodiscard]] std::uint32_t prev(std::uint32_t c) const { return corners_[c].prev; }
+    [[nodiscard]] std::uint32_t next(std::uint32_t c) const { return corners_[c].next; }
+    [[nodiscard]] std::span<const std::uint32_t> corners_at(std::uint32_t place) const {
+        return corners_at_[place];
+    }
+    /// A corner of each outline, or hole, at its first place; ordered by these places.
+    [[nodiscard]] std::span<const std::uint32_t> outlines() const { return outlines_; }
+    [[nodiscard]] std::span<const std::uint32_t> holes() const { return holes_; }
+
+    /// Rounded coordinates of a place.
+    [[nodiscard]] double u(std::uint32_t place) const { return projection_.u(point_at_[place]); }
+    [[nodiscard]] double v(std::uint32_t place) const { return projection_.v(point_at_[place]); }
+    /// Of three places.
+    [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return projection_.orientation(point_at_[a], point_at_[b], point_at_[c]);
+    }
+    /// At a corner: 1 when its interior angle is below 180 degrees.
+    [[nodiscard]] int turn(std::uint32_t c) const {
+        return orientation(place_of(prev(c)), place_of(c), place_of(next(c)));
+    }
+    /// Whether a place that is on no edge of an outline lies inside it.
+    [[nodiscard]] bool is_inside(std::uint32_t place, std::uint32_t outline) const;
+
+    void connect(std::uint32_t a, std::uint32_t b) {
+        corners_[a].next = b;
+        corners_[b].prev = a;
+    }
+    /// Ties two loops, or two parts of one, by a pair of opposite edges between two corners.
+    void splice(std::uint32_t a, std::uint32_t b);
+
+private:
+    void number_places();
+    void join_edges_at(std::uint32_t place);
+    void find_loops();
+
+    PlaneProjection projection_;
+    std::vector<Corner> corners_;
+    std::vector<std::uint32_t> point_at_;                 // by place
+    std::vector<std::vector<std::uint32_t>> corners_at_;  // by place
+    std::vector<std::uint32_t> outlines_;
+    std::vector<std::uint32_t> holes_;
+};
+
+/// The connected pieces of a planar region, each with its outline first, then its holes. No two
+/// loops of the result touch.
+[[nodiscard]] std::vector<std::vector<IndexLoop>> connected_regions(
+    const Plane& plane, std::span<const Point> points, std::span<const IndexLoop> loops);
+
+}  // namespace trisect
