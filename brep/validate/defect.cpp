@@ -28,6 +28,7 @@ constexpr std::array<KindFacts, defect_kind_count> kind_facts{{
     {"duplicate_face", Severity::Error},
     {"duplicate_opposite_faces", Severity::Error},
     {"self_intersection", Severity::Error},
+    {"faces_touch", Severity::Warning},
     {"duplicate_point", Severity::Warning},
     {"unused_point", Severity::Warning},
     {"inside_out_shell", Severity::Error},

@@ -31,14 +31,15 @@ enum class DefectKind : std::uint8_t {
     NonSimpleFace,           ///< a loop that crosses or folds onto itself
     DuplicateFace,           ///< same corners, same orientation
     DuplicateOppositeFaces,  ///< same corners, opposite orientation
-    SelfIntersection,        ///< two faces meet in more than the corners and edges they share
+    SelfIntersection,        ///< two faces cross or overlap
+    FacesTouch,              ///< two faces meet in a point or along edges they do not share
     DuplicatePoint,          ///< two points with the same coordinates
     UnusedPoint,             ///< a point of no face
     InsideOutShell,          ///< an outermost shell that bounds its outside
     ShellNesting,            ///< a shell inside another one with the wrong orientation
     HoleOutsideFace          ///< an inner loop outside its outer loop
 };
-inline constexpr std::size_t defect_kind_count = 17;
+inline constexpr std::size_t defect_kind_count = 18;
 
 /// Errors: the mesh does not bound a solid. Warnings: it does, but somebody should look.
 enum class Severity : std::uint8_t { Warning, Error };
@@ -84,15 +85,22 @@ public:
         if (counts_[static_cast<std::size_t>(kind)]++ < list_limit_)
             defects_.push_back(std::forward<Make>(make)());
     }
+    /// What putting the mesh on a lattice changed; the checks speak about the rounded mesh.
+    [[nodiscard]] const LatticeReport& lattice() const { return lattice_; }
+    void set_lattice(const LatticeReport& lattice) { lattice_ = lattice; }
+
     /// Sorts the list by kind; within a kind the order of discovery stays.
     void sort();
 
-    friend bool operator==(const ValidationReport&, const ValidationReport&) = default;
+    friend bool operator==(const ValidationReport& a, const ValidationReport& b) {
+        return a.counts_ == b.counts_ && a.defects_ == b.defects_;
+    }
 
 private:
     std::size_t list_limit_;
     std::array<std::size_t, defect_kind_count> counts_{};
     std::vector<Defect> defects_;
+    LatticeReport lattice_;
 };
 
 /// Well-formed data that does not bound a solid. The message names the first errors with their

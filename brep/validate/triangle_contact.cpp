@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Triangles in different planes have in common what their intervals on the planes' common line have
+// in common [Möller 1997]. An end of an interval is a corner on the line, or the point where an
+// edge crosses the other plane: a point named by three planes (the triangle's, the other one's, and
+// one through the edge). Comparing such points along the line is exact, so "touches in a point",
+// "shares a stretch of an edge" and "passes through" are three different answers, which a version
+// with rounded intervals cannot tell apart; and they are what matters in meshes whose neighbours
+// touch everywhere.
+//
+// Before any of this, signs decide nearly all pairs: a line through an edge that separates the
+// triangles in a projection (the caps of machined parts are fans of needles whose boxes all
+// overlap), all corners of one triangle on one side of the other's plane, or a shared edge and a
+// third corner off the plane.
+//
+// Coplanar triangles are compared in a projection: their insides are disjoint iff the line of some
+// edge separates them (the separating axis theorem for convex polygons in the plane).
+
+#include <trisect/brep/validate/triangle_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <optional>
+#include <utility>
+
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Signs = std::array<int, 3>;
+
+// A triangle and where its corners are with respect to the other one's plane.
+struct Half {
+    std::array<LatticePoint, 3> p;
+    Plane plane;
+    Signs sign{};
+
+    [[nodiscard]] bool is_one_sided() const {
+        return (sign[0] > 0 && sign[1] > 0 && sign[2] > 0) ||
+               (sign[0] < 0 && sign[1] < 0 && sign[2] < 0);
+    }
+    [[nodiscard]] int zeros() const {
+        return (sign[0] == 0 ? 1 : 0) + (sign[1] == 0 ? 1 : 0) + (sign[2] == 0 ? 1 : 0);
+    }
+};
+
+int shared_corners(const IndexedTriangle& a, const IndexedTriangle& b) {
+    int n = 0;
+    for (const std::uint32_t c : a)
+        if (c == b[0] || c == b[1] || c == b[2]) ++n;
+    return n;
+}
+
+// Whether the line of some edge keeps the triangles apart in the projection along the axis in which
+// a is largest, but for a shared corner on that line. Only a yes means something. The doubles are
+// exact; differences round once, so a turn is within 4·2^-53 of the sum of its products.
+class ProjectedFilter {
+public:
+    ProjectedFilter(std::span<const LatticePoint> points, const IndexedTriangle& a,
+                    const IndexedTriangle& b) {
+        const int axis = largest_normal_axis(points, a);
+        u_ = (axis + 1) % 3;
+        v_ = (axis + 2) % 3;
+        for (std::size_t i = 0; i < 3; ++i) {
+            a_[i] = flat(points[a[i]]);
+            b_[i] = flat(points[b[i]]);
+            a_shared_[i] = a[i] == b[0] || a[i] == b[1] || a[i] == b[2];
+            b_shared_[i] = b[i] == a[0] || b[i] == a[1] || b[i] == a[2];
+        }
+    }
+    [[nodiscard]] bool is_apart() const {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (separates(a_, i, b_, b_shared_) || separates(b_, i, a_, a_shared_)) return true;
+        return false;
+    }
+
+private:
+    using Flat = std::array<double, 2>;
+
+    static int largest_normal_axis(std::span<const LatticePoint> points, const IndexedTriangle& t) {
+        std::array<double, 3> p{}, q{};
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            p[k] = static_cast<double>(points[t[1]][i] - points[t[0]][i]);
+            q[k] = static_cast<double>(points[t[2]][i] - points[t[0]][i]);
+        }
+        const std::array<double, 3> n{std::fabs(p[1] * q[2] - p[2] * q[1]),
+                                      std::fabs(p[2] * q[0] - p[0] * q[2]),
+                                      std::fabs(p[0] * q[1] - p[1] * q[0])};
+        return n[0] >= n[1] ? (n[0] >= n[2] ? 0 : 2) : (n[1] >= n[2] ? 1 : 2);
+    }
+    [[nodiscard]] Flat flat(const LatticePoint& p) const {
+        return {static_cast<double>(p[u_]), static_cast<double>(p[v_])};
+    }
+    // -1, 1, or 0 for unknown.
+    static int turn(const Flat& p, const Flat& q, const Flat& r) {
+        const double left = (q[0] - p[0]) * (r[1] - p[1]);
+        const double right = (q[1] - p[1]) * (r[0] - p[0]);
+        const double bound = 0x1p-50 * (std::fabs(left) + std::fabs(right));
+        const double t = left - right;
+        return t > bound ? 1 : (t < -bound ? -1 : 0);
+    }
+    // The third corner of x strictly on one side of edge i, the corners of y strictly on the other,
+    // except for one that is an end of the edge.
+    static bool separates(const std::array<Flat, 3>& x, std::size_t i, const std::array<Flat, 3>& y,
+                          const std::array<bool, 3>& y_shared) {
+        const Flat& p = x[i];
+        const Flat& q = x[(i + 1) % 3];
+        const int inner = turn(p, q, x[(i + 2) % 3]);
+        if (inner == 0) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (y_shared[k] && (y[k] == p || y[k] == q)) continue;
+            if (turn(p, q, y[k]) != -inner) return false;
+        }
+        return true;
+    }
+
+    std::array<Flat, 3> a_, b_;
+    std::array<bool, 3> a_shared_{}, b_shared_{};
+    int u_ = 0, v_ = 0;
+};
+
+void set_signs(Half& h, const Plane& other) {
+    for (std::size_t i = 0; i < 3; ++i) h.sign[i] = sign_of(side_of(h.p[i], other));
+}
+
+struct Interval {
+    Point low, high;
+};
+
+// The part of the triangle on the other plane. \pre some corner is on it or on each side.
+Interval interval_on(const Half& h, const Plane& other, int axis) {
+    std::array<Point, 2> ends;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t k = (i + 1) % 3;
+        if (h.sign[i] == 0 && n < 2) ends[n++] = Point(h.p[i]);
+        if (h.sign[i] * h.sign[k] < 0 && n < 2)
+            ends[n++] =
+                Point(h.plane, other, Plane::along_axis(h.p[i], h.p[k], h.plane.dominant_axis()));
+    }
+    if (n == 1) ends[1] = ends[0];
+    if (compare_coordinate(ends[1], ends[0], axis) < 0) std::swap(ends[0], ends[1]);
+    return {ends[0], ends[1]};
+}
+
+// A coordinate that changes along the planes' common line; -1 when they are parallel.
+int line_axis(const Plane& a, const Plane& b) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (sign_of_cross(a, b, axis) != 0) return axis;
+    return -1;
+}
+
+TriangleContact contact_on_line(const Half& a, const Half& b, int shared) {
+    const int axis = line_axis(a.plane, b.plane);
+    if (axis < 0) return {};  // parallel and, by the signs, not the same plane
+    const Interval i = interval_on(a, b.plane, axis);
+    const Interval k = interval_on(b, a.plane, axis);
+    const Point& low = compare_coordinate(i.low, k.low, axis) < 0 ? k.low : i.low;
+    const Point& high = compare_coordinate(i.high, k.high, axis) < 0 ? i.high : k.high;
+    const auto order = compare_coordinate(low, high, axis);
+    if (order > 0) return {};
+    if (order == 0)
+        return shared == 0 ? TriangleContact{ContactKind::Touch, low} : TriangleContact{};
+    // A segment. With one shared corner, which is one of its ends, the other end is the witness.
+    const bool on_edges = a.zeros() == 2 && b.zeros() == 2;
+    const auto is_corner_of_both = [&](const Point& p) {
+        const auto is_corner = [&](const Half& h) {
+            return std::any_of(h.p.begin(), h.p.end(), [&](const LatticePoint& q) {
+                return p.is_lattice() && p.lattice() == q;
+            });
+        };
+        return is_corner(a) && is_corner(b);
+    };
+    return {on_edges ? ContactKind::Touch : ContactKind::Cross,
+            is_corner_of_both(low) ? high : low};
+}
+
+// Coplanar triangles in a projection, both counter-clockwise.
+class FlatPair {
+public:
+    FlatPair(const Half& a, const Half& b) : a_(a), b_(b) {
+        const int axis = a.plane.dominant_axis();
+        u_ = (axis + 1) % 3;
+        v_ = (axis + 2) % 3;
+        make_counter_clockwise(a_);
+        make_counter_clockwise(b_);
+    }
+
+    [[nodiscard]] TriangleContact contact(int shared) const {
+        // Of all edges, the best separation: corners strictly outside, outside or on, neither.
+        bool insides_apart = false;
+        for (const auto& [x, y] : {std::pair{&a_, &b_}, std::pair{&b_, &a_}}) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                int most = -1;
+                for (const LatticePoint& q : y->p) most = std::max(most, turn(*x, i, q));
+                if (most < 0) return {};
+                if (most == 0) insides_apart = true;
+            }
+        }
+        if (insides_apart) return touch(shared);
+        return {ContactKind::Overlap, common_point()};
+    }
+
+private:
+    [[nodiscard]] int turn(const LatticePoint& p, const LatticePoint& q,
+                           const LatticePoint& r) const {
+        const Int128 left = Int128{q[u_] - p[u_]} * (r[v_] - p[v_]);
+        const Int128 right = Int128{q[v_] - p[v_]} * (r[u_] - p[u_]);
+        return left > right ? 1 : (left < right ? -1 : 0);
+    }
+    [[nodiscard]] int turn(const Half& h, std::size_t edge, const LatticePoint& q) const {
+        return turn(h.p[edge], h.p[(edge + 1) % 3], q);
+    }
+    void make_counter_clockwise(Half& h) const {
+        if (turn(h.p[0], h.p[1], h.p[2]) < 0) std::swap(h.p[1], h.p[2]);
+    }
+    [[nodiscard]] bool contains(const Half& h, const LatticePoint& q) const {
+        return turn(h, 0, q) >= 0 && turn(h, 1, q) >= 0 && turn(h, 2, q) >= 0;
+    }
+    static bool is_corner(const Half& h, const LatticePoint& q) {
+        return q == h.p[0] || q == h.p[1] || q == h.p[2];
+    }
+
+    // Insides disjoint: the contact is a point or a segment whose ends are corners.
+    [[nodiscard]] TriangleContact touch(int shared) const {
+        if (shared >= 2) return {};
+        for (const auto& [x, y] : {std::pair{&a_, &b_}, std::pair{&b_, &a_}})
+            for (const LatticePoint& q : x->p)
+                if (contains(*y, q) && !(is_corner(a_, q) && is_corner(b_, q)))
+                    return {ContactKind::Touch, Point(q)};
+        return {};
+    }
+
+    // A corner inside the other triangle that is not shared, or else a crossing of edges. Triangles
+    // with a common area have one or the other, unless all their corners are shared.
+    [[nodiscard]] Point common_point() const {
+        std::optional<Point> corner;
+        for (const auto& [x, y] : {std::pair{&a_, &b_}, std::pair{&b_, &a_}})
+            for (const LatticePoint& q : x->p)
+                if (contains(*y, q)) {
+                    if (!(is_corner(a_, q) && is_corner(b_, q))) return Point(q);
+                    corner = Point(q);
+                }
+        const int axis = a_.plane.dominant_axis();
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const LatticePoint& p = a_.p[i];
+                const LatticePoint& q = a_.p[(i + 1) % 3];
+                const LatticePoint& r = b_.p[k];
+                const LatticePoint& s = b_.p[(k + 1) % 3];
+                if (turn(p, q, r) * turn(p, q, s) < 0 && turn(r, s, p) * turn(r, s, q) < 0)
+                    return Point(a_.plane, Plane::along_axis(p, q, axis),
+                                 Plane::along_axis(r, s, axis));
+            }
+        }
+        TRISECT_EXPECTS(corner.has_value(), "overlapping triangles without a common point");
+        return *corner;
+    }
+
+    Half a_, b_;
+    int u_ = 0, v_ = 0;
+};
+
+}  // namespace
+
+TriangleContact find_contact(std::span<const LatticePoint> points, const IndexedTriangle& a,
+                             const IndexedTriangle& b) {
+    const int shared = shared_corners(a, b);
+    if (shared == 3) return {};
+    if (shared < 2 && ProjectedFilter(points, a, b).is_apart()) return {};
+    Half x{{points[a[0]], points[a[1]], points[a[2]]}, {}, {}};
+    Half y{{points[b[0]], points[b[1]], points[b[2]]}, {}, {}};
+    x.plane = Plane::through(x.p[0], x.p[1], x.p[2]);
+    if (shared == 2) {
+        // Off the plane, the shared edge is all they have in common.
+        for (std::size_t i = 0; i < 3; ++i)
+            if (b[i] != a[0] && b[i] != a[1] && b[i] != a[2] &&
+                side_of(y.p[i], x.plane) != Side::On)
+                return {};
+        y.plane = x.plane;
+        return FlatPair(x, y).contact(shared);
+    }
+    set_signs(y, x.plane);
+    if (y.is_one_sided()) return {};
+    y.plane = Plane::through(y.p[0], y.p[1], y.p[2]);
+    if (y.zeros() == 3) return FlatPair(x, y).contact(shared);
+    // One corner shared and the others on one side: nothing more in common.
+    if (shared == 1 && y.zeros() == 1 && y.sign[0] + y.sign[1] + y.sign[2] != 0) return {};
+    set_signs(x, y.plane);
+    if (x.is_one_sided()) return {};
+    if (shared == 1 && x.zeros() == 1 && x.sign[0] + x.sign[1] + x.sign[2] != 0) return {};
+    return contact_on_line(x, y, shared);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Contact of two triangles with lattice corners: what they have in common beyond the corners and
+// edges they share by name, exactly, with a witness.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/point.h>
+
+namespace trisect::detail {
+
+enum class ContactKind : std::uint8_t {
+    None,    ///< disjoint, or nothing but the shared corners and edges
+    Touch,   ///< a point, or a segment that lies on an edge of both
+    Cross,   ///< a segment through the inside of one of them
+    Overlap  ///< coplanar with a common area
+};
+
+struct TriangleContact {
+    ContactKind kind = ContactKind::None;
+    Point witness;  ///< a point of the contact that is not a shared corner, if kind is not None
+};
+
+using IndexedTriangle = std::array<std::uint32_t, 3>;
+
+/// \pre neither triangle is degenerate; equal corners have equal indices.
+/// Two triangles with the same three corners give None: they are found as duplicate faces.
+[[nodiscard]] TriangleContact find_contact(std::span<const LatticePoint> points,
+                                           const IndexedTriangle& a, const IndexedTriangle& b);
+
+}  // namespace trisect::detail

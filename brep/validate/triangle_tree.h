@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// TriangleTree: a hierarchy of axis-aligned boxes over triangles, for the searches of validation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/kernel/lattice_point.h>
+
+namespace trisect::detail {
+
+/// Closed boxes with lattice corners: exact.
+struct LatticeBox {
+    std::array<std::int64_t, 3> low{coordinate_limit, coordinate_limit, coordinate_limit};
+    std::array<std::int64_t, 3> high{-coordinate_limit, -coordinate_limit, -coordinate_limit};
+
+    void add(const LatticePoint& p) {
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            low[k] = low[k] < p[i] ? low[k] : p[i];
+            high[k] = high[k] > p[i] ? high[k] : p[i];
+        }
+    }
+    void add(const LatticeBox& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = low[k] < b.low[k] ? low[k] : b.low[k];
+            high[k] = high[k] > b.high[k] ? high[k] : b.high[k];
+        }
+    }
+    /// Touching counts.
+    [[nodiscard]] bool overlaps(const LatticeBox& b) const {
+        return low[0] <= b.high[0] && b.low[0] <= high[0] && low[1] <= b.high[1] &&
+               b.low[1] <= high[1] && low[2] <= b.high[2] && b.low[2] <= high[2];
+    }
+};
+
+/// Balanced: built by median splits, depth at most 33. Immutable.
+class TriangleTree {
+public:
+    /// O(n log n).
+    TriangleTree(std::span<const LatticePoint> points,
+                 std::span<const std::array<std::uint32_t, 3>> triangles);
+
+    /// Calls visit(a, b), a < b, once for every pair of triangles with overlapping boxes; the
+    /// order is deterministic. Stops when it returns false.
+    template <class Visit>
+    void for_each_pair(Visit&& visit) const {
+        if (nodes_.empty()) return;
+        std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};
+        while (!stack.empty()) {
+            const auto [i, k] = stack.back();
+            stack.pop_back();
+            const Node& a = nodes_[i];
+            const Node& b = nodes_[k];
+            if (i == k) {
+                if (a.is_leaf()) {
+                    if (!visit_leaves(a, a, true, visit)) return;
+                    continue;
+                }
+                stack.push_back({a.right, a.right});
+                stack.push_back({a.left(i), a.right});
+                stack.push_back({a.left(i), a.left(i)});
+            } else if (a.box.overlaps(b.box)) {
+                if (a.is_leaf() && b.is_leaf()) {
+                    if (!visit_leaves(a, b, false, visit)) return;
+                } else if (b.is_leaf() || (!a.is_leaf() && a.count() >= b.count())) {
+                    stack.push_back({a.right, k});
+                    stack.push_back({a.left(i), k});
+                } else {
+                    stack.push_back({i, b.right});
+                    stack.push_back({i, b.left(k)});
+                }
+            }
+        }
+    }
+
+    /// Calls visit(triangle) for every triangle whose box overlaps `box`.
+    template <class Visit>
+    void for_each_in(const LatticeBox& box, Visit&& visit) const {
+        if (nodes_.empty()) return;
+        std::vector<std::uint32_t> stack{0};
+        while (!stack.empty()) {
+            const std::uint32_t i = stack.back();
+            stack.pop_back();
+            const Node& n = nodes_[i];
+            if (!n.box.overlaps(box)) continue;
+            if (n.is_leaf()) {
+                for (std::uint32_t t = n.begin; t < n.end; ++t)
+                    if (boxes_[order_[t]].overlaps(box)) visit(order_[t]);
+            } else {
+                stack.push_back(n.right);
+                stack.push_back(n.left(i));
+            }
+        }
+    }
+
+    [[nodiscard]] const LatticeBox& box(std::uint32_t triangle) const { return boxes_[triangle]; }
+
+private:
+    struct Node {
+        LatticeBox box;
+        std::uint32_t begin = 0, end = 0;  // into order_
+        std::uint32_t right = 0;           // 0: leaf; the left child follows its parent
+        [[nodiscard]] bool is_leaf() const { return right == 0; }
+        [[nodiscard]] std::uint32_t count() const { return end - begin; }
+        [[nodiscard]] std::uint32_t left(std::uint32_t self) const { return self + 1; }
+    };
+    static constexpr std::uint32_t leaf_size = 4;
+
+    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+
+    template <class Visit>
+    bool visit_leaves(const Node& a, const Node& b, bool same, Visit& visit) const {
+        for (std::uint32_t i = a.begin; i < a.end; ++i) {
+            for (std::uint32_t k = same ? i + 1 : b.begin; k < b.end; ++k) {
+                const std::uint32_t s = order_[i];
+                const std::uint32_t t = order_[k];
+                if (!boxes_[s].overlaps(boxes_[t])) continue;
+                if (!(s < t ? visit(s, t) : visit(t, s))) return false;
+            }
+        }
+        return true;
+    }
+
+    std::vector<LatticeBox> boxes_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace trisect::detail
