@@ -32,22 +32,23 @@ mpz_class value(const Digits<N>& v) {
 }
 
 // Random numbers of up to `bits` bits and the largest of that length.
-std::vector<mpz_class> samples(int bits, std::uint64_t seed) {
+std::vector<mpz_class> samples(mp_bitcnt_t bits, std::uint64_t seed) {
     const mpz_class largest = (mpz_class(1) << bits) - 1;
     std::vector<mpz_class> out{0, 1, -1, largest, -largest, mpz_class(1) << (bits - 1)};
     oracle::Source random(seed);
     for (int k = 0; k < 60; ++k) {
         mpz_class v = 0;
-        for (int i = 0; i <= bits / 64; ++i) v = (v << 64) + mpz_class(random.bits());
+        for (int i = 0; i <= static_cast<int>(bits) / 64; ++i)
+            v = (v << 64) + mpz_class(random.bits());
         v &= largest;
-        v >>= random.below(static_cast<std::uint64_t>(bits));
+        v >>= random.below(bits);
         out.push_back(random.coin() ? v : mpz_class(-v));
     }
     return out;
 }
 
 template <int N, int M>
-void check_round_trip(int bits) {
+void check_round_trip(mp_bitcnt_t bits) {
     for (const mpz_class& v : samples(bits, 3)) {
         const auto digits = to_digits<N>(register_of<M>(v));
         EXPECT_EQ(value(digits), v);

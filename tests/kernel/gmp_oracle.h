@@ -43,7 +43,8 @@ WideInt<N> register_of(mpz_class v) {
     if (v < 0) v += modulus;
     WideInt<N> out;
     for (int i = 0; i < N; ++i) {
-        const mpz_class limb = (v >> (64 * i)) & mpz_class(~std::uint64_t{0});
+        const mpz_class limb =
+            (v >> static_cast<mp_bitcnt_t>(64 * i)) & mpz_class(~std::uint64_t{0});
         out.set_limb(i, limb.get_ui());
     }
     return out;
@@ -113,8 +114,10 @@ inline double nearest(const mpq_class& q) {
     long e = static_cast<long>(mpz_sizeinbase(a.get_num().get_mpz_t(), 2)) -
              static_cast<long>(mpz_sizeinbase(a.get_den().get_mpz_t(), 2)) - 53;
     for (;; ++e) {  // a / 2^e in [2^52, 2^53) for one of two candidates
-        const mpz_class num = e < 0 ? mpz_class(a.get_num() << -e) : a.get_num();
-        const mpz_class den = e > 0 ? mpz_class(a.get_den() << e) : a.get_den();
+        const mpz_class num =
+            e < 0 ? mpz_class(a.get_num() << static_cast<mp_bitcnt_t>(-e)) : a.get_num();
+        const mpz_class den =
+            e > 0 ? mpz_class(a.get_den() << static_cast<mp_bitcnt_t>(e)) : a.get_den();
         mpz_class m = num / den;
         if (mpz_sizeinbase(m.get_mpz_t(), 2) > 53) continue;
         const mpz_class twice_rest = 2 * (num - m * den);

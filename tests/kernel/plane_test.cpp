@@ -137,11 +137,11 @@ TEST(Plane, NarrowAtItsLimits) {
 
 TEST(Plane, LatticesOf26BitsAreNarrow) {
     // The largest coefficients come from corners of the cube.
-    const std::int64_t v = (std::int64_t{1} << 26) - 1;
+    constexpr std::int64_t v = (std::int64_t{1} << 26) - 1;
     for (int a = 0; a < 8; ++a)
         for (int b = 0; b < 8; ++b)
             for (int c = 0; c < 8; ++c) {
-                const auto corner = [v](int k) {
+                const auto corner = [](int k) {
                     return LatticePoint{(k & 1) != 0 ? v : -v, (k & 2) != 0 ? v : -v,
                                         (k & 4) != 0 ? v : -v};
                 };

@@ -23,7 +23,7 @@ std::vector<WideInt<N>> samples(std::uint64_t seed, int count) {
     std::vector<WideInt<N>> out;
     for (const int at : {0, 1, 31, 32, 52, 53, 54, 63, 64, 65, 127, 128, 64 * N - 2, 64 * N - 1}) {
         if (at >= 64 * N) continue;
-        const mpz_class power = mpz_class(1) << at;
+        const mpz_class power = mpz_class(1) << static_cast<mp_bitcnt_t>(at);
         for (int offset = -1; offset <= 1; ++offset) {
             out.push_back(register_of<N>(power + offset));
             out.push_back(register_of<N>(-power + offset));
@@ -138,7 +138,8 @@ TEST(WideInt, WideningKeepsTheValueAndNarrowingTheLowLimbs) {
 TEST(WideInt, ShiftedLeft) {
     for (const auto& a : samples<4>(6, 50))
         for (const int bits : {0, 1, 7, 63, 64, 65, 127, 128, 200, 255})
-            EXPECT_EQ(integer(a.shifted_left(bits)), wrapped<4>(integer(a) << bits));
+            EXPECT_EQ(integer(a.shifted_left(bits)),
+                      wrapped<4>(integer(a) << static_cast<mp_bitcnt_t>(bits)));
 }
 
 template <int N>
