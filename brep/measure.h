@@ -36,8 +36,8 @@ namespace trisect {
 
 /// A sum of square roots of rationals.
 struct Area {
-    /// Correctly rounded, unless the exact value is within a 2^-120th of the middle between two
-    /// doubles without being rational.
+    /// Correctly rounded, unless the exact value is not rational and within 2^-8190 square units of
+    /// the lattice of the middle between two doubles.
     double value = 0;
     /// Present when the area of every face is rational, as it is for axis-aligned faces.
     std::optional<ExactRational> exact;

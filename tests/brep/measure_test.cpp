@@ -88,6 +88,26 @@ TEST(Measure, TetrahedronHasIrrationalArea) {
     EXPECT_EQ(area(b, FaceId(3)).value, std::sqrt(972.0));
 }
 
+TEST(Measure, PythagoreanFacesHaveRationalArea) {
+    // A ramp: a 3-4-5 triangle drawn out.
+    const Brep b = prism({{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}}, 2);
+    const Area a = area(b);
+    ASSERT_TRUE(a.exact.has_value());
+    EXPECT_EQ(*a.exact, ExactRational(2 * 6 + 2 * (3 + 4 + 5)));
+}
+
+TEST(Measure, AreasOfAllMagnitudesAddUp) {
+    // Slanted slivers from 1 to 2^100 square units: the sum of n equal roots is n times the root.
+    for (int bits = 1; bits <= 50; bits += 7) {
+        const std::int64_t s = std::int64_t{1} << bits;
+        LatticeMesh mesh;
+        mesh.points = {{0, 0, 0}, {s, -s, 0}, {s, 0, -s}};
+        mesh.triangles.assign(1000, {0, 1, 2});
+        const double expected = std::ldexp(std::sqrt(3.0 * 1000 * 1000), 2 * bits - 1);
+        EXPECT_EQ(area(mesh).value, expected) << bits;
+    }
+}
+
 TEST(Measure, HolesSubtract) {
     const Brep b = prism({rectangle(0, 0, 9, 9), reversed(rectangle(3, 3, 6, 6))}, 9);
     EXPECT_EQ(exact_volume(b), ExactRational(81 * 9 - 9 * 9));
