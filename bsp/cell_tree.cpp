@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/cell_tree.h>
+
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+Plane PlaneName::plane() const {
+    if (is_wall())
+        return Plane::axis_aligned(static_cast<int>(facet), wall_scale, position());
+    const Source* s = source();
+    return kind == Support ? s->support(facet) : s->edge_plane(facet, static_cast<int>(kind));
+}
+
+Fragment::Fragment(std::vector<EdgeName> edges, const Box& box)
+    : edges_(std::move(edges)), box_(box) {
+    for (const EdgeName& e : edges_)
+        if (const Source* s = e.plane.source()) s->retain();
+}
+
+Fragment::~Fragment() {
+    for (const EdgeName& e : edges_)
+        if (const Source* s = e.plane.source()) s->release();
+}
+
+PolygonList::PolygonList(std::vector<PolygonRef> refs) : refs_(std::move(refs)) {
+    // Neighbours in a list mostly share their source: one count for every run of equal sources.
+    const Source* last = nullptr;
+    for (const PolygonRef& r : refs_) {
+        if (r.fragment != nullptr) r.fragment->retain();
+        if (r.source != last) r.source->retain();
+        last = r.source;
+    }
+}
+
+PolygonList::~PolygonList() {
+    const Source* last = nullptr;
+    for (const PolygonRef& r : refs_) {
+        if (r.fragment != nullptr) r.fragment->release();
+        if (r.source != last) r.source->release();
+        last = r.source;
+    }
+}
+
+std::shared_ptr<const CellNode> CellNode::leaf(PolygonList polygons, const FinePoint& reference,
+                                               int winding, bool mixed) {
+    std::shared_ptr<CellNode> n(new CellNode);
+    n->polygons_ = std::move(polygons);
+    n->reference_ = reference;
+    n->winding_ = winding;
+    n->mixed_ = mixed;
+    n->size_ = n->polygons_.refs().size();
+    return n;
+}
+
+std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const FinePoint& reference,
+                                                int winding, bool mixed) {
+    std::vector<PolygonRef> refs(source.facet_count());
+    for (std::uint32_t i = 0; i < refs.size(); ++i) refs[i] = {&source, nullptr, i, false};
+    return leaf(PolygonList(std::move(refs)), reference, winding, mixed);
+}
+
+std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, CellRef below,
+                                                CellRef above) {
+    TRISECT_EXPECTS((wall & 1) != 0, "a wall must lie at an odd position");
+    std::shared_ptr<CellNode> n(new CellNode);
+    n->axis_ = axis;
+    n->wall_ = wall;
+    n->size_ = below.node->size() + above.node->size();
+    n->child_ = {std::move(below), std::move(above)};
+    return n;
+}
+
+// Depth is bounded by the bits of the coordinates (each wall halves a range or peels a slab), so the
+// recursion of the default destruction of children is bounded as well.
+CellNode::~CellNode() = default;
+
+}  // namespace trisect::detail

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which facets need work: one that lies in a single cell where no operands met is untouched and
+// passes through whole. All others (fragments, facets that span several cells, facets in mixed
+// leaves) are turned into convex parts with exact vertices.
+//
+// Vertices are identified by name as they are made (Workbench::meet), then by value: all points are
+// sorted along x by their certified doubles, and points whose error boxes meet are compared exactly.
+// A second stage is indispensable: where several planes run through one point its names differ.
+//
+// T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
+// the vertices of the leaf are all that can lie on an edge inside it. That keeps a search that is
+// quadratic in the worst case down to a few dozen candidates.
+
+#include <trisect/bsp/detail/assembly_parts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <trisect/bsp/detail/leaf_arrangement.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Part {
+    PolygonRef ref;
+    WorkPolygon shape;
+};
+
+struct Leaf {
+    bool mixed = false;
+    std::size_t first_part = 0;
+    std::size_t end_part = 0;
+};
+
+class Gatherer {
+public:
+    Gatherer(bool all, BoundaryParts& out) : all_(all), out_(out) {}
+
+    void run(const SolidState& solid) {
+        visit(solid.root, Cell{});
+        merge_equal_points();
+        number_facets();
+        emit_edges();
+    }
+
+private:
+    void visit(const CellRef& ref, const Cell& cell);
+    void add_polygon(const PolygonRef& ref, const Cell& cell, bool mixed);
+    void merge_equal_points();
+    void number_facets();
+    void emit_edges();
+    [[nodiscard]] std::int32_t facet_index(const PolygonRef& ref) const;
+    PointId root(PointId p) {
+        while (same_[u(p)] != p) p = same_[u(p)] = same_[u(same_[u(p)])];
+        return p;
+    }
+
+    bool all_;
+    BoundaryParts& out_;
+    std::vector<Part> parts_;
+    std::vector<Leaf> leaves_;
+    std::vector<PolygonRef> whole_;
+    std::vector<PointId> same_;
+};
+
+void Gatherer::visit(const CellRef& ref, const Cell& cell) {
+    const CellNode& node = *ref.node;
+    if (!node.is_leaf()) {
+        for (int i = 0; i < 2; ++i) {
+            CellRef c = node.child(i);
+            c.complemented = c.complemented != ref.complemented;
+            visit(c, i == 0 ? cell.below(node.axis(), node.wall())
+                            : cell.above(node.axis(), node.wall()));
+        }
+        return;
+    }
+    Leaf leaf;
+    leaf.mixed = node.is_mixed();
+    leaf.first_part = parts_.size();
+    for (PolygonRef r : node.polygons()) {
+        r.flipped = r.flipped != ref.complemented;
+        add_polygon(r, cell, leaf.mixed);
+    }
+    leaf.end_part = parts_.size();
+    if (leaf.end_part != leaf.first_part) leaves_.push_back(leaf);
+}
+
+void Gatherer::add_polygon(const PolygonRef& ref, const Cell& cell, bool mixed) {
+    const bool contained = cell.contains(ref.box());
+    if (!mixed && contained && ref.fragment == nullptr && !ref.source->is_half_space()) {
+        whole_.push_back(ref);
+        return;
+    }
+    WorkPolygon shape = out_.bench.polygon(ref);
+    out_.bench.with_edges(shape, ref);
+    if (!contained || shape.is_empty()) shape = out_.bench.clipped(shape, ref.box(), cell);
+    if (!shape.is_empty()) parts_.push_back({ref, std::move(shape)});
+}
+
+// Union of points that are equal under different names; the representative is a corner of a source
+// if there is one, else the point made first.
+void Gatherer::merge_equal_points() {
+    Workbench& bench = out_.bench;
+    if (all_)
+        for (const PolygonRef& r : whole_)
+            for (int i = 0; i < 3; ++i) (void)bench.corner(r.source, r.facet, i);
+    const std::size_t n = bench.point_count();
+    same_.resize(n);
+    std::iota(same_.begin(), same_.end(), 0);
+    std::vector<PointId> order(same_);
+    double widest = 0;
+    for (const PointId p : order) widest = std::max(widest, bench.approximation(p).error);
+    std::sort(order.begin(), order.end(), [&](PointId a, PointId b) {
+        const double xa = bench.approximation(a).c[0];
+        const double xb = bench.approximation(b).c[0];
+        return std::tie(xa, a) < std::tie(xb, b);
+    });
+    const auto better = [&](PointId a, PointId b) {
+        return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        const Approximation& a = bench.approximation(order[i]);
+        const double reach = a.c[0] + (a.error + widest) * 1.0000001;
+        for (std::size_t j = i + 1; j < n && bench.approximation(order[j]).c[0] <= reach; ++j) {
+            if (!bench.same_point(order[i], order[j])) continue;
+            const PointId x = root(order[i]);
+            const PointId y = root(order[j]);
+            if (x == y) continue;
+            if (better(x, y)) {
+                same_[u(y)] = x;
+            } else {
+                same_[u(x)] = y;
+            }
+        }
+    }
+}
+
+auto facet_key(const Source* s, std::uint32_t facet, bool flipped) {
+    return std::tuple(s->serial(), facet, flipped);
+}
+
+void Gatherer::number_facets() {
+    auto& facets = out_.facets;
+    for (const Part& p : parts_) facets.push_back({p.ref.source, p.ref.facet, p.ref.flipped, -1});
+    for (const PolygonRef& r : whole_) facets.push_back({r.source, r.facet, r.flipped, -1});
+    const auto key = [](const BoundaryFacet& f) { return facet_key(f.source, f.facet, f.flipped); };
+    std::sort(facets.begin(), facets.end(),
+              [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    facets.erase(std::unique(facets.begin(), facets.end(),
+                             [&](const auto& a, const auto& b) { return key(a) == key(b); }),
+                 facets.end());
+}
+
+std::int32_t Gatherer::facet_index(const PolygonRef& ref) const {
+    const auto at = std::lower_bound(
+        out_.facets.begin(), out_.facets.end(), facet_key(ref.source, ref.facet, ref.flipped),
+        [](const BoundaryFacet& f, const auto& key) {
+            return facet_key(f.source, f.facet, f.flipped) < key;
+        });
+    return static_cast<std::int32_t>(at - out_.facets.begin());
+}
+
+void append_edges(const WorkPolygon& shape, std::int32_t facet, bool flipped,
+                  std::vector<BoundaryEdge>& out) {
+    const std::size_t n = shape.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        PointId a = shape.points[i];
+        PointId b = shape.points[(i + 1) % n];
+        if (flipped) std::swap(a, b);
+        out.push_back({a, b, facet, shape.edges[i]});
+    }
+}
+
+void Gatherer::emit_edges() {
+    std::vector<BoundaryEdge> local;
+    std::vector<PointId> points;
+    for (const Leaf& leaf : leaves_) {
+        local.clear();
+        for (std::size_t i = leaf.first_part; i < leaf.end_part; ++i) {
+            Part& p = parts_[i];
+            for (PointId& q : p.shape.points) q = root(q);
+            const std::int32_t f = facet_index(p.ref);
+            out_.facets[u(f)].support = p.shape.support;
+            append_edges(p.shape, f, p.ref.flipped, local);
+        }
+        if (leaf.mixed) {
+            points.clear();
+            for (const BoundaryEdge& e : local) points.push_back(e.from);
+            insert_points_on_edges(out_.bench, out_.facets, points, local);
+        }
+        out_.edges.insert(out_.edges.end(), local.begin(), local.end());
+    }
+    for (const PolygonRef& r : whole_) {
+        const std::int32_t f = facet_index(r);
+        if (!all_) {
+            out_.whole.push_back(f);
+            continue;
+        }
+        WorkPolygon shape = out_.bench.polygon(r);
+        out_.bench.with_edges(shape, r);
+        for (PointId& q : shape.points) q = root(q);
+        out_.facets[u(f)].support = shape.support;
+        append_edges(shape, f, r.flipped, out_.edges);
+    }
+    std::sort(out_.whole.begin(), out_.whole.end());
+}
+
+// Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
+bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support,
+                 int along) {
+    if (bench.side(p, support) != 0 || bench.side(p, e.line.plane) != 0) return false;
+    const int from = compare_along(bench, e.from, p, along);
+    const int to = compare_along(bench, p, e.to, along);
+    return from == to && from != 0;
+}
+
+// The axis along which the ends of an edge are farthest apart.
+int longest_axis(const Approximation& a, const Approximation& b) {
+    int best = 0;
+    for (int k = 1; k < 3; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const auto j = static_cast<std::size_t>(best);
+        if (std::fabs(a.c[i] - b.c[i]) > std::fabs(a.c[j] - b.c[j])) best = k;
+    }
+    return best;
+}
+
+}  // namespace
+
+int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
+    const Approximation& pa = bench.approximation(a);
+    const Approximation& pb = bench.approximation(b);
+    const double gap = pa.c[static_cast<std::size_t>(axis)] - pb.c[static_cast<std::size_t>(axis)];
+    if (std::fabs(gap) > 1.0000001 * (pa.error + pb.error)) return gap < 0 ? -1 : 1;
+    if (a == b) return 0;
+    const auto order = compare_coordinate(bench.homogeneous(a), bench.homogeneous(b), axis);
+    return order < 0 ? -1 : (order > 0 ? 1 : 0);
+}
+
+void insert_points_on_edges(const Workbench& bench, const std::vector<BoundaryFacet>& facets,
+                            std::vector<PointId> points, std::vector<BoundaryEdge>& edges) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    double widest = 0;
+    for (const PointId p : points) widest = std::max(widest, bench.approximation(p).error);
+    const auto x_of = [&](PointId p) { return bench.approximation(p).c[0]; };
+    std::sort(points.begin(), points.end(), [&](PointId a, PointId b) {
+        return std::pair(x_of(a), a) < std::pair(x_of(b), b);
+    });
+    std::vector<PointId> inside;
+    const std::size_t count = edges.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const BoundaryEdge e = edges[i];
+        const Approximation& a = bench.approximation(e.from);
+        const Approximation& b = bench.approximation(e.to);
+        const double slack = 1.0000001 * (a.error + b.error + widest);
+        const double x_lo = std::min(a.c[0], b.c[0]) - slack;
+        const double x_hi = std::max(a.c[0], b.c[0]) + slack;
+        const PlaneId support = facets[u(e.facet)].support;
+        const int along = longest_axis(a, b);
+        inside.clear();
+        auto it = std::lower_bound(points.begin(), points.end(), x_lo,
+                                   [&](PointId p, double x) { return x_of(p) < x; });
+        for (; it != points.end() && x_of(*it) <= x_hi; ++it) {
+            const PointId p = *it;
+            if (p == e.from || p == e.to) continue;
+            const Approximation& c = bench.approximation(p);
+            if (c.c[1] < std::min(a.c[1], b.c[1]) - slack ||
+                c.c[1] > std::max(a.c[1], b.c[1]) + slack ||
+                c.c[2] < std::min(a.c[2], b.c[2]) - slack ||
+                c.c[2] > std::max(a.c[2], b.c[2]) + slack)
+                continue;
+            if (lies_inside(bench, p, e, support, along)) inside.push_back(p);
+        }
+        if (inside.empty()) continue;
+        const int direction = compare_along(bench, e.from, e.to, along);
+        std::sort(inside.begin(), inside.end(), [&](PointId p, PointId q) {
+            return compare_along(bench, p, q, along) == direction && p != q;
+        });
+        PointId from = e.from;
+        for (std::size_t k = 0; k <= inside.size(); ++k) {
+            const PointId to = k < inside.size() ? inside[k] : e.to;
+            const BoundaryEdge part{from, to, e.facet, e.line};
+            if (k == 0) {
+                edges[i] = part;
+            } else {
+                edges.push_back(part);
+            }
+            from = to;
+        }
+    }
+}
+
+void gather_parts(const SolidState& solid, bool all, BoundaryParts& parts) {
+    Gatherer(all, parts).run(solid);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Joining: cancel what is inside a region, and drop the vertices that mean nothing.
+#pragma once
+
+#include <vector>
+
+#include <trisect/bsp/detail/assembly_parts.h>
+
+namespace trisect::detail {
+
+/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish. Where
+/// parts of neighbouring cells subdivide a common line differently, their ends are inserted first.
+/// The edges come out sorted by facet.
+/// \throw UnsupportedError when a part ends at the limit of space (an unbounded face).
+void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
+/// Renumbers `facet` of every edge to the smallest facet of its maximal face: facets in one oriented
+/// plane that share an edge are joined and the edge vanishes. The edges come out sorted by facet.
+void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
+/// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
+/// corners of the operands stay. \pre edges sorted by facet.
+void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
+                              std::vector<BoundaryEdge>& edges);
+
+}  // namespace trisect::detail

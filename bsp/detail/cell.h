@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boxes and cells of the partition.
+//
+// A wall lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies on one, and a
+// closed box of lattice points is on one side of a wall or truly crosses it. That makes closed cells
+// as good as half-open ones: nothing is listed twice because it ends at a wall.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <trisect/kernel/lattice_point.h>
+
+namespace trisect::detail {
+
+/// Closed box in lattice units; empty when lo > hi.
+struct Box {
+    std::array<std::int64_t, 3> lo{coordinate_limit, coordinate_limit, coordinate_limit};
+    std::array<std::int64_t, 3> hi{-coordinate_limit, -coordinate_limit, -coordinate_limit};
+
+    [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
+    void add(const LatticePoint& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], p[static_cast<int>(k)]);
+            hi[k] = std::max(hi[k], p[static_cast<int>(k)]);
+        }
+    }
+    void add(const Box& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], b.lo[k]);
+            hi[k] = std::max(hi[k], b.hi[k]);
+        }
+    }
+    [[nodiscard]] Box intersected(const Box& b) const {
+        Box r;
+        for (std::size_t k = 0; k < 3; ++k) {
+            r.lo[k] = std::max(lo[k], b.lo[k]);
+            r.hi[k] = std::min(hi[k], b.hi[k]);
+        }
+        return r;
+    }
+    [[nodiscard]] bool overlaps(const Box& b) const {
+        return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
+               lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
+    }
+    friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// Wall positions and reference points count in 1/256 of the lattice unit.
+inline constexpr int wall_bits = 8;
+inline constexpr std::int64_t wall_scale = std::int64_t{1} << wall_bits;
+/// Beyond every lattice point.
+inline constexpr std::int64_t universe_limit = (coordinate_limit + 16) * wall_scale + 1;
+
+/// A point with coordinates in 1/256 lattice units.
+struct FinePoint {
+    std::array<std::int64_t, 3> c{};
+    friend bool operator==(const FinePoint&, const FinePoint&) = default;
+};
+
+/// A box of the partition, bounded by walls; positions in 1/256 lattice units.
+struct Cell {
+    std::array<std::int64_t, 3> lo{-universe_limit, -universe_limit, -universe_limit};
+    std::array<std::int64_t, 3> hi{universe_limit, universe_limit, universe_limit};
+
+    /// The lattice points in the cell, as a box (empty when there is none).
+    [[nodiscard]] Box lattice_box() const {
+        Box b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.lo[k] = (lo[k] >> wall_bits) + 1;  // walls are never lattice positions
+            b.hi[k] = hi[k] >> wall_bits;
+        }
+        return b;
+    }
+    /// Whether a closed box of lattice points meets the cell.
+    [[nodiscard]] bool meets(const Box& b) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (b.hi[k] <= (lo[k] >> wall_bits) || b.lo[k] > (hi[k] >> wall_bits)) return false;
+        return true;
+    }
+    [[nodiscard]] bool contains(const Box& b) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (b.lo[k] <= (lo[k] >> wall_bits) || b.hi[k] > (hi[k] >> wall_bits)) return false;
+        return true;
+    }
+    [[nodiscard]] bool contains(const FinePoint& p) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (p.c[k] <= lo[k] || p.c[k] >= hi[k]) return false;
+        return true;
+    }
+    [[nodiscard]] Cell below(int axis, std::int64_t wall) const {
+        Cell c = *this;
+        c.hi[static_cast<std::size_t>(axis)] = wall;
+        return c;
+    }
+    [[nodiscard]] Cell above(int axis, std::int64_t wall) const {
+        Cell c = *this;
+        c.lo[static_cast<std::size_t>(axis)] = wall;
+        return c;
+    }
+};
+
+}  // namespace trisect::detail

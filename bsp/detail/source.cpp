@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/source.h>
+
+#include <cstdlib>
+#include <string>
+
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::uint64_t next_serial() {
+    static std::atomic<std::uint64_t> serial{0};
+    return ++serial;
+}
+
+}  // namespace
+
+std::shared_ptr<const Source> Source::share(Source* source) {
+    source->serial_ = next_serial();
+    source->retain();
+    return {source, [](const Source* s) { s->release(); }};
+}
+
+std::shared_ptr<const Source> Source::make(LatticeMesh mesh) {
+    auto* s = new Source;
+    auto shared = share(s);
+    s->mesh_ = std::move(mesh);
+    s->boxes_.resize(s->mesh_.triangles.size());
+    for (std::size_t i = 0; i < s->boxes_.size(); ++i) {
+        for (const std::uint32_t v : s->mesh_.triangles[i]) s->boxes_[i].add(s->mesh_.points[v]);
+        s->box_.add(s->boxes_[i]);
+    }
+    return shared;
+}
+
+std::shared_ptr<const Source> Source::half_space(const Plane& plane, Lattice lattice) {
+    auto* s = new Source;
+    auto shared = share(s);
+    s->half_space_ = true;
+    s->plane_ = plane;
+    s->mesh_.lattice = lattice;
+    s->box_.lo.fill(-coordinate_limit);
+    s->box_.hi.fill(coordinate_limit);
+    s->boxes_.push_back(s->box_);
+    return shared;
+}
+
+Plane Source::support(std::uint32_t facet) const {
+    if (half_space_) return plane_;
+    return Plane::through(corner(facet, 0), corner(facet, 1), corner(facet, 2));
+}
+
+Plane Source::edge_plane(std::uint32_t facet, int i) const {
+    const LatticePoint& a = corner(facet, i);
+    const LatticePoint& b = corner(facet, (i + 1) % 3);
+    const Plane p = Plane::along_axis(a, b, support(facet).dominant_axis());
+    return side_of(corner(facet, (i + 2) % 3), p) == Side::Above ? p.flipped() : p;
+}
+
+std::shared_ptr<const Source> Source::refined(int exponent) const {
+    const int shift = mesh_.lattice.exponent - exponent;
+    TRISECT_EXPECTS(shift >= 0, "a source can only move to a finer lattice");
+    if (half_space_) {
+        TRISECT_EXPECTS(shift <= 48, "half-space on a much finer lattice");
+        const Plane p(plane_.normal(0), plane_.normal(1), plane_.normal(2),
+                      plane_.offset().shifted_left(shift));
+        return half_space(p, Lattice{exponent});
+    }
+    LatticeMesh fine = mesh_;
+    fine.lattice.exponent = exponent;
+    for (LatticePoint& p : fine.points) {
+        for (const std::int64_t c : {p.x, p.y, p.z}) {
+            if (shift >= coordinate_bits || std::abs(c) >= (coordinate_limit >> shift))
+                throw LimitError("a vertex leaves the range of the common lattice of unit 2^" +
+                                 std::to_string(exponent));
+        }
+        p = {p.x << shift, p.y << shift, p.z << shift};
+    }
+    return make(std::move(fine));
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Source: what the polygons of a cell tree refer to. A tree stores names (source, facet); corners
+// and planes are looked up here, and planes are made on demand, near the cuts only.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/lattice_mesh.h>
+#include <trisect/bsp/detail/cell.h>
+#include <trisect/kernel/plane.h>
+
+namespace trisect::detail {
+
+/// The facets of one imported mesh, or the one unbounded facet of a half-space. Immutable.
+///
+/// `serial` orders sources by their time of creation. Reference-counted by the polygons that name
+/// it, so that a long chain of operations keeps exactly the sources that are still visible.
+class Source {
+public:
+    static std::shared_ptr<const Source> make(LatticeMesh mesh);
+    /// The half-space below `plane`.
+    static std::shared_ptr<const Source> half_space(const Plane& plane, Lattice lattice);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
+    void retain() const { count_.fetch_add(1, std::memory_order_relaxed); }
+    void release() const {
+        if (count_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+    }
+
+    [[nodiscard]] std::uint64_t serial() const { return serial_; }
+    [[nodiscard]] bool is_half_space() const { return half_space_; }
+    [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }
+    [[nodiscard]] const LatticeMesh& mesh() const { return mesh_; }
+    [[nodiscard]] std::uint32_t facet_count() const {
+        return half_space_ ? 1 : static_cast<std::uint32_t>(mesh_.triangles.size());
+    }
+    [[nodiscard]] const LatticePoint& corner(std::uint32_t facet, int i) const {
+        return mesh_.points[mesh_.triangles[facet][static_cast<std::size_t>(i)]];
+    }
+    [[nodiscard]] std::uint32_t corner_index(std::uint32_t facet, int i) const {
+        return mesh_.triangles[facet][static_cast<std::size_t>(i)];
+    }
+    [[nodiscard]] const Box& facet_box(std::uint32_t facet) const { return boxes_[facet]; }
+    [[nodiscard]] const Box& box() const { return box_; }
+
+    [[nodiscard]] Plane support(std::uint32_t facet) const;
+    /// The plane through edge i (corner i to corner i+1) that is parallel to the dominant axis of
+    /// the support; the facet lies below it.
+    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const;
+
+    /// The same facets on the lattice of exponent `exponent`, which must be finer. Names keep their
+    /// meaning. \throw LimitError when coordinates leave the lattice's range.
+    [[nodiscard]] std::shared_ptr<const Source> refined(int exponent) const;
+
+private:
+    Source() = default;
+    ~Source() = default;
+    static std::shared_ptr<const Source> share(Source* source);
+
+    LatticeMesh mesh_;
+    bool half_space_ = false;
+    Plane plane_;
+    std::vector<Box> boxes_;
+    Box box_;
+    std::uint64_t serial_ = 0;
+    mutable std::atomic<std::uint32_t> count_{0};
+};
+
+}  // namespace trisect::detail

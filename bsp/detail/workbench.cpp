@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/workbench.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/counters.h>
+
+namespace trisect::detail {
+
+void Workbench::clear() {
+    planes_.clear();
+    names_.clear();
+    class_.clear();
+    points_.clear();
+    plane_ids_.clear();
+    corner_ids_.clear();
+    line_ids_.clear();
+    point_ids_.clear();
+    line_of_.clear();
+}
+
+PlaneId Workbench::plane(const PlaneName& name) {
+    const Key128 key{name.owner, (std::uint64_t{name.kind} << 32) | name.facet};
+    const auto next = static_cast<PlaneId>(planes_.size());
+    const auto [id, inserted] = plane_ids_.insert(key, next);
+    if (inserted) {
+        planes_.push_back(name.plane());
+        names_.push_back(name);
+        class_.push_back(next);
+        line_of_.push_back(-1);
+    }
+    return id;
+}
+
+void Workbench::declare_same(PlaneId a, PlaneId b) {
+    const PlaneId ca = plane_class(a);
+    const PlaneId cb = plane_class(b);
+    class_[u(std::max(ca, cb))] = std::min(ca, cb);
+}
+
+PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
+    const Key128 key{reinterpret_cast<std::uintptr_t>(source), source->corner_index(facet, i)};
+    const auto next = static_cast<PointId>(points_.size());
+    const auto [id, inserted] = corner_ids_.insert(key, next);
+    if (inserted) {
+        const LatticePoint& p = source->corner(facet, i);
+        points_.push_back(
+            {{-1, -1, -1}, p, approximate(p), source, source->corner_index(facet, i)});
+    }
+    return id;
+}
+
+// What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
+// source, which both of its facets know.
+std::uint64_t Workbench::line_item(PlaneId p) {
+    const PlaneName& n = names_[u(p)];
+    if (!n.is_edge()) return static_cast<std::uint64_t>(p);
+    if (line_of_[u(p)] < 0) {
+        const auto v = n.source()->corner_index(n.facet, static_cast<int>(n.kind));
+        const auto w = n.source()->corner_index(n.facet, static_cast<int>((n.kind + 1) % 3));
+        const Key128 key{n.owner, (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
+        line_of_[u(p)] =
+            line_ids_.insert(key, static_cast<std::int32_t>(line_ids_.size())).first;
+    }
+    return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(line_of_[u(p)]);
+}
+
+Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
+    std::array<std::uint64_t, 3> items{line_item(p), line_item(q), line_item(r)};
+    std::sort(items.begin(), items.end());
+    const bool has_line = items[2] >> 32 != 0;
+    // A line and one more item name the point; the plane that carries the line adds nothing, and it
+    // is the smallest item when the other one is a line too. With one line the two planes are the
+    // facet that the line belongs to and what meets it: only the latter may stay.
+    if (!has_line) return {items[0] | (items[1] << 33), items[2] | (std::uint64_t{1} << 63)};
+    if (items[1] >> 32 != 0) return {items[1], items[2]};
+    const PlaneId line_plane = line_item(p) == items[2] ? p : (line_item(q) == items[2] ? q : r);
+    const PlaneName& line = names_[u(line_plane)];
+    const auto carries = [&](std::uint64_t item) {
+        return names_[item] == PlaneName::support(line.source(), line.facet);
+    };
+    if (carries(items[0])) return {items[1], items[2]};
+    if (carries(items[1])) return {items[0], items[2]};
+    return {items[0] | (items[1] << 33), items[2]};
+}
+
+PointId Workbench::meet(PlaneId p, PlaneId q, PlaneId r) {
+    const auto next = static_cast<PointId>(points_.size());
+    const auto [id, inserted] = point_ids_.insert(point_key(p, q, r), next);
+    if (inserted)
+        points_.push_back({{p, q, r},
+                           {},
+                           approximate(plane_at(p), plane_at(q), plane_at(r)),
+                           nullptr,
+                           0});
+    return id;
+}
+
+HomogeneousPoint Workbench::homogeneous(PointId id) const {
+    const PointRecord& r = points_[u(id)];
+    if (r.planes[0] < 0)
+        return {{WideInt<7>(r.lattice.x), WideInt<7>(r.lattice.y), WideInt<7>(r.lattice.z)},
+                WideInt<6>(1)};
+    const auto h = intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
+    TRISECT_EXPECTS(h.has_value(), "a point of planes that do not meet in one");
+    return *h;
+}
+
+Point Workbench::point(PointId id) const {
+    const PointRecord& r = points_[u(id)];
+    if (r.planes[0] < 0) return Point(r.lattice);
+    return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
+}
+
+int Workbench::side(PointId point, PlaneId plane) const {
+    const PointRecord& r = points_[u(point)];
+    const Plane& p = plane_at(plane);
+    auto& counters = predicate_counters();
+    if (r.planes[0] < 0) return sign_of(side_of(r.lattice, p));
+    const PlaneId c = plane_class(plane);
+    for (const PlaneId q : r.planes) {
+        if (q == plane || plane_class(q) == c) {
+            ++counters.symbolic;
+            return 0;
+        }
+    }
+    return sign_of(side_of(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
+                           plane_at(r.planes[2]), p));
+}
+
+bool Workbench::same_point(PointId a, PointId b) const {
+    if (a == b) return true;
+    const PointRecord& ra = points_[u(a)];
+    const PointRecord& rb = points_[u(b)];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double gap = std::fabs(ra.approximation.c[k] - rb.approximation.c[k]);
+        if (gap > 1.0000001 * (ra.approximation.error + rb.approximation.error)) return false;
+    }
+    if (ra.planes[0] < 0 && rb.planes[0] < 0) return ra.lattice == rb.lattice;
+    const PointRecord& named = ra.planes[0] < 0 ? rb : ra;
+    const PointId other = ra.planes[0] < 0 ? a : b;
+    return std::all_of(named.planes.begin(), named.planes.end(),
+                       [&](PlaneId p) { return side(other, p) == 0; });
+}
+
+WorkPolygon Workbench::polygon(const PolygonRef& ref) {
+    WorkPolygon w;
+    w.support = plane(PlaneName::support(ref.source, ref.facet));
+    if (ref.fragment == nullptr) {
+        if (ref.source->is_half_space()) return w;  // unbounded: clipped by its cell before use
+        for (int i = 0; i < 3; ++i) w.points.push_back(corner(ref.source, ref.facet, i));
+        return w;
+    }
+    const auto edges = ref.fragment->edges();
+    for (const EdgeName& e : edges) w.edges.push_back({plane(e.plane), e.above});
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const EdgeName& before = edges[(i + edges.size() - 1) % edges.size()];
+        const EdgeName& after = edges[i];
+        const auto own = [&](const EdgeName& e) {
+            return e.plane.is_edge() && e.plane.source() == ref.source && e.plane.facet == ref.facet;
+        };
+        if (own(before) && own(after)) {
+            w.points.push_back(corner(ref.source, ref.facet, static_cast<int>(after.plane.kind)));
+        } else {
+            const PlaneId p = w.edges[(i + edges.size() - 1) % edges.size()].plane;
+            w.points.push_back(meet(w.support, p, w.edges[i].plane));
+        }
+    }
+    return w;
+}
+
+void Workbench::with_edges(WorkPolygon& polygon, const PolygonRef& ref) {
+    if (!polygon.edges.empty() || ref.source->is_half_space()) return;
+    for (int i = 0; i < 3; ++i)
+        polygon.edges.push_back({plane(PlaneName::edge(ref.source, ref.facet, i)), false});
+}
+
+void Workbench::sides_of(const WorkPolygon& polygon, PlaneId plane) {
+    sides_.clear();
+    for (const PointId p : polygon.points) sides_.push_back(side(p, plane));
+}
+
+bool Workbench::split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& below,
+                      WorkPolygon& above) {
+    sides_of(polygon, plane);
+    if (std::find(sides_.begin(), sides_.end(), 1) == sides_.end()) return false;
+    if (std::find(sides_.begin(), sides_.end(), -1) == sides_.end()) return false;
+    below = {polygon.support, {}, {}};
+    above = {polygon.support, {}, {}};
+    const std::size_t n = polygon.points.size();
+    // Walk once around. A point goes to the parts it touches; where the walk leaves a part along the
+    // cut, that part gets an edge on the cutting plane.
+    for (std::size_t i = 0; i < n; ++i) {
+        const int here = sides_[i];
+        const int next = sides_[(i + 1) % n];
+        const PointId p = polygon.points[i];
+        const WorkEdge& e = polygon.edges[i];
+        const auto add = [](WorkPolygon& w, PointId point, WorkEdge edge) {
+            w.points.push_back(point);
+            w.edges.push_back(edge);
+        };
+        if (here < 0) add(below, p, e);
+        if (here > 0) add(above, p, e);
+        if (here == 0) {
+            // The next strict side tells which part continues along e; the other turns into the cut.
+            if (next < 0) {
+                add(below, p, e);
+                add(above, p, {plane, true});
+            } else {
+                add(above, p, e);
+                add(below, p, {plane, false});
+            }
+        } else if (here * next < 0) {
+            const PointId x = meet(polygon.support, e.plane, plane);
+            if (next < 0) {
+                add(below, x, e);
+                add(above, x, {plane, true});
+            } else {
+                add(above, x, e);
+                add(below, x, {plane, false});
+            }
+        }
+    }
+    return true;
+}
+
+WorkPolygon Workbench::clipped(const WorkPolygon& polygon, PlaneId plane, int keep) {
+    WorkPolygon below;
+    WorkPolygon above;
+    if (split(polygon, plane, below, above)) return keep < 0 ? below : above;
+    // Not cut: all of it is on one side; `sides_` still holds the sides.
+    const bool outside = std::find(sides_.begin(), sides_.end(), -keep) != sides_.end();
+    return outside ? WorkPolygon{polygon.support, {}, {}} : polygon;
+}
+
+WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
+    // Seen along the dominant axis k the other two axes j, l span the plane, and the walls of the
+    // cell across them cut out a quadrilateral.
+    const Plane& s = plane_at(support);
+    const int k = s.dominant_axis();
+    const int j = (k + 1) % 3;
+    const int l = (k + 2) % 3;
+    const auto wall = [&](int axis, bool high) {
+        const auto i = static_cast<std::size_t>(axis);
+        return WorkEdge{plane(PlaneName::wall(axis, high ? cell.hi[i] : cell.lo[i])), !high};
+    };
+    WorkPolygon w;
+    w.support = support;
+    w.edges = {wall(l, false), wall(j, true), wall(l, true), wall(j, false)};
+    if (plane_at(support).normal(k) < 0) std::reverse(w.edges.begin(), w.edges.end());
+    for (std::size_t i = 0; i < 4; ++i)
+        w.points.push_back(meet(support, w.edges[(i + 3) % 4].plane, w.edges[i].plane));
+    return w;
+}
+
+WorkPolygon Workbench::clipped(const WorkPolygon& polygon, const Box& box, const Cell& cell) {
+    WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : polygon;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        if (box.lo[k] <= (cell.lo[k] >> wall_bits))
+            w = clipped(w, plane(PlaneName::wall(axis, cell.lo[k])), 1);
+        if (w.is_empty()) return w;
+        if (box.hi[k] > (cell.hi[k] >> wall_bits))
+            w = clipped(w, plane(PlaneName::wall(axis, cell.hi[k])), -1);
+        if (w.is_empty()) return w;
+    }
+    return w;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Workbench: the planes and points that one leaf arrangement or one assembly works on, by small ids.
+//
+// Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids; planes
+// found to be the same point set share a class. Points are corners of sources or triples of planes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/flat_map.h>
+#include <trisect/kernel/point.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::detail {
+
+using PlaneId = std::int32_t;
+using PointId = std::int32_t;
+
+struct WorkEdge {
+    PlaneId plane = -1;
+    bool above = false;  ///< the polygon lies above the plane instead of below
+};
+
+/// A convex polygon in the making: `points[i]` is the start of edge i. Counter-clockwise seen from
+/// above the support, strictly convex.
+struct WorkPolygon {
+    PlaneId support = -1;
+    std::vector<WorkEdge> edges;
+    std::vector<PointId> points;
+    [[nodiscard]] bool is_empty() const { return points.empty(); }
+};
+
+class Workbench {
+public:
+    void clear();
+
+    PlaneId plane(const PlaneName& name);
+    [[nodiscard]] const Plane& plane_at(PlaneId id) const { return planes_[u(id)]; }
+    [[nodiscard]] const PlaneName& name(PlaneId id) const { return names_[u(id)]; }
+    /// Records that two planes are the same point set.
+    void declare_same(PlaneId a, PlaneId b);
+    [[nodiscard]] PlaneId plane_class(PlaneId id) const {
+        while (class_[u(id)] != id) id = class_[u(id)];
+        return id;
+    }
+
+    PointId corner(const Source* source, std::uint32_t facet, int i);
+    /// The common point of three planes. Found by name when it was made before: from the same three
+    /// planes, or as the point where the same edge of a source meets the same plane. Equal points may
+    /// still have several names (see same_point). \pre the planes meet in one point.
+    PointId meet(PlaneId p, PlaneId q, PlaneId r);
+    [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+    [[nodiscard]] bool is_corner(PointId id) const { return points_[u(id)].planes[0] < 0; }
+    /// \pre is_corner(id)
+    [[nodiscard]] std::pair<const Source*, std::uint32_t> corner_name(PointId id) const {
+        return {points_[u(id)].source, points_[u(id)].vertex};
+    }
+    [[nodiscard]] const LatticePoint& lattice(PointId id) const { return points_[u(id)].lattice; }
+    [[nodiscard]] const std::array<PlaneId, 3>& planes_of(PointId id) const {
+        return points_[u(id)].planes;
+    }
+    [[nodiscard]] const Approximation& approximation(PointId id) const {
+        return points_[u(id)].approximation;
+    }
+    [[nodiscard]] HomogeneousPoint homogeneous(PointId id) const;
+    [[nodiscard]] Point point(PointId id) const;
+    /// Exact equality.
+    [[nodiscard]] bool same_point(PointId a, PointId b) const;
+
+    /// -1 below, 0 on, 1 above: symbolic, filtered, exact.
+    [[nodiscard]] int side(PointId point, PlaneId plane) const;
+
+    /// The polygon that a reference names, unclipped. Edges of whole facets carry their planes only
+    /// after with_edges().
+    [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
+    void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
+
+    /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above); empty
+    /// when that part has no area. \pre the plane is not the support's.
+    [[nodiscard]] WorkPolygon clipped(const WorkPolygon& polygon, PlaneId plane, int keep);
+    /// Both parts; false, and nothing written, when the plane does not cut the interior.
+    bool split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& below, WorkPolygon& above);
+    /// The part of the polygon in the closed cell; empty when it has no area. The polygon needs its
+    /// edges; one without points stands for the whole plane of its support.
+    [[nodiscard]] WorkPolygon clipped(const WorkPolygon& polygon, const Box& box, const Cell& cell);
+
+private:
+    struct PointRecord {
+        std::array<PlaneId, 3> planes{-1, -1, -1};
+        LatticePoint lattice;
+        Approximation approximation;
+        const Source* source = nullptr;  // of a corner
+        std::uint32_t vertex = 0;
+    };
+    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+    [[nodiscard]] std::uint64_t line_item(PlaneId p);
+    [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
+    void sides_of(const WorkPolygon& polygon, PlaneId plane);
+    [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
+
+    std::vector<Plane> planes_;
+    std::vector<PlaneName> names_;
+    std::vector<PlaneId> class_;
+    std::vector<PointRecord> points_;
+    FlatMap plane_ids_;
+    FlatMap corner_ids_;
+    FlatMap line_ids_;
+    FlatMap point_ids_;
+    std::vector<std::int32_t> line_of_;  // of edge planes: the source's edge, -1 not looked up
+    std::vector<int> sides_;  // scratch of split
+};
+
+}  // namespace trisect::detail

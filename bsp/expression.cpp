@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/expression.h>
+
+#include <array>
+#include <utility>
+
+namespace trisect {
+
+Expression::Node::~Node() {
+    // Children that nobody else holds are taken apart here, one by one, so that a chain of a hundred
+    // thousand operations does not recurse a hundred thousand times.
+    std::vector<std::shared_ptr<const Node>> doomed = std::move(children);
+    while (!doomed.empty()) {
+        std::shared_ptr<const Node> n = std::move(doomed.back());
+        doomed.pop_back();
+        if (n.use_count() != 1) continue;
+        auto& inner = const_cast<Node&>(*n).children;  // nobody else can see it any more
+        for (auto& c : inner) doomed.push_back(std::move(c));
+        inner.clear();
+    }
+}
+
+Expression::Expression(const Solid& solid) {
+    auto n = std::make_shared<Node>();
+    n->solid = solid;
+    root_ = std::move(n);
+}
+
+Expression Expression::combine(Kind kind, std::span<const Expression> terms) {
+    auto n = std::make_shared<Node>();
+    n->kind = kind;
+    n->children.reserve(terms.size());
+    for (const Expression& t : terms) n->children.push_back(t.root_);
+    return Expression(std::shared_ptr<const Node>(std::move(n)));
+}
+
+Expression operator|(const Expression& a, const Expression& b) {
+    return Expression::combine(Expression::Kind::Or, std::array{a, b});
+}
+Expression operator&(const Expression& a, const Expression& b) {
+    return Expression::combine(Expression::Kind::And, std::array{a, b});
+}
+Expression operator-(const Expression& a, const Expression& b) { return a & ~b; }
+Expression operator^(const Expression& a, const Expression& b) {
+    return Expression::combine(Expression::Kind::Xor, std::array{a, b});
+}
+Expression operator~(const Expression& a) {
+    return Expression::combine(Expression::Kind::Not, std::array{a});
+}
+
+Expression Expression::any_of(std::span<const Expression> terms) {
+    return combine(Kind::Or, terms);
+}
+Expression Expression::all_of(std::span<const Expression> terms) {
+    return combine(Kind::And, terms);
+}
+
+}  // namespace trisect

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Expression: a boolean formula over solids. Nothing is computed before evaluate(), which then works
+// on the whole formula in one pass, without intermediate solids.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/solid.h>
+
+namespace trisect {
+
+/// Immutable value; copying shares. Operators follow set notation:
+///   a | b union, a & b intersection, a - b difference, a ^ b symmetric difference, ~a complement.
+/// All results are regularised: the closure of the interior.
+class Expression {
+public:
+    enum class Kind : std::uint8_t { Leaf, Not, And, Or, Xor };
+    struct Node {
+        Kind kind = Kind::Leaf;
+        Solid solid;  ///< of a leaf
+        std::vector<std::shared_ptr<const Node>> children;
+        Node() = default;
+        Node(const Node&) = delete;
+        Node& operator=(const Node&) = delete;
+        ~Node();  // iterative: chains may be long
+    };
+
+    Expression(const Solid& solid);  // NOLINT(google-explicit-constructor): a solid is a formula
+
+    [[nodiscard]] const std::shared_ptr<const Node>& root() const { return root_; }
+
+    friend Expression operator|(const Expression& a, const Expression& b);
+    friend Expression operator&(const Expression& a, const Expression& b);
+    friend Expression operator-(const Expression& a, const Expression& b);
+    friend Expression operator^(const Expression& a, const Expression& b);
+    friend Expression operator~(const Expression& a);
+
+    /// The union, or intersection, of any number of formulas in one node.
+    [[nodiscard]] static Expression any_of(std::span<const Expression> terms);
+    [[nodiscard]] static Expression all_of(std::span<const Expression> terms);
+
+private:
+    explicit Expression(std::shared_ptr<const Node> root) : root_(std::move(root)) {}
+    static Expression combine(Kind kind, std::span<const Expression> terms);
+    std::shared_ptr<const Node> root_;
+};
+
+// Declared for the namespace as well, so that operators on plain solids are found.
+[[nodiscard]] Expression operator|(const Expression& a, const Expression& b);
+[[nodiscard]] Expression operator&(const Expression& a, const Expression& b);
+[[nodiscard]] Expression operator-(const Expression& a, const Expression& b);
+[[nodiscard]] Expression operator^(const Expression& a, const Expression& b);
+[[nodiscard]] Expression operator~(const Expression& a);
+
+/// How evaluate() works; the set that results never depends on it.
+struct EvaluateOptions {
+    /// A cell with at most this many polygons is resolved instead of refined.
+    std::uint32_t leaf_polygons = 25;
+    /// Offset of walls from lattice positions in 1/256 units; odd. For tests of vertices on walls.
+    std::uint32_t wall_offset = 83;
+    /// What counts as inside an operand that covers itself several times.
+    enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
+};
+
+/// What one evaluation did.
+struct EvaluateStats {
+    std::uint64_t cells = 0;            ///< visited
+    std::uint64_t shared_cells = 0;     ///< one operand left: subtree shared
+    std::uint64_t constant_cells = 0;   ///< homogeneous result
+    std::uint64_t mixed_leaves = 0;     ///< resolved by a local arrangement
+    std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
+    std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
+    std::uint64_t pairs_cutting = 0;    ///< of them, pairs where one cuts the other
+    std::uint64_t pieces = 0;           ///< convex pieces made in mixed leaves
+    std::uint64_t traces = 0;           ///< winding numbers found by a segment trace
+    std::uint64_t traces_retried = 0;   ///< degenerate segments
+    int depth = 0;
+};
+
+/// The set that the formula describes. Exact. Never fails for valid operands.
+/// \throw LimitError when the operands have no common lattice.
+[[nodiscard]] Solid evaluate(const Expression& expression, const EvaluateOptions& options = {},
+                             EvaluateStats* stats = nullptr);
+
+}  // namespace trisect

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/solid.h>
+
+#include <utility>
+
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/solid_state.h>
+
+namespace trisect {
+
+namespace {
+
+using detail::CellNode;
+using detail::FinePoint;
+using detail::PolygonList;
+using detail::SolidState;
+
+std::shared_ptr<const SolidState> constant_state(bool inside) {
+    auto s = std::make_shared<SolidState>();
+    s->root = {CellNode::leaf(PolygonList(), FinePoint{}, inside ? 1 : 0, false), false};
+    s->lattice_matters = false;
+    return s;
+}
+
+// Two units beyond the corner of a box, at even positions with different fractions along the axes,
+// so that segments between such points meet few edges and vertices of integer models.
+FinePoint beyond(const detail::Box& box) {
+    FinePoint p;
+    for (std::size_t k = 0; k < 3; ++k)
+        p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * detail::wall_scale +
+                 static_cast<std::int64_t>(12 + 22 * k);
+    return p;
+}
+
+bool is_constant(const SolidState& s, bool inside) {
+    const CellNode& n = *s.root.node;
+    return n.is_leaf() && n.polygons().empty() &&
+           ((n.winding() > 0) != s.root.complemented) == inside;
+}
+
+}  // namespace
+
+Solid::Solid() {
+    static const auto empty = constant_state(false);
+    state_ = empty;
+}
+
+Solid Solid::whole_space() {
+    static const auto whole = constant_state(true);
+    return Solid(whole);
+}
+
+Solid Solid::half_space(const Plane& plane, Lattice lattice) {
+    if (!plane.is_valid()) throw UsageError("half-space of a plane without normal");
+    const auto source = detail::Source::half_space(plane, lattice);
+    // Some point that is not on the plane.
+    FinePoint p;
+    int s = 0;
+    for (std::int64_t k = 1; s == 0; ++k) {
+        p.c = {2 * k, 6 * k * k, 10 * k * k * k};
+        s = sign_of(side_of({{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
+                             WideInt<6>(detail::wall_scale)},
+                            plane));
+    }
+    auto state = std::make_shared<SolidState>();
+    state->lattice = lattice;
+    state->root = {CellNode::fresh(*source, p, s < 0 ? 1 : 0, false), false};
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
+    if (mesh.triangles.empty()) return {};
+    const Lattice lattice = mesh.lattice;
+    const auto source = detail::Source::make(std::move(mesh));
+    auto state = std::make_shared<SolidState>();
+    state->lattice = lattice;
+    state->root = {CellNode::fresh(*source, beyond(source->box()), 0, false), false};
+    state->embedded = embedding == Embedding::Assume;
+    state->source = source->serial();
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
+    ImportOptions import = options.import;
+    import.require_closed = true;
+    return from_import(import_mesh(mesh, import), options.embedding);
+}
+
+Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
+    if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
+    if (imported.mesh.triangles.empty()) return {};
+    const bool t_edges = imported.report.t_edges != 0;
+    Solid s = from_lattice_mesh(std::move(imported.mesh), embedding);
+    if (!t_edges) return s;
+    // Corners inside edges: no cell may take its facets for conforming.
+    auto state = std::make_shared<SolidState>(*s.state_);
+    const CellNode& n = *s.state_->root.node;
+    const auto refs = n.polygons();
+    state->root = {CellNode::leaf(PolygonList({refs.begin(), refs.end()}), n.reference(),
+                                  n.winding(), true),
+                   false};
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Lattice Solid::lattice() const { return state_->lattice; }
+bool Solid::is_empty() const { return is_constant(*state_, false); }
+bool Solid::is_whole_space() const { return is_constant(*state_, true); }
+std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state_->source); }
+
+Brep Solid::to_brep(const AssembleOptions& options) const {
+    return detail::assemble_brep(*state_, options);
+}
+
+PolygonMesh Solid::to_mesh() const { return detail::assemble_mesh(*state_); }
+
+}  // namespace trisect

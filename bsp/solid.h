@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Solid: a regularised set of points bounded by planar polygons; the value type of the library.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/kernel/lattice.h>
+#include <trisect/kernel/plane.h>
+
+namespace trisect {
+
+namespace detail {
+struct SolidState;
+}
+
+/// What is known about self-intersection of an imported boundary.
+enum class Embedding : std::uint8_t {
+    Assume,  ///< taken to be free of self-intersection: only cells where operands meet are resolved
+    Resolve  ///< may intersect, cover or contain itself: every cell is resolved
+};
+
+struct SolidOptions {
+    ImportOptions import;
+    Embedding embedding = Embedding::Assume;
+};
+
+struct AssembleOptions {
+    /// Join coplanar neighbours into maximal faces with holes; otherwise each face is what is left
+    /// of one face of an operand.
+    bool maximal_faces = true;
+};
+
+/// An immutable set, O(1) to copy, safe to read from many threads.
+///
+/// It may be empty, unbounded (half-space, complement) or the whole space. It is the closure of its
+/// interior; its boundary is not part of the information in any other way. Inside is where the
+/// winding number of the imported boundary is positive.
+class Solid {
+public:
+    /// The empty set.
+    Solid();
+    [[nodiscard]] static Solid whole_space();
+    /// The points below the plane.
+    [[nodiscard]] static Solid half_space(const Plane& plane, Lattice lattice = {});
+    /// \throw InvalidSolid when the mesh is not closed and oriented.
+    [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
+    /// The same for a mesh that was imported before. \throw InvalidSolid when it is not closed.
+    [[nodiscard]] static Solid from_import(ImportedMesh imported,
+                                           Embedding embedding = Embedding::Assume);
+    /// \pre the mesh is closed and oriented, corner by corner.
+    [[nodiscard]] static Solid from_lattice_mesh(LatticeMesh mesh,
+                                                 Embedding embedding = Embedding::Assume);
+
+    [[nodiscard]] Lattice lattice() const;
+    /// Of a solid made from a mesh: what FaceSource::operand of its faces will be in every result.
+    [[nodiscard]] std::uint32_t source_id() const;
+    /// True for the empty set. O(1) for results of evaluate().
+    [[nodiscard]] bool is_empty() const;
+    /// True for sets that contain everything far away.
+    [[nodiscard]] bool is_whole_space() const;
+
+    /// The boundary. Assembled anew at every call; costs O(n log n) in the faces.
+    /// \throw UnsupportedError when the boundary is unbounded (a half-space).
+    [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
+    /// Triangles with correctly rounded coordinates. Untouched facets are copied.
+    [[nodiscard]] PolygonMesh to_mesh() const;
+
+    [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const { return state_; }
+    explicit Solid(std::shared_ptr<const detail::SolidState> state) : state_(std::move(state)) {}
+
+private:
+    std::shared_ptr<const detail::SolidState> state_;
+};
+
+}  // namespace trisect
