@@ -24,9 +24,11 @@ struct MeshMap {
 
 /// The boundary with correctly rounded coordinates in the user's units.
 ///
-/// Vertex v of the mesh is vertex v of the Brep, so copies at a contact stay apart and the mesh is
-/// a manifold; faces keep their order. Rounding can make small faces degenerate or let them
-/// intersect: the connectivity is exact, the coordinates are the nearest ones.
+/// Vertex v of the mesh is vertex v of the Brep, so copies at a contact stay apart; faces keep
+/// their order. Every directed edge of the mesh occurs once, except where two copies of an edge
+/// join the same vertices (see Brep): indices alone cannot tell those apart. Rounding can make
+/// small faces degenerate or let them intersect: the connectivity is exact, the coordinates are the
+/// nearest ones.
 [[nodiscard]] PolygonMesh to_polygon_mesh(const Brep& brep, MeshOptions options = {},
                                           MeshMap* map = nullptr);
 
