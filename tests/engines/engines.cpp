@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "engines.h"
+
+#include <map>
+#include <set>
+
+namespace engines {
+
+namespace {
+
+template <int N>
+reference::Integer integer(const trisect::WideInt<N>& v) {
+    const bool negative = v.is_negative();
+    const trisect::WideInt<N> a = v.abs();
+    reference::Integer r = 0;
+    for (int i = N - 1; i >= 0; --i) {
+        r <<= 32;
+        r += static_cast<unsigned long>(a.limb(i) >> 32);
+        r <<= 32;
+        r += static_cast<unsigned long>(a.limb(i) & 0xffffffffU);
+    }
+    if (negative) r = -r;
+    return r;
+}
+
+reference::Point3 rational_point(const trisect::Point& p) {
+    const trisect::HomogeneousPoint h = p.homogeneous();
+    reference::Point3 out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out[k] = reference::Rational(integer(h.xyz[k]), integer(h.w));
+        out[k].canonicalize();
+    }
+    return out;
+}
+
+}  // namespace
+
+trisect::LatticeMesh lattice_mesh(const reference::Operand& operand) {
+    trisect::LatticeMesh mesh;
+    std::map<std::array<std::int64_t, 3>, std::uint32_t> index;
+    for (const auto& t : operand) {
+        std::array<std::uint32_t, 3> corners{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::array<std::int64_t, 3> p{t[i][0], t[i][1], t[i][2]};
+            const auto [at, inserted] =
+                index.insert({p, static_cast<std::uint32_t>(mesh.points.size())});
+            if (inserted) mesh.points.push_back({p[0], p[1], p[2]});
+            corners[i] = at->second;
+        }
+        mesh.triangles.push_back(corners);
+    }
+    return mesh;
+}
+
+trisect::Solid solid(const reference::Operand& operand, trisect::Embedding embedding) {
+    return trisect::Solid::from_lattice_mesh(lattice_mesh(operand), embedding);
+}
+
+trisect::Expression formula(const reference::Expression& expression,
+                            const std::vector<trisect::Solid>& solids) {
+    using Kind = reference::Expression::Kind;
+    if (expression.kind == Kind::Leaf) return solids[expression.operand];
+    trisect::Expression out = formula(expression.children[0], solids);
+    if (expression.kind == Kind::Complement) return ~out;
+    for (std::size_t i = 1; i < expression.children.size(); ++i) {
+        const trisect::Expression next = formula(expression.children[i], solids);
+        switch (expression.kind) {
+            case Kind::Union: out = out | next; break;
+            case Kind::Intersection: out = out & next; break;
+            case Kind::Difference: out = out - next; break;
+            default: out = out ^ next; break;
+        }
+    }
+    return out;
+}
+
+std::vector<reference::Polygon> polygons(const trisect::Brep& brep) {
+    std::vector<reference::Polygon> out;
+    for (const trisect::FaceId f : brep.faces()) {
+        const trisect::Plane& p = brep.plane(f);
+        const auto coefficient = [&](int i) { return integer(trisect::WideInt<2>(p.normal(i))); };
+        reference::Polygon polygon{
+            {coefficient(0), coefficient(1), coefficient(2), integer(p.offset())}, {}};
+        for (const trisect::LoopId l : brep.loops(f)) {
+            auto& loop = polygon.loops.emplace_back();
+            for (const trisect::HalfedgeId h : brep.halfedges(l))
+                loop.push_back(rational_point(brep.point(brep.origin(h))));
+        }
+        out.push_back(std::move(polygon));
+    }
+    return out;
+}
+
+std::string difference(const trisect::Brep& brep, const reference::CanonicalBoundary& expected) {
+    const auto found = reference::canonical_boundary(polygons(brep));
+    if (std::string why = reference::explain_difference(found, expected); !why.empty()) return why;
+    // Vertices: exactly the real ones, and those where separate sheets merely touch.
+    std::set<reference::Point3> used;
+    for (const trisect::VertexId v : brep.vertices()) used.insert(rational_point(brep.point(v)));
+    for (const reference::Point3& p : reference::real_vertices(expected))
+        if (!used.contains(p)) return "a real vertex is missing";
+    if (used.size() != reference::real_vertices(expected).size()) {
+        std::size_t touching = 0;
+        for (const trisect::VertexId v : brep.vertices())
+            if (!brep.copies(v).empty()) ++touching;
+        if (touching == 0) return "a vertex at which no face turns";
+    }
+    return {};
+}
+
+}  // namespace engines

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The library's results in the form in which the reference engine compares boundaries.
+#pragma once
+
+#include <string>
+
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include "reference/naive_boolean.h"
+#include "reference/random_solids.h"
+
+namespace engines {
+
+/// A lattice mesh with one point per distinct corner.
+trisect::LatticeMesh lattice_mesh(const reference::Operand& operand);
+
+/// The operand as a solid whose boundary may meet itself.
+trisect::Solid solid(const reference::Operand& operand,
+                     trisect::Embedding embedding = trisect::Embedding::Resolve);
+
+/// The same formula over solids.
+trisect::Expression formula(const reference::Expression& expression,
+                            const std::vector<trisect::Solid>& solids);
+
+/// Faces with exact rational corners.
+std::vector<reference::Polygon> polygons(const trisect::Brep& brep);
+
+/// Why a B-rep is not what the canonical boundary says; empty when it is. Checks the set, and that
+/// the faces are maximal and the vertices are the real ones: nothing of the tree may show.
+std::string difference(const trisect::Brep& brep, const reference::CanonicalBoundary& expected);
+
+}  // namespace engines
