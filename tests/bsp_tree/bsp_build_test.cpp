@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <random>
 #include <vector>
 
 #include <trisect/bsp/bsp_boundary.h>
 #include <trisect/bsp/bsp_sections.h>
+#include <trisect/kernel/error.h>
 
 #include "brute_force.h"
 #include "meshes.h"
@@ -134,6 +137,16 @@ TEST(BspSections, APlaneThatMissesItsCellHasNone) {
     const auto sections = cell_sections(tree);
     EXPECT_FALSE(sections[0].is_empty());
     EXPECT_TRUE(sections[1].is_empty());
+}
+
+TEST(BspSections, APlaneInTheBorderOfItsCellHasNone) {
+    using NodeId = BspTree::NodeId;
+    const NodeId in(BspTree::Label::In);
+    const NodeId out(BspTree::Label::Out);
+    const BspTree tree({{Plane::axis_aligned(0, 1, 5), NodeId(std::uint32_t{1}), out},
+                        {Plane::axis_aligned(0, 2, 10).flipped(), in, out}});
+    EXPECT_TRUE(cell_sections(tree)[1].is_empty());
+    EXPECT_THROW((void)boundary_of(tree), Error);
 }
 
 }  // namespace

@@ -164,6 +164,37 @@ TEST(BspMerge, LawsOfSets) {
     }
 }
 
+// The whole range of coordinates: every register at its full width.
+TEST(BspMerge, LawsHoldAtTheEndsOfTheLattice) {
+    std::mt19937_64 random(25);
+    const auto uniform = [&] {
+        constexpr std::int64_t most = coordinate_limit - 1;
+        return std::uniform_int_distribution<std::int64_t>(-most, most)(random);
+    };
+    const auto point = [&] { return LatticePoint{uniform(), uniform(), uniform()}; };
+    for (int i = 0; i < 20; ++i) {
+        std::array<BspTree, 2> t;
+        for (BspTree& tree : t) {
+            const std::array<LatticePoint, 4> p{point(), point(), point(), point()};
+            const bool left = side_of(p[3], Plane::through(p[0], p[1], p[2])) == Side::Above;
+            LatticeMesh mesh;
+            mesh.points = {left ? p[0] : p[1], left ? p[1] : p[0], p[2], p[3]};
+            mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+            tree = build_bsp(mesh);
+            for (const LatticePoint& corner : p)
+                EXPECT_EQ(tree.classify(corner), Membership::OnBoundary);
+        }
+        const BspTree sum = merge(t[0], t[1], unite);
+        expect_sound(sum);
+        EXPECT_TRUE(is_same_set(sum.complement(),
+                                merge(t[0].complement(), t[1].complement(), intersect_sets)));
+        EXPECT_TRUE(is_same_set(build_bsp(boundary_of(sum)), sum));
+        EXPECT_EQ(volume_of(sum) + volume_of(merge(t[0], t[1], intersect_sets)),
+                  volume_of(t[0]) + volume_of(t[1]));
+        EXPECT_FALSE(brep_from_fragments(boundary_of(sum), {}).is_empty());
+    }
+}
+
 // What a tree bounds, built into a tree again, is the same set.
 TEST(BspMerge, ResultsAreOperandsAgain) {
     std::mt19937 random(23);
