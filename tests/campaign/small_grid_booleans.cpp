@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random booleans on a small grid, where faces, edges and vertices of different operands coincide
+// all the time, by independent engines that share no code above the kernel:
+//
+//  - the cell tree (evaluate), with random leaf size and wall position;
+//  - the naive engine in rationals (tests/reference), which knows no tree;
+//  - the classic BSP tree (build, merge, boundary), where the operands do not meet themselves.
+//
+// A pair is two operands under union, intersection, difference and symmetric difference. A formula
+// has 5 to 20 operations over 2 to 6 operands, is evaluated in one pass and again step by step on
+// the trees of the results before. Boundaries must be the same sets with the same faces.
+//
+//     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--threads T]
+//                         [--only-pair I] [--only-formula I]
+//
+// Works in T processes; a crash of one is recorded with the case and the rest goes on. The last two
+// options repeat one case of the seed, which is how a disagreement is looked into. Exits with 1 if
+// there was any.
+
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trisect/bsp/boolean_rule.h>
+#include <trisect/bsp/bsp_assembly.h>
+#include <trisect/bsp/bsp_boundary.h>
+#include <trisect/bsp/bsp_build.h>
+#include <trisect/bsp/bsp_merge.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include "engines/engines.h"
+
+namespace {
+
+using Kind = reference::Expression::Kind;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    std::uint64_t seed = 1;
+    std::uint64_t pairs = 300;
+    std::uint64_t formulas = 30;
+    std::uint64_t threads = 1;
+    std::optional<std::uint64_t> only_pair;
+    std::optional<std::uint64_t> only_formula;
+};
+
+/// Shared by the processes.
+struct Counters {
+    std::atomic<std::uint64_t> pairs;
+    std::atomic<std::uint64_t> formulas;
+    std::atomic<std::uint64_t> operations;  // of all formulas
+    std::atomic<std::uint64_t> results;     // cell tree against naive
+    std::atomic<std::uint64_t> stepwise;    // cell tree, step by step, against naive
+    std::atomic<std::uint64_t> classic;     // classic BSP tree against naive
+    std::atomic<std::uint64_t> empty;       // expected results without boundary
+    std::atomic<std::uint64_t> disagreements;
+    std::atomic<std::uint64_t> wrong_flags;  // right boundary, wrong is_empty or is_whole_space
+    std::atomic<std::uint64_t> crashes;
+    std::atomic<std::uint64_t> microseconds_ours;
+    std::atomic<std::uint64_t> microseconds_classic;
+    std::atomic<std::uint64_t> microseconds_naive;
+};
+
+/// Where a process is, so that its parent knows what it crashed on.
+struct Progress {
+    std::atomic<std::uint64_t> next_case;
+};
+
+template <class T>
+T* shared(std::size_t count) {
+    void* memory =
+        mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    T* out = static_cast<T*>(memory);
+    for (std::size_t i = 0; i < count; ++i) new (out + i) T{};
+    return out;
+}
+
+class Timer {
+public:
+    explicit Timer(std::atomic<std::uint64_t>& sum) : sum_(sum) {}
+    Timer(const Timer&) = delete;
+    Timer& operator=(const Timer&) = delete;
+    ~Timer() {
+        sum_ += static_cast<std::uint64_t>(
+            std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start_).count());
+    }
+
+private:
+    std::atomic<std::uint64_t>& sum_;
+    Clock::time_point start_ = Clock::now();
+};
+
+trisect::BooleanRule rule_of(Kind kind) {
+    switch (kind) {
+        case Kind::Union:
+            return trisect::BooleanRule::set_union();
+        case Kind::Intersection:
+            return trisect::BooleanRule::set_intersection();
+        case Kind::Difference:
+            return trisect::BooleanRule::set_difference();
+        default:
+            return trisect::BooleanRule::symmetric_difference();
+    }
+}
+
+trisect::BspTree classic_tree(const reference::Expression& expression,
+                              const std::vector<trisect::BspTree>& trees) {
+    if (expression.kind == Kind::Leaf) return trees[expression.operand];
+    trisect::BspTree out = classic_tree(expression.children[0], trees);
+    if (expression.kind == Kind::Complement) return out.complement();
+    for (std::size_t i = 1; i < expression.children.size(); ++i)
+        out = merge(out, classic_tree(expression.children[i], trees), rule_of(expression.kind));
+    return out;
+}
+
+std::size_t operation_count(const reference::Expression& expression) {
+    std::size_t n = expression.children.empty() ? 0 : expression.children.size() - 1;
+    for (const auto& child : expression.children) n += operation_count(child);
+    return n;
+}
+
+/// Operands, expression, and how to evaluate it.
+class Case {
+public:
+    Case(Counters& counters, std::string name, reference::Random& random, std::size_t operands)
+        : counters_(counters), name_(std::move(name)) {
+        embedded_ = random.chance(1, 2);
+        operands_ = reference::random_family(random, operands, embedded_);
+        constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 1000};
+        constexpr std::array<std::uint32_t, 4> wall_offsets{1, 83, 127, 255};
+        options_.leaf_polygons = leaf_sizes[random.below(4)];
+        options_.wall_offset = wall_offsets[random.below(4)];
+        const bool assume = embedded_ && random.chance(1, 2);
+        for (const auto& o : operands_)
+            solids_.push_back(engines::solid(
+                o, assume ? trisect::Embedding::Assume : trisect::Embedding::Resolve));
+    }
+
+    [[nodiscard]] std::size_t operand_count() const { return operands_.size(); }
+
+    void compare(const reference::Expression& expression, bool stepwise) {
+        const Wanted wanted = naive(expression);
+        if (wanted.boundary.empty()) ++counters_.empty;
+        guarded("cell tree", expression, [&] {
+            const Timer timer(counters_.microseconds_ours);
+            const auto result = trisect::evaluate(engines::formula(expression, solids_), options_);
+            ++counters_.results;
+            return check(result, wanted);
+        });
+        if (stepwise)
+            guarded("cell tree, step by step", expression, [&] {
+                const Timer timer(counters_.microseconds_ours);
+                const auto result = stepwise_solid(expression);
+                ++counters_.stepwise;
+                return check(result, wanted);
+            });
+        if (embedded_)
+            guarded("classic BSP tree", expression, [&] {
+                const Timer timer(counters_.microseconds_classic);
+                ++counters_.classic;
+                return classic_difference(expression, wanted);
+            });
+    }
+
+private:
+    struct Wanted {
+        reference::CanonicalBoundary boundary;
+        bool unbounded = false;
+    };
+
+    Wanted naive(const reference::Expression& expression) {
+        const Timer timer(counters_.microseconds_naive);
+        const auto result = reference::evaluate(operands_, expression);
+        return {reference::canonical_boundary(result.cells), result.unbounded};
+    }
+
+    std::string check(const trisect::Solid& result, const Wanted& wanted) {
+        if (std::string why = engines::difference(result.to_brep(), wanted.boundary); !why.empty())
+            return why;
+        const bool nothing = wanted.boundary.empty() && !wanted.unbounded;
+        const bool everything = wanted.boundary.empty() && wanted.unbounded;
+        if (result.is_empty() == nothing && result.is_whole_space() == everything) return {};
+        // One report will do: all have the same cause.
+        if (counters_.wrong_flags++ == 0)
+            std::printf("WRONG FLAG %s: is_empty() or is_whole_space()\n", name_.c_str());
+        return {};
+    }
+
+    /// Every operation on the tree of the results before.
+    trisect::Solid stepwise_solid(const reference::Expression& expression) {
+        if (expression.kind == Kind::Leaf) return solids_[expression.operand];
+        trisect::Solid out = stepwise_solid(expression.children[0]);
+        if (expression.kind == Kind::Complement) return trisect::evaluate(~out, options_);
+        for (std::size_t i = 1; i < expression.children.size(); ++i) {
+            const trisect::Solid next = stepwise_solid(expression.children[i]);
+            const auto pair = reference::pair_expression(expression.kind);
+            out = trisect::evaluate(engines::formula(pair, {out, next}), options_);
+        }
+        return out;
+    }
+
+    std::string classic_difference(const reference::Expression& expression, const Wanted& wanted) {
+        if (trees_.empty())
+            for (const auto& o : operands_)
+                trees_.push_back(trisect::build_bsp(engines::lattice_mesh(o)));
+        const trisect::BspTree tree = classic_tree(expression, trees_);
+        const auto fragments = trisect::boundary_of(tree);
+        if (fragments.empty()) {
+            const auto location = tree.classify(trisect::LatticePoint{1000, 1001, 1002});
+            if ((location == trisect::BspTree::Membership::Inside) != wanted.unbounded)
+                return "without boundary, and not the right one of nothing and everything";
+        }
+        return engines::difference(trisect::brep_from_fragments(fragments, {}), wanted.boundary);
+    }
+
+    template <class Check>
+    void guarded(const char* engine, const reference::Expression& expression, Check&& check) {
+        std::string why;
+        try {
+            why = check();
+        } catch (const std::exception& e) {
+            why = std::string("exception: ") + e.what();
+        }
+        if (why.empty()) return;
+        ++counters_.disagreements;
+        std::printf("DISAGREEMENT %s, %s, leaf_polygons %u, wall_offset %u, %s: %s\n",
+                    name_.c_str(), engine, options_.leaf_polygons, options_.wall_offset,
+                    reference::to_string(expression).c_str(), why.c_str());
+        std::fflush(stdout);
+    }
+
+    Counters& counters_;
+    std::string name_;
+    bool embedded_ = false;
+    std::vector<reference::Operand> operands_;
+    std::vector<trisect::Solid> solids_;
+    std::vector<trisect::BspTree> trees_;
+    trisect::EvaluateOptions options_;
+};
+
+reference::Random generator(std::uint64_t seed, std::uint64_t kind, std::uint64_t index) {
+    reference::Random mix(seed * 2 + kind);
+    return reference::Random(mix.next() + index);
+}
+
+std::string case_name(const Options& options, const char* option, std::uint64_t index) {
+    return "--seed " + std::to_string(options.seed) + " " + option + " " + std::to_string(index);
+}
+
+void run_pair(const Options& options, std::uint64_t index, Counters& counters) {
+    reference::Random random = generator(options.seed, 0, index);
+    Case pair(counters, case_name(options, "--only-pair", index), random, 2);
+    for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor})
+        pair.compare(reference::pair_expression(kind), false);
+    ++counters.pairs;
+}
+
+void run_formula(const Options& options, std::uint64_t index, Counters& counters) {
+    reference::Random random = generator(options.seed, 1, index);
+    Case formula(counters, case_name(options, "--only-formula", index), random,
+                 2 + random.below(5));
+    const auto expression =
+        reference::random_expression(random, formula.operand_count(), 5 + random.below(16));
+    counters.operations += operation_count(expression);
+    formula.compare(expression, true);
+    ++counters.formulas;
+}
+
+/// Cases are the pairs, then the formulas.
+void run_case(const Options& options, std::uint64_t index, Counters& counters) {
+    if (index < options.pairs)
+        run_pair(options, index, counters);
+    else
+        run_formula(options, index - options.pairs, counters);
+}
+
+/// The cases next_case, next_case + threads, ...
+pid_t start_worker(const Options& options, Progress& progress, Counters& counters) {
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    const std::uint64_t cases = options.pairs + options.formulas;
+    while (progress.next_case < cases) {
+        run_case(options, progress.next_case, counters);
+        progress.next_case += options.threads;
+    }
+    std::fflush(stdout);
+    _exit(0);
+}
+
+void run_all(const Options& options, Counters& counters) {
+    Progress* progress = shared<Progress>(options.threads);
+    std::map<pid_t, std::uint64_t> workers;
+    for (std::uint64_t i = 0; i < options.threads; ++i) {
+        progress[i].next_case = i;
+        workers[start_worker(options, progress[i], counters)] = i;
+    }
+    while (!workers.empty()) {
+        int status = 0;
+        const pid_t ended = waitpid(-1, &status, 0);
+        const auto worker = workers.find(ended);
+        if (worker == workers.end()) continue;
+        const std::uint64_t i = worker->second;
+        workers.erase(worker);
+        if (WIFEXITED(status) && WEXITSTATUS(status) == 0) continue;
+        ++counters.crashes;
+        const std::uint64_t at = progress[i].next_case;
+        const bool pair = at < options.pairs;
+        std::printf("CRASH %s\n", case_name(options, pair ? "--only-pair" : "--only-formula",
+                                            pair ? at : at - options.pairs)
+                                      .c_str());
+        progress[i].next_case += options.threads;
+        workers[start_worker(options, progress[i], counters)] = i;
+    }
+}
+
+void print(const Counters& c) {
+    const auto row = [](const char* name, const std::atomic<std::uint64_t>& value) {
+        std::printf("| %s | %llu |\n", name, static_cast<unsigned long long>(value.load()));
+    };
+    const auto time_row = [](const char* name, const std::atomic<std::uint64_t>& value) {
+        std::printf("| %s | %.1f |\n", name, static_cast<double>(value.load()) * 1e-6);
+    };
+    std::printf("| what | number |\n|---|---:|\n");
+    row("pairs", c.pairs);
+    row("formulas", c.formulas);
+    row("operations in formulas", c.operations);
+    row("results of the cell tree compared with the naive engine", c.results);
+    row("the same, formulas step by step", c.stepwise);
+    row("results of the classic BSP tree compared with the naive engine", c.classic);
+    row("results without boundary", c.empty);
+    row("disagreements", c.disagreements);
+    row("wrong is_empty() or is_whole_space()", c.wrong_flags);
+    row("crashes", c.crashes);
+    time_row("seconds in the cell tree and the comparison", c.microseconds_ours);
+    time_row("seconds in the classic BSP tree and the comparison", c.microseconds_classic);
+    time_row("seconds in the naive engine", c.microseconds_naive);
+}
+
+std::optional<Options> parse(int argc, char** argv) {
+    Options out;
+    for (int i = 1; i < argc; i += 2) {
+        if (i + 1 == argc) return std::nullopt;
+        char* end = nullptr;
+        const std::uint64_t value = std::strtoull(argv[i + 1], &end, 10);
+        if (end == argv[i + 1] || *end != '\0') return std::nullopt;
+        const std::string name = argv[i];
+        if (name == "--seed")
+            out.seed = value;
+        else if (name == "--pairs")
+            out.pairs = value;
+        else if (name == "--formulas")
+            out.formulas = value;
+        else if (name == "--threads")
+            out.threads = value;
+        else if (name == "--only-pair")
+            out.only_pair = value;
+        else if (name == "--only-formula")
+            out.only_formula = value;
+        else
+            return std::nullopt;
+    }
+    if (out.threads == 0) return std::nullopt;
+    return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto options = parse(argc, argv);
+    if (!options) {
+        std::fprintf(stderr,
+                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--threads T]\n"
+                     "       [--only-pair I] [--only-formula I]\n",
+                     argv[0]);
+        return 2;
+    }
+    Counters& counters = *shared<Counters>(1);
+    const auto start = Clock::now();
+    if (options->only_pair)
+        run_pair(*options, *options->only_pair, counters);
+    else if (options->only_formula)
+        run_formula(*options, *options->only_formula, counters);
+    else
+        run_all(*options, counters);
+    print(counters);
+    std::printf("\nseed %llu, %.0f s\n", static_cast<unsigned long long>(options->seed),
+                std::chrono::duration<double>(Clock::now() - start).count());
+    return counters.disagreements + counters.wrong_flags + counters.crashes == 0 ? 0 : 1;
+}
