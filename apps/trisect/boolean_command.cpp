@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// union, intersection, difference and xor of two or more meshes. The whole formula is evaluated in
+// one pass; difference is A minus all the others.
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/bsp/expression.h>
+
+#include <fmt/format.h>
+
+#include <span>
+#include <vector>
+
+#include "certificate.h"
+#include "commands.h"
+#include "description.h"
+#include "mesh_files.h"
+#include "operand.h"
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+Expression formula(const std::string& operation, const std::vector<Operand>& operands) {
+    std::vector<Expression> terms;
+    terms.reserve(operands.size());
+    for (const Operand& operand : operands) terms.emplace_back(operand.solid);
+    if (operation == "union") return Expression::any_of(terms);
+    if (operation == "intersection") return Expression::all_of(terms);
+    if (operation == "difference") {
+        return terms.front() - Expression::any_of(std::span(terms).subspan(1));
+    }
+    Expression result = terms.front();
+    for (std::size_t i = 1; i < terms.size(); ++i) result = result ^ terms[i];
+    return result;
+}
+
+/// Everything the command found out.
+struct BooleanResult {
+    Description description;
+    WriteReport written;
+    std::optional<Certificate> certificate;
+    EvaluateStats stats;
+};
+
+/// Assembles, writes and, if asked, certifies what was written.
+void deliver(Session& session, const BooleanOptions& options, const Solid& solid, MeshFormat format,
+             BooleanResult& result) {
+    AssembleOptions assembly;
+    assembly.maximal_faces = !options.source_faces;
+    PolygonMesh mesh;
+    const Brep brep = session.stage("assemble", [&] {
+        Brep boundary = solid.to_brep(assembly);
+        mesh = to_polygon_mesh(boundary);
+        return boundary;
+    });
+    session.stage("describe", [&] { result.description = describe(brep); });
+    if (options.certificate) {
+        session.stage("certify", [&] { result.certificate = certify(brep, mesh, format); });
+    }
+    session.stage("write", [&] {
+        result.written = write_output_mesh(session, options.output, format, mesh);
+    });
+}
+
+Json document_of(const Session& session, const BooleanOptions& options,
+                 const std::vector<Operand>& operands, const BooleanResult& result) {
+    Json document;
+    document["schema"] = "trisect.boolean/1";
+    document["op"] = options.operation;
+    document["inputs"] = Json::array();
+    for (const Operand& operand : operands) document["inputs"].push_back(operand.facts);
+    document["embedding"] = options.operands.assume_embedded ? "assumed" : "resolved";
+    document["output"]["file"] = options.output;
+    document["output"].update(to_json(result.description));
+    document["seconds"] = session.seconds();
+    document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
+    document["cells"]["visited"] = result.stats.cells;
+    document["cells"]["shared"] = result.stats.shared_cells;
+    document["cells"]["resolved"] = result.stats.mixed_leaves;
+    return document;
+}
+
+std::string remarks_of(const Session& session, const BooleanOptions& options,
+                       const BooleanResult& result) {
+    const Description& d = result.description;
+    std::string out =
+        fmt::format("{:<11}{} triangles, {} faces, {} shells, volume {}\n", options.operation,
+                    d.triangles, d.faces, d.shells, number_text(d.volume.value_or(0)));
+    out += fmt::format("{:<11}{}\n", "operands", embedding_text(options.operands));
+    if (result.certificate) {
+        out += fmt::format("{:<11}{}\n", "certified", to_text(*result.certificate));
+    }
+    double total = 0;
+    for (const auto& seconds : session.seconds()) total += seconds.get<double>();
+    return out + fmt::format("{:<11}{:.3f} s", "time", total);
+}
+
+CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->add_option("A B", options.inputs, "mesh files, two or more")
+        ->required()
+        ->expected(2, 1 << 20);
+    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
+        ->required();
+    command->add_flag("--source-faces", options.source_faces,
+                      "do not join coplanar faces of different origin");
+    command->add_flag("!--no-certificate", options.certificate,
+                      "do not check the rounded result for self-intersection");
+    add_operand_options(*command, options.operands);
+    return command;
+}
+
+}  // namespace
+
+void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
+    add_one(app, "union", "points in any of the inputs", options);
+    add_one(app, "intersection", "points in all of the inputs", options);
+    add_one(app, "difference", "points in the first input and in none of the others", options);
+    add_one(app, "xor", "points in an odd number of the inputs", options);
+}
+
+Outcome run_boolean(Session& session, const BooleanOptions& options) {
+    const MeshFormat format = output_format(session, options.output);
+    session.plan(options.certificate ? 6 : 5);
+    const std::vector<Operand> operands = session.stage(
+        "read", [&] { return read_operands(session, options.inputs, options.operands); });
+    BooleanResult result;
+    EvaluateOptions evaluation;
+    evaluation.winding = options.operands.winding;
+    const Solid solid = session.stage("evaluate", [&] {
+        return evaluate(formula(options.operation, operands), evaluation, &result.stats);
+    });
+    deliver(session, options, solid, format, result);
+    Outcome out;
+    out.document = document_of(session, options, operands, result);
+    out.remarks = remarks_of(session, options, result);
+    return out;
+}
+
+}  // namespace trisect::app

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line.h"
+
+#include <algorithm>
+#include <csignal>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <unistd.h>
+
+#include "commands.h"
+#include "failure.h"
+#include "limits.h"
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+/// Everything the arguments can say.
+struct Request {
+    CommonOptions common;
+    BooleanOptions boolean;
+    InfoOptions info;
+    CheckOptions check;
+    DiffOptions diff;
+    ConvertOptions convert;
+};
+
+constexpr const char* exit_code_help =
+    "Exit codes: 0 done, yes, none found; 1 done, no, something found; 2 usage; 3 unreadable or\n"
+    "malformed input; 4 not a valid solid; 5 a limit was hit; 6 cancelled; 7 unsupported;\n"
+    "70 internal error.\n"
+    "Formats: obj, stl, off, ply. '-' is the standard input or output.";
+
+MeshFormat format_named(const std::string& name) {
+    const auto format = mesh_format_from_name(name);
+    if (format) return *format;
+    throw UsageError("--format: '" + name +
+                     "' is none of obj, stl, stl-ascii, stl-binary, off, ply");
+}
+
+int lattice_exponent(const std::string& text) {
+    const std::int64_t e = parse_integer(text, "--lattice");
+    if (e % 8 != 0 || e < -1200 || e > 1016) {
+        throw UsageError("--lattice: the exponent must be a multiple of 8 from -1200 to 1016");
+    }
+    return static_cast<int>(e);
+}
+
+double positive_number(const std::string& text, const char* what) {
+    const double value = parse_number(text, what);
+    if (!(value > 0)) throw UsageError(std::string(what) + ": must be positive");
+    return value;
+}
+
+int thread_count(const std::string& text) {
+    const std::int64_t n = parse_integer(text, "--threads");
+    if (n < 1 || n > 4096) throw UsageError("--threads: must be from 1 to 4096");
+    return static_cast<int>(n);
+}
+
+using TextOption = std::function<void(const std::string&)>;
+
+void add_text_option(CLI::App& app, const char* name, const TextOption& set, const char* help,
+                     const char* type) {
+    app.add_option_function<std::string>(name, set, help)->type_name(type);
+}
+
+void add_limit_options(CLI::App& app, CommonOptions& o) {
+    add_text_option(
+        app, "--threads", [&o](const auto& s) { o.threads = thread_count(s); },
+        "use at most so many threads; the result does not depend on it", "N");
+    add_text_option(
+        app, "--max-memory", [&o](const auto& s) { o.max_memory = parse_bytes(s, "--max-memory"); },
+        "stop with exit code 5 instead of using more", "BYTES[KMGT]");
+    add_text_option(
+        app, "--max-seconds",
+        [&o](const auto& s) { o.max_seconds = positive_number(s, "--max-seconds"); },
+        "stop with exit code 5 when not finished by then", "S");
+}
+
+void add_import_options(CLI::App& app, CommonOptions& o) {
+    add_text_option(
+        app, "--lattice", [&o](const auto& s) { o.lattice = lattice_exponent(s); },
+        "unit 2^E of the lattice of every input (default: without loss if possible)", "E");
+    static const std::map<std::string, NonplanarPolicy> policies{
+        {"triangulate", NonplanarPolicy::Triangulate},
+        {"refuse", NonplanarPolicy::Refuse},
+        {"refit", NonplanarPolicy::Refit}};
+    app.add_option("--nonplanar", o.nonplanar, "faces whose corners are not in one plane")
+        ->transform(CLI::CheckedTransformer(policies))
+        ->type_name("triangulate|refuse|refit");
+    add_text_option(
+        app, "--refit-move",
+        [&o](const auto& s) { o.refit_move = positive_number(s, "--refit-move"); },
+        "how far refit may move a coordinate", "D");
+    add_text_option(
+        app, "--format", [&o](const auto& s) { o.format = format_named(s); },
+        "format of the output, and of the standard input", "FORMAT");
+    add_text_option(
+        app, "--input-format", [&o](const auto& s) { o.input_format = format_named(s); },
+        "format of the inputs, whatever their names", "FORMAT");
+}
+
+void add_common_options(CLI::App& app, CommonOptions& o) {
+    app.add_flag("--json", o.json, "print exactly one JSON document on the standard output");
+    app.add_flag("-q,--quiet", o.quiet, "no remarks");
+    app.add_flag("-v,--verbose", o.verbose, "more remarks");
+    static const std::map<std::string, Progress> kinds{
+        {"auto", Progress::Auto}, {"bar", Progress::Bar}, {"none", Progress::None}};
+    app.add_option("--progress", o.progress, "a bar, on a terminal and after half a second")
+        ->transform(CLI::CheckedTransformer(kinds))
+        ->type_name("auto|bar|none");
+    add_import_options(app, o);
+    add_limit_options(app, o);
+}
+
+void declare(CLI::App& app, Request& request) {
+    app.set_version_flag("--version", "trisect " TRISECT_VERSION);
+    app.require_subcommand(1);
+    app.footer(exit_code_help);
+    app.fallthrough();  // common options may stand after the sub-command too
+    add_common_options(app, request.common);
+    add_boolean_commands(app, request.boolean);
+    add_info_command(app, request.info);
+    add_check_command(app, request.check);
+    add_diff_command(app, request.diff);
+    add_convert_command(app, request.convert);
+    for (CLI::App* command : app.get_subcommands({})) {
+        command->footer("Common options: trisect --help");
+    }
+}
+
+Outcome run_command(Session& session, const std::string& name, const Request& request) {
+    if (name == "info") return run_info(session, request.info);
+    if (name == "check") return run_check(session, request.check);
+    if (name == "diff") return run_diff(session, request.diff);
+    if (name == "convert") return run_convert(session, request.convert);
+    BooleanOptions options = request.boolean;
+    options.operation = name;
+    return run_boolean(session, options);
+}
+
+/// The arguments, in the reverse order that CLI11 wants. A value that begins with a minus sign
+/// ("--translate -.5,0,0") is tied to its option, or it would be taken for an option itself.
+std::vector<std::string> prepared_arguments(int argc, char** argv) {
+    static constexpr std::string_view numeric[] = {"--translate", "--rotate", "--scale",
+                                                   "--lattice"};
+    std::vector<std::string> arguments;
+    for (int i = 1; i < argc; ++i) {
+        std::string argument = argv[i];
+        const bool joins =
+            std::find(std::begin(numeric), std::end(numeric), argument) != std::end(numeric) &&
+            i + 1 < argc && argv[i + 1][0] == '-';
+        if (joins) argument += std::string("=") + argv[++i];
+        arguments.push_back(std::move(argument));
+    }
+    std::reverse(arguments.begin(), arguments.end());
+    return arguments;
+}
+
+/// Known before anything is parsed, since mistakes in the arguments are reported in JSON too.
+bool asks_for_json(int argc, char** argv) {
+    for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        if (std::string_view(argv[i]) == "--json") return true;
+    }
+    return false;
+}
+
+int print_text(Console& console, bool json, const char* schema, const std::string& text) {
+    Json document;
+    document["schema"] = schema;
+    document["text"] = text;
+    console.print(json ? document_text(document) : text);
+    return exit_done;
+}
+
+/// The other thread has claimed the end and is about to leave.
+[[noreturn]] void wait_for_end() {
+    for (;;) ::pause();
+}
+
+[[noreturn]] void leave(Console& console, bool json, int code, const std::string& message) {
+    report_failure(console, json, {code, message, {}, {}});
+    ::_exit(code);
+}
+
+/// Runs the sub-command under the limits; in the end whoever claims it first speaks.
+int run_request(Console& console, const std::string& name, const Request& request) {
+    const bool json = request.common.json;
+    console.set_quiet(request.common.quiet);
+    Supervisor supervisor(console, request.common, leave);
+    Outcome outcome;
+    try {
+        const Limits limits(request.common);
+        Session session(request.common, console, supervisor);
+        outcome = run_command(session, name, request);
+    } catch (...) {
+        const Failure failure = current_failure();
+        if (!console.claim_end()) wait_for_end();
+        report_failure(console, json, failure);
+        return failure.code;
+    }
+    if (!console.claim_end()) wait_for_end();
+    console.print(json ? document_text(outcome.document) : outcome.answer);
+    console.note(outcome.remarks);
+    return outcome.code;
+}
+
+/// Parses, answers --help and --version, or runs.
+int parse_and_run(Console& console, bool json, int argc, char** argv) {
+    CLI::App app("Exact solid modelling: booleans, measures and checks of polygon meshes.",
+                 "trisect");
+    Request request;
+    declare(app, request);
+    try {
+        app.parse(prepared_arguments(argc, argv));
+    } catch (const CLI::CallForHelp&) {
+        return print_text(console, json, "trisect.help/1", app.help());
+    } catch (const CLI::CallForVersion&) {
+        return print_text(console, json, "trisect.version/1", app.version() + "\n");
+    } catch (const CLI::ParseError& e) {
+        throw UsageError(std::string(e.what()) + " (see trisect --help)");
+    }
+    return run_request(console, app.get_subcommands().front()->get_name(), request);
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+    std::signal(SIGPIPE, SIG_IGN);
+    static Console console;
+    const bool json = asks_for_json(argc, argv);
+    install_terminate_handler(console, json);
+    try {
+        return parse_and_run(console, json, argc, argv);
+    } catch (...) {
+        const Failure failure = current_failure();
+        report_failure(console, json, failure);
+        return failure.code;
+    }
+}
+
+}  // namespace trisect::app

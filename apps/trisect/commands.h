@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The sub-commands. Each has a file of its own with two functions: `add_...` declares its options
+// on a command line, `run_...` does the work.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "options.h"
+#include "outcome.h"
+#include "session.h"
+
+namespace trisect::app {
+
+/// union, intersection, difference, xor.
+void add_boolean_commands(CLI::App& app, BooleanOptions& options);
+[[nodiscard]] Outcome run_boolean(Session& session, const BooleanOptions& options);
+
+void add_info_command(CLI::App& app, InfoOptions& options);
+[[nodiscard]] Outcome run_info(Session& session, const InfoOptions& options);
+
+void add_check_command(CLI::App& app, CheckOptions& options);
+[[nodiscard]] Outcome run_check(Session& session, const CheckOptions& options);
+
+void add_diff_command(CLI::App& app, DiffOptions& options);
+[[nodiscard]] Outcome run_diff(Session& session, const DiffOptions& options);
+
+void add_convert_command(CLI::App& app, ConvertOptions& options);
+[[nodiscard]] Outcome run_convert(Session& session, const ConvertOptions& options);
+
+/// --assume-embedded and --winding.
+void add_operand_options(CLI::App& command, OperandOptions& options);
+
+}  // namespace trisect::app

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// convert A -o B: another format, another place. Without a transform coordinates and polygons pass
+// as they are, whether or not they bound a solid.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.h"
+#include "exact_map.h"
+#include "mesh_files.h"
+#include "report_json.h"
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+/// In the order of the help text: matrix, scale, rotate, translate.
+ExactMap map_of(const ConvertOptions& options) {
+    ExactMap map;
+    if (!options.matrix.empty()) map = ExactMap::from_file(options.matrix);
+    if (options.scale) map = map.then(ExactMap::scaling(*options.scale));
+    if (options.rotate) map = map.then(ExactMap::rotation(*options.rotate));
+    if (options.translate) map = map.then(ExactMap::translation(*options.translate));
+    if (map.orientation() == 0) throw UsageError("the transform makes space flat");
+    return map;
+}
+
+/// --lattice: every coordinate to the nearest point of it.
+LatticeReport round_to_lattice(PolygonMesh& mesh, Lattice lattice) {
+    LatticeReport report;
+    const std::vector<LatticePoint> rounded = to_lattice(mesh.points, lattice, report);
+    std::transform(rounded.begin(), rounded.end(), mesh.points.begin(),
+                   [&](const LatticePoint& p) { return to_user(p, lattice); });
+    return report;
+}
+
+Json rounding_json(std::size_t moved, double max_move) {
+    Json out;
+    out["moved"] = moved;
+    out["max_move"] = max_move;
+    return out;
+}
+
+Json written_json(const WriteReport& report) {
+    Json out;
+    out["lossless"] = report.lossless;
+    out["rounded_vertices"] = report.rounded_vertices;
+    out["largest_move"] = report.largest_move;
+    out["merged_vertices"] = report.merged_vertices;
+    return out;
+}
+
+void add_transform_options(CLI::App& command, ConvertOptions& o) {
+    command.add_option("--matrix", o.matrix, "file of twelve numbers: the 3x4 matrix, row by row")
+        ->type_name("FILE");
+    command
+        .add_option_function<std::string>(
+            "--scale", [&o](const auto& s) { o.scale = parse_number(s, "--scale"); },
+            "factor; negative ones mirror at the origin")
+        ->type_name("S");
+    command
+        .add_option_function<std::string>(
+            "--rotate", [&o](const auto& s) { o.rotate = parse_tuple<4>(s, "--rotate"); },
+            "axis and angle")
+        ->type_name("X,Y,Z,DEGREES");
+    command
+        .add_option_function<std::string>(
+            "--translate", [&o](const auto& s) { o.translate = parse_tuple<3>(s, "--translate"); },
+            "vector")
+        ->type_name("X,Y,Z");
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, ConvertOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "convert",
+        "write another format; transforms apply in the order matrix, scale, rotate, "
+        "translate");
+    command->add_option("A", options.input, "mesh file")->required();
+    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
+        ->required();
+    add_transform_options(*command, options);
+}
+
+Outcome run_convert(Session& session, const ConvertOptions& options) {
+    const MeshFormat format = output_format(session, options.output);
+    const ExactMap map = map_of(options);
+    session.plan(3);
+    PolygonMesh mesh = session.stage("read", [&] { return read_input(session, options.input); });
+    const RoundingReport moved = session.stage("transform", [&] { return map.apply(mesh); });
+    Outcome out;
+    out.document["schema"] = "trisect.convert/1";
+    out.document["input"] = options.input;
+    out.document["output"] = options.output;
+    out.document["format"] = to_string(format);
+    out.document["vertices"] = mesh.points.size();
+    out.document["faces"] = mesh.face_count();
+    out.document["matrix"] = map.rows();
+    out.document["rounding"] = rounding_json(moved.moved, moved.max_move);
+    if (moved.moved != 0) {
+        session.note(fmt::format("{}: {} vertices rounded by the transform, by at most {}",
+                                 options.output, moved.moved, number_text(moved.max_move)));
+    }
+    out.document["lattice"] = Json();
+    if (session.options().lattice) {
+        const LatticeReport report = round_to_lattice(mesh, Lattice{*session.options().lattice});
+        out.document["lattice"] = lattice_json(report);
+        note_rounding(session, report, options.output);
+    }
+    const WriteReport written = session.stage(
+        "write", [&] { return write_output_mesh(session, options.output, format, mesh); });
+    out.document["written"] = written_json(written);
+    out.document["seconds"] = session.seconds();
+    return out;
+}
+
+}  // namespace trisect::app

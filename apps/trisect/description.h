@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Description: counts and measures of a boundary, as `info` shows them and as booleans report them
+// of their results.
+#pragma once
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/measure.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "outcome.h"
+
+namespace trisect::app {
+
+/// What cannot be told of a boundary (the volume of an open one) has no value.
+struct Description {
+    std::size_t vertices = 0;
+    std::size_t edges = 0;
+    std::size_t faces = 0;                ///< polygons with area
+    std::size_t triangles = 0;            ///< that fill them
+    std::size_t shells = 0;               ///< connected by edges
+    std::optional<std::ptrdiff_t> genus;  ///< sum over the shells; of a closed boundary
+    bool closed = false;
+    std::optional<double> volume;  ///< correctly rounded
+    std::optional<ExactRational> volume_exact;
+    double area = 0;
+    std::optional<Bounds> bounds;
+    LatticeReport lattice;
+};
+
+struct DescriptionOptions {
+    bool exact = false;  ///< fill volume_exact
+};
+
+/// Of a mesh as it was read: points of equal value are one vertex. Vertices and edges where the
+/// boundary touches itself count as often as they do in a Brep.
+[[nodiscard]] Description describe(const ImportedMesh& imported, DescriptionOptions options = {});
+[[nodiscard]] Description describe(const Brep& brep, DescriptionOptions options = {});
+
+[[nodiscard]] Json to_json(const Description& description);
+/// Aligned lines.
+[[nodiscard]] std::string to_text(const Description& description);
+
+}  // namespace trisect::app

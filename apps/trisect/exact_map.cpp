@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A chain of maps applied in doubles rounds at every product, and nobody knows how much. Here the
+// maps are multiplied as fractions and each coordinate is rounded once, so the report is exact and
+// a map that doubles can express, such as a quarter turn or a translation on the file's own grid,
+// changes nothing but what it should.
+#include "exact_map.h"
+
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/transform.h>
+#include <trisect/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+constexpr std::uint64_t matrix_file_limit = 1U << 20;
+
+/// Words of a text with their places.
+class Words {
+public:
+    Words(std::string_view text, std::string file)
+        : text_(text), place_{std::move(file), 1, 1, 0} {}
+
+    /// Empty at the end; `place()` is then where the word began.
+    std::string_view next() {
+        while (!text_.empty() && is_space(text_.front())) skip();
+        std::size_t n = 0;
+        while (n < text_.size() && !is_space(text_[n])) ++n;
+        const std::string_view word = text_.substr(0, n);
+        word_place_ = place_;
+        text_.remove_prefix(n);
+        place_.column += n;
+        return word;
+    }
+    [[nodiscard]] const FilePlace& place() const { return word_place_; }
+
+private:
+    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+    void skip() {
+        const bool new_line = text_.front() == '\n';
+        place_.line += new_line ? 1U : 0U;
+        place_.column = new_line ? 1 : place_.column + 1;
+        text_.remove_prefix(1);
+    }
+
+    std::string_view text_;
+    FilePlace place_;
+    FilePlace word_place_;
+};
+
+double matrix_number(Words& words) {
+    const std::string_view word = words.next();
+    if (word.empty()) throw InputError(words.place(), "a matrix is twelve numbers, row by row");
+    try {
+        return parse_number(word, "matrix");
+    } catch (const UsageError& e) {
+        throw InputError(words.place(), e.what());
+    }
+}
+
+ExactRational absolute(const ExactRational& value) { return value.sign() < 0 ? -value : value; }
+
+void turn_faces_over(PolygonMesh& mesh) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto begin = mesh.corners.begin();
+        // The first corner stays the first one.
+        std::reverse(begin + mesh.face_begin[f] + (mesh.face(f).empty() ? 0 : 1),
+                     begin + mesh.face_begin[f + 1]);
+    }
+}
+
+}  // namespace
+
+ExactMap::ExactMap() {
+    for (std::size_t i = 0; i < 3; ++i) rows_[5 * i] = 1;
+}
+
+ExactMap ExactMap::from_rows(const std::array<double, 12>& rows) {
+    ExactMap map;
+    for (std::size_t i = 0; i < 12; ++i) map.rows_[i] = ExactRational::from_double(rows[i]);
+    return map;
+}
+
+ExactMap ExactMap::from_file(const std::string& path) {
+    const FileBytes bytes = read_file(path, matrix_file_limit);
+    Words words(bytes.view(), path);
+    std::array<double, 12> rows{};
+    for (double& value : rows) value = matrix_number(words);
+    if (!words.next().empty()) throw InputError(words.place(), "more than twelve numbers");
+    return from_rows(rows);
+}
+
+ExactMap ExactMap::translation(const std::array<double, 3>& vector) {
+    ExactMap map;
+    for (std::size_t i = 0; i < 3; ++i)
+        map.rows_[4 * i + 3] = ExactRational::from_double(vector[i]);
+    return map;
+}
+
+ExactMap ExactMap::scaling(double factor) {
+    ExactMap map;
+    for (std::size_t i = 0; i < 3; ++i) map.rows_[5 * i] = ExactRational::from_double(factor);
+    return map;
+}
+
+ExactMap ExactMap::rotation(const std::array<double, 4>& axis_and_degrees) {
+    const auto [x, y, z, degrees] = axis_and_degrees;
+    const AffineMap map = AffineMap::rotation({x, y, z}, degrees);
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
+    return from_rows(rows);
+}
+
+ExactMap ExactMap::then(const ExactMap& next) const {
+    ExactMap map;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            ExactRational sum = j == 3 ? next.at(i, 3) : ExactRational();
+            for (std::size_t k = 0; k < 3; ++k) sum += next.at(i, k) * at(k, j);
+            map.rows_[4 * i + j] = sum;
+        }
+    }
+    return map;
+}
+
+bool ExactMap::is_identity() const {
+    const ExactMap identity;
+    return std::equal(rows_.begin(), rows_.end(), identity.rows_.begin());
+}
+
+int ExactMap::orientation() const {
+    ExactRational determinant;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t u = (i + 1) % 3;
+        const std::size_t v = (i + 2) % 3;
+        determinant += at(0, i) * (at(1, u) * at(2, v) - at(1, v) * at(2, u));
+    }
+    return determinant.sign();
+}
+
+std::array<double, 12> ExactMap::rows() const {
+    std::array<double, 12> out{};
+    for (std::size_t i = 0; i < 12; ++i) out[i] = rows_[i].to_double();
+    return out;
+}
+
+RoundingReport ExactMap::apply(PolygonMesh& mesh) const {
+    if (is_identity()) return {};
+    const int sign = orientation();
+    if (sign == 0) throw UsageError("the transform makes space flat");
+    RoundingReport report;
+    ExactRational most;
+    for (Point3d& point : mesh.points) {
+        std::array<ExactRational, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = ExactRational::from_double(point[k]);
+        bool moved = false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            ExactRational sum = at(i, 3);
+            for (std::size_t k = 0; k < 3; ++k) sum += at(i, k) * p[k];
+            point[i] = sum.to_double();
+            if (!std::isfinite(point[i])) throw LimitError("the transform leaves the doubles");
+            const ExactRational move = absolute(sum - ExactRational::from_double(point[i]));
+            moved = moved || move.sign() != 0;
+            if (move > most) most = move;
+        }
+        report.moved += moved ? 1U : 0U;
+    }
+    report.max_move = most.to_double();
+    if (sign < 0) turn_faces_over(mesh);
+    return report;
+}
+
+}  // namespace trisect::app

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files.h"
+
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/io/read_mesh.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+constexpr const char* standard_input = "standard input";
+
+PolygonMesh read_standard_input(const ReadOptions& options) {
+    const FileBytes bytes = read_descriptor(0, standard_input, options.limits.bytes);
+    std::optional<MeshFormat> format = options.format;
+    if (!format) format = detect_mesh_format(bytes.view());
+    if (!format) {
+        throw InputError(FilePlace{standard_input, 0, 0, 0},
+                         bytes.view().empty() ? "there is nothing to read"
+                                              : "the content does not tell the format: --format");
+    }
+    return read_mesh(bytes.view(), *format, standard_input, options);
+}
+
+/// Errors of the library about one operand, with its name in front.
+template <class Work>
+auto with_name(const std::string& name, Work&& work) {
+    try {
+        return work();
+    } catch (const InvalidSolid& e) {
+        throw OperandError(e.code(), name, e.what(), e.report());
+    } catch (const Error& e) {
+        throw OperandError(e.code(), name, e.what());
+    }
+}
+
+void note_import(Session& session, const ImportReport& report, const std::string& name) {
+    note_rounding(session, report.lattice, name);
+    if (report.nonplanar_faces != 0 && report.refitted_faces == 0) {
+        session.note(fmt::format("{}: {} faces are not planar and were cut into triangles", name,
+                                 report.nonplanar_faces));
+    }
+    if (report.refitted_faces != 0) {
+        session.note(fmt::format("{}: {} faces were made planar; corners moved by at most {}", name,
+                                 report.refitted_faces, number_text(report.max_refit_move)));
+    }
+    if (report.degenerate_faces_dropped != 0) {
+        session.detail(fmt::format("{}: {} faces without area were left out", name,
+                                   report.degenerate_faces_dropped));
+    }
+}
+
+bool is_stl(MeshFormat format) {
+    return format == MeshFormat::Stl || format == MeshFormat::StlAscii ||
+           format == MeshFormat::StlBinary;
+}
+
+bool has_only_triangles(const PolygonMesh& mesh) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        if (mesh.face(f).size() != 3) return false;
+    }
+    return true;
+}
+
+/// The same surface in triangles: polygons are cut by exact rules on the lattice, which changes no
+/// coordinate; where the lattice cannot hold them all, cutting is refused rather than rounding.
+PolygonMesh triangulated(const PolygonMesh& mesh) {
+    ImportOptions options;
+    options.require_closed = false;
+    const ImportedMesh imported = import_mesh(mesh, options);
+    if (!imported.report.lattice.lossless) {
+        throw UnsupportedError(
+            "STL holds triangles only, and the coordinates span too many bits "
+            "to cut the polygons of this mesh exactly");
+    }
+    return plain_mesh(imported.mesh);
+}
+
+}  // namespace
+
+PolygonMesh read_input(const Session& session, const std::string& name) {
+    const CommonOptions& common = session.options();
+    ReadOptions options;
+    options.format = common.input_format;
+    if (name != "-") return read_mesh(name, options);
+    if (!options.format) options.format = common.format;
+    return read_standard_input(options);
+}
+
+void check_standard_input(std::span<const std::string> names) {
+    if (std::count(names.begin(), names.end(), "-") > 1) {
+        throw UsageError("only one input can be the standard input");
+    }
+}
+
+ImportedMesh import_input(Session& session, const PolygonMesh& mesh, const std::string& name) {
+    ImportOptions options;
+    options.require_closed = false;
+    options.nonplanar = session.options().nonplanar;
+    options.refit_move = session.options().refit_move;
+    if (session.options().lattice) options.lattice = Lattice{*session.options().lattice};
+    return with_name(name, [&] {
+        ImportedMesh imported = import_mesh(mesh, options);
+        note_import(session, imported.report, name);
+        return imported;
+    });
+}
+
+ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
+                                const ValidateOptions& options) {
+    return with_name(name, [&] { return validate(mesh, options); });
+}
+
+void note_rounding(Session& session, const LatticeReport& report, const std::string& name) {
+    if (report.lossless) return;
+    session.note(fmt::format(
+        "{}: rounded to the lattice of unit 2^{}: {} vertices moved, by at most {}; {} faces "
+        "turned over",
+        name, report.lattice.exponent, report.moved, number_text(report.max_move),
+        report.flipped_faces));
+}
+
+MeshFormat output_format(const Session& session, const std::string& name) {
+    const CommonOptions& common = session.options();
+    if (name == "-" && common.json) {
+        throw UsageError("--json and '-o -' both want the standard output");
+    }
+    if (common.format) return *common.format;
+    if (name == "-") throw UsageError("'-o -' needs --format");
+    if (const auto format = mesh_format_of_extension(name)) return *format;
+    throw UsageError(fmt::format(
+        "{}: the extension tells no format; known are .obj .stl .off .ply (or use --format)",
+        name));
+}
+
+WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
+                              const PolygonMesh& mesh) {
+    WriteOptions options;
+    options.format = format;
+    const bool cut = is_stl(format) && !has_only_triangles(mesh);
+    const FormattedMesh formatted = format_mesh(cut ? triangulated(mesh) : mesh, options, name);
+    session.write_output(name, formatted.bytes);
+    if (!formatted.report.lossless) {
+        session.note(fmt::format(
+            "{}: {} vertices rounded to the floats of binary STL, by at most {}", name,
+            formatted.report.rounded_vertices, number_text(formatted.report.largest_move)));
+    }
+    return formatted.report;
+}
+
+PolygonMesh plain_mesh(const LatticeMesh& mesh) {
+    PolygonMesh out;
+    out.points.reserve(mesh.points.size());
+    for (const LatticePoint& p : mesh.points) out.points.push_back(to_user(p, mesh.lattice));
+    for (const auto& t : mesh.triangles) out.add_triangle(t[0], t[1], t[2]);
+    return out;
+}
+
+}  // namespace trisect::app

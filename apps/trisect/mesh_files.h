@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mesh files as operands and results: reading, importing and writing under the common options, with
+// the name of the file in every error.
+#pragma once
+
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/validate/validate.h>
+#include <trisect/kernel/error.h>
+
+#include <span>
+#include <string>
+
+#include "session.h"
+
+namespace trisect::app {
+
+/// What is wrong with one input, after it was read.
+class OperandError : public Error {
+public:
+    OperandError(ErrorCode code, std::string file, const std::string& message,
+                 ValidationReport report = ValidationReport())
+        : Error(code, file + ": " + message), file_(std::move(file)), report_(std::move(report)) {}
+    [[nodiscard]] const std::string& file() const noexcept { return file_; }
+    [[nodiscard]] const ValidationReport& report() const noexcept { return report_; }
+
+private:
+    std::string file_;
+    ValidationReport report_;
+};
+
+/// "-" is the standard input, whose format is that of --format or else shown by its content.
+[[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
+
+/// At most one of the names may be "-". \throw UsageError
+void check_standard_input(std::span<const std::string> names);
+
+/// Import under --lattice and --nonplanar, open boundaries allowed; what was rounded is noted.
+[[nodiscard]] ImportedMesh import_input(Session& session, const PolygonMesh& mesh,
+                                        const std::string& name);
+
+/// validate() with the name of the file in its errors.
+[[nodiscard]] ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
+                                              const ValidateOptions& options);
+
+/// Says what rounding to a lattice changed, if anything.
+void note_rounding(Session& session, const LatticeReport& report, const std::string& name);
+
+/// The format in which `name` will be written; checked before the work begins.
+/// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.
+[[nodiscard]] MeshFormat output_format(const Session& session, const std::string& name);
+
+/// STL gets triangles only; returns what the format changed.
+WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
+                              const PolygonMesh& mesh);
+
+/// The triangles of an imported mesh in the user's units.
+[[nodiscard]] PolygonMesh plain_mesh(const LatticeMesh& mesh);
+
+}  // namespace trisect::app

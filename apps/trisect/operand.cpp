@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "operand.h"
+
+#include <utility>
+
+#include "commands.h"
+#include "mesh_files.h"
+#include "report_json.h"
+
+namespace trisect::app {
+namespace {
+
+void require_solid(const ImportedMesh& imported, const std::string& name,
+                   const OperandOptions& options) {
+    const ImportReport& report = imported.report;
+    if (!report.closed) {
+        const InvalidSolid reason(report.defects, "the boundary is not closed");
+        throw OperandError(reason.code(), name, reason.what(), report.defects);
+    }
+    // With the non-zero rule a boundary that is turned over bounds the same set.
+    if (report.inside_out && options.winding == EvaluateOptions::Winding::Positive) {
+        throw OperandError(ErrorCode::InvalidSolid, name,
+                           "the boundary is inside out (--winding nonzero accepts it)",
+                           report.defects);
+    }
+}
+
+Json facts_of(const ImportedMesh& imported, const std::string& name, std::size_t faces) {
+    const ImportReport& report = imported.report;
+    Json facts;
+    facts["file"] = name;
+    facts["faces"] = faces;
+    facts["triangles"] = imported.mesh.triangles.size();
+    facts["lattice"] = lattice_json(report.lattice);
+    facts["nonplanar_faces"] = report.nonplanar_faces;
+    facts["refitted_faces"] = report.refitted_faces;
+    facts["degenerate_faces"] = report.degenerate_faces_dropped;
+    return facts;
+}
+
+}  // namespace
+
+void add_operand_options(CLI::App& command, OperandOptions& options) {
+    command.add_flag("--assume-embedded", options.assume_embedded,
+                     "take inputs to be free of self-intersection: faster, wrong if they are not");
+    static const std::map<std::string, EvaluateOptions::Winding> rules{
+        {"positive", EvaluateOptions::Winding::Positive},
+        {"nonzero", EvaluateOptions::Winding::NonZero}};
+    command.add_option("--winding", options.winding, "which winding numbers are inside")
+        ->transform(CLI::CheckedTransformer(rules))
+        ->type_name("positive|nonzero");
+}
+
+std::vector<Operand> read_operands(Session& session, std::span<const std::string> names,
+                                   const OperandOptions& options) {
+    check_standard_input(names);
+    const Embedding embedding = options.assume_embedded ? Embedding::Assume : Embedding::Resolve;
+    std::vector<Operand> operands;
+    operands.reserve(names.size());
+    for (const std::string& name : names) {
+        const PolygonMesh mesh = read_input(session, name);
+        ImportedMesh imported = import_input(session, mesh, name);
+        require_solid(imported, name, options);
+        Json facts = facts_of(imported, name, mesh.face_count());
+        operands.push_back(
+            {Solid::from_lattice_mesh(std::move(imported.mesh), embedding), std::move(facts)});
+    }
+    return operands;
+}
+
+std::string embedding_text(const OperandOptions& options) {
+    return options.assume_embedded ? "assumed free of self-intersection"
+                                   : "self-intersections resolved";
+}
+
+}  // namespace trisect::app

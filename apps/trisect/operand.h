@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Operand: an input of a boolean, as a solid and as what there is to say about the file.
+#pragma once
+
+#include <trisect/bsp/solid.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "outcome.h"
+#include "session.h"
+
+namespace trisect::app {
+
+struct Operand {
+    Solid solid;
+    Json facts;  ///< file, faces, triangles, lattice, what import changed
+};
+
+/// Reads and imports all inputs. The first one that bounds no solid ends the command.
+/// \throw OperandError (InvalidSolid) for a boundary that is open or inside out.
+[[nodiscard]] std::vector<Operand> read_operands(Session& session,
+                                                 std::span<const std::string> names,
+                                                 const OperandOptions& options);
+
+/// "self-intersections resolved" or "assumed free of self-intersection".
+[[nodiscard]] std::string embedding_text(const OperandOptions& options);
+
+}  // namespace trisect::app

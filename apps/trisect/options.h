@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the user asked for: the options that every sub-command has, and those of each sub-command.
+// Plain data, filled by command_line.cpp, read by everyone.
+#pragma once
+
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/mesh_format.h>
+#include <trisect/bsp/expression.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trisect::app {
+
+enum class Progress : std::uint8_t {
+    Auto,  ///< a bar on a terminal, after half a second, unless quiet
+    Bar,   ///< the same also when quiet
+    None
+};
+
+struct CommonOptions {
+    bool json = false;
+    bool quiet = false;
+    bool verbose = false;
+    Progress progress = Progress::Auto;
+    int threads = 0;                         ///< 0: as many as the machine has
+    std::optional<int> lattice;              ///< exponent of the unit
+    std::uint64_t max_memory = 0;            ///< bytes; 0: no limit
+    double max_seconds = 0;                  ///< 0: no limit
+    std::optional<MeshFormat> format;        ///< of the output and of standard input
+    std::optional<MeshFormat> input_format;  ///< of every input
+    NonplanarPolicy nonplanar = NonplanarPolicy::Triangulate;
+    double refit_move = 0;  ///< how far Refit may move a coordinate
+};
+
+/// How operands of booleans are understood.
+struct OperandOptions {
+    bool assume_embedded = false;
+    EvaluateOptions::Winding winding = EvaluateOptions::Winding::Positive;
+};
+
+struct BooleanOptions {
+    std::string operation;
+    std::vector<std::string> inputs;
+    std::string output;
+    OperandOptions operands;
+    bool source_faces = false;
+    bool certificate = true;
+};
+
+struct InfoOptions {
+    std::string input;
+    bool exact = false;
+};
+
+struct CheckOptions {
+    std::string input;
+    std::uint64_t places = 100;  ///< listed defects of each kind
+};
+
+struct DiffOptions {
+    std::array<std::string, 2> inputs;
+    OperandOptions operands;
+    bool exact = false;
+};
+
+struct ConvertOptions {
+    std::string input;
+    std::string output;
+    std::string matrix;                           ///< a file; empty: none
+    std::optional<std::array<double, 4>> rotate;  ///< axis and degrees
+    std::optional<std::array<double, 3>> translate;
+    std::optional<double> scale;
+};
+
+}  // namespace trisect::app

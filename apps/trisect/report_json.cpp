@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report_json.h"
+
+namespace trisect::app {
+
+Json defects_json(const ValidationReport& report) {
+    Json list = Json::array();
+    for (const Defect& defect : report.defects()) {
+        Json entry;
+        entry["kind"] = name_of(defect.kind);
+        entry["severity"] = defect.severity() == Severity::Error ? "error" : "warning";
+        entry["vertices"] = defect.vertices;
+        entry["faces"] = defect.faces;
+        entry["place"] = defect.place;
+        entry["sentence"] = defect.sentence;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+Json defect_counts_json(const ValidationReport& report) {
+    Json counts = Json::object();
+    for (std::size_t k = 0; k < defect_kind_count; ++k) {
+        const auto kind = static_cast<DefectKind>(k);
+        if (report.count(kind) != 0) counts[std::string(name_of(kind))] = report.count(kind);
+    }
+    return counts;
+}
+
+Json lattice_json(const LatticeReport& report) {
+    Json out;
+    out["exponent"] = report.lattice.exponent;
+    out["lossless"] = report.lossless;
+    out["moved"] = report.moved;
+    out["max_move"] = report.max_move;
+    return out;
+}
+
+}  // namespace trisect::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reports of the library as JSON.
+#pragma once
+
+#include <trisect/brep/validate/defect.h>
+
+#include "outcome.h"
+
+namespace trisect::app {
+
+/// The listed defects in the order of the report: kind, severity, vertices, faces, place, sentence.
+[[nodiscard]] Json defects_json(const ValidationReport& report);
+/// Number of defects of each kind that occurs.
+[[nodiscard]] Json defect_counts_json(const ValidationReport& report);
+/// exponent, lossless, moved, max_move.
+[[nodiscard]] Json lattice_json(const LatticeReport& report);
+
+}  // namespace trisect::app

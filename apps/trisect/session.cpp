@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session.h"
+
+#include <trisect/brep/io/output_file.h>
+
+#include <fmt/format.h>
+
+namespace trisect::app {
+
+Session::Timer::~Timer() {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
+    session_.seconds_[name_] = time.count();
+    session_.detail(fmt::format("{:<12}{:.3f} s", name_, time.count()));
+}
+
+void Session::write_output(const std::string& name, std::string_view bytes) {
+    if (name == "-") return write_descriptor(1, "standard output", bytes);
+    supervisor_.watch_output(name);
+    write_file(name, bytes);
+}
+
+}  // namespace trisect::app

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "process.h"
+#include "scratch.h"
+
+namespace {
+
+using nlohmann::json;
+using trisect::test::Finished;
+using trisect::test::trisect;
+
+class BooleanCommand : public trisect::test::Scratch {
+protected:
+    json run(const std::string& operation, std::vector<std::string> rest) {
+        rest.insert(rest.begin(), operation);
+        rest.insert(rest.end(), {"-o", out_, "--json"});
+        const Finished result = trisect(rest);
+        EXPECT_EQ(result.code, 0) << result.err;
+        return result.json();
+    }
+    std::string a_ = box("a.obj", {0, 0, 0}, {2, 2, 2});
+    std::string b_ = box("b.obj", {1, 1, 1}, {3, 3, 3});
+    std::string c_ = box("c.obj", {10, 0, 0}, {11, 1, 1});
+    std::string out_ = path("out.obj");
+};
+
+TEST_F(BooleanCommand, VolumesOfTwoBoxes) {
+    const std::vector<std::pair<std::string, int>> expected{
+        {"union", 15}, {"intersection", 1}, {"difference", 7}, {"xor", 14}};
+    for (const auto& [operation, volume] : expected) {
+        EXPECT_EQ(run(operation, {a_, b_})["output"]["volume"], volume) << operation;
+        EXPECT_EQ(trisect({"info", out_, "--json"}).json()["volume"], volume) << operation;
+    }
+}
+
+TEST_F(BooleanCommand, DocumentHasItsKeys) {
+    const json document = run("difference", {a_, b_});
+    EXPECT_EQ(document["schema"], "trisect.boolean/1");
+    EXPECT_EQ(document["op"], "difference");
+    ASSERT_EQ(document["inputs"].size(), 2U);
+    EXPECT_EQ(document["inputs"][0]["file"], a_);
+    EXPECT_EQ(document["embedding"], "resolved");
+    for (const char* key : {"read", "evaluate", "assemble", "write"}) {
+        EXPECT_TRUE(document["seconds"].contains(key)) << key;
+    }
+    for (const char* key : {"vertices", "edges", "faces", "triangles", "shells", "genus", "closed",
+                            "volume", "area", "bounds", "lattice"}) {
+        EXPECT_TRUE(document["output"].contains(key)) << key;
+    }
+    EXPECT_EQ(document["certificate"]["closed"], true);
+    EXPECT_EQ(document["certificate"]["oriented"], true);
+    EXPECT_EQ(document["certificate"]["self_intersecting_pairs"], 0);
+    EXPECT_EQ(document["certificate"]["max_move"], 0);
+    EXPECT_EQ(document["certificate"]["rounded_vertices"], 0);
+}
+
+TEST_F(BooleanCommand, CertificateMayBeSkipped) {
+    EXPECT_TRUE(run("union", {a_, b_, "--no-certificate"})["certificate"].is_null());
+}
+
+TEST_F(BooleanCommand, CertificateTellsTheRounding) {
+    const std::string tetrahedron = write("t.obj",
+                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const json certificate =
+        run("intersection", {tetrahedron, box("d.obj", {-1, -1, 1}, {9, 9, 9})})["certificate"];
+    EXPECT_EQ(certificate["rounded_vertices"], 2);  // 14/3 and 10/3
+    EXPECT_GT(certificate["max_move"], 0);
+    EXPECT_LT(certificate["max_move"], 1e-15);
+}
+
+TEST_F(BooleanCommand, ManyOperands) {
+    EXPECT_EQ(run("union", {a_, b_, c_})["output"]["volume"], 16);
+    EXPECT_EQ(run("difference", {a_, b_, c_})["output"]["volume"], 7);
+    EXPECT_EQ(run("xor", {a_, b_, c_})["output"]["volume"], 15);
+    EXPECT_EQ(run("intersection", {a_, b_, c_})["output"]["volume"], 0);
+}
+
+TEST_F(BooleanCommand, EmptyResultIsWritten) {
+    const json document = run("intersection", {a_, c_});
+    EXPECT_EQ(document["output"]["faces"], 0);
+    EXPECT_TRUE(document["output"]["bounds"].is_null());
+    EXPECT_TRUE(exists("out.obj"));
+}
+
+TEST_F(BooleanCommand, CoplanarFacesJoinUnlessAskedNotTo) {
+    const std::string next = box("n.obj", {2, 0, 0}, {3, 2, 2});
+    EXPECT_EQ(run("union", {a_, next})["output"]["faces"], 6);
+    EXPECT_GE(run("union", {a_, next, "--source-faces"})["output"]["faces"], 10);
+}
+
+TEST_F(BooleanCommand, ThreadsDoNotChangeTheBytes) {
+    (void)run("union", {a_, b_, "--threads", "1"});
+    const std::string one = read(out_);
+    (void)run("union", {a_, b_, "--threads", "4"});
+    EXPECT_EQ(read(out_), one);
+}
+
+TEST_F(BooleanCommand, DiffComparesSets) {
+    (void)run("union", {a_, b_});
+    EXPECT_EQ(trisect({"diff", out_, out_}).code, 0);
+    const Finished result = trisect({"diff", out_, a_, "--json", "--exact"});
+    EXPECT_EQ(result.code, 1);
+    const json document = result.json();
+    EXPECT_EQ(document["schema"], "trisect.diff/1");
+    EXPECT_EQ(document["equal"], false);
+    EXPECT_EQ(document["symmetric_difference"]["volume"], 7);
+    EXPECT_EQ(document["symmetric_difference"]["volume_exact"], "7");
+    EXPECT_EQ(document["only_first"]["volume"], 7);
+    EXPECT_EQ(document["only_second"]["volume"], 0);
+}
+
+TEST_F(BooleanCommand, SelfIntersectionsAreResolved) {
+    // Two boxes in one file, overlapping.
+    const std::string text = trisect::test::box_text({0, 0, 0}, {2, 2, 2}) +
+                             trisect::test::box_text({1, 1, 1}, {3, 3, 3}, 9);
+    const std::string both = write("both.obj", text);
+    EXPECT_EQ(run("union", {both, c_})["output"]["volume"], 16);
+}
+
+}  // namespace

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The exit codes, each of them at least once. 70 stands for a mistake of ours; it has no input.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "process.h"
+#include "scratch.h"
+
+namespace {
+
+using trisect::test::Finished;
+using trisect::test::trisect;
+using trisect::test::Waiting;
+
+class ExitCode : public trisect::test::Scratch {
+protected:
+    std::string cube_ = box("cube.obj", {0, 0, 0}, {1, 1, 1});
+    std::string other_ = box("other.obj", {0, 0, 0}, {1, 1, 2});
+    std::string open_ = open_box("open.obj");
+    std::string out_ = path("out.obj");
+};
+
+TEST_F(ExitCode, DoneIsZero) {
+    EXPECT_EQ(trisect({"info", cube_}).code, 0);
+    EXPECT_EQ(trisect({"check", cube_}).code, 0);
+    EXPECT_EQ(trisect({"convert", cube_, "-o", out_}).code, 0);
+    EXPECT_EQ(trisect({"union", cube_, other_, "-o", out_}).code, 0);
+    EXPECT_EQ(trisect({"diff", cube_, cube_}).code, 0);
+    EXPECT_EQ(trisect({"--help"}).code, 0);
+    EXPECT_EQ(trisect({"--version"}).code, 0);
+    EXPECT_EQ(trisect({"union", "--help"}).code, 0);
+}
+
+TEST_F(ExitCode, FindingsAreOne) {
+    EXPECT_EQ(trisect({"check", open_}).code, 1);
+    EXPECT_EQ(trisect({"diff", cube_, other_}).code, 1);
+}
+
+TEST_F(ExitCode, UsageIsTwo) {
+    const std::vector<std::vector<std::string>> mistakes{
+        {},
+        {"unite", cube_, cube_, "-o", out_},
+        {"info"},
+        {"info", cube_, "--colour"},
+        {"info", cube_, cube_},
+        {"union", cube_, "-o", out_},
+        {"union", cube_, cube_},
+        {"union", cube_, cube_, "-o", path("out.xyz")},
+        {"union", "-", "-", "-o", out_},
+        {"union", cube_, cube_, "-o", "-"},
+        {"union", cube_, cube_, "-o", "-", "--format", "obj", "--json"},
+        {"union", cube_, cube_, "-o", out_, "--winding", "odd"},
+        {"info", cube_, "--threads", "0"},
+        {"info", cube_, "--threads", "two"},
+        {"info", cube_, "--lattice", "3"},
+        {"info", cube_, "--max-memory", "lots"},
+        {"info", cube_, "--max-memory", "99999999T"},
+        {"info", cube_, "--max-seconds", "-1"},
+        {"info", cube_, "--max-seconds", "nan"},
+        {"info", cube_, "--format", "step"},
+        {"info", cube_, "--progress", "dots"},
+        {"check", cube_, "--places", "-1"},
+        {"convert", cube_, "-o", out_, "--translate", "1,2"},
+        {"convert", cube_, "-o", out_, "--translate", "1,2,3,"},
+        {"convert", cube_, "-o", out_, "--rotate", "0,0,0,90"},
+        {"convert", cube_, "-o", out_, "--scale", "0"},
+    };
+    for (const auto& arguments : mistakes) {
+        const Finished result = trisect(arguments);
+        EXPECT_EQ(result.code, 2) << testing::PrintToString(arguments) << result.err;
+        EXPECT_FALSE(result.err.empty());
+    }
+    EXPECT_FALSE(exists("out.obj"));
+}
+
+TEST_F(ExitCode, BadInputIsThree) {
+    EXPECT_EQ(trisect({"info", path("missing.obj")}).code, 3);
+    EXPECT_EQ(trisect({"info", path("")}).code, 3);
+    const Finished result = trisect({"info", write("bad.obj", "v 0 0 0\nf 1 2 3\n"), "--json"});
+    EXPECT_EQ(result.code, 3);
+    const auto error = result.json()["error"];
+    EXPECT_EQ(error["code"], 3);
+    EXPECT_EQ(error["file"], path("bad.obj"));
+    EXPECT_EQ(error["line"], 2);
+}
+
+TEST_F(ExitCode, UnwritableOutputIsThree) {
+    const std::string target = path("no/such/folder/out.obj");
+    EXPECT_EQ(trisect({"convert", cube_, "-o", target}).code, 3);
+    EXPECT_EQ(trisect({"union", cube_, other_, "-o", target}).code, 3);
+    EXPECT_EQ(trisect({"convert", cube_, "-o", "/dev/full", "--format", "obj"}).code, 3);
+}
+
+TEST_F(ExitCode, InvalidOperandIsFour) {
+    for (const char* operation : {"union", "intersection", "difference", "xor"}) {
+        const Finished result = trisect({operation, cube_, open_, "-o", out_});
+        EXPECT_EQ(result.code, 4) << result.err;
+        EXPECT_NE(result.err.find("open.obj"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(trisect({"diff", cube_, open_}).code, 4);
+    EXPECT_FALSE(exists("out.obj"));
+}
+
+TEST_F(ExitCode, InsideOutOperandIsFourUnlessNonzero) {
+    const std::string mirrored = box("mirrored.obj", {0, 0, 0}, {-1, 1, 1});
+    EXPECT_EQ(trisect({"union", cube_, mirrored, "-o", out_}).code, 4);
+    EXPECT_EQ(trisect({"union", cube_, mirrored, "-o", out_, "--winding", "nonzero"}).code, 0);
+}
+
+TEST_F(ExitCode, TimeLimitIsFive) {
+    Waiting waiting({"info", "-", "--max-seconds", "0.2", "--json"});
+    const Finished result = waiting.finish();
+    EXPECT_EQ(result.code, 5) << result.err;
+    EXPECT_EQ(result.json()["error"]["code"], 5);
+}
+
+TEST_F(ExitCode, MemoryLimitIsFive) {
+    std::string text;
+    for (int i = 0; i < 400'000; ++i) text += "v 0 0 " + std::to_string(i) + "\n";
+    const std::string many = write("many.obj", text + "f 1 2 3\n");
+    EXPECT_EQ(trisect({"info", many}).code, 0);
+    const Finished result = trisect({"info", many, "--max-memory", "12M", "--json"});
+    EXPECT_EQ(result.code, 5) << result.err;
+    EXPECT_EQ(result.json()["error"]["kind"], "limit");
+}
+
+TEST_F(ExitCode, InterruptIsSix) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Waiting waiting({"union", "-", cube_, "-o", out_, "--json"});
+        ::usleep(200'000);
+        waiting.send_signal(signal);
+        const Finished result = waiting.finish();
+        EXPECT_EQ(result.code, 6) << result.err;
+        EXPECT_EQ(result.json()["error"]["kind"], "cancelled");
+    }
+    EXPECT_EQ(entry_count(), 3U);  // the inputs
+}
+
+TEST_F(ExitCode, UnsupportedIsSeven) {
+    const std::string wide = write("wide.off",
+                                   "OFF\n4 1 0\n"
+                                   "0 0 0\n1e300 0 0\n1e300 1e-300 0\n0 1e-300 0\n"
+                                   "4 0 1 2 3\n");
+    const Finished result =
+        trisect({"convert", wide, "-o", path("o.stl"), "--format", "stl-ascii"});
+    EXPECT_EQ(result.code, 7) << result.err;
+    EXPECT_FALSE(exists("o.stl"));
+}
+
+}  // namespace
