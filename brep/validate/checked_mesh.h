@@ -52,8 +52,10 @@ struct CheckedMesh {
 };
 
 // One check for each kind of defect, each in a file of its name.
-void check_open_edges(const CheckedMesh& m, ValidationReport& report);  // and T-vertices
-void check_flipped_faces(const CheckedMesh& m, ValidationReport& report);
+// Also finds T-vertices and flipped faces.
+void check_open_edges(const CheckedMesh& m, ValidationReport& report);
+[[nodiscard]] Defect describe_flipped_face(const CheckedMesh& m, const NetEdge& edge,
+                                           const std::vector<std::uint32_t>& faces);
 void check_non_manifold_edges(const CheckedMesh& m, ValidationReport& report);
 void check_non_manifold_vertices(const CheckedMesh& m, ValidationReport& report);
 void check_repeated_corners(const CheckedMesh& m, ValidationReport& report);

@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// flipped_face: an edge that both of its faces traverse in the same direction.
+// flipped_face: an open edge that both of its faces traverse in the same direction. It is found
+// among the open edges, since such an edge may also cancel with others of its line.
 
 #include <trisect/brep/validate/checked_mesh.h>
 
 namespace trisect::detail {
 
-void check_flipped_faces(const CheckedMesh& m, ValidationReport& report) {
-    m.edges.for_each_edge(
-        [&](std::uint32_t low, std::uint32_t high, std::span<const EdgeUse> uses) {
-            if (uses.size() != 2 || uses[0].is_forward() != uses[1].is_forward()) return;
-            report.add(DefectKind::FlippedFace, [&] {
-                const std::uint32_t from = uses[0].is_forward() ? low : high;
-                const std::uint32_t to = uses[0].is_forward() ? high : low;
-                return Defect{DefectKind::FlippedFace,
-                              {m.name(from), m.name(to)},
-                              {uses[0].face(), uses[1].face()},
-                              m.place(from),
-                              "faces " + std::to_string(uses[0].face()) + " and " +
-                                  std::to_string(uses[1].face()) + " run the same way along the " +
-                                  m.edge_text(from, to) + ": one of them is turned over"};
-            });
-        });
+Defect describe_flipped_face(const CheckedMesh& m, const NetEdge& edge,
+                             const std::vector<std::uint32_t>& faces) {
+    return Defect{DefectKind::FlippedFace,
+                  {m.name(edge.from), m.name(edge.to)},
+                  faces,
+                  m.place(edge.from),
+                  "faces " + std::to_string(faces[0]) + " and " + std::to_string(faces[1]) +
+                      " run the same way along the " + m.edge_text(edge.from, edge.to) +
+                      ": one of them is turned over"};
 }
 
 }  // namespace trisect::detail

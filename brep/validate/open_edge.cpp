@@ -13,7 +13,7 @@ namespace {
 struct UnbalancedEdge {
     NetEdge net;
     std::vector<std::uint32_t> faces;
-    bool flipped = false;  // exactly two faces: flipped_face reports it
+    bool flipped = false;  // exactly two faces, in the same direction
 };
 
 std::vector<UnbalancedEdge> find_unbalanced(const CheckedMesh& m) {
@@ -56,7 +56,11 @@ void check_open_edges(const CheckedMesh& m, ValidationReport& report) {
     for (const auto& e : edges) nets.push_back(e.net);
     const auto open = find_uncancelled(m.mesh.points, nets);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (open[i] && edges[i].flipped) continue;
+        if (open[i] && edges[i].flipped) {
+            report.add(DefectKind::FlippedFace,
+                       [&] { return describe_flipped_face(m, nets[i], edges[i].faces); });
+            continue;
+        }
         const auto kind = open[i] ? DefectKind::OpenEdge : DefectKind::TVertex;
         report.add(kind, [&] { return describe(m, edges[i], kind); });
     }

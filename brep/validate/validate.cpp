@@ -33,7 +33,6 @@ ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options
     ValidationReport report(options.list_limit);
     report.set_lattice(m.mesh.report);
     detail::check_open_edges(m, report);
-    detail::check_flipped_faces(m, report);
     detail::check_non_manifold_edges(m, report);
     detail::check_non_manifold_vertices(m, report);
     detail::check_repeated_corners(m, report);
