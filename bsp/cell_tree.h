@@ -79,12 +79,18 @@ private:
 };
 
 /// A polygon in a cell: a whole facet (its clipping by the cell is implied, not carried out) or a
-/// fragment. `flipped` turns its orientation. Trivial type; whoever stores it keeps its fragment.
+/// fragment. `flipped` turns its orientation. A whole facet that an arrangement listed is `touched`
+/// when something of another surface comes into contact with it, so that vertices may lie in its
+/// edges. Trivial type; whoever stores it keeps its fragment.
+///
+/// A whole facet that reaches into several cells is whole in all of them or in none: an arrangement
+/// that meets a facet which anything cuts, be it outside its cell, lists the facet's clipped part.
 struct PolygonRef {
     const Source* source = nullptr;
     const Fragment* fragment = nullptr;
     std::uint32_t facet = 0;
     bool flipped = false;
+    bool touched = false;
 
     [[nodiscard]] const Box& box() const {
         return fragment != nullptr ? fragment->box() : source->facet_box(facet);

@@ -58,6 +58,7 @@ struct Operand {
     std::span<const PolygonRef> list;
     std::vector<PolygonRef> storage;  // behind `list`, unless a leaf node is
     std::shared_ptr<const CellNode> keep;  // the leaf node behind `list`
+    Box box;  // of a list: of the polygons' boxes, within the cell
     int winding = 0;
 
     [[nodiscard]] bool is_tree() const { return tree.node != nullptr; }
@@ -90,7 +91,7 @@ public:
     CellRef solve(Task task);
     // An operand seen in the cell of `tree`, with its winding number at `reference`.
     std::optional<int> winding_at(const CellRef& tree, const FinePoint& reference) const;
-    void attach(Operand& operand, const CellRef& tree) const;
+    void attach(Operand& operand, const CellRef& tree, const Cell& cell) const;
 
 private:
     // Steps of solve().
@@ -102,7 +103,7 @@ private:
 
     std::optional<Wall> choose_wall(const Task& task) const;
     std::optional<Wall> wall_of_trees(const Task& task) const;
-    Task child(const Task& task, const Wall& wall, int which, bool& failed) const;
+    std::array<Task, 2> children_of(const Task& task, const Wall& wall) const;
     bool place_reference(const Task& task, const Wall& wall, int which, Task& out) const;
     bool windings_at(const Task& task, const FinePoint& p, Task& out) const;
     void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out) const;
@@ -115,7 +116,14 @@ private:
     mutable detail::Workbench bench_;
 };
 
-void Evaluator::attach(Operand& operand, const CellRef& tree) const {
+// Box of the bounded polygons of a list, within a cell.
+Box bounded_box(std::span<const PolygonRef> list, const Cell& cell) {
+    Box b;
+    for (const PolygonRef& r : list) b.add(r.box());
+    return b.intersected(cell.lattice_box());
+}
+
+void Evaluator::attach(Operand& operand, const CellRef& tree, const Cell& cell) const {
     if (!tree.node->is_leaf()) {
         operand.tree = tree;
         return;
@@ -125,6 +133,7 @@ void Evaluator::attach(Operand& operand, const CellRef& tree) const {
     operand.list = tree.node->polygons();
     operand.flipped = tree.complemented;
     operand.mixed = tree.node->is_mixed();
+    operand.box = bounded_box(operand.list, cell);
 }
 
 std::optional<int> Evaluator::winding_at(const CellRef& tree, const FinePoint& p) const {
@@ -227,6 +236,7 @@ void Evaluator::listed(Operand& operand, const Cell& cell) const {
     operand.list = operand.storage;
     operand.flipped = false;
     operand.mixed = true;
+    operand.box = bounded_box(operand.list, cell);
     // New fragments live as long as the node that lists them: make one.
     operand.keep = CellNode::leaf(PolygonList(operand.storage), {}, 0, true);
 }
@@ -239,19 +249,19 @@ std::optional<Wall> Evaluator::wall_of_trees(const Task& task) const {
     return Wall{largest->tree.node->axis(), largest->tree.node->wall()};
 }
 
+bool is_half_space(const Operand& o) {
+    return o.list.size() == 1 && o.list[0].source->is_half_space();
+}
+
 // Peel off a slab that only one operand enters when it is large, else halve the box of what at least
 // two operands enter (or the one operand that has to be resolved by itself).
 std::optional<Wall> Evaluator::choose_wall(const Task& task) const {
-    const Box cell = task.cell.lattice_box();
     std::vector<Box> boxes;
     Box all;
     for (const Operand& o : task.operands) {
-        Box b;
-        for (const PolygonRef& r : o.list)
-            if (!r.source->is_half_space()) b.add(r.box().intersected(cell));
-        if (b.is_empty()) continue;
-        boxes.push_back(b);
-        all.add(b);
+        if (o.box.is_empty() || is_half_space(o)) continue;
+        boxes.push_back(o.box);
+        all.add(o.box);
     }
     if (all.is_empty()) return std::nullopt;
     Box contested;
@@ -263,8 +273,7 @@ std::optional<Wall> Evaluator::choose_wall(const Task& task) const {
         }
     for (const Operand& o : task.operands) {
         if (o.embedded && !alone) continue;
-        for (const PolygonRef& r : o.list)
-            if (!r.source->is_half_space()) contested.add(r.box().intersected(cell));
+        if (!o.box.is_empty() && !is_half_space(o)) contested.add(o.box);
     }
     if (alone) contested = all;
     const auto at = [&](int axis, std::int64_t last_below) {
@@ -337,7 +346,7 @@ bool Evaluator::place_reference(const Task& task, const Wall& wall, int which, T
     // Then anywhere near the polygons.
     Box around;
     for (const Operand& o : task.operands)
-        for (const PolygonRef& r : o.list) around.add(r.box());
+        if (!o.box.is_empty()) around.add(o.box);
     if (around.is_empty()) around = out.cell.lattice_box();
     for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -355,36 +364,55 @@ bool Evaluator::place_reference(const Task& task, const Wall& wall, int which, T
     return false;
 }
 
-Task Evaluator::child(const Task& task, const Wall& wall, int which, bool& failed) const {
-    Task out;
-    out.cell = which == 0 ? task.cell.below(wall.axis, wall.position)
-                          : task.cell.above(wall.axis, wall.position);
-    out.formula = task.formula;
-    out.depth = task.depth + 1;
+// Both children of a cell; every list is read once.
+std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) const {
+    std::array<Task, 2> out;
     const auto k = static_cast<std::size_t>(wall.axis);
     const std::int64_t last_below = wall.position >> wall_bits;
-    for (const Operand& o : task.operands) {
-        Operand c;
-        c.slot = o.slot;
-        c.embedded = o.embedded;
-        c.mixed = o.mixed;
-        if (o.is_tree()) {
-            CellRef t = o.tree.node->child(which);
-            t.complemented = t.complemented != o.tree.complemented;
-            attach(c, t);
-        } else {
-            c.flipped = o.flipped;
-            c.keep = o.keep;
-            for (const PolygonRef& r : o.list) {
-                const Box& b = r.box();
-                if (which == 0 ? b.lo[k] <= last_below : b.hi[k] > last_below)
-                    c.storage.push_back(r);
-            }
-            c.list = c.storage;
-        }
-        out.operands.push_back(std::move(c));
+    for (std::size_t i = 0; i < 2; ++i) {
+        out[i].cell = i == 0 ? task.cell.below(wall.axis, wall.position)
+                             : task.cell.above(wall.axis, wall.position);
+        out[i].formula = task.formula;
+        out[i].depth = task.depth + 1;
+        out[i].operands.resize(task.operands.size());
     }
-    failed = !place_reference(task, wall, which, out);
+    for (std::size_t n = 0; n < task.operands.size(); ++n) {
+        const Operand& o = task.operands[n];
+        std::array<Operand*, 2> c{&out[0].operands[n], &out[1].operands[n]};
+        for (std::size_t i = 0; i < 2; ++i) {
+            c[i]->slot = o.slot;
+            c[i]->embedded = o.embedded;
+            if (!o.is_tree()) {
+                c[i]->mixed = o.mixed;
+                c[i]->flipped = o.flipped;
+                c[i]->keep = o.keep;
+                c[i]->storage.reserve(o.list.size() / 2 + 8);
+                continue;
+            }
+            CellRef t = o.tree.node->child(static_cast<int>(i));
+            t.complemented = t.complemented != o.tree.complemented;
+            attach(*c[i], t, out[i].cell);
+        }
+        if (o.is_tree()) continue;
+        for (const PolygonRef& r : o.list) {
+            const Box& b = r.box();
+            if (b.lo[k] <= last_below) {
+                c[0]->storage.push_back(r);
+                c[0]->box.add(b);
+            }
+            if (b.hi[k] > last_below) {
+                c[1]->storage.push_back(r);
+                c[1]->box.add(b);
+            }
+        }
+        for (std::size_t i = 0; i < 2; ++i) {
+            c[i]->list = c[i]->storage;
+            c[i]->box = c[i]->box.intersected(out[i].cell.lattice_box());
+        }
+    }
+    for (int i = 0; i < 2; ++i)
+        TRISECT_EXPECTS(place_reference(task, wall, i, out[static_cast<std::size_t>(i)]),
+                        "no reference point found in a cell");
     return out;
 }
 
@@ -401,14 +429,10 @@ CellRef Evaluator::divide(Task task) {
     const bool too_deep = task.stalled >= 8 || task.depth > 400;
     if (!wall || (too_deep && !wall_of_trees(task))) return resolve(task);
     std::array<CellRef, 2> results;
-    std::array<Task, 2> children;
+    std::array<Task, 2> children = children_of(task, *wall);
     std::uint64_t total = 0;
     for (const Operand& o : task.operands) total += o.size();
-    for (int i = 0; i < 2; ++i) {
-        bool failed = false;
-        auto& c = children[static_cast<std::size_t>(i)];
-        c = child(task, *wall, i, failed);
-        TRISECT_EXPECTS(!failed, "no reference point found in a cell");
+    for (Task& c : children) {
         std::uint64_t n = 0;
         for (const Operand& o : c.operands) n += o.size();
         c.stalled = 10 * n > 9 * total ? task.stalled + 1 : 0;
@@ -567,7 +591,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
             Operand o;
             o.slot = static_cast<std::int32_t>(i);
             o.embedded = states[i]->embedded;
-            evaluator.attach(o, states[i]->root);
+            evaluator.attach(o, states[i]->root, task.cell);
             const auto w = evaluator.winding_at(states[i]->root, task.reference);
             placed = w.has_value();
             if (w) o.winding = *w;

@@ -3,6 +3,7 @@
 #include <trisect/bsp/solid.h>
 
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/detail/assembly.h>
 #include <trisect/bsp/detail/solid_state.h>
@@ -93,12 +94,12 @@ Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
     const bool t_edges = imported.report.t_edges != 0;
     Solid s = from_lattice_mesh(std::move(imported.mesh), embedding);
     if (!t_edges) return s;
-    // Corners inside edges: no cell may take its facets for conforming.
+    // Corners inside edges: every facet may have vertices in its edges.
     auto state = std::make_shared<SolidState>(*s.state_);
     const CellNode& n = *s.state_->root.node;
-    const auto refs = n.polygons();
-    state->root = {CellNode::leaf(PolygonList({refs.begin(), refs.end()}), n.reference(),
-                                  n.winding(), true),
+    std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
+    for (detail::PolygonRef& r : refs) r.touched = true;
+    state->root = {CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true),
                    false};
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which facets need work: one that lies in a single cell where no operands met is untouched and
-// passes through whole. All others (fragments, facets that span several cells, facets in mixed
-// leaves) are turned into convex parts with exact vertices.
+// Which facets need work: fragments, and whole facets that something touches in a cell, because
+// vertices may lie in their edges. A facet without either is whole in every cell that it reaches into
+// (see PolygonRef) and passes through as it is. All others are turned into convex parts with exact
+// vertices, one for every cell.
 //
 // Vertices are identified by name as they are made (Workbench::meet), then by value: all points are
 // sorted along x by their certified doubles, and points whose error boxes meet are compared exactly.
@@ -29,14 +30,38 @@ namespace {
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 struct Part {
-    PolygonRef ref;
+    std::int32_t facet = -1;
+    bool flipped = false;
     WorkPolygon shape;
 };
 
 struct Leaf {
-    bool mixed = false;
+    const CellNode* node = nullptr;
+    bool complemented = false;
+    Cell cell;
     std::size_t first_part = 0;
     std::size_t end_part = 0;
+};
+
+// What is known of the facets of one source: one entry for each facet and orientation.
+class FacetTable {
+public:
+    struct Entry {
+        bool seen = false;
+        bool involved = false;
+        std::int32_t index = -1;
+    };
+    explicit FacetTable(const Source* source)
+        : source_(source), entries_(2 * std::size_t{source->facet_count()}) {}
+    [[nodiscard]] const Source* source() const { return source_; }
+    [[nodiscard]] std::vector<Entry>& entries() { return entries_; }
+    [[nodiscard]] Entry& at(const PolygonRef& r) {
+        return entries_[2 * std::size_t{r.facet} + (r.flipped ? 1 : 0)];
+    }
+
+private:
+    const Source* source_;
+    std::vector<Entry> entries_;
 };
 
 class Gatherer {
@@ -44,19 +69,22 @@ public:
     Gatherer(bool all, BoundaryParts& out) : all_(all), out_(out) {}
 
     void run(const SolidState& solid) {
-        visit(solid.root, Cell{});
-        merge_equal_points();
+        list_leaves(solid.root, Cell{});
+        mark_facets();
         number_facets();
+        make_parts();
+        merge_equal_points();
         emit_edges();
     }
 
 private:
-    void visit(const CellRef& ref, const Cell& cell);
-    void add_polygon(const PolygonRef& ref, const Cell& cell, bool mixed);
-    void merge_equal_points();
+    void list_leaves(const CellRef& ref, const Cell& cell);
+    void mark_facets();
     void number_facets();
+    void make_parts();
+    void merge_equal_points();
     void emit_edges();
-    [[nodiscard]] std::int32_t facet_index(const PolygonRef& ref) const;
+    [[nodiscard]] FacetTable& table(const Source* source);
     PointId root(PointId p) {
         while (same_[u(p)] != p) p = same_[u(p)] = same_[u(same_[u(p)])];
         return p;
@@ -66,51 +94,88 @@ private:
     BoundaryParts& out_;
     std::vector<Part> parts_;
     std::vector<Leaf> leaves_;
-    std::vector<PolygonRef> whole_;
+    std::vector<FacetTable> tables_;
+    std::size_t last_table_ = 0;
     std::vector<PointId> same_;
 };
 
-void Gatherer::visit(const CellRef& ref, const Cell& cell) {
+FacetTable& Gatherer::table(const Source* source) {
+    if (last_table_ < tables_.size() && tables_[last_table_].source() == source)
+        return tables_[last_table_];
+    const auto at = std::find_if(tables_.begin(), tables_.end(),
+                                 [&](const FacetTable& t) { return t.source() == source; });
+    last_table_ = static_cast<std::size_t>(at - tables_.begin());
+    if (at == tables_.end()) tables_.emplace_back(source);
+    return tables_[last_table_];
+}
+
+void Gatherer::list_leaves(const CellRef& ref, const Cell& cell) {
     const CellNode& node = *ref.node;
     if (!node.is_leaf()) {
         for (int i = 0; i < 2; ++i) {
             CellRef c = node.child(i);
             c.complemented = c.complemented != ref.complemented;
-            visit(c, i == 0 ? cell.below(node.axis(), node.wall())
-                            : cell.above(node.axis(), node.wall()));
+            list_leaves(c, i == 0 ? cell.below(node.axis(), node.wall())
+                                  : cell.above(node.axis(), node.wall()));
         }
         return;
     }
-    Leaf leaf;
-    leaf.mixed = node.is_mixed();
-    leaf.first_part = parts_.size();
-    for (PolygonRef r : node.polygons()) {
-        r.flipped = r.flipped != ref.complemented;
-        add_polygon(r, cell, leaf.mixed);
-    }
-    leaf.end_part = parts_.size();
-    if (leaf.end_part != leaf.first_part) leaves_.push_back(leaf);
+    if (!node.polygons().empty()) leaves_.push_back({&node, ref.complemented, cell, 0, 0});
 }
 
-void Gatherer::add_polygon(const PolygonRef& ref, const Cell& cell, bool mixed) {
-    const bool contained = cell.contains(ref.box());
-    if (!mixed && contained && ref.fragment == nullptr && !ref.source->is_half_space()) {
-        whole_.push_back(ref);
-        return;
+void Gatherer::mark_facets() {
+    for (const Leaf& leaf : leaves_) {
+        for (PolygonRef r : leaf.node->polygons()) {
+            r.flipped = r.flipped != leaf.complemented;
+            FacetTable::Entry& e = table(r.source).at(r);
+            e.seen = true;
+            if (r.fragment != nullptr || r.touched || r.source->is_half_space()) e.involved = true;
+        }
     }
-    WorkPolygon shape = out_.bench.polygon(ref);
-    out_.bench.with_edges(shape, ref);
-    if (!contained || shape.is_empty()) shape = out_.bench.clipped(shape, ref.box(), cell);
-    if (!shape.is_empty()) parts_.push_back({ref, std::move(shape)});
+}
+
+void Gatherer::number_facets() {
+    std::sort(tables_.begin(), tables_.end(), [](const FacetTable& a, const FacetTable& b) {
+        return a.source()->serial() < b.source()->serial();
+    });
+    last_table_ = 0;
+    for (FacetTable& t : tables_) {
+        for (std::size_t i = 0; i < t.entries().size(); ++i) {
+            FacetTable::Entry& e = t.entries()[i];
+            if (!e.seen) continue;
+            e.index = static_cast<std::int32_t>(out_.facets.size());
+            out_.facets.push_back(
+                {t.source(), static_cast<std::uint32_t>(i / 2), (i & 1) != 0, -1});
+            if (!e.involved && !all_) out_.whole.push_back(e.index);
+        }
+    }
+}
+
+void Gatherer::make_parts() {
+    for (Leaf& leaf : leaves_) {
+        leaf.first_part = parts_.size();
+        for (PolygonRef r : leaf.node->polygons()) {
+            r.flipped = r.flipped != leaf.complemented;
+            FacetTable::Entry& e = table(r.source).at(r);
+            if (!e.involved && (!all_ || !e.seen)) continue;
+            WorkPolygon shape = out_.bench.polygon(r);
+            out_.bench.with_edges(shape, r);
+            out_.facets[u(e.index)].support = shape.support;
+            if (!e.involved) {
+                e.seen = false;  // once is enough
+            } else if (!leaf.cell.contains(r.box()) || shape.is_empty()) {
+                shape = out_.bench.clipped(shape, r.box(), leaf.cell);
+            }
+            if (!shape.is_empty()) parts_.push_back({e.index, r.flipped, std::move(shape)});
+        }
+        leaf.end_part = parts_.size();
+    }
 }
 
 // Union of points that are equal under different names; the representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
     Workbench& bench = out_.bench;
-    if (all_)
-        for (const PolygonRef& r : whole_)
-            for (int i = 0; i < 3; ++i) (void)bench.corner(r.source, r.facet, i);
     const std::size_t n = bench.point_count();
     same_.resize(n);
     std::iota(same_.begin(), same_.end(), 0);
@@ -142,31 +207,6 @@ void Gatherer::merge_equal_points() {
     }
 }
 
-auto facet_key(const Source* s, std::uint32_t facet, bool flipped) {
-    return std::tuple(s->serial(), facet, flipped);
-}
-
-void Gatherer::number_facets() {
-    auto& facets = out_.facets;
-    for (const Part& p : parts_) facets.push_back({p.ref.source, p.ref.facet, p.ref.flipped, -1});
-    for (const PolygonRef& r : whole_) facets.push_back({r.source, r.facet, r.flipped, -1});
-    const auto key = [](const BoundaryFacet& f) { return facet_key(f.source, f.facet, f.flipped); };
-    std::sort(facets.begin(), facets.end(),
-              [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    facets.erase(std::unique(facets.begin(), facets.end(),
-                             [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-                 facets.end());
-}
-
-std::int32_t Gatherer::facet_index(const PolygonRef& ref) const {
-    const auto at = std::lower_bound(
-        out_.facets.begin(), out_.facets.end(), facet_key(ref.source, ref.facet, ref.flipped),
-        [](const BoundaryFacet& f, const auto& key) {
-            return facet_key(f.source, f.facet, f.flipped) < key;
-        });
-    return static_cast<std::int32_t>(at - out_.facets.begin());
-}
-
 void append_edges(const WorkPolygon& shape, std::int32_t facet, bool flipped,
                   std::vector<BoundaryEdge>& out) {
     const std::size_t n = shape.points.size();
@@ -186,30 +226,15 @@ void Gatherer::emit_edges() {
         for (std::size_t i = leaf.first_part; i < leaf.end_part; ++i) {
             Part& p = parts_[i];
             for (PointId& q : p.shape.points) q = root(q);
-            const std::int32_t f = facet_index(p.ref);
-            out_.facets[u(f)].support = p.shape.support;
-            append_edges(p.shape, f, p.ref.flipped, local);
+            append_edges(p.shape, p.facet, p.flipped, local);
         }
-        if (leaf.mixed) {
+        if (leaf.node->is_mixed()) {
             points.clear();
             for (const BoundaryEdge& e : local) points.push_back(e.from);
             insert_points_on_edges(out_.bench, out_.facets, points, local);
         }
         out_.edges.insert(out_.edges.end(), local.begin(), local.end());
     }
-    for (const PolygonRef& r : whole_) {
-        const std::int32_t f = facet_index(r);
-        if (!all_) {
-            out_.whole.push_back(f);
-            continue;
-        }
-        WorkPolygon shape = out_.bench.polygon(r);
-        out_.bench.with_edges(shape, r);
-        for (PointId& q : shape.points) q = root(q);
-        out_.facets[u(f)].support = shape.support;
-        append_edges(shape, f, r.flipped, out_.edges);
-    }
-    std::sort(out_.whole.begin(), out_.whole.end());
 }
 
 // Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.

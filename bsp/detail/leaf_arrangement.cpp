@@ -207,6 +207,8 @@ private:
     [[nodiscard]] bool speaks_before(const Item& a, const Item& b) const;
 
     void make_patches();
+    [[nodiscard]] bool edge_ends_in_cell(const Item& item, int k) const;
+    [[nodiscard]] static Key128 edge_key(const Item& item, int k);
     [[nodiscard]] Index patch_of(Index i);
     void classify_whole(Index i);
     void emit_pieces(Index s, std::size_t first);
@@ -231,6 +233,12 @@ private:
     std::vector<Item> items_;
     std::vector<Piece> pieces_;
     std::vector<std::vector<int>> steps_;
+    struct EdgeUsers {
+        std::array<Index, 2> item{};
+        Index count = 0;
+    };
+    FlatMap edge_ids_;
+    std::vector<EdgeUsers> edge_users_;
     std::vector<Index> patch_;
     std::vector<std::int8_t> patch_result_;  // -1 unknown, bit 0 above, bit 1 below
     std::vector<PolygonRef> out_;
@@ -267,6 +275,7 @@ std::vector<PolygonRef> LeafArranger::Impl::arrange(const LeafProblem& problem, 
 
     load();
     relate_pairs();
+    for (Item& item : items_) item.ref.touched = item.ref.touched || item.touched;
     make_patches();
     for (Index i = 0; i < static_cast<Index>(items_.size()); ++i) {
         const Item& item = items_[u(i)];
@@ -530,34 +539,54 @@ void LeafArranger::Impl::resolve_covers(std::size_t first) {
 }
 
 // Untouched whole facets of one operand that share an edge with an end in the cell lie in one patch:
-// nothing else comes near that edge, so both have the same on either side.
+// nothing else comes near that edge, so both have the same on either side. Where a boundary that may
+// meet itself has more than two facets at an edge, they are different sheets.
 void LeafArranger::Impl::make_patches() {
     const auto n = items_.size();
     patch_.resize(n);
     std::iota(patch_.begin(), patch_.end(), 0);
     patch_result_.assign(n, -1);
-    FlatMap edges;
+    edge_ids_.clear();
+    edge_users_.clear();
     for (std::size_t i = 0; i < n; ++i) {
         const Item& item = items_[i];
-        if (item.touched || item.ref.fragment != nullptr || item.ref.source->is_half_space())
-            continue;
+        if (item.ref.fragment != nullptr || item.ref.source->is_half_space()) continue;
         for (int k = 0; k < 3; ++k) {
-            const auto v = item.ref.source->corner_index(item.ref.facet, k);
-            const auto w = item.ref.source->corner_index(item.ref.facet, (k + 1) % 3);
-            Box start;
-            Box end;
-            start.add(item.ref.source->corner(item.ref.facet, k));
-            end.add(item.ref.source->corner(item.ref.facet, (k + 1) % 3));
-            if (!problem_->cell.contains(start) && !problem_->cell.contains(end)) continue;
-            const Key128 key{
-                reinterpret_cast<std::uintptr_t>(item.ref.source) ^
-                    (static_cast<std::uint64_t>(item.operand) << 57),
-                (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
-            const auto [other, inserted] = edges.insert(key, static_cast<Index>(i));
-            if (inserted || items_[u(other)].orientation != item.orientation) continue;
-            patch_[u(patch_of(static_cast<Index>(i)))] = patch_of(other);
+            if (!edge_ends_in_cell(item, k)) continue;
+            const auto next = static_cast<Index>(edge_users_.size());
+            const auto [id, inserted] = edge_ids_.insert(edge_key(item, k), next);
+            if (inserted) edge_users_.push_back({});
+            EdgeUsers& users = edge_users_[u(id)];
+            if (users.count < 2) users.item[u(users.count)] = static_cast<Index>(i);
+            ++users.count;
         }
     }
+    for (const EdgeUsers& e : edge_users_) {
+        if (e.count < 2) continue;
+        const Item& a = items_[u(e.item[0])];
+        const Item& b = items_[u(e.item[1])];
+        if (a.touched || b.touched || a.operand != b.operand) continue;
+        if (a.orientation != b.orientation) continue;
+        if (e.count > 2 && !problem_->operands[u(a.operand)].embedded) continue;
+        patch_[u(patch_of(e.item[0]))] = patch_of(e.item[1]);
+    }
+}
+
+bool LeafArranger::Impl::edge_ends_in_cell(const Item& item, int k) const {
+    const auto in_cell = [&](int corner) {
+        Box b;
+        b.add(item.ref.source->corner(item.ref.facet, corner));
+        return problem_->cell.contains(b);
+    };
+    return in_cell(k) || in_cell((k + 1) % 3);
+}
+
+Key128 LeafArranger::Impl::edge_key(const Item& item, int k) {
+    const auto v = item.ref.source->corner_index(item.ref.facet, k);
+    const auto w = item.ref.source->corner_index(item.ref.facet, (k + 1) % 3);
+    return {(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(item.ref.source)) << 16) ^
+                static_cast<std::uint64_t>(item.operand),
+            (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
 }
 
 Index LeafArranger::Impl::patch_of(Index i) {
@@ -598,8 +627,13 @@ void LeafArranger::Impl::emit_pieces(Index s, std::size_t first) {
     const bool uniform = std::adjacent_find(flips.begin(), flips.end(), std::not_equal_to<>()) ==
                          flips.end();
     if (kept.size() == pieces_.size() - first && uniform) {
-        // Every cut was in vain: keep what there was.
-        if (!kept.empty()) emit(item.ref, flips[0], !flips[0]);
+        // Every cut was in vain here: keep what there was. What cuts a facet somewhere must show in
+        // every cell, though (see PolygonRef), so only a facet within the cell stays whole.
+        if (kept.empty()) return;
+        const auto part = item.cutters.empty() && item.covers.empty()
+                              ? std::optional<PolygonRef>(item.ref)
+                              : clip_to_cell(bench_, item.ref, problem_->cell);
+        if (part) emit(*part, flips[0], !flips[0]);
         return;
     }
     for (std::size_t k = 0; k < kept.size(); ++k) {
