@@ -7,13 +7,13 @@
 #include "exact_map.h"
 
 #include <trisect/brep/io/file_bytes.h>
-#include <trisect/brep/transform.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "values.h"
@@ -66,6 +66,22 @@ double matrix_number(Words& words) {
     }
 }
 
+struct Turn {
+    double cosine;
+    double sine;
+};
+
+Turn turn_of(double degrees) {
+    const double rest = std::fmod(degrees, 360.0);
+    const double quarters = rest / 90.0;
+    if (quarters == std::floor(quarters)) {
+        static constexpr Turn turns[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+        return turns[(static_cast<int>(quarters) + 4) % 4];
+    }
+    const double radians = rest * (std::numbers::pi / 180.0);
+    return {std::cos(radians), std::sin(radians)};
+}
+
 ExactRational absolute(const ExactRational& value) { return value.sign() < 0 ? -value : value; }
 
 void turn_faces_over(PolygonMesh& mesh) {
@@ -113,9 +129,24 @@ ExactMap ExactMap::scaling(double factor) {
 
 ExactMap ExactMap::rotation(const std::array<double, 4>& axis_and_degrees) {
     const auto [x, y, z, degrees] = axis_and_degrees;
-    const AffineMap map = AffineMap::rotation({x, y, z}, degrees);
+    const double most = std::max({std::abs(x), std::abs(y), std::abs(z)});
+    if (most == 0) throw UsageError("--rotate: the axis has no length");
+    const double length = std::hypot(x / most, y / most, z / most);
+    const std::array<double, 3> k{x / most / length, y / most / length, z / most / length};
+    const auto [c, s] = turn_of(degrees);
+    // Rodrigues' formula: c I + (1 - c) k k^T + s [k]. Every term is exact for a quarter turn about
+    // a coordinate axis.
     std::array<double, 12> rows{};
-    for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) rows[4 * i + j] = (1 - c) * k[i] * k[j];
+        rows[5 * i] += c;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t u = (i + 1) % 3;
+        const std::size_t v = (i + 2) % 3;
+        rows[4 * v + u] += s * k[i];
+        rows[4 * u + v] -= s * k[i];
+    }
     return from_rows(rows);
 }
 
