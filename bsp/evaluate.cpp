@@ -92,6 +92,7 @@ public:
     // An operand seen in the cell of `tree`, with its winding number at `reference`.
     std::optional<int> winding_at(const CellRef& tree, const FinePoint& reference) const;
     void attach(Operand& operand, const CellRef& tree, const Cell& cell) const;
+    std::vector<detail::FacetName>& incomplete() { return arranger_.incomplete(); }
 
 private:
     // Steps of solve().
@@ -181,7 +182,12 @@ CellRef Evaluator::share(Task& task) {
     if (o.is_tree()) return {o.tree.node, o.tree.complemented != negated};
     if (o.keep && o.keep->polygons().data() == o.list.data())
         return {o.keep, o.flipped != negated};
-    std::vector<PolygonRef> refs(o.list.begin(), o.list.end());
+    // Listed are the polygons whose boxes meet the cell. The result lists those that do themselves:
+    // a leaf without polygons must be homogeneous, and a facet must not appear where it is not.
+    std::vector<PolygonRef> refs;
+    refs.reserve(o.list.size());
+    for (const PolygonRef& r : o.list)
+        if (detail::meets_cell(bench_, r, task.cell)) refs.push_back(r);
     const bool flip = o.flipped != negated;
     if (flip)
         for (PolygonRef& r : refs) r.flipped = !r.flipped;
@@ -339,7 +345,7 @@ bool Evaluator::place_reference(const Task& task, const Wall& wall, int which, T
     }
     // First straight through the wall; the segment is short and hits little.
     FinePoint p = task.reference;
-    for (const std::int64_t step : {1, 37, 59, 101}) {
+    for (const std::int64_t step : {3, 37, 59, 101}) {
         p.c[k] = wall.position + (which == 0 ? -step : step);
         if (out.cell.contains(p) && windings_at(task, p, out)) return true;
     }
@@ -350,10 +356,15 @@ bool Evaluator::place_reference(const Task& task, const Wall& wall, int which, T
     if (around.is_empty()) around = out.cell.lattice_box();
     for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t lo =
-                std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 1) * wall_scale);
-            const std::int64_t hi =
-                std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 1) * wall_scale);
+            // Near the polygons, or at the end of the cell that is nearest to them.
+            std::int64_t lo = std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * wall_scale);
+            std::int64_t hi = std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * wall_scale);
+            if (hi - lo < wall_scale / 2) {
+                const bool cell_is_above = (around.hi[axis] + 2) * wall_scale < out.cell.hi[axis];
+                lo = cell_is_above ? out.cell.lo[axis] + 1
+                                   : std::max(out.cell.lo[axis] + 1, out.cell.hi[axis] - 512);
+                hi = std::min(out.cell.hi[axis] - 1, lo + 512);
+            }
             const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
             const auto c =
                 lo + static_cast<std::int64_t>(detail::mix64(attempt * 3 + axis) % range);
@@ -607,6 +618,12 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     state->lattice = lattice;
     state->root = evaluator.solve(std::move(task));
     state->embedded = true;
+    auto& incomplete = evaluator.incomplete();
+    for (const auto& s : states)
+        incomplete.insert(incomplete.end(), s->incomplete.begin(), s->incomplete.end());
+    std::sort(incomplete.begin(), incomplete.end());
+    incomplete.erase(std::unique(incomplete.begin(), incomplete.end()), incomplete.end());
+    state->incomplete = std::move(incomplete);
     if (stats != nullptr) *stats = local;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

@@ -71,6 +71,7 @@ public:
     void run(const SolidState& solid) {
         list_leaves(solid.root, Cell{});
         mark_facets();
+        mark_incomplete(solid.incomplete);
         number_facets();
         make_parts();
         merge_equal_points();
@@ -80,6 +81,7 @@ public:
 private:
     void list_leaves(const CellRef& ref, const Cell& cell);
     void mark_facets();
+    void mark_incomplete(const std::vector<FacetName>& incomplete);
     void number_facets();
     void make_parts();
     void merge_equal_points();
@@ -131,6 +133,16 @@ void Gatherer::mark_facets() {
             e.seen = true;
             if (r.fragment != nullptr || r.touched || r.source->is_half_space()) e.involved = true;
         }
+    }
+}
+
+void Gatherer::mark_incomplete(const std::vector<FacetName>& incomplete) {
+    for (FacetTable& t : tables_) {
+        const std::uint64_t serial = t.source()->serial();
+        auto at = std::lower_bound(incomplete.begin(), incomplete.end(), FacetName{serial, 0});
+        for (; at != incomplete.end() && at->serial == serial; ++at)
+            for (const std::size_t side : {0U, 1U})
+                t.entries()[2 * std::size_t{at->facet} + side].involved = true;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <trisect/bsp/detail/boundary_edges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -53,6 +54,26 @@ void sort_by_facet(std::vector<BoundaryEdge>& edges) {
                      [](const auto& a, const auto& b) { return a.facet < b.facet; });
 }
 
+// Where coincident facets of two operands meet at a wall because one of them dropped out of the
+// formula beyond it, each side knows only its own vertices on the wall.
+void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto on_wall = [&](const BoundaryEdge& e) {
+        return parts.bench.name(e.line.plane).is_wall();
+    };
+    if (std::none_of(edges.begin(), edges.end(), on_wall)) return;
+    std::vector<BoundaryEdge> walls;
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(walls), on_wall);
+    std::erase_if(edges, on_wall);
+    std::vector<PointId> points;
+    for (const BoundaryEdge& e : walls) {
+        points.push_back(e.from);
+        points.push_back(e.to);
+    }
+    insert_points_on_edges(parts.bench, parts.facets, points, walls);
+    edges.insert(edges.end(), walls.begin(), walls.end());
+    sort_by_facet(edges);
+}
+
 }  // namespace
 
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
@@ -80,11 +101,11 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
             const PlaneName& n = parts.bench.name(e.line.plane);
             if (n.is_wall() && std::abs(n.position()) >= universe_limit)
                 throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
-            TRISECT_AUDIT_CHECK(!n.is_wall(), "an edge on a cell wall survived joining");
         }
         out.insert(out.end(), group.begin(), group.end());
     }
     edges.swap(out);
+    conform_walls(parts, edges);
 }
 
 void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
@@ -140,6 +161,9 @@ void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>&
     }
     edges.swap(left);
     sort_by_facet(edges);
+    for ([[maybe_unused]] const BoundaryEdge& e : edges)
+        TRISECT_AUDIT_CHECK(!parts.bench.name(e.line.plane).is_wall(),
+                            "an edge on a cell wall survived joining");
 }
 
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,

@@ -150,6 +150,21 @@ std::optional<PolygonRef> clip_to_cell(Workbench& bench, const PolygonRef& ref, 
     return make_fragment(bench, ref, part);
 }
 
+bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell) {
+    if (cell.contains(ref.box())) return true;
+    if (ref.fragment == nullptr && !ref.source->is_half_space()) {
+        for (int i = 0; i < 3; ++i) {
+            Box corner;
+            corner.add(ref.source->corner(ref.facet, i));
+            if (cell.contains(corner)) return true;
+        }
+    }
+    bench.clear();
+    WorkPolygon whole = bench.polygon(ref);
+    bench.with_edges(whole, ref);
+    return !bench.clipped(whole, ref.box(), cell).is_empty();
+}
+
 std::optional<int> trace_winding(std::span<const PolygonRef> polygons, bool flipped,
                                  const FinePoint& from, const FinePoint& to) {
     const Approximation start = approximate(from);
@@ -189,14 +204,22 @@ class LeafArranger::Impl {
 public:
     std::vector<PolygonRef> arrange(const LeafProblem& problem, SlotValues& values,
                                     EvaluateStats& stats);
+    std::vector<FacetName> incomplete;
 
 private:
     void load();
     void relate_pairs();
     void relate(Index s, Index t);
+    // The edge planes of a whole facet are made when something asks for them: most facets of a leaf
+    // meet nothing.
+    const WorkPolygon& with_edges(Index i) {
+        Item& item = items_[u(i)];
+        bench_.with_edges(item.shape, item.ref);
+        return item.shape;
+    }
     [[nodiscard]] int shared_corners(const Item& a, const Item& b) const;
     void relate_coplanar(Index s, Index t);
-    [[nodiscard]] bool separated_by_edges_of(const Item& a, const Item& b);
+    [[nodiscard]] bool separated_by_edges_of(Item& a, const Item& b);
     [[nodiscard]] bool cuts(const WorkPolygon& piece, Index cutter);
     [[nodiscard]] bool segment_meets_interior(const WorkPolygon& piece, PlaneId line,
                                               const WorkPolygon& cutter);
@@ -240,6 +263,7 @@ private:
     FlatMap edge_ids_;
     std::vector<EdgeUsers> edge_users_;
     std::vector<Index> patch_;
+    std::vector<Index> patch_within_cell_;  // of a patch: one of its facets that lies in the cell
     std::vector<std::int8_t> patch_result_;  // -1 unknown, bit 0 above, bit 1 below
     std::vector<PolygonRef> out_;
 
@@ -251,6 +275,8 @@ private:
 
 LeafArranger::LeafArranger() : impl_(std::make_unique<Impl>()) {}
 LeafArranger::~LeafArranger() = default;
+
+std::vector<FacetName>& LeafArranger::incomplete() { return impl_->incomplete; }
 
 std::vector<PolygonRef> LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
                                               EvaluateStats& stats) {
@@ -302,7 +328,6 @@ void LeafArranger::Impl::load() {
             item.orientation = item.ref.flipped ? -1 : 1;
             item.operand = static_cast<Index>(o);
             item.shape = bench_.polygon(ref);
-            bench_.with_edges(item.shape, ref);
             if (item.shape.is_empty())
                 item.shape = bench_.clipped(item.shape, ref.box(), problem_->cell);
             // A cell without lattice points still has an inside: keep one unit around it.
@@ -379,18 +404,19 @@ void LeafArranger::Impl::relate(Index s, Index t) {
     a.touched = true;
     b.touched = true;
     bool cutting = false;
-    if (a_lo < 0 && a_hi > 0 && cuts(a.shape, t)) {
+    if (a_lo < 0 && a_hi > 0 && cuts(with_edges(s), t)) {
         a.cutters.push_back(t);
         cutting = true;
     }
-    if (b_lo < 0 && b_hi > 0 && cuts(b.shape, s)) {
+    if (b_lo < 0 && b_hi > 0 && cuts(with_edges(t), s)) {
         b.cutters.push_back(s);
         cutting = true;
     }
     if (cutting) ++stats_->pairs_cutting;
 }
 
-bool LeafArranger::Impl::separated_by_edges_of(const Item& a, const Item& b) {
+bool LeafArranger::Impl::separated_by_edges_of(Item& a, const Item& b) {
+    bench_.with_edges(a.shape, a.ref);
     return std::any_of(a.shape.edges.begin(), a.shape.edges.end(), [&](const WorkEdge& e) {
         const int outside = e.above ? -1 : 1;
         return std::all_of(b.shape.points.begin(), b.shape.points.end(),
@@ -455,7 +481,7 @@ bool LeafArranger::Impl::segment_meets_interior(const WorkPolygon& piece, PlaneI
 }
 
 bool LeafArranger::Impl::cuts(const WorkPolygon& piece, Index cutter) {
-    const WorkPolygon& c = items_[u(cutter)].shape;
+    const WorkPolygon& c = with_edges(cutter);
     return segment_meets_interior(piece, c.support, c);
 }
 
@@ -477,7 +503,7 @@ void LeafArranger::Impl::make_pieces(Index s) {
     const Item& item = items_[u(s)];
     Piece start;
     start.item = s;
-    start.shape = bench_.clipped(item.shape, item.ref.box(), problem_->cell);
+    start.shape = bench_.clipped(with_edges(s), item.ref.box(), problem_->cell);
     if (start.shape.is_empty()) return;
     const std::size_t first = pieces_.size();
     pieces_.push_back(std::move(start));
@@ -485,7 +511,7 @@ void LeafArranger::Impl::make_pieces(Index s) {
         split_all(first, items_[u(t)].shape.support, items_[u(t)].shape);
     for (const Index t : items_[u(s)].covers) {
         // The edges of the covering facet are lines in the plane of s, given by its edge planes.
-        const WorkPolygon cover = items_[u(t)].shape;
+        const WorkPolygon cover = with_edges(t);
         for (const WorkEdge& e : cover.edges) split_all(first, e.plane, cover);
     }
     resolve_covers(first);
@@ -493,7 +519,7 @@ void LeafArranger::Impl::make_pieces(Index s) {
 }
 
 bool LeafArranger::Impl::covered_by(const WorkPolygon& piece, Index t) {
-    const WorkPolygon& cover = items_[u(t)].shape;
+    const WorkPolygon& cover = with_edges(t);
     return std::all_of(cover.edges.begin(), cover.edges.end(), [&](const WorkEdge& e) {
         const int outside = e.above ? -1 : 1;
         return std::all_of(piece.points.begin(), piece.points.end(),
@@ -526,6 +552,8 @@ void LeafArranger::Impl::resolve_covers(std::size_t first) {
             const Item& other = items_[u(t)];
             if (speaks_before(other, item)) {
                 piece.dropped = true;
+                if (!problem_->cell.contains(item.ref.box()))
+                    incomplete.push_back({item.ref.source->serial(), item.ref.facet});
                 break;
             }
             // Orientation of the cover relative to this item's support.
@@ -570,6 +598,10 @@ void LeafArranger::Impl::make_patches() {
         if (e.count > 2 && !problem_->operands[u(a.operand)].embedded) continue;
         patch_[u(patch_of(e.item[0]))] = patch_of(e.item[1]);
     }
+    patch_within_cell_.assign(n, -1);
+    for (std::size_t i = 0; i < n; ++i)
+        if (problem_->cell.contains(items_[i].ref.box()))
+            patch_within_cell_[u(patch_of(static_cast<Index>(i)))] = static_cast<Index>(i);
 }
 
 bool LeafArranger::Impl::edge_ends_in_cell(const Item& item, int k) const {
@@ -596,19 +628,21 @@ Index LeafArranger::Impl::patch_of(Index i) {
 
 void LeafArranger::Impl::classify_whole(Index i) {
     const Index patch = patch_of(i);
-    const Item& item = items_[u(i)];
-    if (patch_result_[u(patch)] < 0) {
-        const WorkPolygon part = problem_->cell.contains(item.ref.box())
-                                     ? item.shape
-                                     : bench_.clipped(item.shape, item.ref.box(), problem_->cell);
+    std::int8_t& result = patch_result_[u(patch)];
+    if (result < 0) {
+        // A facet within the cell needs no clipping.
+        const Index speaker = patch_within_cell_[u(patch)] >= 0 ? patch_within_cell_[u(patch)] : i;
+        const Item& item = items_[u(speaker)];
+        const bool within = problem_->cell.contains(item.ref.box()) && !item.shape.is_empty();
+        const WorkPolygon part =
+            within ? item.shape
+                   : bench_.clipped(with_edges(speaker), item.ref.box(), problem_->cell);
         if (part.is_empty()) return;  // listed for its box, but not in the cell
-        const auto sides = classify(i, part, step_of(i));
+        const auto sides = classify(speaker, part, step_of(speaker));
         TRISECT_EXPECTS(sides.has_value(), "no segment to a facet is free of degeneracies");
-        patch_result_[u(patch)] =
-            static_cast<std::int8_t>((sides->above ? 1 : 0) | (sides->below ? 2 : 0));
+        result = static_cast<std::int8_t>((sides->above ? 1 : 0) | (sides->below ? 2 : 0));
     }
-    const int r = patch_result_[u(patch)];
-    emit(item.ref, (r & 1) != 0, (r & 2) != 0);
+    emit(items_[u(i)].ref, (result & 1) != 0, (result & 2) != 0);
 }
 
 void LeafArranger::Impl::emit_pieces(Index s, std::size_t first) {
@@ -665,13 +699,14 @@ bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, std
     const Box segment = box_of_segment(reference_approximation_, target.approximation());
     for (Item& item : items_) {
         if (!item.ref.box().overlaps(segment)) continue;
-        const Plane& support = bench_.plane_at(item.shape.support);
+        const Plane support = bench_.plane_at(item.shape.support);
         if (own_class >= 0 && bench_.plane_class(item.shape.support) == own_class) continue;
         if (item.side_of_reference == 2)
             item.side_of_reference = side(reference_, reference_approximation_, support);
         const int at_start = item.side_of_reference;
         const int at_end = side(target, support);
         if (at_start == at_end && at_start != 0) continue;
+        bench_.with_edges(item.shape, item.ref);
         if (at_start == 0 || at_end == 0) {
             const auto from_outside = [&](const WorkEdge& e) {
                 return side(reference_, reference_approximation_, bench_.plane_at(e.plane)) *

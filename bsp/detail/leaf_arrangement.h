@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/cell_tree.h>
 #include <trisect/bsp/detail/residual.h>
+#include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/workbench.h>
 #include <trisect/bsp/expression.h>
 
@@ -45,6 +46,8 @@ public:
     /// entry for every slot of the formula and is scratch.
     [[nodiscard]] std::vector<PolygonRef> arrange(const LeafProblem& problem, SlotValues& values,
                                                   EvaluateStats& stats);
+    /// Facets that lost a part to a coincident facet in the cells so far (SolidState::incomplete).
+    [[nodiscard]] std::vector<FacetName>& incomplete();
 
 private:
     class Impl;
@@ -65,6 +68,9 @@ private:
 /// area is left.
 [[nodiscard]] std::optional<PolygonRef> clip_to_cell(Workbench& bench, const PolygonRef& ref,
                                                      const Cell& cell);
+
+/// Whether a polygon has area in the cell; its box may reach into cells that it misses.
+[[nodiscard]] bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell);
 
 /// A new fragment of `ref` with the polygon's edges.
 [[nodiscard]] PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,

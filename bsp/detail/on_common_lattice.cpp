@@ -112,6 +112,7 @@ Lattice move_to_common_lattice(std::vector<std::shared_ptr<const SolidState>>& s
         if (!s->lattice_matters || s->lattice.exponent == finest) continue;
         auto moved = std::make_shared<SolidState>(*s);
         moved->lattice.exponent = finest;
+        moved->incomplete.clear();  // refining clips every facet to its cell
         moved->root = Refiner(s->lattice.exponent, finest).refine(s->root);
         s = std::move(moved);
     }

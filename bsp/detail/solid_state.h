@@ -3,17 +3,31 @@
 // SolidState: what a Solid shares between its copies.
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include <trisect/bsp/cell_tree.h>
 
 namespace trisect::detail {
+
+/// A facet of a source, by the source's serial.
+struct FacetName {
+    std::uint64_t serial = 0;
+    std::uint32_t facet = 0;
+    friend auto operator<=>(const FacetName&, const FacetName&) = default;
+};
 
 struct SolidState {
     Lattice lattice;
     CellRef root;
     bool embedded = true;  ///< free of self-intersection, winding numbers 0 and 1 only
     std::uint64_t source = 0;  ///< serial of the one source of an imported solid
+    /// Facets that reach into several cells and are missing in one of them because a coincident facet
+    /// of another operand spoke for them there. Sorted. Elsewhere that operand may have dropped out
+    /// of the formula, so such a facet may be listed whole without being whole. Rare.
+    std::vector<FacetName> incomplete;
     bool lattice_matters = true;  ///< false for the empty set and whole space
 };
 

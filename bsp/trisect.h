@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The umbrella header: everything a program needs to read meshes, combine solids and write results.
+#pragma once
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/measure.h>
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/transform.h>
+#include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/bsp_tree.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/lattice.h>
+#include <trisect/kernel/point.h>
