@@ -7,8 +7,7 @@
 namespace trisect::detail {
 
 Plane PlaneName::plane() const {
-    if (is_wall())
-        return Plane::axis_aligned(static_cast<int>(facet), wall_scale, position());
+    if (is_wall()) return Plane::axis_aligned(static_cast<int>(facet), wall_scale, position());
     const Source* s = source();
     return kind == Support ? s->support(facet) : s->edge_plane(facet, static_cast<int>(kind));
 }
@@ -72,8 +71,8 @@ std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, Cel
     return n;
 }
 
-// Depth is bounded by the bits of the coordinates (each wall halves a range or peels a slab), so the
-// recursion of the default destruction of children is bounded as well.
+// Depth is bounded by the bits of the coordinates (each wall halves a range or peels a slab), so
+// the recursion of the default destruction of children is bounded as well.
 CellNode::~CellNode() = default;
 
 }  // namespace trisect::detail

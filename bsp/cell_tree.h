@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CellTree: the persistent partition behind a Solid. Its inner nodes cut space by axis-aligned walls,
-// its leaves list the polygons of the boundary that meet their cell. Nodes are immutable and shared
-// by all versions of a solid that agree there; an operation copies the paths to what it changes.
+// CellTree: the persistent partition behind a Solid. Its inner nodes cut space by axis-aligned
+// walls, its leaves list the polygons of the boundary that meet their cell. Nodes are immutable and
+// shared by all versions of a solid that agree there; an operation copies the paths to what it
+// changes.
 #pragma once
 
 #include <array>
@@ -128,8 +129,8 @@ struct CellRef {
 ///
 /// Invariants of a leaf: `reference` lies in its cell and on no polygon; `winding` is the winding
 /// number there (0 or 1 for results of operations); every polygon of the boundary that meets the
-/// open cell is listed. A leaf without polygons is homogeneous. `mixed` leaves hold polygons that an
-/// arrangement produced; vertices may lie in the middle of their edges.
+/// open cell is listed. A leaf without polygons is homogeneous. `mixed` leaves hold polygons that
+/// an arrangement produced; vertices may lie in the middle of their edges.
 class CellNode {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,

@@ -4,7 +4,8 @@
 //
 //   1. operands without boundary in the cell are constant there: replace them by their value;
 //   2. nothing left: a homogeneous cell. One operand left: share its subtree or its complement;
-//   3. few polygons: a leaf arrangement (detail/leaf_arrangement.cpp) decides which bound the result;
+//   3. few polygons: a leaf arrangement (detail/leaf_arrangement.cpp) decides which bound the
+//   result;
 //   4. otherwise cut the cell. Where an operand already has a tree its wall is taken, so that its
 //      subtrees can be shared; else the wall that soonest parts the operands.
 //
@@ -52,13 +53,13 @@ using detail::wall_scale;
 struct Operand {
     std::int32_t slot = -1;
     bool embedded = false;
-    bool mixed = false;  // the list holds results of arrangements
-    CellRef tree;        // of a view by subtree; inner node
+    bool mixed = false;    // the list holds results of arrangements
+    CellRef tree;          // of a view by subtree; inner node
     bool flipped = false;  // of a list
     std::span<const PolygonRef> list;
-    std::vector<PolygonRef> storage;  // behind `list`, unless a leaf node is
+    std::vector<PolygonRef> storage;       // behind `list`, unless a leaf node is
     std::shared_ptr<const CellNode> keep;  // the leaf node behind `list`
-    Box box;  // of a list: of the polygons' boxes, within the cell
+    Box box;                               // of a list: of the polygons' boxes, within the cell
     int winding = 0;
 
     [[nodiscard]] bool is_tree() const { return tree.node != nullptr; }
@@ -180,8 +181,7 @@ CellRef Evaluator::share(Task& task) {
     Operand& o = task.operands[0];
     const bool negated = task.formula->kind == Residual::Kind::Not;
     if (o.is_tree()) return {o.tree.node, o.tree.complemented != negated};
-    if (o.keep && o.keep->polygons().data() == o.list.data())
-        return {o.keep, o.flipped != negated};
+    if (o.keep && o.keep->polygons().data() == o.list.data()) return {o.keep, o.flipped != negated};
     // Listed are the polygons whose boxes meet the cell. The result lists those that do themselves:
     // a leaf without polygons must be homogeneous, and a facet must not appear where it is not.
     std::vector<PolygonRef> refs;
@@ -259,8 +259,8 @@ bool is_half_space(const Operand& o) {
     return o.list.size() == 1 && o.list[0].source->is_half_space();
 }
 
-// Peel off a slab that only one operand enters when it is large, else halve the box of what at least
-// two operands enter (or the one operand that has to be resolved by itself).
+// Peel off a slab that only one operand enters when it is large, else halve the box of what at
+// least two operands enter (or the one operand that has to be resolved by itself).
 std::optional<Wall> Evaluator::choose_wall(const Task& task) const {
     std::vector<Box> boxes;
     Box all;
@@ -431,8 +431,8 @@ CellRef Evaluator::divide(Task task) {
     std::optional<Wall> wall = wall_of_trees(task);
     if (wall) {
         for (Operand& o : task.operands)
-            if (o.is_tree() && (o.tree.node->axis() != wall->axis ||
-                                o.tree.node->wall() != wall->position))
+            if (o.is_tree() &&
+                (o.tree.node->axis() != wall->axis || o.tree.node->wall() != wall->position))
                 listed(o, task.cell);
     } else {
         wall = choose_wall(task);
@@ -463,8 +463,8 @@ CellRef Evaluator::divide(Task task) {
             for (int i = 0; i < 2; ++i) {
                 const CellRef& c = driver.node->child(i);
                 const CellRef& r = results[static_cast<std::size_t>(i)];
-                same = same && r.node == c.node &&
-                       r.complemented == (c.complemented != complemented);
+                same =
+                    same && r.node == c.node && r.complemented == (c.complemented != complemented);
             }
             if (same) return {driver.node, complemented};
         }
@@ -536,14 +536,18 @@ Translation translate(const Expression& expression) {
             continue;
         } else {
             switch (f.node->kind) {
-                case Expression::Kind::Not: result = Residual::negation(f.done[0]); break;
+                case Expression::Kind::Not:
+                    result = Residual::negation(f.done[0]);
+                    break;
                 case Expression::Kind::And:
                     result = Residual::combination(Residual::Kind::And, f.done);
                     break;
                 case Expression::Kind::Or:
                     result = Residual::combination(Residual::Kind::Or, f.done);
                     break;
-                default: result = Residual::combination(Residual::Kind::Xor, f.done); break;
+                default:
+                    result = Residual::combination(Residual::Kind::Xor, f.done);
+                    break;
             }
         }
         stack.pop_back();

@@ -8,8 +8,8 @@
 namespace trisect {
 
 Expression::Node::~Node() {
-    // Children that nobody else holds are taken apart here, one by one, so that a chain of a hundred
-    // thousand operations does not recurse a hundred thousand times.
+    // Children that nobody else holds are taken apart here, one by one, so that a chain of a
+    // hundred thousand operations does not recurse a hundred thousand times.
     std::vector<std::shared_ptr<const Node>> doomed = std::move(children);
     while (!doomed.empty()) {
         std::shared_ptr<const Node> n = std::move(doomed.back());

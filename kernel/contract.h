@@ -20,10 +20,10 @@ namespace trisect::detail {
 
 }  // namespace trisect::detail
 
-#define TRISECT_EXPECTS(condition, what)                                      \
-    do {                                                                      \
-        if (!(condition)) [[unlikely]]                                        \
-            ::trisect::detail::contract_violated(what, __FILE__, __LINE__);   \
+#define TRISECT_EXPECTS(condition, what)                                    \
+    do {                                                                    \
+        if (!(condition)) [[unlikely]]                                      \
+            ::trisect::detail::contract_violated(what, __FILE__, __LINE__); \
     } while (false)
 
 #if defined(TRISECT_AUDIT)

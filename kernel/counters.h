@@ -9,8 +9,8 @@
 namespace trisect {
 
 struct PredicateCounters {
-    std::uint64_t symbolic = 0;  ///< On by construction, no arithmetic
-    std::uint64_t filtered = 0;  ///< decided in double precision with a proved bound
+    std::uint64_t symbolic = 0;      ///< On by construction, no arithmetic
+    std::uint64_t filtered = 0;      ///< decided in double precision with a proved bound
     std::uint64_t exact_narrow = 0;  ///< decided in 256 bits
     std::uint64_t exact_wide = 0;    ///< decided in 512 bits
 

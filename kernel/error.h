@@ -43,8 +43,13 @@ struct FilePlace {
     /// "name:12:7" for text, "name: byte 84" for binary.
     [[nodiscard]] std::string to_string() const {
         if (line == 0) return file + ": byte " + std::to_string(offset);
-        std::string s = file + ":" + std::to_string(line);
-        if (column != 0) s += ":" + std::to_string(column);
+        std::string s = file;
+        s += ':';
+        s += std::to_string(line);
+        if (column != 0) {
+            s += ':';
+            s += std::to_string(column);
+        }
         return s;
     }
 };
@@ -72,7 +77,8 @@ public:
 
 class UnsupportedError : public Error {
 public:
-    explicit UnsupportedError(const std::string& message) : Error(ErrorCode::Unsupported, message) {}
+    explicit UnsupportedError(const std::string& message)
+        : Error(ErrorCode::Unsupported, message) {}
 };
 
 class UsageError : public Error {

@@ -26,8 +26,8 @@ struct Lattice {
 struct LatticeReport {
     Lattice lattice;
     bool lossless = true;
-    std::size_t moved = 0;        ///< points with a rounded coordinate
-    double max_move = 0;          ///< largest change of one coordinate, user's units
+    std::size_t moved = 0;          ///< points with a rounded coordinate
+    double max_move = 0;            ///< largest change of one coordinate, user's units
     std::size_t flipped_faces = 0;  ///< faces that were turned over or became flat by rounding
 };
 

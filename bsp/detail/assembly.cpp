@@ -2,16 +2,18 @@
 //
 // Cells give pieces; a boundary needs faces, edges and vertices that fit together. The road:
 //
-//   parts   (assembly_parts.cpp)   polygons of the cells with exact vertices, conforming in each cell
-//   join    (boundary_edges.cpp)   parts of one facet, then facets of one plane: cancel common edges,
+//   parts   (assembly_parts.cpp)   polygons of the cells with exact vertices, conforming in each
+//   cell join    (boundary_edges.cpp)   parts of one facet, then facets of one plane: cancel common
+//   edges,
 //                                  drop vertices at which nothing turns
 //   loops   (face_loops.cpp)       chains of edges, holes in their faces
-//   pairing (brep/brep_builder.h)  opposite halfedges; where four or more faces meet at an edge their
+//   pairing (brep/brep_builder.h)  opposite halfedges; where four or more faces meet at an edge
+//   their
 //                                  exact radial order and the inside decide
 //
 // Every exact question is asked inside one cell, on one line or in one plane; what is global is
-// sorting and hashing. Welding by float distance, the usual way, loses faces or invents them as soon
-// as two different vertices round to the same place.
+// sorting and hashing. Welding by float distance, the usual way, loses faces or invents them as
+// soon as two different vertices round to the same place.
 
 #include <trisect/bsp/detail/assembly.h>
 

@@ -3,13 +3,13 @@
 // Assembly: from the polygons in the cells of a tree to a connected boundary.
 #pragma once
 
-#include <trisect/bsp/solid.h>
 #include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/solid.h>
 
 namespace trisect::detail {
 
-/// The boundary as a B-rep. With maximal faces it is a function of the set alone: it does not depend
-/// on the tree, on the operands' triangulation or on how they were combined.
+/// The boundary as a B-rep. With maximal faces it is a function of the set alone: it does not
+/// depend on the tree, on the operands' triangulation or on how they were combined.
 [[nodiscard]] Brep assemble_brep(const SolidState& solid, const AssembleOptions& options);
 
 /// The boundary as triangles; facets that nothing touched are copied.

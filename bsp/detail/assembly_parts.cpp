@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which facets need work: fragments, and whole facets that something touches in a cell, because
-// vertices may lie in their edges. A facet without either is whole in every cell that it reaches into
-// (see PolygonRef) and passes through as it is. All others are turned into convex parts with exact
-// vertices, one for every cell.
+// vertices may lie in their edges. A facet without either is whole in every cell that it reaches
+// into (see PolygonRef) and passes through as it is. All others are turned into convex parts with
+// exact vertices, one for every cell.
 //
 // Vertices are identified by name as they are made (Workbench::meet), then by value: all points are
-// sorted along x by their certified doubles, and points whose error boxes meet are compared exactly.
-// A second stage is indispensable: where several planes run through one point its names differ.
+// sorted along x by their certified doubles, and points whose error boxes meet are compared
+// exactly. A second stage is indispensable: where several planes run through one point its names
+// differ.
 //
 // T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
 // the vertices of the leaf are all that can lie on an edge inside it. That keeps a search that is
@@ -288,9 +289,8 @@ void insert_points_on_edges(const Workbench& bench, const std::vector<BoundaryFa
     double widest = 0;
     for (const PointId p : points) widest = std::max(widest, bench.approximation(p).error);
     const auto x_of = [&](PointId p) { return bench.approximation(p).c[0]; };
-    std::sort(points.begin(), points.end(), [&](PointId a, PointId b) {
-        return std::pair(x_of(a), a) < std::pair(x_of(b), b);
-    });
+    std::sort(points.begin(), points.end(),
+              [&](PointId a, PointId b) { return std::pair(x_of(a), a) < std::pair(x_of(b), b); });
     std::vector<PointId> inside;
     const std::size_t count = edges.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -42,8 +42,7 @@ void cancel_opposites(std::vector<BoundaryEdge>& edges) {
         const std::size_t down = (j - i) - up;
         // `up` edges come first.
         for (std::size_t k = 0; up > down && k < up - down; ++k) left.push_back(edges[i + k]);
-        for (std::size_t k = 0; down > up && k < down - up; ++k)
-            left.push_back(edges[i + up + k]);
+        for (std::size_t k = 0; down > up && k < down - up; ++k) left.push_back(edges[i + up + k]);
         i = j;
     }
     edges.swap(left);
@@ -187,11 +186,10 @@ void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
             const BoundaryEdge& out = edges[by_from[k]];
             const BoundaryEdge& in = edges[by_to[k]];
             TRISECT_EXPECTS(out.from == in.to, "boundary of a face is not closed");
-            const bool single =
-                (k == 0 || edges[by_from[k - 1]].from != out.from) &&
-                (k + 1 == n || edges[by_from[k + 1]].from != out.from);
-            const bool straight =
-                single && (in.line.plane == out.line.plane || bench.side(out.to, in.line.plane) == 0);
+            const bool single = (k == 0 || edges[by_from[k - 1]].from != out.from) &&
+                                (k + 1 == n || edges[by_from[k + 1]].from != out.from);
+            const bool straight = single && (in.line.plane == out.line.plane ||
+                                             bench.side(out.to, in.line.plane) == 0);
             if (straight) {
                 next[by_to[k]] = static_cast<std::int64_t>(by_from[k]);
             } else {

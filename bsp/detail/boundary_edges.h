@@ -9,14 +9,15 @@
 
 namespace trisect::detail {
 
-/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish. Where
-/// parts of neighbouring cells subdivide a common line differently, their ends are inserted first.
-/// The edges come out sorted by facet.
-/// \throw UnsupportedError when a part ends at the limit of space (an unbounded face).
+/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish.
+/// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
+/// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
+/// of space (an unbounded face).
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
-/// Renumbers `facet` of every edge to the smallest facet of its maximal face: facets in one oriented
-/// plane that share an edge are joined and the edge vanishes. The edges come out sorted by facet.
+/// Renumbers `facet` of every edge to the smallest facet of its maximal face: facets in one
+/// oriented plane that share an edge are joined and the edge vanishes. The edges come out sorted by
+/// facet.
 void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`

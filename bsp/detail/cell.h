@@ -2,9 +2,9 @@
 //
 // Boxes and cells of the partition.
 //
-// A wall lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies on one, and a
-// closed box of lattice points is on one side of a wall or truly crosses it. That makes closed cells
-// as good as half-open ones: nothing is listed twice because it ends at a wall.
+// A wall lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies on one, and
+// a closed box of lattice points is on one side of a wall or truly crosses it. That makes closed
+// cells as good as half-open ones: nothing is listed twice because it ends at a wall.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chaining is trivial where one edge leaves every vertex. Where the region touches itself in a vertex
-// several edges leave, and the right continuation of an arriving edge is the other side of the same
-// wedge of the region: the first leaving edge clockwise from the way back. Then loops touch but never
-// cross. All turns are decided by which side of an edge's line a point lies on, never by angles.
+// Chaining is trivial where one edge leaves every vertex. Where the region touches itself in a
+// vertex several edges leave, and the right continuation of an arriving edge is the other side of
+// the same wedge of the region: the first leaving edge clockwise from the way back. Then loops
+// touch but never cross. All turns are decided by which side of an edge's line a point lies on,
+// never by angles.
 //
 // Holes: the region lies immediately to the low-u side of a hole's smallest vertex (u, v: the two
 // axes across the dominant one). That point, moved by an infinitesimal amount, lies on no edge, and
@@ -41,7 +42,8 @@ private:
         std::size_t smallest = 0;  // position of the smallest vertex: start of edges[smallest]
     };
 
-    // 1 when p lies on the region's side of the line of the edge, which is the left, -1 right, 0 on.
+    // 1 when p lies on the region's side of the line of the edge, which is the left, -1 right, 0
+    // on.
     [[nodiscard]] int left_of(std::size_t edge, PointId p) const {
         const WorkEdge& line = edges_[edge].line;
         const int s = bench_.side(p, line.plane);
@@ -86,12 +88,12 @@ std::size_t LoopMaker::continuation(std::size_t arriving,
 void LoopMaker::chain() {
     std::vector<std::size_t> by_start(edges_.size());
     std::iota(by_start.begin(), by_start.end(), std::size_t{0});
-    std::stable_sort(by_start.begin(), by_start.end(), [&](std::size_t a, std::size_t b) {
-        return edges_[a].from < edges_[b].from;
-    });
+    std::stable_sort(by_start.begin(), by_start.end(),
+                     [&](std::size_t a, std::size_t b) { return edges_[a].from < edges_[b].from; });
     const auto leaving = [&](PointId p) {
-        const auto lo = std::lower_bound(by_start.begin(), by_start.end(), p,
-                                         [&](std::size_t e, PointId q) { return edges_[e].from < q; });
+        const auto lo =
+            std::lower_bound(by_start.begin(), by_start.end(), p,
+                             [&](std::size_t e, PointId q) { return edges_[e].from < q; });
         auto hi = lo;
         while (hi != by_start.end() && edges_[*hi].from == p) ++hi;
         return std::span<const std::size_t>(lo, hi);

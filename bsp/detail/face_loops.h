@@ -16,10 +16,10 @@ struct FaceLoops {
 };
 
 /// The faces of the region that `edges` bound. All edges lie in the plane of `support`, whose
-/// outward normal is that plane's, or its opposite when `flipped`; the region is to the left of every
-/// edge. At a vertex where the region touches itself every wedge of it keeps its own pair of edges.
-/// Deterministic: loops start at their lexicographically smallest vertex by order of the edges given.
-/// \throw Error Internal when the edges do not form closed loops.
+/// outward normal is that plane's, or its opposite when `flipped`; the region is to the left of
+/// every edge. At a vertex where the region touches itself every wedge of it keeps its own pair of
+/// edges. Deterministic: loops start at their lexicographically smallest vertex by order of the
+/// edges given. \throw Error Internal when the edges do not form closed loops.
 [[nodiscard]] std::vector<FaceLoops> make_face_loops(const Workbench& bench, PlaneId support,
                                                      bool flipped,
                                                      std::span<const BoundaryEdge> edges);

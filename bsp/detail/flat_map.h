@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FlatMap: a small open-addressing map from 128-bit keys to indices, for names of planes and points.
+// FlatMap: a small open-addressing map from 128-bit keys to indices, for names of planes and
+// points.
 #pragma once
 
 #include <cstddef>
@@ -64,7 +65,8 @@ private:
     };
     [[nodiscard]] std::size_t find_slot(const Key128& key) const {
         const std::size_t mask = slots_.size() - 1;
-        std::size_t i = static_cast<std::size_t>(mix64(key.a ^ mix64(key.b + 0x9e3779b97f4a7c15ULL)));
+        std::size_t i =
+            static_cast<std::size_t>(mix64(key.a ^ mix64(key.b + 0x9e3779b97f4a7c15ULL)));
         for (i &= mask; slots_[i].value >= 0 && !(slots_[i].key == key); i = (i + 1) & mask) {
         }
         return i;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A mixed leaf holds a few dozen polygons of two or more operands. Every polygon that another one
-// cuts is clipped to the cell and split along the traces of the others into convex pieces, as in the
-// local BSPs of EMBER (Trettner, Nehring-Wirxel, Kobbelt 2022, sec. 5), but with a flat list instead
-// of a tree: leaves are small, and a split is made only where the trace runs through the piece's
-// interior. A piece is then on one side of everything, so one winding number on each side of it says
-// whether it bounds the result: it does iff the formula changes across it.
+// cuts is clipped to the cell and split along the traces of the others into convex pieces, as in
+// the local BSPs of EMBER (Trettner, Nehring-Wirxel, Kobbelt 2022, sec. 5), but with a flat list
+// instead of a tree: leaves are small, and a split is made only where the trace runs through the
+// piece's interior. A piece is then on one side of everything, so one winding number on each side
+// of it says whether it bounds the result: it does iff the formula changes across it.
 //
 // Winding numbers come from exact segment traces from the cell's reference point. One trace serves
 // a whole patch of untouched facets that hang together by edges within the cell.
@@ -73,8 +73,8 @@ Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
 Box box_of_segment(const Approximation& a, const Approximation& b) {
     Box r;
     for (std::size_t k = 0; k < 3; ++k) {
-        r.lo[k] = static_cast<std::int64_t>(
-            std::floor(std::min(a.c[k] - a.error, b.c[k] - b.error)));
+        r.lo[k] =
+            static_cast<std::int64_t>(std::floor(std::min(a.c[k] - a.error, b.c[k] - b.error)));
         r.hi[k] =
             static_cast<std::int64_t>(std::ceil(std::max(a.c[k] + a.error, b.c[k] + b.error)));
     }
@@ -92,14 +92,15 @@ std::array<PointId, 3> spread_vertices(const WorkPolygon& w) {
 std::array<std::int64_t, 3> weights_of_attempt(int attempt) {
     if (attempt == 0) return {1, 1, 1};
     const auto a = static_cast<std::int64_t>(mix64(static_cast<std::uint64_t>(attempt)) % 97);
-    const auto b = static_cast<std::int64_t>(mix64(static_cast<std::uint64_t>(attempt) + 1000) % 89);
+    const auto b =
+        static_cast<std::int64_t>(mix64(static_cast<std::uint64_t>(attempt) + 1000) % 89);
     return {17 + a, 23 + b, 59};
 }
 
 constexpr int max_attempts = 60;
 
-// A segment with an end in the plane of a polygon. The reference lies on no polygon, so if it is the
-// reference's end there is no crossing. If it is the target's, or the whole segment lies in the
+// A segment with an end in the plane of a polygon. The reference lies on no polygon, so if it is
+// the reference's end there is no crossing. If it is the target's, or the whole segment lies in the
 // plane, the segment avoids the polygon when all of it is beyond one edge; otherwise nothing is
 // claimed. `outside(edge, end)` is 1 where that end is strictly beyond the edge.
 template <class Edges, class ReferenceOutside, class TargetOutside>
@@ -190,8 +191,8 @@ std::optional<int> trace_winding(std::span<const PolygonRef> polygons, bool flip
         }
         int worst = -1;
         for (const PlaneEdge& e : edges)
-            worst = std::max(
-                worst, e.outside * side_of_crossing(from, start, target, support, e.plane));
+            worst = std::max(worst,
+                             e.outside * side_of_crossing(from, start, target, support, e.plane));
         if (worst == 0) return std::nullopt;
         if (worst > 0) continue;
         const bool entering = at_start > 0;
@@ -263,7 +264,7 @@ private:
     FlatMap edge_ids_;
     std::vector<EdgeUsers> edge_users_;
     std::vector<Index> patch_;
-    std::vector<Index> patch_within_cell_;  // of a patch: one of its facets that lies in the cell
+    std::vector<Index> patch_within_cell_;   // of a patch: one of its facets that lies in the cell
     std::vector<std::int8_t> patch_result_;  // -1 unknown, bit 0 above, bit 1 below
     std::vector<PolygonRef> out_;
 
@@ -392,14 +393,12 @@ void LeafArranger::Impl::relate(Index s, Index t) {
     // and the rest of one of them strictly on one side they meet in that corner only.
     if (shared >= 2) return;
     if (shared == 1 && (b_lo == 0 || b_hi == 0) &&
-        std::count_if(b.shape.points.begin(), b.shape.points.end(), [&](PointId p) {
-            return bench_.side(p, a.shape.support) == 0;
-        }) == 1)
+        std::count_if(b.shape.points.begin(), b.shape.points.end(),
+                      [&](PointId p) { return bench_.side(p, a.shape.support) == 0; }) == 1)
         return;
     if (shared == 1 && (a_lo == 0 || a_hi == 0) &&
-        std::count_if(a.shape.points.begin(), a.shape.points.end(), [&](PointId p) {
-            return bench_.side(p, b.shape.support) == 0;
-        }) == 1)
+        std::count_if(a.shape.points.begin(), a.shape.points.end(),
+                      [&](PointId p) { return bench_.side(p, b.shape.support) == 0; }) == 1)
         return;
     a.touched = true;
     b.touched = true;
@@ -441,9 +440,9 @@ void LeafArranger::Impl::relate_coplanar(Index s, Index t) {
     b.covers.push_back(s);
 }
 
-// Does the line `line` ∩ support, restricted to the convex polygon `cutter`, run through the interior
-// of the piece? The interval of the line within the piece is clipped by the edges of the cutter; at
-// every step its ends are exact points.
+// Does the line `line` ∩ support, restricted to the convex polygon `cutter`, run through the
+// interior of the piece? The interval of the line within the piece is clipped by the edges of the
+// cutter; at every step its ends are exact points.
 bool LeafArranger::Impl::segment_meets_interior(const WorkPolygon& piece, PlaneId line,
                                                 const WorkPolygon& cutter) {
     const std::size_t n = piece.points.size();
@@ -470,8 +469,8 @@ bool LeafArranger::Impl::segment_meets_interior(const WorkPolygon& piece, PlaneI
         const int outside = e.above ? -1 : 1;
         const int s0 = bench_.side(ends[0], e.plane) * outside;
         const int s1 = bench_.side(ends[1], e.plane) * outside;
-        // An edge of the cutter along the line itself: the surface may go on behind that edge on the
-        // other side of the piece's plane, so touching along an edge counts as cutting.
+        // An edge of the cutter along the line itself: the surface may go on behind that edge on
+        // the other side of the piece's plane, so touching along an edge counts as cutting.
         if (s0 == 0 && s1 == 0) continue;
         if (s0 >= 0 && s1 >= 0) return false;
         if (s0 > 0) ends[0] = bench_.meet(piece.support, line, e.plane);
@@ -566,9 +565,9 @@ void LeafArranger::Impl::resolve_covers(std::size_t first) {
     }
 }
 
-// Untouched whole facets of one operand that share an edge with an end in the cell lie in one patch:
-// nothing else comes near that edge, so both have the same on either side. Where a boundary that may
-// meet itself has more than two facets at an edge, they are different sheets.
+// Untouched whole facets of one operand that share an edge with an end in the cell lie in one
+// patch: nothing else comes near that edge, so both have the same on either side. Where a boundary
+// that may meet itself has more than two facets at an edge, they are different sheets.
 void LeafArranger::Impl::make_patches() {
     const auto n = items_.size();
     patch_.resize(n);
@@ -658,8 +657,8 @@ void LeafArranger::Impl::emit_pieces(Index s, std::size_t first) {
         kept.push_back(static_cast<Index>(i));
         flips.push_back(sides->above);
     }
-    const bool uniform = std::adjacent_find(flips.begin(), flips.end(), std::not_equal_to<>()) ==
-                         flips.end();
+    const bool uniform =
+        std::adjacent_find(flips.begin(), flips.end(), std::not_equal_to<>()) == flips.end();
     if (kept.size() == pieces_.size() - first && uniform) {
         // Every cut was in vain here: keep what there was. What cuts a facet somewhere must show in
         // every cell, though (see PolygonRef), so only a facet within the cell stays whole.

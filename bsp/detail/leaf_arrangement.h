@@ -21,9 +21,9 @@ struct LeafOperand {
     std::int32_t slot = -1;
     std::span<const PolygonRef> polygons;
     bool flipped = false;   ///< the polygons are to be read with the other orientation
-    bool embedded = false;  ///< the polygons do not cross, cover or touch each other except in common
-                            ///< edges and vertices
-    int winding = 0;        ///< at the reference point
+    bool embedded = false;  ///< the polygons do not cross, cover or touch each other except in
+                            ///< common edges and vertices
+    int winding = 0;  ///< at the reference point
 };
 
 struct LeafProblem {

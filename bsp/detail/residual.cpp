@@ -60,12 +60,14 @@ Residual::Ref Residual::combination(Kind kind, std::span<const Ref> terms) {
 
 Residual::Ref simplified(const Residual::Ref& formula, const SlotValues& values) {
     switch (formula->kind) {
-        case Residual::Kind::Constant: return formula;
+        case Residual::Kind::Constant:
+            return formula;
         case Residual::Kind::Slot: {
             const auto v = values[static_cast<std::size_t>(formula->slot)];
             return v < 0 ? formula : Residual::constant(v != 0);
         }
-        default: break;
+        default:
+            break;
     }
     std::vector<Residual::Ref> children;
     children.reserve(formula->children.size());
@@ -87,12 +89,18 @@ bool value_of(const Residual& formula, const SlotValues& values) {
     const auto child = [&](const Residual::Ref& c) { return value_of(*c, values); };
     const auto& cs = formula.children;
     switch (formula.kind) {
-        case Residual::Kind::Constant: return formula.value;
-        case Residual::Kind::Slot: return values[static_cast<std::size_t>(formula.slot)] > 0;
-        case Residual::Kind::Not: return !child(cs[0]);
-        case Residual::Kind::And: return std::all_of(cs.begin(), cs.end(), child);
-        case Residual::Kind::Or: return std::any_of(cs.begin(), cs.end(), child);
-        case Residual::Kind::Xor: return std::count_if(cs.begin(), cs.end(), child) % 2 != 0;
+        case Residual::Kind::Constant:
+            return formula.value;
+        case Residual::Kind::Slot:
+            return values[static_cast<std::size_t>(formula.slot)] > 0;
+        case Residual::Kind::Not:
+            return !child(cs[0]);
+        case Residual::Kind::And:
+            return std::all_of(cs.begin(), cs.end(), child);
+        case Residual::Kind::Or:
+            return std::any_of(cs.begin(), cs.end(), child);
+        case Residual::Kind::Xor:
+            return std::count_if(cs.begin(), cs.end(), child) % 2 != 0;
     }
     return false;
 }

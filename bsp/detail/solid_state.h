@@ -22,11 +22,11 @@ struct FacetName {
 struct SolidState {
     Lattice lattice;
     CellRef root;
-    bool embedded = true;  ///< free of self-intersection, winding numbers 0 and 1 only
+    bool embedded = true;      ///< free of self-intersection, winding numbers 0 and 1 only
     std::uint64_t source = 0;  ///< serial of the one source of an imported solid
-    /// Facets that reach into several cells and are missing in one of them because a coincident facet
-    /// of another operand spoke for them there. Sorted. Elsewhere that operand may have dropped out
-    /// of the formula, so such a facet may be listed whole without being whole. Rare.
+    /// Facets that reach into several cells and are missing in one of them because a coincident
+    /// facet of another operand spoke for them there. Sorted. Elsewhere that operand may have
+    /// dropped out of the formula, so such a facet may be listed whole without being whole. Rare.
     std::vector<FacetName> incomplete;
     bool lattice_matters = true;  ///< false for the empty set and whole space
 };

@@ -30,7 +30,8 @@ int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
 WideInt<4> value_at(const FinePoint& p, const Plane& plane) {
     WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
     for (int k = 0; k < 3; ++k)
-        sum += multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
+        sum +=
+            multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
     return sum;
 }
 
@@ -118,8 +119,8 @@ const TraceTarget::Exact& TraceTarget::exact() const {
     std::array<HomogeneousPoint, 3> h;
     for (std::size_t i = 0; i < 3; ++i) h[i] = bench_->homogeneous(points_[i]);
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto others = multiply<18>(multiply<12>(h[(i + 1) % 3].w, h[(i + 2) % 3].w),
-                                         WideInt<1>(weights_[i]));
+        const auto others =
+            multiply<18>(multiply<12>(h[(i + 1) % 3].w, h[(i + 2) % 3].w), WideInt<1>(weights_[i]));
         for (std::size_t k = 0; k < 3; ++k) e.xyz[k] += multiply<18>(h[i].xyz[k], others);
     }
     const Wide w = multiply<18>(multiply<12>(h[0].w, h[1].w), h[2].w);

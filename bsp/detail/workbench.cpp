@@ -62,8 +62,7 @@ std::uint64_t Workbench::line_item(PlaneId p) {
         const auto v = n.source()->corner_index(n.facet, static_cast<int>(n.kind));
         const auto w = n.source()->corner_index(n.facet, static_cast<int>((n.kind + 1) % 3));
         const Key128 key{n.owner, (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
-        line_of_[u(p)] =
-            line_ids_.insert(key, static_cast<std::int32_t>(line_ids_.size())).first;
+        line_of_[u(p)] = line_ids_.insert(key, static_cast<std::int32_t>(line_ids_.size())).first;
     }
     return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(line_of_[u(p)]);
 }
@@ -91,11 +90,8 @@ PointId Workbench::meet(PlaneId p, PlaneId q, PlaneId r) {
     const auto next = static_cast<PointId>(points_.size());
     const auto [id, inserted] = point_ids_.insert(point_key(p, q, r), next);
     if (inserted)
-        points_.push_back({{p, q, r},
-                           {},
-                           approximate(plane_at(p), plane_at(q), plane_at(r)),
-                           nullptr,
-                           0});
+        points_.push_back(
+            {{p, q, r}, {}, approximate(plane_at(p), plane_at(q), plane_at(r)), nullptr, 0});
     return id;
 }
 
@@ -160,7 +156,8 @@ WorkPolygon Workbench::polygon(const PolygonRef& ref) {
         const EdgeName& before = edges[(i + edges.size() - 1) % edges.size()];
         const EdgeName& after = edges[i];
         const auto own = [&](const EdgeName& e) {
-            return e.plane.is_edge() && e.plane.source() == ref.source && e.plane.facet == ref.facet;
+            return e.plane.is_edge() && e.plane.source() == ref.source &&
+                   e.plane.facet == ref.facet;
         };
         if (own(before) && own(after)) {
             w.points.push_back(corner(ref.source, ref.facet, static_cast<int>(after.plane.kind)));
@@ -191,8 +188,8 @@ bool Workbench::split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& be
     below = {polygon.support, {}, {}};
     above = {polygon.support, {}, {}};
     const std::size_t n = polygon.points.size();
-    // Walk once around. A point goes to the parts it touches; where the walk leaves a part along the
-    // cut, that part gets an edge on the cutting plane.
+    // Walk once around. A point goes to the parts it touches; where the walk leaves a part along
+    // the cut, that part gets an edge on the cutting plane.
     for (std::size_t i = 0; i < n; ++i) {
         const int here = sides_[i];
         const int next = sides_[(i + 1) % n];
@@ -205,7 +202,8 @@ bool Workbench::split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& be
         if (here < 0) add(below, p, e);
         if (here > 0) add(above, p, e);
         if (here == 0) {
-            // The next strict side tells which part continues along e; the other turns into the cut.
+            // The next strict side tells which part continues along e; the other turns into the
+            // cut.
             if (next < 0) {
                 add(below, p, e);
                 add(above, p, {plane, true});

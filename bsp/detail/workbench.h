@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Workbench: the planes and points that one leaf arrangement or one assembly works on, by small ids.
+// Workbench: the planes and points that one leaf arrangement or one assembly works on, by small
+// ids.
 //
-// Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids; planes
-// found to be the same point set share a class. Points are corners of sources or triples of planes.
+// Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
+// planes found to be the same point set share a class. Points are corners of sources or triples of
+// planes.
 #pragma once
 
 #include <array>
@@ -51,8 +53,8 @@ public:
 
     PointId corner(const Source* source, std::uint32_t facet, int i);
     /// The common point of three planes. Found by name when it was made before: from the same three
-    /// planes, or as the point where the same edge of a source meets the same plane. Equal points may
-    /// still have several names (see same_point). \pre the planes meet in one point.
+    /// planes, or as the point where the same edge of a source meets the same plane. Equal points
+    /// may still have several names (see same_point). \pre the planes meet in one point.
     PointId meet(PlaneId p, PlaneId q, PlaneId r);
     [[nodiscard]] std::size_t point_count() const { return points_.size(); }
     [[nodiscard]] bool is_corner(PointId id) const { return points_[u(id)].planes[0] < 0; }
@@ -80,8 +82,8 @@ public:
     [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
     void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
 
-    /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above); empty
-    /// when that part has no area. \pre the plane is not the support's.
+    /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
+    /// empty when that part has no area. \pre the plane is not the support's.
     [[nodiscard]] WorkPolygon clipped(const WorkPolygon& polygon, PlaneId plane, int keep);
     /// Both parts; false, and nothing written, when the plane does not cut the interior.
     bool split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& below, WorkPolygon& above);
@@ -112,7 +114,7 @@ private:
     FlatMap line_ids_;
     FlatMap point_ids_;
     std::vector<std::int32_t> line_of_;  // of edge planes: the source's edge, -1 not looked up
-    std::vector<int> sides_;  // scratch of split
+    std::vector<int> sides_;             // scratch of split
 };
 
 }  // namespace trisect::detail

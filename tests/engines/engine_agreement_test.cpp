@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cell-tree engine against the naive engine in rationals: equal boundaries, for random solids on a
-// small grid, where faces, edges and vertices coincide all the time.
+// The cell-tree engine against the naive engine in rationals: equal boundaries, for random solids
+// on a small grid, where faces, edges and vertices coincide all the time.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,7 @@ std::string disagreement(const std::vector<reference::Operand>& operands,
                          const trisect::EvaluateOptions& options = {}) {
     std::vector<trisect::Solid> solids;
     for (const auto& o : operands) solids.push_back(engines::solid(o));
-    const trisect::Solid result =
-        trisect::evaluate(engines::formula(expression, solids), options);
+    const trisect::Solid result = trisect::evaluate(engines::formula(expression, solids), options);
     const auto expected = reference::evaluate(operands, expression);
     return engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells));
 }
@@ -77,12 +76,12 @@ TEST(EngineAgreement, ChainsStepByStep) {
             const Kind kind = kinds[random.below(4)];
             const auto pair = reference::pair_expression(kind);
             chain = trisect::evaluate(engines::formula(pair, {chain, solids[i]}), options);
-            expression = reference::Expression::node(
-                kind, {expression, reference::Expression::leaf(i)});
+            expression =
+                reference::Expression::node(kind, {expression, reference::Expression::leaf(i)});
             const auto expected = reference::evaluate(operands, expression);
-            EXPECT_EQ(engines::difference(chain.to_brep(),
-                                          reference::canonical_boundary(expected.cells)),
-                      "")
+            EXPECT_EQ(
+                engines::difference(chain.to_brep(), reference::canonical_boundary(expected.cells)),
+                "")
                 << "seed " << seed << " " << reference::to_string(expression);
         }
     }

@@ -66,10 +66,18 @@ trisect::Expression formula(const reference::Expression& expression,
     for (std::size_t i = 1; i < expression.children.size(); ++i) {
         const trisect::Expression next = formula(expression.children[i], solids);
         switch (expression.kind) {
-            case Kind::Union: out = out | next; break;
-            case Kind::Intersection: out = out & next; break;
-            case Kind::Difference: out = out - next; break;
-            default: out = out ^ next; break;
+            case Kind::Union:
+                out = out | next;
+                break;
+            case Kind::Intersection:
+                out = out & next;
+                break;
+            case Kind::Difference:
+                out = out - next;
+                break;
+            default:
+                out = out ^ next;
+                break;
         }
     }
     return out;
