@@ -427,6 +427,12 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
     return out;
 }
 
+double listed_in(const Task& task) {
+    double n = 0;
+    for (const Operand& o : task.operands) n += static_cast<double>(o.size());
+    return n;
+}
+
 CellRef Evaluator::divide(Task task) {
     std::optional<Wall> wall = wall_of_trees(task);
     if (wall) {
@@ -437,17 +443,17 @@ CellRef Evaluator::divide(Task task) {
     } else {
         wall = choose_wall(task);
     }
-    const bool too_deep = task.stalled >= 8 || task.depth > 400;
+    const bool too_deep = task.stalled >= 3 || task.depth > 400;
     if (!wall || (too_deep && !wall_of_trees(task))) return resolve(task);
     std::array<CellRef, 2> results;
     std::array<Task, 2> children = children_of(task, *wall);
-    std::uint64_t total = 0;
-    for (const Operand& o : task.operands) total += o.size();
-    for (Task& c : children) {
-        std::uint64_t n = 0;
-        for (const Operand& o : c.operands) n += o.size();
-        c.stalled = 10 * n > 9 * total ? task.stalled + 1 : 0;
-    }
+    const double total = listed_in(task);
+    // Pairs are what a leaf costs. A wall that leaves most of them on its sides was not worth it,
+    // and after a few such walls none will be: long thin facets cross all of them.
+    double pairs = 0;
+    for (const Task& c : children) pairs += listed_in(c) * listed_in(c);
+    const bool worth_it = total < 4000 ? pairs < 0.8 * total * total : pairs < 1.6 * total * total;
+    for (Task& c : children) c.stalled = worth_it ? 0 : task.stalled + 1;
     // A subtree that comes back unchanged is shared as a whole.
     const CellRef driver = [&] {
         for (const Operand& o : task.operands)

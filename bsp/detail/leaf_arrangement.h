@@ -23,7 +23,7 @@ struct LeafOperand {
     bool flipped = false;   ///< the polygons are to be read with the other orientation
     bool embedded = false;  ///< the polygons do not cross, cover or touch each other except in
                             ///< common edges and vertices
-    int winding = 0;  ///< at the reference point
+    int winding = 0;        ///< at the reference point
 };
 
 struct LeafProblem {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/few.h>
 #include <trisect/bsp/detail/flat_map.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
@@ -32,8 +33,8 @@ struct WorkEdge {
 /// above the support, strictly convex.
 struct WorkPolygon {
     PlaneId support = -1;
-    std::vector<WorkEdge> edges;
-    std::vector<PointId> points;
+    Few<WorkEdge> edges;
+    Few<PointId> points;
     [[nodiscard]] bool is_empty() const { return points.empty(); }
 };
 

@@ -15,9 +15,10 @@ constexpr std::array kinds{Kind::Union, Kind::Intersection, Kind::Difference, Ki
 
 std::string disagreement(const std::vector<reference::Operand>& operands,
                          const reference::Expression& expression,
-                         const trisect::EvaluateOptions& options = {}) {
+                         const trisect::EvaluateOptions& options = {},
+                         trisect::Embedding embedding = trisect::Embedding::Resolve) {
     std::vector<trisect::Solid> solids;
-    for (const auto& o : operands) solids.push_back(engines::solid(o));
+    for (const auto& o : operands) solids.push_back(engines::solid(o, embedding));
     const trisect::Solid result = trisect::evaluate(engines::formula(expression, solids), options);
     const auto expected = reference::evaluate(operands, expression);
     return engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells));
@@ -48,6 +49,51 @@ TEST(EngineAgreement, TheResultDoesNotDependOnTheTreesShape) {
                 << "seed " << seed << " leaf size " << leaf;
         }
     }
+}
+
+// Small cells: facets pass through cells where nothing meets, and span many of them.
+TEST(EngineAgreement, EmbeddedPairsInSmallCells) {
+    for (std::uint64_t seed = 5000; seed < 5300; ++seed) {
+        reference::Random random(seed);
+        const auto operands = reference::random_family(random, 2, true);
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = seed % 2 == 0 ? 3 : 8;
+        options.wall_offset = seed % 3 == 0 ? 255 : 83;
+        for (const Kind kind : {Kind::Intersection, Kind::Xor}) {
+            const auto expression = reference::pair_expression(kind);
+            EXPECT_EQ(disagreement(operands, expression, options, trisect::Embedding::Assume), "")
+                << "seed " << seed << " " << reference::to_string(expression);
+        }
+    }
+}
+
+// Intersecting a tetrahedron with a box that only cuts off a corner: most facets of the tetrahedron
+// are listed in cells for their boxes alone.
+TEST(EngineAgreement, TetrahedronCornerInABox) {
+    const reference::Operand a{{{{8, 5, 1}, {6, 6, 5}, {4, 15, 3}}},
+                               {{{8, 5, 1}, {15, 4, 10}, {6, 6, 5}}},
+                               {{{8, 5, 1}, {4, 15, 3}, {15, 4, 10}}},
+                               {{{4, 15, 3}, {6, 6, 5}, {15, 4, 10}}}};
+    const std::vector<reference::Operand> operands{a, reference::box({7, 12, 7}, {15, 14, 14})};
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 3;
+    options.wall_offset = 127;
+    EXPECT_EQ(disagreement(operands, reference::pair_expression(Kind::Intersection), options,
+                           trisect::Embedding::Assume),
+              "");
+}
+
+// A cavity whose edge lies on an edge of the box around it: four facets at one edge of one operand.
+TEST(EngineAgreement, CavityTouchingItsShellAlongAnEdge) {
+    const reference::Operand cavity{{{{21, 6, 12}, {28, 2, 11}, {15, 7, 13}}},
+                                    {{{21, 6, 12}, {15, 7, 13}, {28, 2, 14}}},
+                                    {{{21, 6, 12}, {28, 2, 14}, {28, 2, 11}}},
+                                    {{{28, 2, 11}, {28, 2, 14}, {15, 7, 13}}}};
+    const std::vector<reference::Operand> operands{
+        reference::box({-2, 9, 11}, {13, 16, 14}),
+        reference::concatenated(reference::box({13, 2, 11}, {28, 9, 14}), cavity)};
+    for (const Kind kind : kinds)
+        EXPECT_EQ(disagreement(operands, reference::pair_expression(kind)), "");
 }
 
 TEST(EngineAgreement, RandomFormulas) {
