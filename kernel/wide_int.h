@@ -168,7 +168,7 @@ public:
         if constexpr (N <= 17) {  // 2^(64 low) is a double: spares a call
             r *= std::bit_cast<double>(static_cast<std::uint64_t>(1023 + 64 * low) << 52);
         } else {
-            r = std::ldexp(r, 64 * low);
+            if (low > 0) r = low == 1 ? r * 0x1p64 : std::ldexp(r, 64 * low);
         }
         return negative ? -r : r;
     }

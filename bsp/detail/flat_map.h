@@ -4,6 +4,7 @@
 // points.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -31,8 +32,11 @@ class FlatMap {
 public:
     FlatMap() { clear(); }
 
+    // Keeps its capacity while that is moderate: the next leaf is about as large as the last.
     void clear() {
-        slots_.assign(64, Slot{});
+        if (size_ == 0 && !slots_.empty()) return;
+        if (slots_.empty() || slots_.size() > 4096) slots_.resize(64);
+        std::fill(slots_.begin(), slots_.end(), Slot{});
         size_ = 0;
     }
     void reserve(std::size_t n) {

@@ -189,10 +189,10 @@ std::optional<int> trace_winding(std::span<const PolygonRef> polygons, bool flip
             if (avoids_in_plane(at_start, at_end, edges, from_outside, to_outside)) continue;
             return std::nullopt;
         }
+        const SupportCrossing crossing(from, start, target, support);
         int worst = -1;
         for (const PlaneEdge& e : edges)
-            worst = std::max(worst,
-                             e.outside * side_of_crossing(from, start, target, support, e.plane));
+            worst = std::max(worst, e.outside * crossing.side_of(e.plane));
         if (worst == 0) return std::nullopt;
         if (worst > 0) continue;
         const bool entering = at_start > 0;
@@ -698,7 +698,7 @@ bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, std
     const Box segment = box_of_segment(reference_approximation_, target.approximation());
     for (Item& item : items_) {
         if (!item.ref.box().overlaps(segment)) continue;
-        const Plane support = bench_.plane_at(item.shape.support);
+        const Plane& support = bench_.plane_at(item.shape.support);
         if (own_class >= 0 && bench_.plane_class(item.shape.support) == own_class) continue;
         if (item.side_of_reference == 2)
             item.side_of_reference = side(reference_, reference_approximation_, support);
@@ -719,10 +719,11 @@ bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, std
                 continue;
             return false;
         }
+        const SupportCrossing crossing(reference_, reference_approximation_, target,
+                                       bench_.plane_at(item.shape.support));
         int worst = -1;
         for (const WorkEdge& e : item.shape.edges) {
-            const int s = side_of_crossing(reference_, reference_approximation_, target, support,
-                                           bench_.plane_at(e.plane));
+            const int s = crossing.side_of(bench_.plane_at(e.plane));
             worst = std::max(worst, e.above ? -s : s);
             if (worst > 0) break;
         }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include <trisect/kernel/contract.h>
-#include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
 
@@ -54,11 +53,13 @@ Plane Source::support(std::uint32_t facet) const {
     return Plane::through(corner(facet, 0), corner(facet, 1), corner(facet, 2));
 }
 
-Plane Source::edge_plane(std::uint32_t facet, int i) const {
+// The normal of the plane along axis k is (b - a) × e_k, and the third corner c is at
+// ((b - a) × e_k) · (c - a) = -n_k, n being the support's normal: below when n_k > 0.
+Plane Source::edge_plane(std::uint32_t facet, int i, const Plane& support) const {
+    const int k = support.dominant_axis();
     const LatticePoint& a = corner(facet, i);
     const LatticePoint& b = corner(facet, (i + 1) % 3);
-    const Plane p = Plane::along_axis(a, b, support(facet).dominant_axis());
-    return side_of(corner(facet, (i + 2) % 3), p) == Side::Above ? p.flipped() : p;
+    return support.normal(k) > 0 ? Plane::along_axis(a, b, k) : Plane::along_axis(b, a, k);
 }
 
 std::shared_ptr<const Source> Source::refined(int exponent) const {

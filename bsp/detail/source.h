@@ -53,7 +53,11 @@ public:
     [[nodiscard]] Plane support(std::uint32_t facet) const;
     /// The plane through edge i (corner i to corner i+1) that is parallel to the dominant axis of
     /// the support; the facet lies below it.
-    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const;
+    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const {
+        return edge_plane(facet, i, support(facet));
+    }
+    /// The same for a caller who has the support at hand.
+    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i, const Plane& support) const;
 
     /// The same facets on the lattice of exponent `exponent`, which must be finer. Names keep their
     /// meaning. \throw LimitError when coordinates leave the lattice's range.

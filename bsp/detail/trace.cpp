@@ -156,21 +156,27 @@ int side(const TraceTarget& target, const Plane& plane) {
     return value_at(target.exact(), plane).sign();
 }
 
-int side_of_crossing(const FinePoint& reference, const Approximation& approximation,
-                     const TraceTarget& target, const Plane& support, const Plane& edge) {
-    if (const auto x = approximate_crossing(approximation, target.approximation(), support)) {
-        if (const auto s = filtered_side(*x, edge)) {
+SupportCrossing::SupportCrossing(const FinePoint& reference, const Approximation& approximation,
+                                 const TraceTarget& target, const Plane& support)
+    : reference_(reference),
+      target_(target),
+      support_(support),
+      approximation_(approximate_crossing(approximation, target.approximation(), support)) {}
+
+int SupportCrossing::side_of(const Plane& edge) const {
+    if (approximation_) {
+        if (const auto s = filtered_side(*approximation_, edge)) {
             ++predicate_counters().filtered;
             return sign_of(*s);
         }
     }
     ++predicate_counters().exact_wide;
-    const TraceTarget::Exact& t = target.exact();
-    const WideInt<4> r = value_at(reference, support);
-    const WideInt<20> g = value_at(t, support);
+    const TraceTarget::Exact& t = target_.exact();
+    const WideInt<4> r = value_at(reference_, support_);
+    const WideInt<20> g = value_at(t, support_);
     std::array<Huge, 3> x;
     for (std::size_t k = 0; k < 3; ++k)
-        x[k] = multiply<22>(g, WideInt<1>(reference.c[k])) - multiply<22>(t.xyz[k], r);
+        x[k] = multiply<22>(g, WideInt<1>(reference_.c[k])) - multiply<22>(t.xyz[k], r);
     const Huge w = multiply<22>(g, WideInt<1>(wall_scale)) - multiply<22>(t.w, r);
     const int s = sign_at(x, w, edge);
     return w.is_negative() ? -s : s;

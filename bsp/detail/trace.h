@@ -60,10 +60,19 @@ enum class Crossing : std::int8_t {
 /// Side of a target.
 [[nodiscard]] int side(const TraceTarget& target, const Plane& plane);
 
-/// Whether the plane of an edge has the crossing of segment and support on the polygon's side: -1
-/// below it, 1 above it, 0 on it. \pre reference and target lie strictly on different sides.
-[[nodiscard]] int side_of_crossing(const FinePoint& reference, const Approximation& approximation,
-                                   const TraceTarget& target, const Plane& support,
-                                   const Plane& edge);
+/// Where a segment crosses the support of a polygon. \pre its ends lie strictly on different sides.
+class SupportCrossing {
+public:
+    SupportCrossing(const FinePoint& reference, const Approximation& approximation,
+                    const TraceTarget& target, const Plane& support);
+    /// -1 when the crossing lies below the plane, 1 above it, 0 on it.
+    [[nodiscard]] int side_of(const Plane& edge) const;
+
+private:
+    const FinePoint& reference_;
+    const TraceTarget& target_;
+    const Plane& support_;
+    std::optional<Approximation> approximation_;
+};
 
 }  // namespace trisect::detail

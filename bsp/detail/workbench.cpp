@@ -27,6 +27,17 @@ PlaneId Workbench::plane(const PlaneName& name) {
     const auto next = static_cast<PlaneId>(planes_.size());
     const auto [id, inserted] = plane_ids_.insert(key, next);
     if (inserted) {
+        if (name.is_edge()) {
+            // The support is needed anyway; look it up first, since it may be inserted by that.
+            names_.push_back(name);
+            class_.push_back(next);
+            line_of_.push_back(-1);
+            planes_.emplace_back();
+            const PlaneId support = plane(PlaneName::support(name.source(), name.facet));
+            planes_[u(next)] = name.source()->edge_plane(
+                name.facet, static_cast<int>(name.kind), planes_[u(support)]);
+            return id;
+        }
         planes_.push_back(name.plane());
         names_.push_back(name);
         class_.push_back(next);

@@ -352,9 +352,22 @@ std::string text_or(const json& j, const char* key, const char* otherwise) {
     return j.contains(key) ? j[key].get<std::string>() : otherwise;
 }
 
+/// The first sentence, without line breaks and what would end a cell of the table.
+std::string shortened(std::string text) {
+    text = text.substr(0, text.find('\n')).substr(0, 70);
+    std::ranges::replace(text, '|', '/');
+    return text;
+}
+
+/// How far the peer's result is from ours; nothing where it has none.
+std::optional<double> peer_error(const json& peer, const json& ours) {
+    if (!peer.contains("volume")) return std::nullopt;
+    return std::max(relative(peer["volume"], ours["volume"]), relative(peer["area"], ours["area"]));
+}
+
 /// What is wrong with our results; empty when nothing is.
 std::string fault(const json& mesh) {
-    if (mesh.contains("exception")) return "threw: " + mesh["exception"].get<std::string>();
+    if (mesh.contains("exception")) return "threw: " + shortened(mesh["exception"]);
     if (mesh.contains("end")) return mesh["end"];
     if (text_or(mesh, "identities", "") == "VIOLATED") return "identities violated";
     if (!mesh.contains("ours")) return {};
@@ -363,38 +376,44 @@ std::string fault(const json& mesh) {
         if (out["duplicate_opposite_faces"] != 0) return name + " has faces that cancel";
         if (out["mesh_volume_error"] > 1e-9 || out["mesh_area_error"] > 1e-9)
             return name + ": B-rep and triangles differ";
+        if (mesh["status"] != "solid" || !mesh.contains("peer") || !mesh["peer"].contains(name))
+            continue;
+        if (peer_error(mesh["peer"][name], out).value_or(0) > 1e-9)
+            return name + " differs from the peer's";
     }
     return {};
 }
 
-/// Agreement in volume and area for each operation, the peer's refusals in its own words.
+/// How many results agree and how well; why the others do not, in the peer's words. Corefinement
+/// does not resolve operands that meet themselves, so there it may differ.
 std::string peer_verdict(const json& mesh) {
     if (!mesh.contains("peer") || !mesh.contains("ours")) return "";
     const json& peer = mesh["peer"];
     if (peer.contains("absent")) return "not built";
-    std::string out;
     double worst = 0;
     std::size_t agreeing = 0;
+    std::map<std::string, std::string> reasons;  // to the operations
     for (const auto& [name, ours] : mesh["ours"].items()) {
         if (!peer.contains(name)) continue;
-        if (peer[name].contains("refusal")) {
-            out += name + " " + peer[name]["refusal"].get<std::string>() + "; ";
-            continue;
-        }
-        const double error = std::max(relative(peer[name]["volume"], ours["volume"]),
-                                      relative(peer[name]["area"], ours["area"]));
-        if (error <= 1e-9) {
+        const auto error = peer_error(peer[name], ours);
+        std::array<char, 32> text{};
+        if (!error) {
+            reasons[shortened(peer[name]["refusal"])] += name + " ";
+        } else if (*error <= 1e-9) {
             ++agreeing;
-            worst = std::max(worst, error);
+            worst = std::max(worst, *error);
         } else {
-            out += name + " DIFFERS by " + std::to_string(error) + "; ";
+            std::snprintf(text.data(), text.size(), "differs by %.0e", *error);
+            reasons[text.data()] += name + " ";
         }
     }
-    if (peer.contains("end")) out += peer["end"].get<std::string>() + "; ";
-    if (peer.contains("exception")) out += peer["exception"].get<std::string>() + "; ";
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%zu of 3 agree to %.0e", agreeing, worst);
-    return out + text.data();
+    std::snprintf(text.data(), text.size(), "%zu agree to %.0e", agreeing, worst);
+    std::string out = agreeing == 0 ? "none agrees" : text.data();
+    for (const auto& [reason, operations] : reasons) out += "; " + operations + reason;
+    for (const char* key : {"end", "exception"})
+        if (peer.contains(key)) out += "; " + shortened(peer[key]);
+    return out;
 }
 
 double total_seconds(const json& mesh) {
