@@ -316,6 +316,16 @@ std::optional<Wall> Evaluator::choose_wall(const Task& task) const {
     return wall;
 }
 
+// Whether a box of polygons, rounded inwards to lattice positions, comes near a segment.
+bool near_segment(const Box& box, const FinePoint& a, const FinePoint& b) {
+    Box segment;
+    for (std::size_t k = 0; k < 3; ++k) {
+        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> wall_bits) - 1;
+        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> wall_bits) + 2;
+    }
+    return box.overlaps(segment);
+}
+
 // Winding numbers of all operands at p, which lies in the task's cell.
 bool Evaluator::windings_at(const Task& task, const FinePoint& p, Task& out) const {
     std::vector<int> windings;
@@ -323,6 +333,8 @@ bool Evaluator::windings_at(const Task& task, const FinePoint& p, Task& out) con
         std::optional<int> w;
         if (o.is_tree()) {
             w = winding_at(o.tree, p);
+        } else if (!near_segment(o.box, task.reference, p)) {
+            w = o.winding;
         } else if (const auto change =
                        detail::trace_winding(o.list, o.flipped, task.reference, p)) {
             w = o.winding + *change;

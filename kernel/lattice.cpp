@@ -22,14 +22,18 @@ int lowest_bit(double v) {
     return e - 53 + std::countr_zero(i);
 }
 
+// v · 2^e. A product with a power of two rounds like ldexp and is many times faster.
+double scaled(double v, int e) {
+    if (e < -1022 || e > 1023) return std::ldexp(v, e);
+    return v * std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+}
+
 int floor_to_multiple_of_8(int e) { return (e >= 0 ? e / 8 : -((-e + 7) / 8)) * 8; }
 int ceil_to_multiple_of_8(int e) { return -floor_to_multiple_of_8(-e); }
 
 }  // namespace
 
-double Lattice::to_double(double lattice_units) const {
-    return std::ldexp(lattice_units, exponent);
-}
+double Lattice::to_double(double lattice_units) const { return scaled(lattice_units, exponent); }
 
 Lattice choose_lattice(std::span<const std::array<double, 3>> points) {
     int lowest = std::numeric_limits<int>::max();
@@ -57,19 +61,19 @@ std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> poin
         std::array<std::int64_t, 3> c{};
         bool moved = false;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double scaled = std::ldexp(points[i][k], -lattice.exponent);
-            if (!(std::fabs(scaled) < static_cast<double>(coordinate_limit)))
+            const double units = scaled(points[i][k], -lattice.exponent);
+            if (!(std::fabs(units) < static_cast<double>(coordinate_limit)))
                 throw LimitError("vertex " + std::to_string(i) + ": coordinate " +
                                  std::to_string(points[i][k]) +
                                  " is not finite or outside the lattice of unit 2^" +
                                  std::to_string(lattice.exponent));
-            const double r = std::nearbyint(scaled);
+            const double r = std::nearbyint(units);
             c[k] = static_cast<std::int64_t>(r);
             // Scaling a tiny coordinate may underflow to the zero that it is rounded to.
-            if (r != scaled || (r == 0 && points[i][k] != 0)) {
+            if (r != units || (r == 0 && points[i][k] != 0)) {
                 moved = true;
                 const double move = r == 0 ? std::fabs(points[i][k])
-                                           : std::ldexp(std::fabs(r - scaled), lattice.exponent);
+                                           : std::ldexp(std::fabs(r - units), lattice.exponent);
                 report.max_move = std::max(report.max_move, move);
             }
         }
