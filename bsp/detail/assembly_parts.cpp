@@ -85,6 +85,7 @@ private:
     void mark_incomplete(const std::vector<FacetName>& incomplete);
     void number_facets();
     void make_parts();
+    void add_corners_near(const WorkPolygon& shape, const PolygonRef& ref);
     void merge_equal_points();
     void emit_edges();
     [[nodiscard]] FacetTable& table(const Source* source);
@@ -179,9 +180,28 @@ void Gatherer::make_parts() {
             } else if (!leaf.cell.contains(r.box()) || shape.is_empty()) {
                 shape = out_.bench.clipped(shape, r.box(), leaf.cell);
             }
-            if (!shape.is_empty()) parts_.push_back({e.index, r.flipped, std::move(shape)});
+            if (shape.is_empty()) continue;
+            if (r.fragment != nullptr) add_corners_near(shape, r);
+            parts_.push_back({e.index, r.flipped, std::move(shape)});
         }
         leaf.end_part = parts_.size();
+    }
+}
+
+// A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
+// around the corner know it by the corner's name only, so that name must take part in merging.
+void Gatherer::add_corners_near(const WorkPolygon& shape, const PolygonRef& ref) {
+    if (ref.source->is_half_space()) return;
+    for (std::size_t v = 0; v < shape.points.size(); ++v) {
+        if (out_.bench.is_corner(shape.points[v])) continue;
+        const Approximation a = out_.bench.approximation(shape.points[v]);
+        for (int i = 0; i < 3; ++i) {
+            const Approximation c = approximate(ref.source->corner(ref.facet, i));
+            bool near = true;
+            for (std::size_t k = 0; k < 3; ++k)
+                near = near && std::fabs(a.c[k] - c.c[k]) <= 1.0000001 * a.error;
+            if (near) (void)out_.bench.corner(ref.source, ref.facet, i);
+        }
     }
 }
 

@@ -118,4 +118,21 @@ std::string difference(const trisect::Brep& brep, const reference::CanonicalBoun
     return {};
 }
 
+std::string open_edge(const trisect::PolygonMesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto loop = mesh.face(f);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::uint32_t a = loop[i];
+            const std::uint32_t b = loop[(i + 1) % loop.size()];
+            balance[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    for (const auto& [edge, count] : balance)
+        if (count != 0)
+            return "edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second) +
+                   " of the mesh is open";
+    return {};
+}
+
 }  // namespace engines

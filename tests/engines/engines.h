@@ -31,4 +31,7 @@ std::vector<reference::Polygon> polygons(const trisect::Brep& brep);
 /// the faces are maximal and the vertices are the real ones: nothing of the tree may show.
 std::string difference(const trisect::Brep& brep, const reference::CanonicalBoundary& expected);
 
+/// Why the triangles of a result do not close, corner index by corner index; empty when they do.
+std::string open_edge(const trisect::PolygonMesh& mesh);
+
 }  // namespace engines
