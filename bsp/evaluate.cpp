@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/facet_in_cell.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/on_common_lattice.h>
 #include <trisect/bsp/detail/residual.h>
@@ -387,6 +388,20 @@ bool Evaluator::place_reference(const Task& task, const Wall& wall, int which, T
     return false;
 }
 
+double listed_in(const Task& task) {
+    double n = 0;
+    for (const Operand& o : task.operands) n += static_cast<double>(o.size());
+    return n;
+}
+
+// Where the polygons of the lists are within the cell.
+Box box_of_lists(const Task& task) {
+    Box b;
+    for (const Operand& o : task.operands)
+        if (!o.is_tree() && !o.box.is_empty()) b.add(o.box);
+    return b;
+}
+
 // Both children of a cell; every list is read once.
 std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) const {
     std::array<Task, 2> out;
@@ -399,6 +414,11 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
         out[i].depth = task.depth + 1;
         out[i].operands.resize(task.operands.size());
     }
+    const bool small = listed_in(task) < 20000;
+    const Box extent = box_of_lists(task);
+    const std::int64_t long_facet = (extent.hi[k] - extent.lo[k]) / 4;
+    const std::array<Box, 2> cells{extent.intersected(out[0].cell.lattice_box()),
+                                   extent.intersected(out[1].cell.lattice_box())};
     for (std::size_t n = 0; n < task.operands.size(); ++n) {
         const Operand& o = task.operands[n];
         std::array<Operand*, 2> c{&out[0].operands[n], &out[1].operands[n]};
@@ -419,11 +439,15 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
         if (o.is_tree()) continue;
         for (const PolygonRef& r : o.list) {
             const Box& b = r.box();
-            if (b.lo[k] <= last_below) {
+            const bool below = b.lo[k] <= last_below;
+            const bool above = b.hi[k] > last_below;
+            // A facet that is large for its cell may pass by a child that its box meets.
+            const bool doubtful = small && below && above && b.hi[k] - b.lo[k] > long_facet;
+            if (below && !(doubtful && detail::certainly_misses(r, cells[0]))) {
                 c[0]->storage.push_back(r);
                 c[0]->box.add(b);
             }
-            if (b.hi[k] > last_below) {
+            if (above && !(doubtful && detail::certainly_misses(r, cells[1]))) {
                 c[1]->storage.push_back(r);
                 c[1]->box.add(b);
             }
@@ -439,12 +463,6 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
     return out;
 }
 
-double listed_in(const Task& task) {
-    double n = 0;
-    for (const Operand& o : task.operands) n += static_cast<double>(o.size());
-    return n;
-}
-
 CellRef Evaluator::divide(Task task) {
     std::optional<Wall> wall = wall_of_trees(task);
     if (wall) {
@@ -455,17 +473,20 @@ CellRef Evaluator::divide(Task task) {
     } else {
         wall = choose_wall(task);
     }
-    const bool too_deep = task.stalled >= 3 || task.depth > 400;
+    const bool too_deep = task.stalled >= (listed_in(task) > 400 ? 12 : 3) || task.depth > 400;
     if (!wall || (too_deep && !wall_of_trees(task))) return resolve(task);
     std::array<CellRef, 2> results;
     std::array<Task, 2> children = children_of(task, *wall);
     const double total = listed_in(task);
     // Pairs are what a leaf costs. A wall that leaves most of them on its sides was not worth it,
-    // and after a few such walls none will be: long thin facets cross all of them.
-    double pairs = 0;
-    for (const Task& c : children) pairs += listed_in(c) * listed_in(c);
-    const bool worth_it = total < 4000 ? pairs < 0.8 * total * total : pairs < 1.6 * total * total;
-    for (Task& c : children) c.stalled = worth_it ? 0 : task.stalled + 1;
+    // and after a few such walls none will be: long thin facets cross all of them. Where many
+    // facets meet in a corner, though, walls around the corner cut off small cells at little cost.
+    const double first = listed_in(children[0]);
+    const double second = listed_in(children[1]);
+    const double pairs = first * first + second * second;
+    const bool worth_it = pairs < (total < 4000 ? 0.8 : 1.6) * total * total;
+    const int price = std::min(first, second) > 0.5 * total ? 4 : 1;
+    for (Task& c : children) c.stalled = worth_it ? 0 : task.stalled + price;
     // A subtree that comes back unchanged is shared as a whole.
     const CellRef driver = [&] {
         for (const Operand& o : task.operands)

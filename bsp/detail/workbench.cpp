@@ -34,8 +34,8 @@ PlaneId Workbench::plane(const PlaneName& name) {
             line_of_.push_back(-1);
             planes_.emplace_back();
             const PlaneId support = plane(PlaneName::support(name.source(), name.facet));
-            planes_[u(next)] = name.source()->edge_plane(
-                name.facet, static_cast<int>(name.kind), planes_[u(support)]);
+            planes_[u(next)] = name.source()->edge_plane(name.facet, static_cast<int>(name.kind),
+                                                         planes_[u(support)]);
             return id;
         }
         planes_.push_back(name.plane());
