@@ -429,7 +429,8 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
                 c[i]->mixed = o.mixed;
                 c[i]->flipped = o.flipped;
                 c[i]->keep = o.keep;
-                c[i]->storage.reserve(o.list.size() / 2 + 8);
+                // Memory that is never touched costs nothing, copying a list that grew does.
+                c[i]->storage.reserve(o.list.size());
                 continue;
             }
             CellRef t = o.tree.node->child(static_cast<int>(i));

@@ -90,6 +90,8 @@ Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
 
 Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
     if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
+    if (imported.report.inside_out && embedding == Embedding::Assume)
+        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
     if (imported.mesh.triangles.empty()) return {};
     const bool t_edges = imported.report.t_edges != 0;
     Solid s = from_lattice_mesh(std::move(imported.mesh), embedding);

@@ -21,8 +21,11 @@ struct SolidState;
 
 /// What is known about self-intersection of an imported boundary.
 enum class Embedding : std::uint8_t {
-    Assume,  ///< taken to be free of self-intersection: only cells where operands meet are resolved
-    Resolve  ///< may intersect, cover or contain itself: every cell is resolved
+    /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0 and 1:
+    /// only cells where operands meet are resolved.
+    Assume,
+    /// May intersect, cover or contain itself: every cell is resolved.
+    Resolve
 };
 
 struct SolidOptions {
@@ -48,7 +51,8 @@ public:
     [[nodiscard]] static Solid whole_space();
     /// The points below the plane.
     [[nodiscard]] static Solid half_space(const Plane& plane, Lattice lattice = {});
-    /// \throw InvalidSolid when the mesh is not closed and oriented.
+    /// \throw InvalidSolid when the mesh is not closed and oriented; Error InvalidSolid when it is
+    /// inside out and its embedding is assumed.
     [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
     /// The same for a mesh that was imported before. \throw InvalidSolid when it is not closed.
     [[nodiscard]] static Solid from_import(ImportedMesh imported,

@@ -54,8 +54,13 @@ public:
         : lattice_(solid.lattice), parts_(parts) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
+        const std::size_t triangles = parts_.whole.size() + 2 * edges.size();
+        mesh_.face_begin.reserve(triangles + 1);
+        mesh_.corners.reserve(3 * triangles);
+        mesh_.points.reserve(triangles);
         for (const std::int32_t f : parts_.whole) copy(parts_.facets[u(f)]);
         point_index_.assign(parts_.bench.point_count(), -1);
+        exact_index_.assign(parts_.bench.point_count(), -1);
         for_each_face(edges, [&](std::int32_t f, std::span<const BoundaryEdge> face) {
             triangulate_face(parts_.facets[u(f)], face);
         });
@@ -86,6 +91,15 @@ private:
         mesh_.add_face(t);
     }
 
+    const Point& point(PointId p) {
+        std::int32_t& at = exact_index_[u(p)];
+        if (at < 0) {
+            at = static_cast<std::int32_t>(exact_.size());
+            exact_.push_back(parts_.bench.point(p));
+        }
+        return exact_[u(at)];
+    }
+
     std::uint32_t vertex(PointId p) {
         std::int64_t& at = point_index_[u(p)];
         if (at >= 0) return static_cast<std::uint32_t>(at);
@@ -93,7 +107,7 @@ private:
             const auto [source, v] = parts_.bench.corner_name(p);
             at = corner(source, v);
         } else {
-            at = add_point(nearest_doubles(parts_.bench.homogeneous(p)));
+            at = add_point(point(p).nearest());
         }
         return static_cast<std::uint32_t>(at);
     }
@@ -117,7 +131,7 @@ private:
                     loop.push_back(static_cast<std::uint32_t>(at - ids.begin()));
                     if (at != ids.end()) continue;
                     ids.push_back(p);
-                    points.push_back(parts_.bench.point(p));
+                    points.push_back(point(p));
                 }
             }
             for (const auto& t :
@@ -131,6 +145,8 @@ private:
     PolygonMesh mesh_;
     std::unordered_map<const Source*, std::vector<std::int64_t>> corner_index_;
     std::vector<std::int64_t> point_index_;
+    std::vector<std::int32_t> exact_index_;
+    std::vector<Point> exact_;
 };
 
 }  // namespace

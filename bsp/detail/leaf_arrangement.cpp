@@ -243,7 +243,8 @@ private:
     };
     [[nodiscard]] std::optional<Sides> classify(Index item, const WorkPolygon& shape,
                                                 const std::vector<int>& step);
-    [[nodiscard]] bool trace(const TraceTarget& target, PlaneId own_class, std::vector<int>& w);
+    [[nodiscard]] bool trace(const TraceTarget& target, PlaneId own_class, Index own_operand,
+                             std::vector<int>& w);
     [[nodiscard]] bool formula_at(const std::vector<int>& windings);
     void next_reference();
     void emit(const PolygonRef& ref, bool above, bool below);
@@ -692,12 +693,14 @@ bool LeafArranger::Impl::formula_at(const std::vector<int>& windings) {
     return value_of(*problem_->formula, *values_);
 }
 
-// Winding numbers of all operands at the target, leaving out polygons in the plane of the target.
-bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, std::vector<int>& w) {
+// Winding numbers of the operands at the target, leaving out polygons in the plane of the target and
+// those of the target's own operand when the caller knows its winding numbers (-1: none).
+bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, Index own_operand,
+                               std::vector<int>& w) {
     w = reference_windings_;
     const Box segment = box_of_segment(reference_approximation_, target.approximation());
     for (Item& item : items_) {
-        if (!item.ref.box().overlaps(segment)) continue;
+        if (item.operand == own_operand || !item.ref.box().overlaps(segment)) continue;
         const Plane& support = bench_.plane_at(item.shape.support);
         if (own_class >= 0 && bench_.plane_class(item.shape.support) == own_class) continue;
         if (item.side_of_reference == 2)
@@ -738,6 +741,9 @@ std::optional<LeafArranger::Impl::Sides> LeafArranger::Impl::classify(
     Index item, const WorkPolygon& shape, const std::vector<int>& step) {
     const PlaneId support = items_[u(item)].shape.support;
     const std::array<PointId, 3> corners = spread_vertices(shape);
+    // An embedded operand has 0 outside its own facets and 1 inside.
+    const Index own = items_[u(item)].operand;
+    const Index known = problem_->operands[u(own)].embedded ? own : -1;
     std::vector<int> w;
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
         if (attempt > 0) ++stats_->traces_retried;
@@ -750,7 +756,11 @@ std::optional<LeafArranger::Impl::Sides> LeafArranger::Impl::classify(
         }
         ++stats_->traces;
         const TraceTarget target(bench_, corners, weights_of_attempt(attempt));
-        if (!trace(target, bench_.plane_class(support), w)) continue;
+        if (!trace(target, bench_.plane_class(support), known, w)) continue;
+        if (known >= 0) {
+            const bool outside_is_near = (items_[u(item)].orientation > 0) == (at_reference > 0);
+            w[u(known)] = outside_is_near ? 0 : 1;
+        }
         // w holds on the side of the reference; crossing to the other side takes the step.
         Sides sides;
         const bool near = formula_at(w);
@@ -782,7 +792,7 @@ void LeafArranger::Impl::next_reference() {
         }
         if (!problem_->cell.contains(p) || p == reference_) continue;
         std::vector<int> w;
-        if (!trace(TraceTarget(p), -1, w)) continue;
+        if (!trace(TraceTarget(p), -1, -1, w)) continue;
         reference_ = p;
         reference_approximation_ = approximate(p);
         reference_windings_ = w;
