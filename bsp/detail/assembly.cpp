@@ -157,10 +157,8 @@ Brep assemble_brep(const SolidState& solid, const AssembleOptions& options) {
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     join_facets(parts, edges);
     remove_straight_vertices(parts, true, edges);
-    if (options.maximal_faces) {
-        join_coplanar_facets(parts, edges);
-        remove_straight_vertices(parts, false, edges);
-    }
+    join_coplanar_facets(parts, !options.maximal_faces, edges);
+    remove_straight_vertices(parts, !options.maximal_faces, edges);
     BrepBuilder builder(solid.lattice);
     std::vector<std::int64_t> index(parts.bench.point_count(), -1);
     std::vector<std::vector<std::uint32_t>> loops;

@@ -107,16 +107,21 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     conform_walls(parts, edges);
 }
 
-void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                          std::vector<BoundaryEdge>& edges) {
     std::vector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
     const auto root = [&](std::int32_t f) {
         while (cluster[u(f)] != f) f = cluster[u(f)] = cluster[u(cluster[u(f)])];
         return f;
     };
-    const auto same_oriented_plane = [&](std::int32_t f, std::int32_t g) {
+    const auto face_of = [](const BoundaryFacet& f) {
+        return f.source->is_half_space() ? 0 : f.source->mesh().face_of(f.facet);
+    };
+    const auto belong_together = [&](std::int32_t f, std::int32_t g) {
         const BoundaryFacet& a = parts.facets[u(f)];
         const BoundaryFacet& b = parts.facets[u(g)];
+        if (within_faces && (a.source != b.source || face_of(a) != face_of(b))) return false;
         const Plane& p = parts.bench.plane_at(a.support);
         const Plane& q = parts.bench.plane_at(b.support);
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
@@ -142,7 +147,7 @@ void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>&
                 const BoundaryEdge& e = edges[order[a]];
                 const BoundaryEdge& f = edges[order[b]];
                 if (gone[order[b]] || e.from == f.from) continue;
-                if (!same_oriented_plane(e.facet, f.facet)) continue;
+                if (!belong_together(e.facet, f.facet)) continue;
                 gone[order[a]] = gone[order[b]] = true;
                 const std::int32_t x = root(e.facet);
                 const std::int32_t y = root(f.facet);
@@ -161,7 +166,7 @@ void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>&
     edges.swap(left);
     sort_by_facet(edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
-        TRISECT_AUDIT_CHECK(!parts.bench.name(e.line.plane).is_wall(),
+        TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
                             "an edge on a cell wall survived joining");
 }
 

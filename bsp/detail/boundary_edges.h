@@ -15,10 +15,11 @@ namespace trisect::detail {
 /// of space (an unbounded face).
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
-/// Renumbers `facet` of every edge to the smallest facet of its maximal face: facets in one
-/// oriented plane that share an edge are joined and the edge vanishes. The edges come out sorted by
-/// facet.
-void join_coplanar_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+/// Renumbers `facet` of every edge to the smallest facet of its face: facets in one oriented plane
+/// that share an edge are joined and the edge vanishes. With `within_faces` only facets of the same
+/// face of the same operand are. The edges come out sorted by facet.
+void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                          std::vector<BoundaryEdge>& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
 /// corners of the operands stay. \pre edges sorted by facet.

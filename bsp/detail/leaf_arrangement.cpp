@@ -693,8 +693,8 @@ bool LeafArranger::Impl::formula_at(const std::vector<int>& windings) {
     return value_of(*problem_->formula, *values_);
 }
 
-// Winding numbers of the operands at the target, leaving out polygons in the plane of the target and
-// those of the target's own operand when the caller knows its winding numbers (-1: none).
+// Winding numbers of the operands at the target, leaving out polygons in the plane of the target
+// and those of the target's own operand when the caller knows its winding numbers (-1: none).
 bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, Index own_operand,
                                std::vector<int>& w) {
     w = reference_windings_;

@@ -62,6 +62,12 @@ Plane Source::edge_plane(std::uint32_t facet, int i, const Plane& support) const
     return support.normal(k) > 0 ? Plane::along_axis(a, b, k) : Plane::along_axis(b, a, k);
 }
 
+std::shared_ptr<const Source> Source::numbered(std::shared_ptr<const Source> source,
+                                               std::uint64_t serial) {
+    const_cast<Source&>(*source).serial_ = serial;  // nobody else has seen it yet
+    return source;
+}
+
 std::shared_ptr<const Source> Source::refined(int exponent) const {
     const int shift = mesh_.lattice.exponent - exponent;
     TRISECT_EXPECTS(shift >= 0, "a source can only move to a finer lattice");
@@ -69,7 +75,7 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
         TRISECT_EXPECTS(shift <= 48, "half-space on a much finer lattice");
         const Plane p(plane_.normal(0), plane_.normal(1), plane_.normal(2),
                       plane_.offset().shifted_left(shift));
-        return half_space(p, Lattice{exponent});
+        return numbered(half_space(p, Lattice{exponent}), serial_);
     }
     LatticeMesh fine = mesh_;
     fine.lattice.exponent = exponent;
@@ -81,7 +87,7 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
         }
         p = {p.x << shift, p.y << shift, p.z << shift};
     }
-    return make(std::move(fine));
+    return numbered(make(std::move(fine)), serial_);
 }
 
 }  // namespace trisect::detail

@@ -59,14 +59,17 @@ public:
     /// The same for a caller who has the support at hand.
     [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i, const Plane& support) const;
 
-    /// The same facets on the lattice of exponent `exponent`, which must be finer. Names keep their
-    /// meaning. \throw LimitError when coordinates leave the lattice's range.
+    /// The same facets under the same serial on the lattice of exponent `exponent`, which must be
+    /// finer. Names keep their meaning. \throw LimitError when coordinates leave the lattice's
+    /// range.
     [[nodiscard]] std::shared_ptr<const Source> refined(int exponent) const;
 
 private:
     Source() = default;
     ~Source() = default;
     static std::shared_ptr<const Source> share(Source* source);
+    static std::shared_ptr<const Source> numbered(std::shared_ptr<const Source> source,
+                                                  std::uint64_t serial);
 
     LatticeMesh mesh_;
     bool half_space_ = false;
