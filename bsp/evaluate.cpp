@@ -30,6 +30,7 @@
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect {
 
@@ -206,7 +207,7 @@ CellRef Evaluator::resolve(Task& task) {
         values_[static_cast<std::size_t>(o.slot)] =
             detail::is_inside(o.winding, options_.winding) ? 1 : 0;
     const bool inside = detail::value_of(*task.formula, values_);
-    LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), options_.winding};
+    LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
     auto kept = arranger_.arrange(problem, values_, stats_);
     for (const Operand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
     return {CellNode::leaf(PolygonList(std::move(kept)), task.reference, inside ? 1 : 0, true),
@@ -524,6 +525,7 @@ CellRef Evaluator::divide(Task task) {
 
 CellRef Evaluator::solve(Task task) {
     ++stats_.cells;
+    detail::check_budget(options_, stats_);
     stats_.depth = std::max(stats_.depth, task.depth);
     prune(task);
     if (task.formula->kind == Residual::Kind::Constant) return constant(task, task.formula->value);
@@ -595,6 +597,9 @@ private:
     };
 
     void open(const Expression::Node& node) {
+        // Simplification and evaluation of formulas recurse over alternating operations.
+        if (frames_.size() >= 4096)
+            throw LimitError("the formula nests more than 4096 alternating operations");
         Frame f;
         f.kind = node.kind;
         if (node.kind == Expression::Kind::Leaf) f.done.push_back(slot_of(node.solid));

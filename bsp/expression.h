@@ -4,6 +4,7 @@
 // works on the whole formula in one pass, without intermediate solids.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -64,6 +65,11 @@ struct EvaluateOptions {
     std::uint32_t wall_offset = 83;
     /// What counts as inside an operand that covers itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
+    /// Work budget: cells visited plus polygon pairs compared in leaves; 0 means no limit. The same
+    /// input hits the same limit everywhere.
+    std::uint64_t max_work = 0;
+    /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
+    const std::atomic<bool>* cancel = nullptr;
 };
 
 /// What one evaluation did.
@@ -82,7 +88,8 @@ struct EvaluateStats {
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
-/// \throw LimitError when the operands have no common lattice.
+/// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
+/// alternating operations, or the work budget is spent; CancelledError. Operands stay as they were.
 [[nodiscard]] Solid evaluate(const Expression& expression, const EvaluateOptions& options = {},
                              EvaluateStats* stats = nullptr);
 

@@ -21,7 +21,8 @@ struct SolidState;
 
 /// What is known about self-intersection of an imported boundary.
 enum class Embedding : std::uint8_t {
-    /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0 and 1:
+    /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0 and
+    /// 1:
     /// only cells where operands meet are resolved.
     Assume,
     /// May intersect, cover or contain itself: every cell is resolved.

@@ -24,10 +24,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 #include <trisect/bsp/detail/trace.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect::detail {
 
@@ -201,6 +203,13 @@ std::optional<int> trace_winding(std::span<const PolygonRef> polygons, bool flip
     return winding;
 }
 
+void check_budget(const EvaluateOptions& options, const EvaluateStats& stats) {
+    if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed))
+        throw CancelledError();
+    if (options.max_work != 0 && stats.cells + stats.pairs_boxes > options.max_work)
+        throw LimitError("the work budget of " + std::to_string(options.max_work) + " is spent");
+}
+
 class LeafArranger::Impl {
 public:
     std::vector<PolygonRef> arrange(const LeafProblem& problem, SlotValues& values,
@@ -346,6 +355,7 @@ void LeafArranger::Impl::load() {
 void LeafArranger::Impl::relate_pairs() {
     const auto n = static_cast<Index>(items_.size());
     for (Index i = 0; i < n; ++i) {
+        check_budget(*problem_->options, *stats_);
         for (Index j = i + 1; j < n; ++j) {
             const Item& a = items_[u(i)];
             const Item& b = items_[u(j)];
@@ -688,7 +698,7 @@ void LeafArranger::Impl::emit(const PolygonRef& ref, bool above, bool below) {
 bool LeafArranger::Impl::formula_at(const std::vector<int>& windings) {
     for (std::size_t o = 0; o < windings.size(); ++o) {
         const LeafOperand& operand = problem_->operands[o];
-        (*values_)[u(operand.slot)] = is_inside(windings[o], problem_->winding) ? 1 : 0;
+        (*values_)[u(operand.slot)] = is_inside(windings[o], problem_->options->winding) ? 1 : 0;
     }
     return value_of(*problem_->formula, *values_);
 }

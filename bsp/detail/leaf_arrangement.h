@@ -32,8 +32,11 @@ struct LeafProblem {
     FinePoint reference;
     std::span<const LeafOperand> operands;
     const Residual* formula = nullptr;
-    EvaluateOptions::Winding winding = EvaluateOptions::Winding::Positive;
+    const EvaluateOptions* options = nullptr;
 };
+
+/// \throw LimitError when the work so far exceeds the budget, CancelledError when asked to stop.
+void check_budget(const EvaluateOptions& options, const EvaluateStats& stats);
 
 /// Scratch memory that one thread uses for all its leaves; starts anywhere, ends anywhere.
 class LeafArranger {
