@@ -10,8 +10,8 @@
 // each can never lose a vertex in silence: its face lines would have to look like its vertex lines,
 // and then the counts come out wrong.
 //
-// Leniencies: comments from `#` at the start of a word and blank lines anywhere; the number of
-// edges may be missing; numbers after the indices of a face (its colour) are ignored, as is a
+// Leniencies: comments from `#` before a word or after a number and blank lines anywhere; the
+// number of edges may be missing; numbers after the indices of a face (its colour) are ignored, as is a
 // vertex's normal, colour or texture position. Each vertex and each face stands on its own line.
 // Refused: the four-dimensional (4OFF, nOFF) and the binary variant, anything after the last face.
 #include <trisect/brep/io/detail/formats.h>

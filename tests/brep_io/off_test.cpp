@@ -38,6 +38,11 @@ TEST(Off, NormalsColoursAndTextures) {
     }
 }
 
+TEST(Off, CommentGluedToANumber) {
+    EXPECT_EQ(off("OFF\n3 1 0# counts\n0 0 0#red\n1 0 0\n0 1 0\n3 0 1 2#last\n"),
+              off("OFF\n3 1 0\n" + points + "3 0 1 2\n"));
+}
+
 TEST(Off, TwoVerticesOnOneLineAreNotDropped) {
     expect_off_error("OFF\n3 1 0\n0 0 0 1 0 0\n0 1 0\n3 0 1 2\n", ":4:1", "the first one has 6");
     expect_off_error("OFF\n2 1 0\n0 0 0 1 0 0\n3 0 1 0\n", ":4:1", "the first one has 6");

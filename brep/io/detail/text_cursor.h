@@ -23,7 +23,7 @@
 namespace trisect::detail {
 
 struct TextRules {
-    bool hash_comments = false;  ///< `#` at the start of a word hides the rest of the line
+    bool hash_comments = false;  ///< `#` before a word or after a number hides the rest
     bool continuation = false;   ///< a backslash at the end of a line joins it with the next
 };
 
@@ -185,7 +185,8 @@ private:
     }
 
     void end_number(const char* stop, const char* what) {
-        if (stop != line_end_ && !is_blank(*stop)) fail_word(what, "is not a number");
+        const bool comment = rules_.hash_comments && stop != line_end_ && *stop == '#';
+        if (stop != line_end_ && !is_blank(*stop) && !comment) fail_word(what, "is not a number");
         if (static_cast<std::uint64_t>(stop - word_) > source_.limits().literal_characters) {
             source_.fail_limit(word_, "a number of more than " +
                                           std::to_string(source_.limits().literal_characters) +
