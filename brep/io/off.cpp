@@ -11,9 +11,10 @@
 // and then the counts come out wrong.
 //
 // Leniencies: comments from `#` before a word or after a number and blank lines anywhere; the
-// number of edges may be missing; numbers after the indices of a face (its colour) are ignored, as is a
-// vertex's normal, colour or texture position. Each vertex and each face stands on its own line.
-// Refused: the four-dimensional (4OFF, nOFF) and the binary variant, anything after the last face.
+// number of edges may be missing; numbers after the indices of a face (its colour) are ignored, as
+// is a vertex's normal, colour or texture position. Each vertex and each face stands on its own
+// line. Refused: the four-dimensional (4OFF, nOFF) and the binary variant, anything after the last
+// face.
 #include <trisect/brep/io/detail/formats.h>
 #include <trisect/brep/io/detail/mesh_builder.h>
 #include <trisect/brep/io/detail/number_text.h>

@@ -17,8 +17,8 @@ Family::Family(std::uint64_t seed, std::size_t count) {
     const bool embedded = seed % 3 == 0;
     operands = reference::random_family(random, count, embedded);
     for (const auto& o : operands)
-        solids.push_back(engines::solid(
-            o, embedded ? trisect::Embedding::Assume : trisect::Embedding::Resolve));
+        solids.push_back(
+            engines::solid(o, embedded ? trisect::Embedding::Assume : trisect::Embedding::Resolve));
 }
 
 trisect::EvaluateOptions options_of(std::uint64_t seed) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of algebraic laws share: families of solids, exact volumes, equality of sets and of
-// boundaries.
+// What the tests of algebraic laws share: families of solids, exact volumes, equality of sets and
+// of boundaries.
 #pragma once
 
 #include <cstdint>

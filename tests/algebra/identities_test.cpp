@@ -133,10 +133,10 @@ TEST(Identities, TheComplementHasTheSameBoundaryTurnedOver) {
             for (auto& loop : p.loops) std::ranges::reverse(loop);
             turned.push_back(std::move(p));
         }
-        EXPECT_EQ(reference::explain_difference(
-                      reference::canonical_boundary(engines::polygons(there)),
-                      reference::canonical_boundary(turned)),
-                  "");
+        EXPECT_EQ(
+            reference::explain_difference(reference::canonical_boundary(engines::polygons(there)),
+                                          reference::canonical_boundary(turned)),
+            "");
         EXPECT_EQ(there.counts().faces, back.counts().faces);
     });
 }

@@ -81,8 +81,7 @@ TEST(Invariance, SubdividedOperandsGiveTheSameMaximalFaces) {
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
         SCOPED_TRACE(seed);
         const auto [a, b] = random_pair(seed);
-        const auto coarse =
-            results(engines::solid(scaled(a, 2)), engines::solid(scaled(b, 2)));
+        const auto coarse = results(engines::solid(scaled(a, 2)), engines::solid(scaled(b, 2)));
         const auto options = algebra::options_of(seed);
         const auto fine = results(engines::solid(subdivided(scaled(a, 2))),
                                   engines::solid(scaled(b, 2)), options);
@@ -108,15 +107,15 @@ TEST(Invariance, TheOrderOfTrianglesAndCornersDoesNotShow) {
     }
 }
 
-// Triangles with three points of their own, and every second one cut in two at the middle of an edge
-// that its neighbour keeps whole: corners lie inside edges.
+// Triangles with three points of their own, and every second one cut in two at the middle of an
+// edge that its neighbour keeps whole: corners lie inside edges.
 trisect::PolygonMesh soup_with_t_junctions(const Operand& operand) {
     trisect::PolygonMesh mesh;
     const auto add = [&](const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
         const auto first = static_cast<std::uint32_t>(mesh.points.size());
         for (const LatticePoint& p : {a, b, c})
-            mesh.points.push_back({static_cast<double>(p[0]), static_cast<double>(p[1]),
-                                   static_cast<double>(p[2])});
+            mesh.points.push_back(
+                {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])});
         mesh.add_triangle(first, first + 1, first + 2);
     };
     for (std::size_t i = 0; i < operand.size(); ++i) {
@@ -142,9 +141,9 @@ TEST(Invariance, CornersInsideEdgesDoNotShow) {
         const Operand a = scaled(family[0], 2);
         const Operand b = scaled(family[1], 2);
         const auto expected = results(engines::solid(a), engines::solid(b));
-        const auto found = results(Solid::from_mesh(soup_with_t_junctions(a), import),
-                                   Solid::from_mesh(soup_with_t_junctions(b), import),
-                                   algebra::options_of(seed));
+        const auto found =
+            results(Solid::from_mesh(soup_with_t_junctions(a), import),
+                    Solid::from_mesh(soup_with_t_junctions(b), import), algebra::options_of(seed));
         for (std::size_t i = 0; i < 3; ++i)
             EXPECT_EQ(difference(found[i], expected[i]), "") << "result " << i;
     }
@@ -203,8 +202,8 @@ void check_commutes(const Isometry& map, std::uint64_t first_seed, std::uint64_t
         SCOPED_TRACE(seed);
         const auto [a, b] = random_pair(seed);
         const auto plain = results(engines::solid(a), engines::solid(b));
-        const auto moved = results(engines::solid(map(a)), engines::solid(map(b)),
-                                   algebra::options_of(seed));
+        const auto moved =
+            results(engines::solid(map(a)), engines::solid(map(b)), algebra::options_of(seed));
         for (std::size_t i = 0; i < 3; ++i) {
             EXPECT_EQ(reference::explain_difference(
                           reference::canonical_boundary(map(engines::polygons(plain[i]))),

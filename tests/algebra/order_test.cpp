@@ -24,10 +24,14 @@ enum class Chain { Union, Intersection, Difference, Xor };
 
 Solid step(Chain chain, const Solid& a, const Solid& b, const trisect::EvaluateOptions& options) {
     switch (chain) {
-        case Chain::Union: return evaluate(a | b, options);
-        case Chain::Intersection: return evaluate(a & b, options);
-        case Chain::Difference: return evaluate(a - b, options);
-        default: return evaluate(a ^ b, options);
+        case Chain::Union:
+            return evaluate(a | b, options);
+        case Chain::Intersection:
+            return evaluate(a & b, options);
+        case Chain::Difference:
+            return evaluate(a - b, options);
+        default:
+            return evaluate(a ^ b, options);
     }
 }
 
@@ -36,10 +40,18 @@ Expression at_once(Chain chain, const std::vector<Solid>& solids) {
     Expression e = solids[0];
     for (std::size_t i = 1; i < solids.size(); ++i) {
         switch (chain) {
-            case Chain::Union: e = e | solids[i]; break;
-            case Chain::Intersection: e = e & solids[i]; break;
-            case Chain::Difference: e = e - solids[i]; break;
-            default: e = e ^ solids[i]; break;
+            case Chain::Union:
+                e = e | solids[i];
+                break;
+            case Chain::Intersection:
+                e = e & solids[i];
+                break;
+            case Chain::Difference:
+                e = e - solids[i];
+                break;
+            default:
+                e = e ^ solids[i];
+                break;
         }
     }
     return e;
