@@ -82,8 +82,11 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
     for (LatticePoint& p : fine.points) {
         for (const std::int64_t c : {p.x, p.y, p.z}) {
             if (shift >= coordinate_bits || std::abs(c) >= (coordinate_limit >> shift))
-                throw LimitError("a vertex leaves the range of the common lattice of unit 2^" +
-                                 std::to_string(exponent));
+                throw LimitError(
+                    "operands of units 2^" + std::to_string(mesh_.lattice.exponent) + " and 2^" +
+                    std::to_string(exponent) +
+                    " have no common lattice: their sizes differ too much; coordinate " +
+                    std::to_string(c) + " of the coarser one would not fit");
         }
         p = {p.x << shift, p.y << shift, p.z << shift};
     }
