@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an operation does not touch is shared with its operand, node by node, and not visited.
+
+#include <gtest/gtest.h>
+
+#include <unordered_set>
+#include <vector>
+
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/expression.h>
+
+namespace {
+
+using trisect::evaluate;
+using trisect::EvaluateStats;
+using trisect::Solid;
+using trisect::detail::CellNode;
+
+using Nodes = std::unordered_set<const CellNode*>;
+
+void collect(const CellNode* node, Nodes& out) {
+    std::vector<const CellNode*> open{node};
+    while (!open.empty()) {
+        const CellNode* n = open.back();
+        open.pop_back();
+        if (!out.insert(n).second || n->is_leaf()) continue;
+        for (int i = 0; i < 2; ++i) open.push_back(n->child(i).node.get());
+    }
+}
+
+Nodes nodes_of(const Solid& s) {
+    Nodes out;
+    collect(s.state()->root.node.get(), out);
+    return out;
+}
+
+std::size_t shared_nodes(const Solid& a, const Solid& b) {
+    const Nodes of_a = nodes_of(a);
+    std::size_t n = 0;
+    for (const CellNode* node : nodes_of(b)) n += of_a.contains(node) ? 1 : 0;
+    return n;
+}
+
+Solid ball() { return Solid::from_mesh(trisect::make_icosphere(100, 5)); }  // 20,480 triangles
+
+Solid small_box(double x, double y, double z) {
+    return Solid::from_mesh(trisect::make_box({x, y, z}, {x + 2, y + 3, z + 1}));
+}
+
+// A ball that has been cut, so that it has a tree.
+Solid refined_ball() {
+    return evaluate(ball() - Solid::from_mesh(trisect::make_box({50, -20, -20}, {120, 20, 20})));
+}
+
+TEST(CellSharing, ATouchlessOperandIsSharedWhole) {
+    const Solid a = ball();
+    EvaluateStats stats;
+    const Solid rest = evaluate(a - small_box(500, 500, 500), {}, &stats);
+    EXPECT_GE(stats.shared_cells, 1U);
+    EXPECT_EQ(stats.mixed_leaves, 0U);
+    EXPECT_LT(stats.cells, 20U);
+    EXPECT_EQ(trisect::exact_volume(rest.to_brep()), trisect::exact_volume(a.to_brep()));
+}
+
+TEST(CellSharing, ATreeSharesItsNodesWithWhatIsLeftOfIt) {
+    const Solid a = refined_ball();
+    EvaluateStats stats;
+    const Solid b = evaluate(a - small_box(-400, 0, 0), {}, &stats);
+    EXPECT_EQ(stats.mixed_leaves, 0U);
+    EXPECT_GE(stats.shared_cells, 1U);
+    const std::size_t all = nodes_of(a).size();
+    EXPECT_GE(shared_nodes(a, b) * 10, all * 9);
+}
+
+TEST(CellSharing, ASmallCutCopiesOnlyThePathToIt) {
+    const Solid a = refined_ball();
+    const std::size_t all = nodes_of(a).size();
+    EvaluateStats stats;
+    const Solid b = evaluate(a - small_box(0, 0, 98.5), {}, &stats);
+    EXPECT_GT(stats.mixed_leaves, 0U);
+    EXPECT_GE(shared_nodes(a, b) * 10, all * 8);
+    EXPECT_LT(trisect::volume(b.to_brep()), trisect::volume(a.to_brep()));
+}
+
+TEST(CellSharing, TheSecondCutAtAPlaceVisitsFewCells) {
+    Solid a = evaluate(refined_ball() - small_box(0, 0, 98.5));
+    EvaluateStats stats;
+    a = evaluate(a - small_box(0.5, 0.5, 98), {}, &stats);
+    EXPECT_LT(stats.cells, 300U);
+    EXPECT_LT(stats.mixed_leaves, 30U);
+    EXPECT_LT(stats.depth, 100);
+}
+
+TEST(CellSharing, ComplementsShareTheTree) {
+    const Solid a = refined_ball();
+    const Solid outside = evaluate(~a);
+    EXPECT_EQ(shared_nodes(a, outside), nodes_of(a).size());
+    EXPECT_EQ(evaluate(~outside).state()->root.node, a.state()->root.node);
+}
+
+TEST(CellSharing, UnionWithTheEmptySetIsTheSameTree) {
+    const Solid a = refined_ball();
+    EXPECT_EQ(evaluate(a | Solid()).state()->root.node, a.state()->root.node);
+    EXPECT_EQ(evaluate(a & Solid::whole_space()).state()->root.node, a.state()->root.node);
+    EXPECT_TRUE(evaluate(a & Solid()).is_empty());
+}
+
+TEST(CellSharing, AChainOfCutsThatRemovesEverythingIsEmpty) {
+    Solid a = Solid::from_mesh(trisect::make_box({3, 1, 1}));
+    for (int i = 0; i < 3; ++i) {
+        const double x = i;
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = 3;
+        a = evaluate(a - Solid::from_mesh(trisect::make_box({x, 0, 0}, {x + 1, 1, 1})), options);
+    }
+    EXPECT_TRUE(a.to_brep().is_empty());
+    EXPECT_TRUE(a.is_empty());
+}
+
+}  // namespace

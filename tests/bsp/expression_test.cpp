@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Formulas: what the operators mean, and that long ones cost neither stack nor quadratic time.
+
+#include <trisect/bsp/expression.h>
+
+#include <gtest/gtest.h>
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <trisect/brep/measure.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/error.h>
+
+#include "engines/engines.h"
+
+namespace {
+
+using trisect::evaluate;
+using trisect::Expression;
+using trisect::Solid;
+
+constexpr int chain_length = 100'000;
+constexpr int evaluated_length = 50'000;
+
+Solid box(const reference::LatticePoint& low, const reference::LatticePoint& high) {
+    return engines::solid(reference::box(low, high));
+}
+
+std::string volume(const Expression& e) {
+    return trisect::exact_volume(evaluate(e).to_brep()).to_string();
+}
+
+class Operators : public ::testing::Test {
+protected:
+    const Solid a = box({0, 0, 0}, {2, 2, 2});
+    const Solid b = box({1, 0, 0}, {4, 2, 2});
+    const Solid c = box({0, 0, 1}, {4, 2, 2});
+};
+
+TEST_F(Operators, MeanWhatTheyMeanForSets) {
+    EXPECT_EQ(volume(a), "8");
+    EXPECT_EQ(volume(a | b), "16");
+    EXPECT_EQ(volume(a & b), "4");
+    EXPECT_EQ(volume(a - b), "4");
+    EXPECT_EQ(volume(b - a), "8");
+    EXPECT_EQ(volume(a ^ b), "12");
+    EXPECT_EQ(volume(~~a), "8");
+    EXPECT_EQ(volume(~(~a | ~b)), "4");
+}
+
+TEST_F(Operators, ComplementOfABoundedSetIsMinusItsVolumeAndNotEmpty) {
+    const Solid outside = evaluate(~a);
+    EXPECT_FALSE(outside.is_empty());
+    EXPECT_FALSE(outside.is_whole_space());
+    EXPECT_EQ(trisect::exact_volume(outside.to_brep()).to_string(), "-8");
+    EXPECT_TRUE(evaluate(outside & a).is_empty());
+    EXPECT_TRUE(evaluate(outside | a).is_whole_space());
+}
+
+TEST_F(Operators, KindsAndChildrenAreAsWritten) {
+    const Expression e = a | b;
+    EXPECT_EQ(e.root()->kind, Expression::Kind::Or);
+    ASSERT_EQ(e.root()->children.size(), 2U);
+    EXPECT_EQ(e.root()->children[1]->kind, Expression::Kind::Leaf);
+    EXPECT_EQ(e.root()->children[1]->solid.state(), b.state());
+    EXPECT_EQ((~e).root()->children[0], e.root());
+    const Expression copy = e;
+    EXPECT_EQ(copy.root(), e.root());
+}
+
+TEST_F(Operators, ManyTermsInOneNode) {
+    const std::vector<Expression> terms{a, b, c};
+    EXPECT_EQ(volume(Expression::any_of(terms)), "16");
+    EXPECT_EQ(volume(Expression::all_of(terms)), "2");
+    const std::vector<Expression> one{a};
+    EXPECT_EQ(volume(Expression::any_of(one)), "8");
+    EXPECT_EQ(volume(Expression::all_of(one)), "8");
+}
+
+TEST_F(Operators, NoTermsAreTheNeutralElement) {
+    EXPECT_TRUE(evaluate(Expression::any_of({})).is_empty());
+    EXPECT_TRUE(evaluate(Expression::all_of({})).is_whole_space());
+}
+
+TEST_F(Operators, OneSolidInManyPlacesIsOneOperand) {
+    EXPECT_TRUE(evaluate(a ^ a).is_empty());
+    EXPECT_TRUE(evaluate(a - a).is_empty());
+    EXPECT_TRUE(evaluate(a | ~a).is_whole_space());
+}
+
+// ---------------------------------------------------------------------------------------------
+
+class LongChains : public Operators {
+protected:
+    // A hundred different solids, used over and over.
+    std::vector<Solid> pool() const {
+        std::vector<Solid> out;
+        for (std::int64_t i = 0; i < 100; ++i) out.push_back(box({4 * i, 0, 0}, {4 * i + 2, 2, 2}));
+        return out;
+    }
+    // Processor time, so that a busy machine does not count. Linear passes take a tenth of this.
+    void TearDown() override {
+        const auto spent = static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC;
+        EXPECT_LT(spent, 3);
+    }
+
+private:
+    std::clock_t start_ = std::clock();
+};
+
+TEST_F(LongChains, AreBuiltCopiedAndDestroyed) {
+    Expression e = a;
+    std::vector<Expression> kept;
+    for (int i = 0; i < chain_length; ++i) {
+        e = i % 3 == 0 ? e - b : (i % 3 == 1 ? e | c : b ^ e);
+        if (i % 1000 == 0) kept.push_back(e);
+    }
+    EXPECT_NE(e.root(), nullptr);
+    // Destroyed from the middle outwards: each piece frees what only it holds.
+    while (!kept.empty()) kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2));
+}
+
+TEST_F(LongChains, SharedSubformulasAreDestroyedOnce) {
+    Expression e = a;
+    for (int i = 0; i < 200; ++i) e = e | e;  // 2^200 leaves when written out
+    EXPECT_EQ(e.root()->children[0], e.root()->children[1]);
+}
+
+TEST_F(LongChains, ManyTermsAtOnce) {
+    const std::vector<Solid> solids = pool();
+    std::vector<Expression> terms;
+    for (int i = 0; i < chain_length; ++i)
+        terms.emplace_back(solids[static_cast<std::size_t>(i) % solids.size()]);
+    EXPECT_EQ(volume(Expression::any_of(terms)), "800");
+}
+
+TEST_F(LongChains, LeftDeepUnion) {
+    const std::vector<Solid> solids = pool();
+    Expression e = solids[0];
+    for (int i = 1; i < evaluated_length; ++i)
+        e = e | solids[static_cast<std::size_t>(i) % solids.size()];
+    EXPECT_EQ(volume(e), "800");
+}
+
+TEST_F(LongChains, LeftDeepDifference) {
+    const std::vector<Solid> solids = pool();
+    Expression e = box({0, 0, 0}, {400, 2, 2});
+    for (int i = 0; i < evaluated_length; ++i)
+        e = e - solids[static_cast<std::size_t>(i) % solids.size()];
+    EXPECT_EQ(volume(e), "800");
+}
+
+// a - (b - (a - ...)): no two operators of one kind follow each other, and the formula nests deep.
+Expression right_deep(const Solid& a, const Solid& b, int length) {
+    Expression e = a;
+    for (int i = 0; i < length; ++i) e = (i % 2 == 0 ? b : a) - e;
+    return e;
+}
+
+TEST_F(LongChains, RightDeepDifference) {
+    // After an even number of steps the value is a - (b - a) = a.
+    EXPECT_EQ(volume(right_deep(a, b, 1000)), "8");
+    EXPECT_EQ(volume(right_deep(a, b, 1001)), "8");  // b - a
+}
+
+TEST_F(LongChains, AlternatingUnionAndDifference) {
+    Expression e = a;
+    for (int i = 0; i < 1000; ++i) e = i % 2 == 0 ? e - b : e | c;
+    // The last step is the union with c: (... - b) | c = (a - b) | c.
+    EXPECT_EQ(volume(e), "10");
+}
+
+TEST_F(LongChains, DeeperAlternationIsAStatedLimit) {
+    EXPECT_THROW((void)evaluate(right_deep(a, b, chain_length)), trisect::LimitError);
+}
+
+TEST_F(LongChains, ManyDifferentSolids) {
+    std::vector<Expression> terms;
+    for (std::int64_t i = 0; i < 3000; ++i)
+        terms.emplace_back(box({2 * i, 0, 0}, {2 * i + 1, 1, 1}));
+    EXPECT_EQ(volume(Expression::any_of(terms)), "3000");
+}
+
+}  // namespace

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Solid as a value: the special sets, copies, names, and what is refused.
+
+#include <trisect/bsp/solid.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <utility>
+
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/validate/defect.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/kernel/error.h>
+
+namespace {
+
+using trisect::evaluate;
+using trisect::Solid;
+
+Solid unit_box() { return Solid::from_mesh(trisect::make_box({1, 1, 1})); }
+
+TEST(SolidValue, TheDefaultIsTheEmptySet) {
+    const Solid s;
+    EXPECT_TRUE(s.is_empty());
+    EXPECT_FALSE(s.is_whole_space());
+    EXPECT_TRUE(s.to_brep().is_empty());
+    EXPECT_EQ(s.to_mesh().face_count(), 0U);
+}
+
+TEST(SolidValue, WholeSpaceHasNoBoundaryAndIsNotEmpty) {
+    const Solid s = Solid::whole_space();
+    EXPECT_FALSE(s.is_empty());
+    EXPECT_TRUE(s.is_whole_space());
+    EXPECT_TRUE(s.to_brep().is_empty());
+    EXPECT_TRUE(evaluate(~s).is_empty());
+    EXPECT_TRUE(evaluate(~Solid()).is_whole_space());
+}
+
+TEST(SolidValue, CopiesShareTheirState) {
+    const Solid a = unit_box();
+    Solid b = a;  // NOLINT(performance-unnecessary-copy-initialization): that is the test
+    EXPECT_EQ(a.state(), b.state());
+    EXPECT_EQ(a.source_id(), b.source_id());
+    b = Solid();
+    EXPECT_TRUE(b.is_empty());
+    EXPECT_FALSE(a.is_empty());
+}
+
+TEST(SolidValue, AssignmentToItselfAndMovesKeepTheSet) {
+    Solid a = unit_box();
+    const Solid& alias = a;
+    a = alias;
+    EXPECT_EQ(trisect::volume(a.to_brep()), 1);
+    const Solid moved = std::move(a);
+    EXPECT_EQ(trisect::volume(moved.to_brep()), 1);
+}
+
+TEST(SolidValue, EveryImportHasItsOwnName) {
+    EXPECT_NE(unit_box().source_id(), unit_box().source_id());
+}
+
+TEST(SolidValue, OperandsOutliveTheirHandles) {
+    Solid result;
+    {
+        const Solid a = unit_box();
+        const Solid b = Solid::from_mesh(trisect::make_box({0.5, 0.5, 0.5}, {2, 2, 2}));
+        result = evaluate(a | b);
+    }
+    EXPECT_EQ(trisect::volume(result.to_brep()), 1 + 3.375 - 0.125);
+}
+
+TEST(SolidValue, OperandsAreNotChangedByEvaluation) {
+    const Solid a = unit_box();
+    const Solid b = Solid::from_mesh(trisect::make_box({0.5, 0.5, 0.5}, {2, 2, 2}));
+    const auto before = a.to_mesh();
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(evaluate(a - b).is_empty());
+    EXPECT_EQ(a.to_mesh(), before);
+}
+
+TEST(SolidValue, OpenMeshesAreRefused) {
+    trisect::PolygonMesh open = trisect::make_box({1, 1, 1});
+    open.face_begin.pop_back();
+    open.corners.resize(open.face_begin.back());
+    EXPECT_THROW((void)Solid::from_mesh(open), trisect::InvalidSolid);
+}
+
+TEST(SolidValue, HalfSpacesWithoutNormalAreRefused) {
+    EXPECT_THROW((void)Solid::half_space(trisect::Plane()), trisect::UsageError);
+}
+
+TEST(SolidValue, EmptyMeshesAreTheEmptySet) {
+    EXPECT_TRUE(Solid::from_mesh(trisect::PolygonMesh()).is_empty());
+    EXPECT_TRUE(Solid::from_lattice_mesh(trisect::LatticeMesh()).is_empty());
+}
+
+TEST(SolidValue, FacesOfAPolygonMeshStayWhole) {
+    const trisect::Brep brep = unit_box().to_brep();
+    EXPECT_EQ(brep.counts().faces, 6U);
+    EXPECT_EQ(brep.counts().edges, 12U);
+}
+
+// The two triangles of a quadrilateral are one face.
+TEST(SolidValue, FacesOfAnOperandStayWholeWhereNotJoined) {
+    EXPECT_EQ(unit_box().to_brep({.maximal_faces = false}).counts().faces, 6U);
+}
+
+}  // namespace

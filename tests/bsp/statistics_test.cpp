@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The counters: a fast path that is off does not change results, only these numbers.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/transform.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/error.h>
+
+namespace {
+
+using trisect::evaluate;
+using trisect::EvaluateStats;
+using trisect::PredicateCounters;
+using trisect::Solid;
+
+// Two balls in general position: no two of their planes or vertices coincide.
+class TwoBalls : public ::testing::Test {
+protected:
+    const Solid a = Solid::from_mesh(trisect::make_icosphere(1, 4));
+    const Solid b = Solid::from_mesh(
+        trisect::transformed(trisect::make_icosphere(1, 4),
+                             trisect::compose(trisect::AffineMap::translation({0.43, 0.31, 0.27}),
+                                              trisect::AffineMap::rotation({1, 2, 3}, 37))));
+};
+
+TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
+    const PredicateCounters before = trisect::predicate_counters();
+    EvaluateStats stats;
+    const Solid both = evaluate(a & b, {}, &stats);
+    EXPECT_FALSE(both.to_brep().is_empty());
+    const PredicateCounters after = trisect::predicate_counters();
+    const auto filtered = after.filtered - before.filtered;
+    const auto exact =
+        after.exact_narrow + after.exact_wide - before.exact_narrow - before.exact_wide;
+    EXPECT_GT(filtered, 1000U);
+    EXPECT_LT(exact * 20, filtered);
+}
+
+TEST_F(TwoBalls, CellsAndPairsAreFew) {
+    EvaluateStats stats;
+    (void)evaluate(a | b, {}, &stats);
+    EXPECT_GT(stats.cells, 0U);
+    EXPECT_GE(stats.cells, stats.shared_cells + stats.constant_cells + stats.mixed_leaves);
+    EXPECT_GT(stats.shared_cells, 0U);
+    EXPECT_GT(stats.mixed_leaves, 0U);
+    EXPECT_GT(stats.depth, 0);
+    EXPECT_LE(stats.pairs_cutting, stats.pairs_boxes);
+    EXPECT_GT(stats.pairs_cutting, 0U);
+    // Wasted candidates: pairs that were looked at for each one that cut.
+    EXPECT_LT(stats.pairs_boxes, 30 * stats.pairs_cutting);
+    // Generic segments are hardly ever degenerate.
+    EXPECT_LE(stats.traces_retried * 20, stats.traces + 20);
+}
+
+TEST_F(TwoBalls, CountersStartAtZeroForEveryEvaluation) {
+    EvaluateStats first;
+    EvaluateStats second;
+    (void)evaluate(a | b, {}, &first);
+    (void)evaluate(a | b, {}, &second);
+    EXPECT_EQ(first.cells, second.cells);
+    EXPECT_EQ(first.listed_polygons, second.listed_polygons);
+    EXPECT_EQ(first.pairs_cutting, second.pairs_cutting);
+    EXPECT_EQ(first.traces, second.traces);
+}
+
+TEST_F(TwoBalls, AWorkBudgetThatIsSpentIsALimit) {
+    trisect::EvaluateOptions options;
+    options.max_work = 5;
+    EXPECT_THROW((void)evaluate(a | b, options), trisect::LimitError);
+    EvaluateStats stats;
+    options.max_work = 1'000'000;
+    EXPECT_FALSE(evaluate(a | b, options, &stats).is_empty());
+}
+
+TEST_F(TwoBalls, CancellationStopsAnEvaluationAndHarmsNoOperand) {
+    std::atomic<bool> stop = true;
+    trisect::EvaluateOptions options;
+    options.cancel = &stop;
+    EXPECT_THROW((void)evaluate(a | b, options), trisect::CancelledError);
+    stop = false;
+    EXPECT_FALSE(evaluate(a | b, options).is_empty());
+}
+
+}  // namespace
