@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Operands on different lattices move to the finest one, exactly, or not at all.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include <trisect/brep/measure.h>
+#include <trisect/kernel/error.h>
+
+#include "figures.h"
+
+namespace {
+
+using trisect::evaluate;
+using trisect::Expression;
+using trisect::Lattice;
+using trisect::Solid;
+
+// A box with corners in units of 2^exponent.
+Solid box_on(int exponent, const reference::LatticePoint& low,
+             const reference::LatticePoint& high) {
+    trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box(low, high));
+    mesh.lattice = Lattice{exponent};
+    return Solid::from_lattice_mesh(std::move(mesh), trisect::Embedding::Resolve);
+}
+
+std::string volume(const Expression& e) {
+    return trisect::exact_volume(evaluate(e).to_brep()).to_string();
+}
+
+TEST(LatticeMix, CoarseMeetsFine) {
+    const Solid coarse = box_on(16, {0, 0, 0}, {1, 1, 1});      // edge 65,536
+    const Solid middle = box_on(0, {-8, -8, -8}, {8, 8, 8});    // edge 16
+    const Solid fine = box_on(-8, {0, 0, 0}, {128, 128, 128});  // edge 1/2
+    EXPECT_EQ(evaluate(coarse - fine).lattice(), Lattice{-8});
+    EXPECT_EQ(evaluate(coarse | middle).lattice(), Lattice{0});
+    EXPECT_EQ(volume(fine), "1/8");
+    EXPECT_EQ(volume(coarse - middle), "281474976710144");  // 2^48 - 8^3
+    EXPECT_EQ(volume(coarse & fine), "1/8");
+    EXPECT_EQ(volume(coarse - fine), "2251799813685247/8");
+    EXPECT_EQ(volume((middle - coarse) - fine), "3584");  // 16^3 - 8^3
+    EXPECT_EQ(volume(middle - fine), "32767/8");
+}
+
+TEST(LatticeMix, ResultsMoveAsWell) {
+    // The cut cube has vertices off the lattice and a tree.
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 10;
+    const Solid cut = evaluate(
+        engines::solid(degeneracy::octahedron({0, 0, 0}, 9)) -
+            engines::solid(reference::tetrahedron({1, 1, 1}, {12, 2, 1}, {3, 14, 2}, {2, 3, 17})),
+        options);
+    const Solid fine = box_on(-8, {-1, -1, -1}, {700, 800, 900});
+    const auto whole = trisect::exact_volume(cut.to_brep());
+    const auto common = trisect::exact_volume(evaluate(cut & fine, options).to_brep());
+    const auto rest = trisect::exact_volume(evaluate(cut - fine, options).to_brep());
+    EXPECT_EQ(common + rest, whole);
+    EXPECT_GT(common.sign(), 0);
+    const Solid moved = evaluate(cut | (fine & Solid()), options);
+    EXPECT_TRUE(evaluate(moved ^ cut).to_brep().is_empty());
+}
+
+TEST(LatticeMix, FlushFacesStayFlush) {
+    const Solid a = box_on(0, {0, 0, 0}, {2, 2, 2});
+    const Solid b = box_on(-8, {512, 0, 0}, {1024, 512, 512});  // from x = 2 to 4
+    const trisect::Brep joined = evaluate(a | b).to_brep();
+    EXPECT_EQ(joined.counts().faces, 6U);
+    EXPECT_EQ(trisect::exact_volume(joined).to_string(), "16");
+    EXPECT_TRUE(evaluate(a & b).to_brep().is_empty());
+    EXPECT_TRUE(evaluate(a ^ box_on(-8, {0, 0, 0}, {512, 512, 512})).is_empty());
+}
+
+TEST(LatticeMix, HalfSpacesMoveToo) {
+    const Solid half = Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)),
+                                         Lattice{0});  // x < 1
+    const Solid fine = box_on(-8, {0, 0, 0}, {512, 512, 512});
+    EXPECT_EQ(volume(fine & half), "4");
+    const Solid fine_half = Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-128)),
+                                              Lattice{-8});  // x < 1/2
+    EXPECT_EQ(volume(box_on(0, {0, 0, 0}, {2, 2, 2}) & fine_half), "2");
+}
+
+TEST(LatticeMix, SetsWithoutBoundaryHaveNoLattice) {
+    const Solid coarse = box_on(16, {0, 0, 0}, {1, 1, 1});
+    EXPECT_EQ(evaluate(coarse | Solid()).lattice(), Lattice{16});
+    EXPECT_EQ(evaluate(coarse & Solid::whole_space()).lattice(), Lattice{16});
+}
+
+TEST(LatticeMix, WhatDoesNotFitIsRefused) {
+    trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box({0, 0, 0}, {1, 1, 1}));
+    mesh.lattice = Lattice{16};
+    for (trisect::LatticePoint& p : mesh.points) p = {p.x << 50, p.y << 50, p.z << 50};
+    const Solid wide = Solid::from_lattice_mesh(std::move(mesh));
+    const Solid fine = box_on(-8, {0, 0, 0}, {1, 1, 1});
+    EXPECT_THROW((void)evaluate(wide - fine), trisect::LimitError);
+    // Alone each of them is fine.
+    EXPECT_FALSE(evaluate(wide | Solid()).is_empty());
+}
+
+}  // namespace
