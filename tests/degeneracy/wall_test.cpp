@@ -22,7 +22,7 @@ using Kind = reference::Expression::Kind;
 template <class Body>
 void for_all_walls(Body&& body) {
     for (const std::uint32_t offset : {1U, 83U, 127U, 255U})
-        for (const std::uint32_t leaf : {4U, 10U}) {
+        for (const std::uint32_t leaf : {1U, 4U, 10U}) {
             SCOPED_TRACE("wall offset " + std::to_string(offset) + ", leaf size " +
                          std::to_string(leaf));
             trisect::EvaluateOptions options;
@@ -45,9 +45,9 @@ struct SlopesThatMeetInAWall {
 
 TEST(Walls, AnEdgeOfTheResultLiesInAWall) {
     const SlopesThatMeetInAWall s;
-    for (const std::size_t turns : {0U, 2U})
+    for (const std::size_t turns : {0U, 1U, 2U})
         for_all_walls([&](const trisect::EvaluateOptions& options) {
-            for (const Kind kind : {Kind::Intersection, Kind::Xor})
+            for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor})
                 (void)checked_figures({s.turned(s.a, turns), s.turned(s.b, turns)},
                                       reference::pair_expression(kind), options);
         });
