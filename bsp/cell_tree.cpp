@@ -2,6 +2,8 @@
 
 #include <trisect/bsp/cell_tree.h>
 
+#include <algorithm>
+
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -23,7 +25,8 @@ Fragment::~Fragment() {
         if (const Source* s = e.plane.source()) s->release();
 }
 
-PolygonList::PolygonList(std::vector<PolygonRef> refs) : refs_(std::move(refs)) {
+PolygonList::PolygonList(std::vector<PolygonRef> refs)
+    : count_(refs.size()), refs_(std::move(refs)) {
     // Neighbours in a list mostly share their source: one count for every run of equal sources.
     const Source* last = nullptr;
     for (const PolygonRef& r : refs_) {
@@ -33,7 +36,32 @@ PolygonList::PolygonList(std::vector<PolygonRef> refs) : refs_(std::move(refs)) 
     }
 }
 
+PolygonList PolygonList::all_facets(const Source& source) {
+    PolygonList list;
+    list.source_ = &source;
+    source.retain();
+    list.count_ = source.facet_count();
+    list.contained_ = list.count_;
+    return list;
+}
+
+PolygonList PolygonList::whole_facets(const Source& source, bool flipped,
+                                      std::span<const std::uint32_t> facets,
+                                      std::size_t contained) {
+    PolygonList list;
+    if (facets.empty()) return list;
+    list.source_ = &source;
+    source.retain();
+    list.facets_ = std::make_unique_for_overwrite<std::uint32_t[]>(facets.size());
+    std::copy(facets.begin(), facets.end(), list.facets_.get());
+    list.count_ = facets.size();
+    list.contained_ = contained;
+    list.flipped_ = flipped;
+    return list;
+}
+
 PolygonList::~PolygonList() {
+    if (source_ != nullptr) source_->release();
     const Source* last = nullptr;
     for (const PolygonRef& r : refs_) {
         if (r.fragment != nullptr) r.fragment->release();
@@ -49,15 +77,13 @@ std::shared_ptr<const CellNode> CellNode::leaf(PolygonList polygons, const FineP
     n->reference_ = reference;
     n->winding_ = winding;
     n->mixed_ = mixed;
-    n->size_ = n->polygons_.refs().size();
+    n->size_ = n->polygons_.size();
     return n;
 }
 
 std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const FinePoint& reference,
                                                 int winding, bool mixed) {
-    std::vector<PolygonRef> refs(source.facet_count());
-    for (std::uint32_t i = 0; i < refs.size(); ++i) refs[i] = {&source, nullptr, i, false};
-    return leaf(PolygonList(std::move(refs)), reference, winding, mixed);
+    return leaf(PolygonList::all_facets(source), reference, winding, mixed);
 }
 
 std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, CellRef below,

@@ -8,7 +8,9 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
@@ -98,22 +100,92 @@ struct PolygonRef {
     }
 };
 
-/// An owning list of polygons: keeps their fragments and sources.
+/// The polygons of a leaf; keeps their fragments and sources. Immutable.
+///
+/// Most lists are facets of one mesh that nothing has cut or touched. Those are stored as facet
+/// numbers only, four bytes each, and a list of all facets of a source stores none. A polygon is
+/// therefore yielded by value.
 class PolygonList {
 public:
     PolygonList() = default;
     explicit PolygonList(std::vector<PolygonRef> refs);
+    /// All facets of a source.
+    static PolygonList all_facets(const Source& source);
+    /// Whole facets of a source that nothing has touched. The first `contained` of them lie in the
+    /// list's cell; of the others only the boxes are known to meet it.
+    static PolygonList whole_facets(const Source& source, bool flipped,
+                                    std::span<const std::uint32_t> facets, std::size_t contained);
     PolygonList(const PolygonList&) = delete;
     PolygonList& operator=(const PolygonList&) = delete;
-    PolygonList(PolygonList&& o) noexcept : refs_(std::exchange(o.refs_, {})) {}
+    PolygonList(PolygonList&& o) noexcept { swap(o); }
     PolygonList& operator=(PolygonList&& o) noexcept {
-        std::swap(refs_, o.refs_);
+        swap(o);
         return *this;
     }
     ~PolygonList();
-    [[nodiscard]] std::span<const PolygonRef> refs() const { return refs_; }
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] PolygonRef operator[](std::size_t i) const {
+        if (source_ == nullptr) return refs_[i];
+        return {source_, nullptr, facets_ ? facets_[i] : static_cast<std::uint32_t>(i), flipped_,
+                false};
+    }
+
+    class Iterator {
+    public:
+        using iterator_category = std::input_iterator_tag;
+        using value_type = PolygonRef;
+        using difference_type = std::ptrdiff_t;
+        using pointer = void;
+        using reference = PolygonRef;
+        Iterator(const PolygonList* list, std::size_t i) : list_(list), i_(i) {}
+        PolygonRef operator*() const { return (*list_)[i_]; }
+        Iterator& operator++() {
+            ++i_;
+            return *this;
+        }
+        Iterator operator++(int) { return {list_, i_++}; }
+        friend bool operator==(const Iterator&, const Iterator&) = default;
+
+    private:
+        const PolygonList* list_;
+        std::size_t i_;
+    };
+    [[nodiscard]] Iterator begin() const { return {this, 0}; }
+    [[nodiscard]] Iterator end() const { return {this, count_}; }
+
+    /// The one source of a list of whole, untouched facets of equal orientation; else null.
+    [[nodiscard]] const Source* whole_source() const { return source_; }
+    /// For a list with a whole_source(): whether it has all facets of the source, in their order.
+    [[nodiscard]] bool has_all_facets() const { return source_ != nullptr && !facets_; }
+    /// Facet numbers of a list with a whole_source() that has not all facets.
+    [[nodiscard]] std::span<const std::uint32_t> facets() const {
+        return {facets_.get(), facets_ ? count_ : 0};
+    }
+    [[nodiscard]] bool flipped() const { return flipped_; }
+    /// The first so many facets of a list with a whole_source() lie in the cell.
+    [[nodiscard]] std::size_t contained() const { return contained_; }
+    /// Memory behind the list.
+    [[nodiscard]] std::size_t bytes() const {
+        return refs_.capacity() * sizeof(PolygonRef) + facets().size_bytes();
+    }
 
 private:
+    void swap(PolygonList& o) noexcept {
+        std::swap(source_, o.source_);
+        std::swap(facets_, o.facets_);
+        std::swap(count_, o.count_);
+        std::swap(contained_, o.contained_);
+        std::swap(flipped_, o.flipped_);
+        std::swap(refs_, o.refs_);
+    }
+
+    const Source* source_ = nullptr;
+    std::unique_ptr<std::uint32_t[]> facets_;
+    std::size_t count_ = 0;
+    std::size_t contained_ = 0;
+    bool flipped_ = false;
     std::vector<PolygonRef> refs_;
 };
 
@@ -130,7 +202,9 @@ struct CellRef {
 /// Invariants of a leaf: `reference` lies in its cell and on no polygon; `winding` is the winding
 /// number there (0 or 1 for results of operations); every polygon of the boundary that meets the
 /// open cell is listed. A leaf without polygons is homogeneous. `mixed` leaves hold polygons that
-/// an arrangement produced; vertices may lie in the middle of their edges.
+/// an arrangement produced; vertices may lie in the middle of their edges. A whole facet may be
+/// listed because its box meets the cell while it does not itself; such a facet need not be part of
+/// the boundary. It is one only if the leaf whose cell holds its first corner lists it.
 class CellNode {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,
@@ -148,7 +222,7 @@ public:
     [[nodiscard]] int axis() const { return axis_; }
     [[nodiscard]] std::int64_t wall() const { return wall_; }
     [[nodiscard]] const CellRef& child(int i) const { return child_[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] std::span<const PolygonRef> polygons() const { return polygons_.refs(); }
+    [[nodiscard]] const PolygonList& polygons() const { return polygons_; }
     [[nodiscard]] const FinePoint& reference() const { return reference_; }
     [[nodiscard]] int winding() const { return winding_; }
     [[nodiscard]] bool is_mixed() const { return mixed_; }

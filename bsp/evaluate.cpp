@@ -63,6 +63,7 @@ struct Operand {
     std::vector<PolygonRef> storage;       // behind `list`, unless a leaf node is
     std::shared_ptr<const CellNode> keep;  // the leaf node behind `list`
     Box box;                               // of a list: of the polygons' boxes, within the cell
+    bool is_leaf = false;                  // the list is all of `keep`
     int winding = 0;
 
     [[nodiscard]] bool is_tree() const { return tree.node != nullptr; }
@@ -135,7 +136,9 @@ void Evaluator::attach(Operand& operand, const CellRef& tree, const Cell& cell) 
     }
     operand.tree = {};
     operand.keep = tree.node;
-    operand.list = tree.node->polygons();
+    operand.storage.assign(tree.node->polygons().begin(), tree.node->polygons().end());
+    operand.list = operand.storage;
+    operand.is_leaf = true;
     operand.flipped = tree.complemented;
     operand.mixed = tree.node->is_mixed();
     operand.box = bounded_box(operand.list, cell);
@@ -150,7 +153,8 @@ std::optional<int> Evaluator::winding_at(const CellRef& tree, const FinePoint& p
         complemented = complemented != c.complemented;
         node = c.node.get();
     }
-    const auto change = detail::trace_winding(node->polygons(), false, node->reference(), p);
+    const std::vector<PolygonRef> refs(node->polygons().begin(), node->polygons().end());
+    const auto change = detail::trace_winding(refs, false, node->reference(), p);
     if (!change) return std::nullopt;
     return complemented_winding(node->winding() + *change, complemented);
 }
@@ -184,7 +188,7 @@ CellRef Evaluator::share(Task& task) {
     Operand& o = task.operands[0];
     const bool negated = task.formula->kind == Residual::Kind::Not;
     if (o.is_tree()) return {o.tree.node, o.tree.complemented != negated};
-    if (o.keep && o.keep->polygons().data() == o.list.data()) return {o.keep, o.flipped != negated};
+    if (o.keep && o.is_leaf) return {o.keep, o.flipped != negated};
     // Listed are the polygons whose boxes meet the cell. The result lists those that do themselves:
     // a leaf without polygons must be homogeneous, and a facet must not appear where it is not.
     std::vector<PolygonRef> refs;

@@ -35,7 +35,9 @@ FinePoint at(double x, double y, double z) {
 std::optional<int> trace(const Operand& operand, const FinePoint& from, const FinePoint& to,
                          bool flipped = false) {
     const auto node = leaf(operand);
-    return trisect::detail::trace_winding(node->polygons(), flipped, from, to);
+    const std::vector<trisect::detail::PolygonRef> refs(node->polygons().begin(),
+                                                        node->polygons().end());
+    return trisect::detail::trace_winding(refs, flipped, from, to);
 }
 
 const Operand cube = reference::box({0, 0, 0}, {4, 4, 4});
