@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/facet_in_cell.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/on_common_lattice.h>
@@ -44,6 +45,7 @@ using detail::FinePoint;
 using detail::LeafArranger;
 using detail::LeafOperand;
 using detail::LeafProblem;
+using detail::MemoryBudget;
 using detail::PolygonList;
 using detail::PolygonRef;
 using detail::Residual;
@@ -77,6 +79,7 @@ struct Task {
     std::vector<Operand> operands;
     int depth = 0;
     int stalled = 0;
+    MemoryBudget::Held held;  // its lists
 };
 
 struct Wall {
@@ -91,13 +94,14 @@ int complemented_winding(int winding, bool complemented) {
 class Evaluator {
 public:
     Evaluator(const EvaluateOptions& options, EvaluateStats& stats, std::size_t slots)
-        : options_(options), stats_(stats), values_(slots, -1) {}
+        : options_(options), stats_(stats), memory_(options.max_memory), values_(slots, -1) {}
 
     CellRef solve(Task task);
     // An operand seen in the cell of `tree`, with its winding number at `reference`.
     std::optional<int> winding_at(const CellRef& tree, const FinePoint& reference) const;
     void attach(Operand& operand, const CellRef& tree, const Cell& cell) const;
     std::vector<detail::FacetName>& incomplete() { return arranger_.incomplete(); }
+    [[nodiscard]] std::uint64_t peak_memory() const { return memory_.peak(); }
 
 private:
     // Steps of solve().
@@ -117,6 +121,7 @@ private:
 
     EvaluateOptions options_;
     EvaluateStats& stats_;
+    mutable MemoryBudget memory_;
     SlotValues values_;
     LeafArranger arranger_;
     mutable detail::Workbench bench_;
@@ -198,6 +203,7 @@ CellRef Evaluator::share(Task& task) {
     const bool flip = o.flipped != negated;
     if (flip)
         for (PolygonRef& r : refs) r.flipped = !r.flipped;
+    memory_.keep(detail::bytes_of_list(refs));
     const int winding = complemented_winding(o.winding, negated);
     return {CellNode::leaf(PolygonList(std::move(refs)), task.reference, winding, o.mixed), false};
 }
@@ -214,8 +220,9 @@ CellRef Evaluator::resolve(Task& task) {
     LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
     auto kept = arranger_.arrange(problem, values_, stats_);
     for (const Operand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
-    return {CellNode::leaf(PolygonList(std::move(kept)), task.reference, inside ? 1 : 0, true),
-            false};
+    PolygonList list(std::move(kept));  // from here on fragments are freed whatever is thrown
+    memory_.keep(detail::bytes_of_result(list.refs()));
+    return {CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
 
 // Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
@@ -464,6 +471,11 @@ std::array<Task, 2> Evaluator::children_of(const Task& task, const Wall& wall) c
             c[i]->box = c[i]->box.intersected(out[i].cell.lattice_box());
         }
     }
+    for (Task& child : out) {
+        std::uint64_t bytes = 0;
+        for (const Operand& o : child.operands) bytes += detail::bytes_of_list(o.storage);
+        child.held = memory_.hold(bytes);
+    }
     for (int i = 0; i < 2; ++i)
         TRISECT_EXPECTS(place_reference(task, wall, i, out[static_cast<std::size_t>(i)]),
                         "no reference point found in a cell");
@@ -502,6 +514,7 @@ CellRef Evaluator::divide(Task task) {
     }();
     const FinePoint reference = task.reference;
     task.operands.clear();
+    task.held = {};
     for (std::size_t i = 0; i < 2; ++i) results[i] = solve(std::move(children[i]));
     if (driver.node) {
         for (const bool complemented : {false, true}) {
@@ -625,6 +638,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     std::sort(incomplete.begin(), incomplete.end());
     incomplete.erase(std::unique(incomplete.begin(), incomplete.end()), incomplete.end());
     state->incomplete = std::move(incomplete);
+    local.memory = evaluator.peak_memory();
     if (stats != nullptr) *stats = local;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

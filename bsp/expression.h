@@ -68,6 +68,9 @@ struct EvaluateOptions {
     /// Work budget: cells visited plus polygon pairs compared in leaves; 0 means no limit. The same
     /// input hits the same limit everywhere.
     std::uint64_t max_work = 0;
+    /// Bytes that lists and results may hold at once, operands and scratch memory not counted; 0
+    /// means no limit.
+    std::uint64_t max_memory = 0;
     /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
     const std::atomic<bool>* cancel = nullptr;
 };
@@ -84,12 +87,14 @@ struct EvaluateStats {
     std::uint64_t pieces = 0;           ///< convex pieces made in mixed leaves
     std::uint64_t traces = 0;           ///< winding numbers found by a segment trace
     std::uint64_t traces_retried = 0;   ///< degenerate segments
+    std::uint64_t memory = 0;           ///< most bytes held at once, as max_memory counts them
     int depth = 0;
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
 /// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
-/// alternating operations, or the work budget is spent; CancelledError. Operands stay as they were.
+/// alternating operations, or the work or memory budget is spent; CancelledError. Operands stay as
+/// they were.
 [[nodiscard]] Solid evaluate(const Expression& expression, const EvaluateOptions& options = {},
                              EvaluateStats* stats = nullptr);
 

@@ -79,6 +79,17 @@ TEST_F(TwoBalls, AWorkBudgetThatIsSpentIsALimit) {
     EXPECT_FALSE(evaluate(a | b, options, &stats).is_empty());
 }
 
+TEST_F(TwoBalls, AMemoryBudgetIsALimitJustBelowWhatIsNeeded) {
+    EvaluateStats stats;
+    (void)evaluate(a | b, {}, &stats);
+    ASSERT_GT(stats.memory, 1000U);
+    trisect::EvaluateOptions options;
+    options.max_memory = stats.memory - 1;
+    EXPECT_THROW((void)evaluate(a | b, options), trisect::LimitError);
+    options.max_memory = stats.memory;
+    EXPECT_FALSE(evaluate(a | b, options).is_empty());
+}
+
 TEST_F(TwoBalls, CancellationStopsAnEvaluationAndHarmsNoOperand) {
     std::atomic<bool> stop = true;
     trisect::EvaluateOptions options;
