@@ -220,8 +220,9 @@ CellRef Evaluator::resolve(Task& task) {
     LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
     auto kept = arranger_.arrange(problem, values_, stats_);
     for (const Operand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
+    const std::uint64_t bytes = detail::bytes_of_result(kept);
     PolygonList list(std::move(kept));  // from here on fragments are freed whatever is thrown
-    memory_.keep(detail::bytes_of_result(list.refs()));
+    memory_.keep(bytes);
     return {CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
 
