@@ -125,9 +125,8 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
     BooleanResult result;
-    EvaluateOptions evaluation;
-    evaluation.winding = options.operands.winding;
-    const Solid solid = session.stage("evaluate", [&] {
+    const EvaluateOptions evaluation = session.evaluation_options(options.operands.winding);
+    const Solid solid = session.interruptible_stage("evaluate", [&] {
         return evaluate(formula(options.operation, operands), evaluation, &result.stats);
     });
     deliver(session, options, solid, format, result);

@@ -62,6 +62,12 @@ int thread_count(const std::string& text) {
     return static_cast<int>(n);
 }
 
+std::uint64_t work_budget(const std::string& text) {
+    const std::int64_t n = parse_integer(text, "--max-work");
+    if (n < 1) throw UsageError("--max-work: must be positive");
+    return static_cast<std::uint64_t>(n);
+}
+
 using TextOption = std::function<void(const std::string&)>;
 
 void add_text_option(CLI::App& app, const char* name, const TextOption& set, const char* help,
@@ -80,6 +86,11 @@ void add_limit_options(CLI::App& app, CommonOptions& o) {
         app, "--max-seconds",
         [&o](const auto& s) { o.max_seconds = positive_number(s, "--max-seconds"); },
         "stop with exit code 5 when not finished by then", "S");
+    add_text_option(
+        app, "--max-work", [&o](const auto& s) { o.max_work = work_budget(s); },
+        "stop with exit code 5 when a boolean visits more cells and pairs of polygons; the same on "
+        "every machine",
+        "N");
 }
 
 void add_import_options(CLI::App& app, CommonOptions& o) {
@@ -188,6 +199,13 @@ int print_text(Console& console, bool json, const char* schema, const std::strin
     ::_exit(code);
 }
 
+/// An evaluation that was asked to stop fails for the reason for which it was asked.
+Failure failure_of(Supervisor& supervisor) {
+    Failure failure = current_failure();
+    if (failure.code != static_cast<int>(ErrorCode::Cancelled)) return failure;
+    return supervisor.reason_to_stop().value_or(std::move(failure));
+}
+
 /// Runs the sub-command under the limits; in the end whoever claims it first speaks.
 int run_request(Console& console, const std::string& name, const Request& request) {
     const bool json = request.common.json;
@@ -199,7 +217,7 @@ int run_request(Console& console, const std::string& name, const Request& reques
         Session session(request.common, console, supervisor);
         outcome = run_command(session, name, request);
     } catch (...) {
-        const Failure failure = current_failure();
+        const Failure failure = failure_of(supervisor);
         if (!console.claim_end()) wait_for_end();
         report_failure(console, json, failure);
         return failure.code;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "commands.h"
 #include "description.h"
 #include "operand.h"
@@ -59,11 +61,13 @@ Outcome run_diff(Session& session, const DiffOptions& options) {
     session.plan(3);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
-    EvaluateOptions evaluation;
-    evaluation.winding = options.operands.winding;
+    const EvaluateOptions evaluation = session.evaluation_options(options.operands.winding);
     const Expression a = operands[0].solid;
     const Expression b = operands[1].solid;
-    const Solid difference = session.stage("evaluate", [&] { return evaluate(a ^ b, evaluation); });
+    const auto [difference, only_a, only_b] = session.interruptible_stage("evaluate", [&] {
+        return std::array{evaluate(a ^ b, evaluation), evaluate(a - b, evaluation),
+                          evaluate(b - a, evaluation)};
+    });
     Outcome out;
     const bool equal = difference.is_empty();
     out.code = equal ? exit_done : exit_findings;
@@ -72,8 +76,8 @@ Outcome run_diff(Session& session, const DiffOptions& options) {
     out.document["equal"] = equal;
     session.stage("measure", [&] {
         const Description both = describe_set(difference, options.exact);
-        const Description first = describe_set(evaluate(a - b, evaluation), options.exact);
-        const Description second = describe_set(evaluate(b - a, evaluation), options.exact);
+        const Description first = describe_set(only_a, options.exact);
+        const Description second = describe_set(only_b, options.exact);
         out.document["symmetric_difference"] = measure_json(both);
         out.document["only_first"] = measure_json(first);
         out.document["only_second"] = measure_json(second);

@@ -13,6 +13,15 @@ Session::Timer::~Timer() {
     session_.detail(fmt::format("{:<12}{:.3f} s", name_, time.count()));
 }
 
+EvaluateOptions Session::evaluation_options(EvaluateOptions::Winding winding) const {
+    EvaluateOptions out;
+    out.winding = winding;
+    out.max_work = options_.max_work;
+    out.max_memory = options_.max_memory;
+    out.cancel = &supervisor_.stop_flag();
+    return out;
+}
+
 void Session::write_output(const std::string& name, std::string_view bytes) {
     if (name == "-") return write_descriptor(1, "standard output", bytes);
     supervisor_.watch_output(name);

@@ -38,6 +38,13 @@ public:
         const Timer timer(*this, name);
         return work();
     }
+    /// The same for work that looks at the stop flag of evaluation_options().
+    template <class Work>
+    auto interruptible_stage(const std::string& name, Work&& work) {
+        return stage(name, [&] { return supervisor_.interruptibly(work); });
+    }
+    /// The limits of the command line, as far as one evaluation can keep them.
+    [[nodiscard]] EvaluateOptions evaluation_options(EvaluateOptions::Winding winding) const;
     [[nodiscard]] const Json& seconds() const { return seconds_; }
 
     /// Writes bytes of a result to the standard output ("-") or completely or not at all to a file.

@@ -25,6 +25,7 @@ using namespace std::chrono_literals;
 constexpr int wake_signal = SIGUSR1;
 constexpr auto progress_delay = 500ms;
 constexpr auto progress_interval = 100ms;
+constexpr auto patience = 2s;  // between asking and ending
 
 sigset_t watched_signals() {
     sigset_t set;
@@ -114,12 +115,18 @@ void Supervisor::watch() {
     for (;;) {
         const int signal = wait_for_signal(set, time_to_next_event());
         if (signal == wake_signal) return;
-        if (signal > 0) return end_process(static_cast<int>(ErrorCode::Cancelled), "cancelled");
         const auto now = Clock::now();
-        if (deadline_ && now >= *deadline_) {
-            return end_process(
-                static_cast<int>(ErrorCode::Limit),
-                fmt::format("not finished after {} s (--max-seconds)", max_seconds_));
+        std::optional<Reason> reason;
+        if (signal > 0) {
+            reason = Reason{static_cast<int>(ErrorCode::Cancelled), "cancelled"};
+        } else if (deadline_ && now >= *deadline_) {
+            reason = Reason{static_cast<int>(ErrorCode::Limit),
+                            fmt::format("not finished after {} s (--max-seconds)", max_seconds_)};
+        }
+        if (reason) {
+            if (!ask_to_stop(*reason)) return end_process(*reason);
+            deadline_ = now + patience;
+            continue;
         }
         if (draws_ && now >= start_ + progress_delay) draw();
     }
@@ -138,12 +145,30 @@ void Supervisor::draw() {
         fmt::format("[{}{}{}] {:.1f} s  {}", on, bar, off, elapsed.count(), stage_));
 }
 
-void Supervisor::end_process(int code, const std::string& message) {
+std::optional<Failure> Supervisor::reason_to_stop() {
+    const std::lock_guard lock(mutex_);
+    if (!reason_) return std::nullopt;
+    return Failure{reason_->code, reason_->message, {}, {}};
+}
+
+bool Supervisor::ask_to_stop(const Reason& reason) {
+    const std::lock_guard lock(mutex_);
+    if (reason_ || !interruptible_) return false;
+    reason_ = reason;
+    stop_ = true;
+    return true;
+}
+
+void Supervisor::end_process(const Reason& given) {
+    const Reason reason = [&] {
+        const std::lock_guard lock(mutex_);
+        return reason_.value_or(given);  // what it was asked to stop for
+    }();
     // The other thread may have come to its end first; then there is nothing to stop any more.
     if (!console_.claim_end()) return;
     remove_temporary_output();
     console_.show_progress("");
-    fatal_(console_, json_, code, message);
+    fatal_(console_, json_, reason.code, reason.message);
 }
 
 void Supervisor::remove_temporary_output() {

@@ -3,13 +3,16 @@
 // Supervisor: the thread that watches the clock and the signals while another one works, and draws
 // the progress line.
 //
-// A boolean has no place where one could ask it to stop without slowing it down, and a library call
-// may be anywhere. So the supervisor ends the process: it removes the temporary output, prints the
-// error document and leaves with 5 (out of time) or 6 (interrupted). Outputs are renamed when
-// complete, so nothing half-written remains; a limit that strikes in the instant between the
-// renaming and the end can leave a complete file.
+// An evaluation can be asked to stop: the supervisor sets a flag, the evaluation throws, everything
+// is taken down in order, and the command leaves with 5 (out of time) or 6 (interrupted). Other
+// library calls cannot be asked. There, at a second signal, or when an evaluation does not answer
+// for two seconds, the supervisor ends the process itself: it removes the temporary output, prints
+// the error document and leaves with the same codes. Outputs are renamed when complete, so nothing
+// half-written remains; a limit that strikes in the instant between the renaming and the end can
+// leave a complete file.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <mutex>
@@ -18,6 +21,7 @@
 #include <thread>
 
 #include "console.h"
+#include "failure.h"
 #include "options.h"
 
 namespace trisect::app {
@@ -39,13 +43,37 @@ public:
     /// Where temporary output may appear.
     void watch_output(const std::filesystem::path& target);
 
+    /// Does work that looks at stop_flag() from time to time. \throw CancelledError when the flag
+    /// is set at the end of it.
+    template <class Work>
+    auto interruptibly(Work&& work) {
+        interruptible_ = true;
+        struct Leave {
+            std::atomic<bool>& flag;
+            ~Leave() { flag = false; }
+        } leave{interruptible_};
+        auto result = work();
+        if (stop_) throw CancelledError();
+        return result;
+    }
+    [[nodiscard]] const std::atomic<bool>& stop_flag() const { return stop_; }
+    /// Why the flag was set.
+    [[nodiscard]] std::optional<Failure> reason_to_stop();
+
 private:
     using Clock = std::chrono::steady_clock;
+
+    struct Reason {
+        int code;
+        std::string message;
+    };
 
     void watch();
     [[nodiscard]] std::optional<Clock::duration> time_to_next_event() const;
     void draw();
-    void end_process(int code, const std::string& message);
+    /// True when somebody else will end the command.
+    [[nodiscard]] bool ask_to_stop(const Reason& reason);
+    void end_process(const Reason& reason);
     void remove_temporary_output();
 
     Console& console_;
@@ -55,12 +83,15 @@ private:
     std::optional<Clock::time_point> deadline_;
     double max_seconds_;
     Clock::time_point start_ = Clock::now();
+    std::atomic<bool> interruptible_ = false;
+    std::atomic<bool> stop_ = false;
 
     std::mutex mutex_;  // guards what follows
     std::string stage_;
     int stage_index_ = 0;
     int stage_count_ = 1;
     std::filesystem::path folder_;
+    std::optional<Reason> reason_;
 
     std::thread thread_;
 };

@@ -63,6 +63,7 @@ TEST_F(ExitCode, UsageIsTwo) {
         {"info", cube_, "--max-memory", "99999999T"},
         {"info", cube_, "--max-seconds", "-1"},
         {"info", cube_, "--max-seconds", "nan"},
+        {"info", cube_, "--max-work", "0"},
         {"info", cube_, "--format", "step"},
         {"info", cube_, "--progress", "dots"},
         {"check", cube_, "--places", "-1"},
@@ -140,6 +141,59 @@ TEST_F(ExitCode, InterruptIsSix) {
         EXPECT_EQ(result.json()["error"]["kind"], "cancelled");
     }
     EXPECT_EQ(entry_count(), 3U);  // the inputs
+}
+
+// Tetrahedra all over each other: an evaluation that takes far longer than any limit here.
+std::string tangle() {
+    std::string text;
+    std::uint32_t state = 1;
+    const auto next = [&] {
+        state = state * 1664525U + 1013904223U;
+        return std::to_string(state >> 20);
+    };
+    for (int i = 0; i < 400; ++i) {
+        const std::string x = next();
+        const std::string y = next();
+        const std::string z = next();
+        const auto vertex = [&](const std::string& a, const std::string& b, const std::string& c) {
+            text += "v " + a + " " + b + " " + c + "\n";
+        };
+        vertex(x, y, z);
+        vertex(x + "9", y, z);
+        vertex(x, y + "7", z);
+        vertex(x, y, z + "8");
+    }
+    for (int i = 0; i < 400; ++i) {
+        const auto corner = [&](int k) { return " " + std::to_string(4 * i + k); };
+        text += "f" + corner(1) + corner(3) + corner(2) + "\n";
+        text += "f" + corner(1) + corner(2) + corner(4) + "\n";
+        text += "f" + corner(2) + corner(3) + corner(4) + "\n";
+        text += "f" + corner(3) + corner(1) + corner(4) + "\n";
+    }
+    return text;
+}
+
+TEST_F(ExitCode, AnEvaluationThatTakesTooLongIsFive) {
+    const std::string slow = write("slow.obj", tangle());
+    const Finished time =
+        trisect({"union", slow, cube_, "-o", out_, "--max-seconds", "0.3", "--json"});
+    EXPECT_EQ(time.code, 5) << time.err;
+    EXPECT_NE(time.err.find("--max-seconds"), std::string::npos) << time.err;
+    const Finished work = trisect({"union", slow, cube_, "-o", out_, "--max-work", "100"});
+    EXPECT_EQ(work.code, 5) << work.err;
+    EXPECT_NE(work.err.find("work budget"), std::string::npos) << work.err;
+    EXPECT_FALSE(exists("out.obj"));
+}
+
+TEST_F(ExitCode, AnInterruptedEvaluationIsSix) {
+    const std::string slow = write("slow.obj", tangle());
+    Waiting waiting({"union", slow, cube_, "-o", out_, "--json"});
+    ::usleep(500'000);
+    waiting.send_signal(SIGTERM);
+    const Finished result = waiting.finish();
+    EXPECT_EQ(result.code, 6) << result.err;
+    EXPECT_EQ(result.json()["error"]["kind"], "cancelled");
+    EXPECT_FALSE(exists("out.obj"));
 }
 
 TEST_F(ExitCode, UnsupportedIsSeven) {
