@@ -243,6 +243,7 @@ private:
     [[nodiscard]] bool edge_ends_in_cell(const Item& item, int k) const;
     [[nodiscard]] static Key128 edge_key(const Item& item, int k);
     [[nodiscard]] Index patch_of(Index i);
+    void classify_all();
     void classify_whole(Index i);
     void emit_pieces(Index s, std::size_t first);
 
@@ -314,6 +315,17 @@ std::vector<PolygonRef> LeafArranger::Impl::arrange(const LeafProblem& problem, 
     relate_pairs();
     for (Item& item : items_) item.ref.touched = item.ref.touched || item.touched;
     make_patches();
+    try {
+        classify_all();
+    } catch (...) {
+        const PolygonList freed(std::move(out_));  // the fragments made so far
+        throw;
+    }
+    ++stats.mixed_leaves;
+    return std::move(out_);
+}
+
+void LeafArranger::Impl::classify_all() {
     for (Index i = 0; i < static_cast<Index>(items_.size()); ++i) {
         const Item& item = items_[u(i)];
         if (item.cutters.empty() && item.covers.empty()) {
@@ -324,8 +336,6 @@ std::vector<PolygonRef> LeafArranger::Impl::arrange(const LeafProblem& problem, 
             emit_pieces(i, first);
         }
     }
-    ++stats.mixed_leaves;
-    return std::move(out_);
 }
 
 void LeafArranger::Impl::load() {
@@ -749,6 +759,7 @@ bool LeafArranger::Impl::trace(const TraceTarget& target, PlaneId own_class, Ind
 
 std::optional<LeafArranger::Impl::Sides> LeafArranger::Impl::classify(
     Index item, const WorkPolygon& shape, const std::vector<int>& step) {
+    check_budget(*problem_->options, *stats_);
     const PlaneId support = items_[u(item)].shape.support;
     const std::array<PointId, 3> corners = spread_vertices(shape);
     // An embedded operand has 0 outside its own facets and 1 inside.
