@@ -100,7 +100,7 @@ public:
     // An operand seen in the cell of `tree`, with its winding number at `reference`.
     std::optional<int> winding_at(const CellRef& tree, const FinePoint& reference) const;
     void attach(Operand& operand, const CellRef& tree, const Cell& cell) const;
-    std::vector<detail::FacetName>& incomplete() { return arranger_.incomplete(); }
+    std::vector<detail::FacetName>& incomplete() { return incomplete_; }
     [[nodiscard]] std::uint64_t peak_memory() const { return memory_.peak(); }
 
 private:
@@ -124,6 +124,7 @@ private:
     mutable MemoryBudget memory_;
     SlotValues values_;
     LeafArranger arranger_;
+    std::vector<detail::FacetName> incomplete_;
     mutable detail::Workbench bench_;
 };
 
@@ -218,11 +219,13 @@ CellRef Evaluator::resolve(Task& task) {
             detail::is_inside(o.winding, options_.winding) ? 1 : 0;
     const bool inside = detail::value_of(*task.formula, values_);
     LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
-    auto kept = arranger_.arrange(problem, values_, stats_);
+    detail::LeafResult kept = arranger_.arrange(problem, values_, stats_);
     for (const Operand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
-    const std::uint64_t bytes = detail::bytes_of_result(kept);
-    PolygonList list(std::move(kept));  // from here on fragments are freed whatever is thrown
+    const std::uint64_t bytes = detail::bytes_of_result(kept.polygons);
+    PolygonList list(
+        std::move(kept.polygons));  // from here on fragments are freed whatever is thrown
     memory_.keep(bytes);
+    incomplete_.insert(incomplete_.end(), kept.incomplete.begin(), kept.incomplete.end());
     return {CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cutting a polygon of a leaf into convex pieces.
+#pragma once
+
+#include <trisect/bsp/detail/leaf_work.h>
+
+namespace trisect::detail {
+
+/// Does the line `line` ∩ support, restricted to the convex polygon `cutter`, run through the
+/// interior of the piece? A cutter that ends along that line counts as if it went on.
+/// \pre both polygons have their edges; `line` is not the piece's support.
+[[nodiscard]] bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
+                                          const WorkPolygon& cutter);
+
+/// Does `cutter` run through the interior of `piece`, by more than a point?
+[[nodiscard]] inline bool cuts(Workbench& bench, const WorkPolygon& piece,
+                               const WorkPolygon& cutter) {
+    return segment_meets_interior(bench, piece, cutter.support, cutter);
+}
+
+/// Clips an item to the cell and splits it along its cutters and the edges of what covers it. The
+/// pieces are appended to the work's list; each is on one side of everything else in the leaf.
+void make_pieces(LeafWork& work, LeafIndex item);
+
+}  // namespace trisect::detail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/polygon_in_cell.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace trisect::detail {
+
+namespace {
+
+Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
+    Box b;
+    for (const PointId p : polygon.points) {
+        const Approximation& a = bench.approximation(p);
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.lo[k] = std::min(b.lo[k], static_cast<std::int64_t>(std::floor(a.c[k] - a.error)));
+            b.hi[k] = std::max(b.hi[k], static_cast<std::int64_t>(std::ceil(a.c[k] + a.error)));
+        }
+    }
+    return b;
+}
+
+}  // namespace
+
+PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,
+                         const WorkPolygon& polygon) {
+    std::vector<EdgeName> edges;
+    edges.reserve(polygon.edges.size());
+    for (const WorkEdge& e : polygon.edges) edges.push_back({bench.name(e.plane), e.above});
+    PolygonRef out = ref;
+    out.fragment = new Fragment(std::move(edges), outward_box(bench, polygon));
+    return out;
+}
+
+std::optional<PolygonRef> clip_to_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell) {
+    if (cell.contains(ref.box())) return ref;
+    WorkPolygon whole = bench.polygon(ref);
+    bench.with_edges(whole, ref);
+    const WorkPolygon part = bench.clipped(whole, ref.box(), cell);
+    if (part.is_empty()) return std::nullopt;
+    if (part.points == whole.points) return ref;
+    return make_fragment(bench, ref, part);
+}
+
+bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell) {
+    if (cell.contains(ref.box())) return true;
+    if (ref.fragment == nullptr && !ref.source->is_half_space()) {
+        for (int i = 0; i < 3; ++i) {
+            Box corner;
+            corner.add(ref.source->corner(ref.facet, i));
+            if (cell.contains(corner)) return true;
+        }
+    }
+    bench.clear();
+    WorkPolygon whole = bench.polygon(ref);
+    bench.with_edges(whole, ref);
+    return !bench.clipped(whole, ref.box(), cell).is_empty();
+}
+
+}  // namespace trisect::detail

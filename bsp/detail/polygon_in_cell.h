@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of a listed polygon that lies in a cell.
+#pragma once
+
+#include <optional>
+
+#include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/workbench.h>
+
+namespace trisect::detail {
+
+/// The part of a polygon in a closed cell: the polygon itself when it is not cut, nothing when no
+/// area is left.
+[[nodiscard]] std::optional<PolygonRef> clip_to_cell(Workbench& bench, const PolygonRef& ref,
+                                                     const Cell& cell);
+
+/// Whether a polygon has area in the cell; its box may reach into cells that it misses.
+[[nodiscard]] bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell);
+
+/// A new fragment of `ref` with the polygon's edges.
+[[nodiscard]] PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,
+                                       const WorkPolygon& polygon);
+
+}  // namespace trisect::detail

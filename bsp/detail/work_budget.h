@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The limit of work and the wish to stop, looked at by everything that takes long.
+#pragma once
+
+#include <trisect/bsp/expression.h>
+
+namespace trisect::detail {
+
+/// \throw LimitError when the work so far exceeds the budget, CancelledError when asked to stop.
+void check_budget(const EvaluateOptions& options, const EvaluateStats& stats);
+
+}  // namespace trisect::detail
