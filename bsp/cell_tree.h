@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -197,7 +198,9 @@ struct CellRef {
     bool complemented = false;
 };
 
-/// A node of the tree. Either it has a wall and two children, or it is a leaf.
+/// A node of the tree. Either it has a wall and two children, or it is a leaf. A leaf may get a
+/// refinement: the same cell with children, made once when a question needs it and kept with the
+/// leaf, so that all versions that share the leaf share it too.
 ///
 /// Invariants of a leaf: `reference` lies in its cell and on no polygon; `winding` is the winding
 /// number there (0 or 1 for results of operations); every polygon of the boundary that meets the
@@ -205,7 +208,7 @@ struct CellRef {
 /// an arrangement produced; vertices may lie in the middle of their edges. A whole facet may be
 /// listed because its box meets the cell while it does not itself; such a facet need not be part of
 /// the boundary. It is one only if the leaf whose cell holds its first corner lists it.
-class CellNode {
+class CellNode : public std::enable_shared_from_this<CellNode> {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,
                                                 int winding, bool mixed);
@@ -229,6 +232,22 @@ public:
     /// Polygons listed in all leaves below.
     [[nodiscard]] std::uint64_t size() const { return size_; }
 
+    /// Of a leaf: the same cell with children, if someone has made them.
+    [[nodiscard]] const CellNode* refinement() const {
+        return refinement_.load(std::memory_order_acquire);
+    }
+    /// Publishes what `make()` returns as the leaf's refinement, unless there is one; returns the
+    /// one there is. Nothing is published when `make()` returns null.
+    template <class Make>
+    const CellNode* refine(Make&& make) const {
+        const std::lock_guard lock(refining_);
+        if (refinement() == nullptr) {
+            kept_refinement_ = make();
+            refinement_.store(kept_refinement_.get(), std::memory_order_release);
+        }
+        return refinement();
+    }
+
 private:
     CellNode() = default;
 
@@ -240,6 +259,9 @@ private:
     int winding_ = 0;
     bool mixed_ = false;
     std::uint64_t size_ = 0;
+    mutable std::atomic<const CellNode*> refinement_{nullptr};
+    mutable std::shared_ptr<const CellNode> kept_refinement_;
+    mutable std::mutex refining_;
 };
 
 }  // namespace trisect::detail

@@ -71,6 +71,9 @@ struct EvaluateOptions {
     /// Bytes that lists and results may hold at once, operands and scratch memory not counted; 0
     /// means no limit.
     std::uint64_t max_memory = 0;
+    /// Threads that may take part; 0 means one for every processor. The result does not depend on
+    /// it. Small work, and work under a budget, is done by the calling thread alone.
+    std::uint32_t threads = 0;
     /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
     const std::atomic<bool>* cancel = nullptr;
 };
@@ -89,6 +92,9 @@ struct EvaluateStats {
     std::uint64_t traces_retried = 0;   ///< degenerate segments
     std::uint64_t memory = 0;           ///< most bytes held at once, as max_memory counts them
     int depth = 0;
+
+    /// Adds the counts of another part of the same evaluation.
+    EvaluateStats& operator+=(const EvaluateStats& part);
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.

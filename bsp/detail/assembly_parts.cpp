@@ -48,8 +48,10 @@ struct Leaf {
 class FacetTable {
 public:
     struct Entry {
-        bool seen = false;
-        bool involved = false;
+        bool listed = false;    // in some leaf
+        bool owned = false;     // in the leaf that holds its first corner
+        bool involved = false;  // cut, touched or incomplete
+        bool given = false;     // as edges, although not involved
         std::int32_t index = -1;
     };
     explicit FacetTable(const Source* source)
@@ -132,8 +134,13 @@ void Gatherer::mark_facets() {
         for (PolygonRef r : leaf.node->polygons()) {
             r.flipped = r.flipped != leaf.complemented;
             FacetTable::Entry& e = table(r.source).at(r);
-            e.seen = true;
-            if (r.fragment != nullptr || r.touched || r.source->is_half_space()) e.involved = true;
+            e.listed = true;
+            if (r.fragment != nullptr || r.touched || r.source->is_half_space()) {
+                e.involved = true;
+            } else if (leaf.cell.contains(Box::of(r.source->corner(r.facet, 0)))) {
+                // A facet may be listed in cells that it passes by, but not in this one.
+                e.owned = true;
+            }
         }
     }
 }
@@ -156,7 +163,7 @@ void Gatherer::number_facets() {
     for (FacetTable& t : tables_) {
         for (std::size_t i = 0; i < t.entries().size(); ++i) {
             FacetTable::Entry& e = t.entries()[i];
-            if (!e.seen) continue;
+            if (!(e.involved ? e.listed : e.owned)) continue;
             e.index = static_cast<std::int32_t>(out_.facets.size());
             out_.facets.push_back(
                 {t.source(), static_cast<std::uint32_t>(i / 2), (i & 1) != 0, -1});
@@ -171,12 +178,12 @@ void Gatherer::make_parts() {
         for (PolygonRef r : leaf.node->polygons()) {
             r.flipped = r.flipped != leaf.complemented;
             FacetTable::Entry& e = table(r.source).at(r);
-            if (!e.involved && (!all_ || !e.seen)) continue;
+            if (!e.involved && (!all_ || !e.owned || e.given)) continue;
             WorkPolygon shape = out_.bench.polygon(r);
             out_.bench.with_edges(shape, r);
             out_.facets[u(e.index)].support = shape.support;
             if (!e.involved) {
-                e.seen = false;  // once is enough
+                e.given = true;  // once is enough
             } else if (!leaf.cell.contains(r.box()) || shape.is_empty()) {
                 shape = out_.bench.clipped(shape, r.box(), leaf.cell);
             }

@@ -20,6 +20,11 @@ struct Box {
     std::array<std::int64_t, 3> lo{coordinate_limit, coordinate_limit, coordinate_limit};
     std::array<std::int64_t, 3> hi{-coordinate_limit, -coordinate_limit, -coordinate_limit};
 
+    [[nodiscard]] static Box of(const LatticePoint& p) {
+        Box b;
+        b.add(p);
+        return b;
+    }
     [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
     void add(const LatticePoint& p) {
         for (std::size_t k = 0; k < 3; ++k) {

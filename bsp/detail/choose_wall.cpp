@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/choose_wall.h>
+
+#include <algorithm>
+
+namespace trisect::detail {
+
+namespace {
+
+// Above so many operands the boxes are not compared pair by pair.
+constexpr std::size_t many_operands = 64;
+
+struct Extents {
+    PackedBox all;
+    PackedBox contested;
+};
+
+Extents extents(const CellTask& task) {
+    Extents e;
+    std::size_t bounded = 0;
+    for (const CellOperand& o : task.operands) {
+        if (o.unbounded || o.box.is_empty()) continue;
+        e.all.add(o.box);
+        ++bounded;
+    }
+    const bool alone = bounded == 1 || bounded > many_operands;
+    if (alone) {
+        e.contested = e.all;
+        return e;
+    }
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& a = task.operands[i];
+        if (a.unbounded || a.box.is_empty()) continue;
+        if (!a.embedded) e.contested.add(a.box);
+        for (std::size_t j = i + 1; j < task.operands.size(); ++j) {
+            const CellOperand& b = task.operands[j];
+            if (b.unbounded || b.box.is_empty()) continue;
+            const PackedBox both = a.box.intersected(b.box);
+            if (!both.is_empty()) e.contested.add(both);
+        }
+    }
+    if (e.contested.is_empty()) e.contested = e.all;  // all disjoint: cut in the middle
+    return e;
+}
+
+}  // namespace
+
+int contested_extent(const CellTask& task) {
+    const PackedBox b = extents(task).contested;
+    int longest = 0;
+    if (b.is_empty()) return longest;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, b.high(k) - b.low(k));
+    return longest;
+}
+
+std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset) {
+    const Extents e = extents(task);
+    if (e.all.is_empty()) return std::nullopt;
+    const auto below = [&](std::size_t axis, int q) {
+        return Wall{static_cast<int>(axis), task.frame.last_below(axis, q) * wall_scale + offset};
+    };
+    std::optional<Wall> wall;
+    double best_peel = 0.3;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double extent = e.all.high(k) - e.all.low(k);
+        if (extent <= 0) continue;
+        const double low = (e.contested.low(k) - e.all.low(k)) / extent;
+        const double high = (e.all.high(k) - e.contested.high(k)) / extent;
+        if (low > best_peel) {
+            best_peel = low;
+            wall = below(k, e.contested.low(k));
+        }
+        if (high > best_peel) {
+            best_peel = high;
+            wall = below(k, e.contested.high(k) + 1);
+        }
+    }
+    if (wall) return wall;
+    int longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int extent = e.contested.high(k) - e.contested.low(k);
+        if (extent <= longest) continue;
+        longest = extent;
+        wall = below(k, e.contested.low(k) + (extent + 1) / 2);
+    }
+    return wall;
+}
+
+}  // namespace trisect::detail

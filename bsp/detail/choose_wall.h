@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where to cut a cell that no operand has a tree for.
+#pragma once
+
+#include <optional>
+
+#include <trisect/bsp/detail/cell_task.h>
+
+namespace trisect::detail {
+
+/// The wall that soonest parts the operands: it peels off a slab that only one of them enters, when
+/// that is at least 30 % of the extent; else it halves the box of what at least two enter (or what
+/// an operand that has to be resolved by itself enters). Nothing when the polygons cannot be parted
+/// in the task's frame. `offset` is that of walls from lattice positions, in 1/256 units.
+/// \pre all operands are lists.
+[[nodiscard]] std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset);
+
+/// The extent of what choose_wall() would halve, in rounded positions.
+[[nodiscard]] int contested_extent(const CellTask& task);
+
+}  // namespace trisect::detail

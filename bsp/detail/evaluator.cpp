@@ -1,0 +1,744 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One recursion over (cell, formula) evaluates a whole boolean expression:
+//
+//   1. operands without boundary in the cell are constant there: replace them by their value;
+//   2. nothing left: a homogeneous cell. One operand left: share its subtree or its complement;
+//   3. few polygons: a leaf arrangement (leaf_arrangement.cpp) decides which bound the result;
+//   4. otherwise cut the cell. Where an operand already has a tree its wall is taken, so that its
+//      subtrees can be shared. A large leaf beside small ones is refined by itself, for everybody
+//      who uses it. Else the wall that soonest parts the operands.
+//
+// The idea is EMBER's (Trettner, Nehring-Wirxel, Kobbelt 2022); keeping the cells, so that the next
+// operation finds them, is Nehring-Wirxel, Trettner, Kobbelt 2021. Two things matter more than
+// arithmetic. Walls lie off the lattice, so nothing is listed twice because its box ends at a wall.
+// And every cell knows a reference point with all winding numbers, so that classification never
+// leaves the cell.
+//
+// Cells are independent, so the two sides of a wall may be solved by two threads. Results are put
+// together by their position in the tree and not by their time, and nothing that a thread keeps
+// between cells decides anything; so the tree is the same for any number of threads.
+
+#include <trisect/bsp/detail/evaluator.h>
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <trisect/bsp/detail/axis_trace.h>
+#include <trisect/bsp/detail/budget.h>
+#include <trisect/bsp/detail/cell_task.h>
+#include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/leaf_arrangement.h>
+#include <trisect/bsp/detail/leaf_problem.h>
+#include <trisect/bsp/detail/partition.h>
+#include <trisect/bsp/detail/polygon_in_cell.h>
+#include <trisect/bsp/detail/refine_leaf.h>
+#include <trisect/bsp/detail/stack_arena.h>
+#include <trisect/bsp/detail/trace_winding.h>
+#include <trisect/bsp/detail/work_budget.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Cells with fewer polygons are not worth a task of their own.
+constexpr std::uint64_t parallel_size = 4096;
+// Where rounded positions get this coarse for what has to be parted, a finer frame is made.
+constexpr int coarse_extent = 128;
+
+class Worker;
+
+// What the threads of one evaluation share.
+struct Shared {
+    const EvaluateOptions& options;
+    std::size_t slots;
+    MemoryBudget memory;
+    bool parallel = false;
+    tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
+
+    Worker& worker();
+};
+
+// Scratch memory and results of one thread. A thread that waits for another one may start a second
+// task on the same worker; nothing of the first is in use then but what lies in the arena below.
+class Worker {
+public:
+    explicit Worker(Shared& shared)
+        : shared_(shared), options_(shared.options), values_(shared.slots, -1) {}
+
+    CellRef solve(CellTask& task);
+    // Winding number of a solid, given by the node of a cell, at a point of the cell.
+    std::optional<int> winding_at(const CellNode& root, bool complemented, const Cell& cell,
+                                  const FinePoint& p);
+    [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
+    [[nodiscard]] const std::vector<FacetName>& incomplete() const { return incomplete_; }
+    [[nodiscard]] StackArena& arena() { return arena_; }
+
+private:
+    using Children = std::array<CellTask, 2>;
+
+    void prune(CellTask& task);
+    CellRef constant(const CellTask& task, bool inside);
+    CellRef share(CellTask& task, bool negated);
+    CellRef share_list(const CellTask& task, const CellOperand& o, bool negated);
+    CellRef resolve(CellTask& task);
+    CellRef divide(CellTask& task);
+    CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
+
+    std::optional<Wall> wall_of_trees(const CellTask& task) const;
+    void refine_large(CellTask& task) const;
+    void make_lists(CellTask& task, const std::optional<Wall>& wall);
+    void make_leaf(CellOperand& operand, const Cell& cell);
+    void make_frame(CellTask& task) const;
+    void refine_frame(CellTask& task);
+    Children children_of(const CellTask& task, const Wall& wall);
+
+    bool place_reference(const CellTask& task, const Wall& wall, int which, CellTask& out);
+    bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis,
+                     CellTask& out);
+    std::optional<int> list_winding(const CellTask& task, const CellOperand& o, const FinePoint& p,
+                                    std::optional<int> axis);
+    void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out);
+
+    Shared& shared_;
+    const EvaluateOptions& options_;
+    EvaluateStats stats_;
+    SlotValues values_;
+    std::vector<std::uint8_t> used_;
+    LeafArranger arranger_;
+    std::vector<FacetName> incomplete_;
+    Workbench bench_;
+    StackArena arena_;
+    std::vector<PolygonRef> polygons_;                   // of leaves
+    std::vector<std::shared_ptr<const CellNode>> made_;  // leaves that name flattened lists
+};
+
+Worker& Shared::worker() {
+    auto& w = workers.local();
+    if (!w) w = std::make_unique<Worker>(*this);
+    return *w;
+}
+
+// A leaf that someone refined stands for its refinement.
+const CellNode* unfolded(const CellNode* node) {
+    if (!node->is_leaf()) return node;
+    const CellNode* refinement = node->refinement();
+    return refinement != nullptr ? refinement : node;
+}
+
+CellRef child_of(const CellNode& node, bool complemented, std::size_t i) {
+    CellRef c = node.child(static_cast<int>(i));
+    c.complemented = c.complemented != complemented;
+    return c;
+}
+
+// --- Steps 1 and 2: prune, share.
+
+void Worker::prune(CellTask& task) {
+    bool any = false;
+    for (const CellOperand& o : task.operands) {
+        if (o.size() != 0) continue;
+        values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
+        any = true;
+    }
+    if (!any) return;
+    task.formula = simplified(task.formula, values_);
+    for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
+    used_.assign(values_.size(), 0);
+    for_each_slot(*task.formula, [&](std::int32_t s) { used_[static_cast<std::size_t>(s)] = 1; });
+    const auto end = std::remove_if(
+        task.operands.begin(), task.operands.end(),
+        [&](const CellOperand& o) { return used_[static_cast<std::size_t>(o.slot)] == 0; });
+    task.operands = {task.operands.data(), static_cast<std::size_t>(end - task.operands.begin())};
+}
+
+CellRef Worker::constant(const CellTask& task, bool inside) {
+    ++stats_.constant_cells;
+    return {CellNode::leaf(PolygonList(), task.reference, inside ? 1 : 0, false), false};
+}
+
+// One operand is left and the formula is that operand or its complement.
+CellRef Worker::share(CellTask& task, bool negated) {
+    const CellOperand& o = task.operands[0];
+    ++stats_.shared_cells;
+    if (!o.is_list) return {o.node->shared_from_this(), o.complemented != negated};
+    return share_list(task, o, negated);
+}
+
+// Listed are the polygons whose boxes meet the cell. Of a list without one that certainly lies in
+// the cell those that do not meet it are taken out: a leaf that lists polygons must not be
+// homogeneous only because nobody looked.
+CellRef Worker::share_list(const CellTask& task, const CellOperand& o, bool negated) {
+    const PolygonList& names = o.node->polygons();
+    const bool flip = o.complemented != negated;
+    const int winding = complemented_winding(o.winding, negated);
+    const PackedBox within = [&] {
+        PackedBox b = packed_cell(task.frame, task.cell);
+        // Rounding outwards at walls of other frames: one position farther in is certain.
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!task.frame.first_above(k, task.cell.lo[k] >> wall_bits) &&
+                b.low(k) > -packed_limit)
+                ++b.lo[k];
+            if (!task.frame.first_above(k, task.cell.hi[k] >> wall_bits) &&
+                b.high(k) < packed_limit)
+                ++b.minus_hi[k];
+        }
+        return b;
+    }();
+    const auto mark = arena_.mark();
+    auto* ids = arena_.take<std::uint32_t>(o.count);
+    std::uint32_t* front = ids;
+    std::uint32_t* back = ids + o.count;
+    for (const PackedBox& e : o.list()) {
+        if (within.contains(e)) {
+            *front++ = e.id;
+        } else {
+            *--back = e.id;
+        }
+    }
+    const auto contained = static_cast<std::size_t>(front - ids);
+    std::reverse(back, ids + o.count);
+    std::size_t count = o.count;
+    if (contained == 0) {
+        count = static_cast<std::size_t>(
+            std::remove_if(
+                ids, ids + o.count,
+                [&](std::uint32_t id) { return !meets_cell(bench_, o.polygon(id), task.cell); }) -
+            ids);
+    }
+    PolygonList list;
+    if (names.whole_source() != nullptr) {
+        list = PolygonList::whole_facets(*names.whole_source(), names.flipped() != flip,
+                                         {ids, count}, contained);
+    } else {
+        std::vector<PolygonRef> refs(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            refs[i] = o.polygon(ids[i]);
+            refs[i].flipped = refs[i].flipped != flip;
+        }
+        list = PolygonList(std::move(refs));
+    }
+    arena_.release(mark);
+    shared_.memory.keep(list.bytes());
+    return {CellNode::leaf(std::move(list), task.reference, winding, o.node->is_mixed()), false};
+}
+
+// --- Step 3: few polygons.
+
+CellRef Worker::resolve(CellTask& task) {
+    make_lists(task, std::nullopt);
+    polygons_.clear();
+    for (const CellOperand& o : task.operands)
+        for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
+    std::vector<LeafOperand> operands;
+    std::size_t first = 0;
+    for (const CellOperand& o : task.operands) {
+        operands.push_back({o.slot, std::span(polygons_).subspan(first, o.count), o.complemented,
+                            o.embedded, o.winding});
+        first += o.count;
+        values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
+    }
+    const bool inside = value_of(*task.formula, values_);
+    const LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
+    LeafResult kept = arranger_.arrange(problem, values_, stats_);
+    for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
+    incomplete_.insert(incomplete_.end(), kept.incomplete.begin(), kept.incomplete.end());
+    const std::uint64_t bytes = bytes_of_result(kept.polygons);
+    PolygonList list(std::move(kept.polygons));  // keeps fragments, whatever is thrown from here on
+    shared_.memory.keep(bytes);
+    return {CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
+}
+
+// Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
+// there, so it is clipped to the leaf that lists it.
+void Worker::flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out) {
+    const CellNode& node = *tree.node;
+    if (!node.is_leaf()) {
+        for (std::size_t i = 0; i < 2; ++i)
+            flatten(child_of(node, tree.complemented, i),
+                    i == 0 ? cell.below(node.axis(), node.wall())
+                           : cell.above(node.axis(), node.wall()),
+                    out);
+        return;
+    }
+    for (const PolygonRef& r : node.polygons()) {
+        auto part = clip_to_cell(bench_, r, cell);
+        if (!part) continue;
+        part->flipped = part->flipped != tree.complemented;
+        out.push_back(*part);
+    }
+}
+
+// Makes a leaf of an operand's subtree.
+void Worker::make_leaf(CellOperand& operand, const Cell& cell) {
+    if (operand.is_list || operand.node->is_leaf()) return;
+    std::vector<PolygonRef> parts;
+    bench_.clear();
+    flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
+    made_.push_back(CellNode::leaf(PolygonList(std::move(parts)), {}, 0, true));
+    operand.node = made_.back().get();
+    operand.complemented = false;
+}
+
+// A frame for all lists and leaves of a task.
+void Worker::make_frame(CellTask& task) const {
+    Box all;
+    for (const CellOperand& o : task.operands) {
+        if (!o.is_list && !o.node->is_leaf()) continue;
+        const bool unbounded = o.size() == 1 && o.node->polygons().size() == 1 &&
+                               o.node->polygons()[0].source->is_half_space();
+        const Box b = exact_box(o, task.cell);
+        if (!unbounded && !b.is_empty()) all.add(b);
+    }
+    task.has_frame = true;
+    if (!all.is_empty()) task.frame = Frame::covering(all);
+}
+
+bool has_wall(const CellOperand& o, const std::optional<Wall>& wall) {
+    return wall && !o.is_list && !o.node->is_leaf() && o.node->axis() == wall->axis &&
+           o.node->wall() == wall->position;
+}
+
+// Makes lists of all operands, except trees that have the wall. When nothing but lists is left, the
+// frame is made anew: the one so far may belong to one operand and be narrow.
+void Worker::make_lists(CellTask& task, const std::optional<Wall>& wall) {
+    bool opened = false;
+    for (CellOperand& o : task.operands) {
+        if (o.is_list || has_wall(o, wall)) continue;
+        make_leaf(o, task.cell);
+        opened = true;
+    }
+    if (!opened) return;
+    const bool anew = task.has_frame && !wall;
+    if (anew || !task.has_frame) make_frame(task);
+    for (CellOperand& o : task.operands) {
+        if (has_wall(o, wall)) continue;
+        if (!o.is_list) {
+            open_leaf(o, task, arena_);
+        } else if (anew) {
+            reframe(o, task, arena_);
+        }
+    }
+}
+
+// --- Step 4: divide.
+
+std::optional<Wall> Worker::wall_of_trees(const CellTask& task) const {
+    const CellOperand* largest = nullptr;
+    for (const CellOperand& o : task.operands)
+        if (!o.is_list && !o.node->is_leaf() && (largest == nullptr || o.size() > largest->size()))
+            largest = &o;
+    if (largest == nullptr) return std::nullopt;
+    return Wall{largest->node->axis(), largest->node->wall()};
+}
+
+// A leaf of a solid that outnumbers everything else in the cell is refined for good.
+void Worker::refine_large(CellTask& task) const {
+    const std::uint64_t total = task.size();
+    for (CellOperand& o : task.operands) {
+        if (o.is_list || !o.node->is_leaf()) continue;
+        const std::uint64_t n = o.size();
+        if (o.node->refinement() == nullptr && (n < refinable_leaf || n < 4 * (total - n)))
+            continue;
+        if (const CellNode* node = refined(*o.node, task.cell)) o.node = node;
+    }
+}
+
+// What still has to be parted is small in the frame: make a finer one.
+void Worker::refine_frame(CellTask& task) {
+    if (task.frame.shift == 0 || contested_extent(task) >= coarse_extent) return;
+    Box all;
+    for (const CellOperand& o : task.operands) {
+        if (o.unbounded || o.count == 0) continue;
+        const Box b = exact_box(o, task.cell);
+        if (!b.is_empty()) all.add(b);
+    }
+    if (all.is_empty()) return;
+    const Frame finer = Frame::covering(all);
+    if (finer.shift >= task.frame.shift) return;
+    task.frame = finer;
+    for (CellOperand& o : task.operands) reframe(o, task, arena_);
+}
+
+// Both children of a cell. Their lists are in the arena.
+Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
+    Children out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        CellTask& c = out[i];
+        c.cell = i == 0 ? task.cell.below(wall.axis, wall.position)
+                        : task.cell.above(wall.axis, wall.position);
+        c.frame = task.frame;
+        c.has_frame = task.has_frame;
+        c.formula = task.formula;
+        c.depth = task.depth + 1;
+        c.operands = {arena_.take<CellOperand>(task.operands.size()), task.operands.size()};
+    }
+    const std::array<Cell, 2> cells{out[0].cell, out[1].cell};
+    for (std::size_t n = 0; n < task.operands.size(); ++n) {
+        const CellOperand& o = task.operands[n];
+        std::array<CellOperand, 2> c{o, o};
+        if (o.is_list) {
+            partition(o, task, wall, cells, arena_, c);
+        } else {
+            for (std::size_t i = 0; i < 2; ++i) {
+                const CellRef& child = o.node->child(static_cast<int>(i));
+                c[i].node = unfolded(child.node.get());
+                c[i].complemented = child.complemented != o.complemented;
+            }
+        }
+        for (std::size_t i = 0; i < 2; ++i) ::new (&out[i].operands[n]) CellOperand(c[i]);
+    }
+    for (int i = 0; i < 2; ++i)
+        TRISECT_EXPECTS(place_reference(task, wall, i, out[static_cast<std::size_t>(i)]),
+                        "no reference point found in a cell");
+    return out;
+}
+
+std::optional<int> Worker::winding_at(const CellNode& root, bool complemented, const Cell& cell,
+                                      const FinePoint& p) {
+    const CellNode* node = unfolded(&root);
+    Cell at = cell;
+    while (true) {
+        if (node->is_leaf() && node->reference() == p)
+            return complemented_winding(node->winding(), complemented);
+        if (node->is_leaf() && node->size() > 4 * refinable_leaf)
+            if (const CellNode* fine = refined(*node, at)) node = fine;
+        if (node->is_leaf()) break;
+        const std::size_t i = p.c[static_cast<std::size_t>(node->axis())] > node->wall() ? 1 : 0;
+        const CellRef& c = node->child(static_cast<int>(i));
+        at = i == 0 ? at.below(node->axis(), node->wall()) : at.above(node->axis(), node->wall());
+        complemented = complemented != c.complemented;
+        node = unfolded(c.node.get());
+    }
+    const std::vector<PolygonRef> refs(node->polygons().begin(), node->polygons().end());
+    const auto change = trace_winding(refs, false, node->reference(), p);
+    if (!change) return std::nullopt;
+    return complemented_winding(node->winding() + *change, complemented);
+}
+
+// The lattice positions that a segment comes near.
+Box box_around(const FinePoint& a, const FinePoint& b) {
+    Box segment;
+    for (std::size_t k = 0; k < 3; ++k) {
+        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> wall_bits) - 1;
+        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> wall_bits) + 2;
+    }
+    return segment;
+}
+
+std::optional<int> Worker::list_winding(const CellTask& task, const CellOperand& o,
+                                        const FinePoint& p, std::optional<int> axis) {
+    if (o.count == 0) return o.winding;
+    const PackedReach near(PackedBox::of(task.frame, box_around(task.reference, p)));
+    if (axis) {
+        AxisTrace trace(task.reference, p, *axis);
+        for (const PackedBox& e : o.list())
+            if (near.meets(e)) trace.add(o.polygon(e.id));
+        const auto change = trace.change(o.complemented);
+        if (!change) return std::nullopt;
+        return o.winding + *change;
+    }
+    std::vector<PolygonRef> met;
+    for (const PackedBox& e : o.list())
+        if (near.meets(e)) met.push_back(o.polygon(e.id));
+    const auto change = trace_winding(met, o.complemented, task.reference, p);
+    if (!change) return std::nullopt;
+    return o.winding + *change;
+}
+
+// Winding numbers of all operands at p, which lies in the task's cell; `axis` when only that
+// coordinate differs from the reference.
+bool Worker::windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis,
+                         CellTask& out) {
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& o = task.operands[i];
+        const std::optional<int> w = o.is_list ? list_winding(task, o, p, axis)
+                                               : winding_at(*o.node, o.complemented, task.cell, p);
+        if (!w) return false;
+        out.operands[i].winding = *w;
+    }
+    out.reference = p;
+    return true;
+}
+
+bool Worker::place_reference(const CellTask& task, const Wall& wall, int which, CellTask& out) {
+    const auto k = static_cast<std::size_t>(wall.axis);
+    if (out.cell.contains(task.reference)) {
+        out.reference = task.reference;
+        for (std::size_t i = 0; i < task.operands.size(); ++i)
+            out.operands[i].winding = task.operands[i].winding;
+        return true;
+    }
+    // A tree that is cut along its own wall knows points on both sides, without a trace.
+    for (const CellOperand& o : out.operands) {
+        if (o.is_list) continue;
+        const CellNode* node = o.node;
+        while (!node->is_leaf()) node = node->child(which == 0 ? 1 : 0).node.get();
+        const FinePoint p = node->reference();
+        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
+        break;
+    }
+    // Straight through the wall; the segment hits little.
+    FinePoint p = task.reference;
+    for (const std::int64_t step : {3, 37, 59, 101}) {
+        p.c[k] = wall.position + (which == 0 ? -step : step);
+        if (out.cell.contains(p) && windings_at(task, p, wall.axis, out)) return true;
+    }
+    // Then anywhere near the polygons.
+    Box around;
+    for (const CellOperand& o : task.operands) {
+        if (!o.is_list || o.box.is_empty()) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            around.lo[axis] =
+                std::min(around.lo[axis], task.frame.last_below(axis, o.box.low(axis)) + 1);
+            around.hi[axis] =
+                std::max(around.hi[axis], task.frame.last_below(axis, o.box.high(axis) + 1));
+        }
+    }
+    if (around.is_empty()) around = out.cell.lattice_box();
+    for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // Near the polygons, or at the end of the cell that is nearest to them.
+            std::int64_t lo = std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * wall_scale);
+            std::int64_t hi = std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * wall_scale);
+            if (hi - lo < wall_scale / 2) {
+                const bool cell_is_above = (around.hi[axis] + 2) * wall_scale < out.cell.hi[axis];
+                lo = cell_is_above ? out.cell.lo[axis] + 1
+                                   : std::max(out.cell.lo[axis] + 1, out.cell.hi[axis] - 512);
+                hi = std::min(out.cell.hi[axis] - 1, lo + 512);
+            }
+            const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
+            const auto c = lo + static_cast<std::int64_t>(mix64(attempt * 3 + axis) % range);
+            p.c[axis] = (c & 1) != 0 ? c + 1 : c;
+        }
+        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
+    }
+    return false;
+}
+
+CellRef Worker::divide(CellTask& task) {
+    refine_large(task);
+    std::optional<Wall> wall = wall_of_trees(task);
+    make_lists(task, wall);
+    if (!wall) {
+        refine_frame(task);
+        const bool too_deep = task.stalled >= (task.size() > 400 ? 12 : 3) || task.depth > 400;
+        if (!too_deep) wall = choose_wall(task, options_.wall_offset);
+    }
+    if (!wall) return resolve(task);
+    Children children = children_of(task, *wall);
+    // Pairs are what a leaf costs. A wall that leaves most of them on its sides was not worth it,
+    // and after a few such walls none will be: long thin facets cross all of them. Where many
+    // facets meet in a corner, though, walls around the corner cut off small cells at little cost.
+    const auto total = static_cast<double>(task.size());
+    const auto first = static_cast<double>(children[0].size());
+    const auto second = static_cast<double>(children[1].size());
+    const double pairs = first * first + second * second;
+    const bool worth_it = pairs < (total < 4000 ? 0.8 : 1.6) * total * total;
+    const int price = std::min(first, second) > 0.5 * total ? 4 : 1;
+    for (CellTask& c : children) c.stalled = worth_it ? 0 : task.stalled + price;
+    return solve_children(task, *wall, children);
+}
+
+bool is_homogeneous(const CellRef& r) { return r.node->is_leaf() && r.node->polygons().empty(); }
+
+int value_at_reference(const CellRef& r) {
+    return complemented_winding(r.node->winding(), r.complemented);
+}
+
+CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children& children) {
+    std::uint64_t listed = 0;
+    for (const CellTask& c : children)
+        for (const CellOperand& o : c.operands)
+            if (o.is_list) listed += o.count;
+    const auto held = shared_.memory.hold(listed * sizeof(PackedBox));
+    std::array<CellRef, 2> results;
+    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+        tbb::task_group group;
+        group.run([&] { results[1] = shared_.worker().solve(children[1]); });
+        std::exception_ptr failure;
+        try {
+            results[0] = solve(children[0]);
+        } catch (...) {
+            failure = std::current_exception();
+            group.cancel();
+        }
+        group.wait();
+        if (failure) std::rethrow_exception(failure);
+    } else {
+        for (std::size_t i = 0; i < 2; ++i) results[i] = solve(children[i]);
+    }
+    // A subtree that comes back unchanged is shared as a whole.
+    for (const CellOperand& o : task.operands) {
+        if (o.is_list || o.node->is_leaf()) continue;
+        for (const bool complemented : {false, true}) {
+            bool same = true;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const CellRef& c = o.node->child(static_cast<int>(i));
+                same = same && results[i].node == c.node &&
+                       results[i].complemented == (c.complemented != complemented);
+            }
+            if (same) return {o.node->shared_from_this(), complemented};
+        }
+        break;
+    }
+    if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&
+        value_at_reference(results[0]) == value_at_reference(results[1]))
+        return {
+            CellNode::leaf(PolygonList(), task.reference, value_at_reference(results[0]), false),
+            false};
+    return {CellNode::split(wall.axis, wall.position, std::move(results[0]), std::move(results[1])),
+            false};
+}
+
+// With one unknown the formula is that unknown, its complement, or constant.
+struct OfOne {
+    bool at_outside;
+    bool at_inside;
+};
+
+OfOne of_one(const Residual& formula, std::int32_t slot, SlotValues& values) {
+    auto& v = values[static_cast<std::size_t>(slot)];
+    v = 0;
+    const bool at_outside = value_of(formula, values);
+    v = 1;
+    const bool at_inside = value_of(formula, values);
+    v = -1;
+    return {at_outside, at_inside};
+}
+
+CellRef Worker::solve(CellTask& task) {
+    const auto mark = arena_.mark();
+    struct Release {
+        StackArena& arena;
+        StackArena::Mark mark;
+        ~Release() { arena.release(mark); }
+    } release{arena_, mark};
+    ++stats_.cells;
+    check_budget(options_, stats_);
+    stats_.depth = std::max(stats_.depth, task.depth);
+    prune(task);
+    if (task.formula->kind == Residual::Kind::Constant) return constant(task, task.formula->value);
+    if (task.operands.size() == 1) {
+        const OfOne f = of_one(*task.formula, task.operands[0].slot, values_);
+        if (f.at_outside == f.at_inside) return constant(task, f.at_inside);
+        if (task.operands[0].embedded) return share(task, f.at_outside);
+    }
+    const std::uint64_t total = task.size();
+    for (const CellOperand& o : task.operands)
+        if (o.is_list || o.node->is_leaf()) stats_.listed_polygons += o.size();
+    if (total <= options_.leaf_polygons) return resolve(task);
+    return divide(task);
+}
+
+// A point outside the boxes of all leaves, three units beyond their common corner; or, when there
+// is a tree, any point that it knows.
+FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> states) {
+    Box all;
+    for (const auto& s : states) {
+        const CellNode* n = s->root.node.get();
+        if (!n->is_leaf()) {
+            while (!n->is_leaf()) n = n->child(0).node.get();
+            return n->reference();
+        }
+        const PolygonList& polygons = n->polygons();
+        const Source* whole = polygons.has_all_facets() ? polygons.whole_source() : nullptr;
+        if (whole != nullptr && !whole->is_half_space()) {
+            if (!whole->box().is_empty()) all.add(whole->box());
+            continue;
+        }
+        for (const PolygonRef& r : polygons)
+            if (!r.source->is_half_space()) all.add(r.box());
+    }
+    FinePoint p;
+    for (std::size_t k = 0; k < 3; ++k)
+        p.c[k] = all.is_empty() ? 0 : (all.lo[k] - 3) * wall_scale + 2 * static_cast<int>(k) + 12;
+    return p;
+}
+
+// Winding number of a root at a point: at once where the way there is free.
+std::optional<int> winding_of_root(Worker& worker, const SolidState& state, const FinePoint& p) {
+    const CellNode& n = *state.root.node;
+    const Source* whole =
+        n.is_leaf() && n.polygons().has_all_facets() ? n.polygons().whole_source() : nullptr;
+    if (whole != nullptr && !whole->box().overlaps(box_around(n.reference(), p)))
+        return complemented_winding(n.winding(), state.root.complemented);
+    return worker.winding_at(n, state.root.complemented, Cell{}, p);
+}
+
+bool place_root(Worker& worker, std::span<const std::shared_ptr<const SolidState>> states,
+                CellTask& task) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto w = winding_of_root(worker, *states[i], task.reference);
+        if (!w) return false;
+        CellOperand o;
+        o.slot = static_cast<std::int32_t>(i);
+        o.winding = *w;
+        o.embedded = states[i]->embedded;
+        o.complemented = states[i]->root.complemented;
+        o.node = unfolded(states[i]->root.node.get());
+        ::new (&task.operands[i]) CellOperand(o);
+    }
+    return true;
+}
+
+CellRef solve_root(Shared& shared, const Residual::Ref& formula,
+                   std::span<const std::shared_ptr<const SolidState>> states) {
+    Worker& worker = shared.worker();
+    const auto mark = worker.arena().mark();
+    CellTask task;
+    task.formula = formula;
+    task.reference = outer_reference(states);
+    task.operands = {worker.arena().take<CellOperand>(states.size()), states.size()};
+    bool placed = place_root(worker, states, task);
+    for (int attempt = 0; attempt < 100 && !placed; ++attempt) {
+        for (std::size_t k = 0; k < 3; ++k)
+            task.reference.c[k] -= static_cast<std::int64_t>(
+                2 * (mix64(static_cast<std::uint64_t>(attempt) * 3 + k) % 2000));
+        placed = place_root(worker, states, task);
+    }
+    TRISECT_EXPECTS(placed, "no reference point for the operands");
+    CellRef root = worker.solve(task);
+    worker.arena().release(mark);
+    return root;
+}
+
+}  // namespace
+
+Evaluation evaluate_formula(const Residual::Ref& formula,
+                            std::span<const std::shared_ptr<const SolidState>> solids,
+                            const EvaluateOptions& options) {
+    Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false, {}};
+    std::uint64_t polygons = 0;
+    for (const auto& s : solids) polygons += s->root.node->size();
+    // A work budget is counted by one thread, so that it is hit in the same place everywhere.
+    shared.parallel =
+        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_size;
+    Evaluation result;
+    if (shared.parallel) {
+        tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
+                                                   : static_cast<int>(options.threads));
+        arena.execute([&] { result.root = solve_root(shared, formula, solids); });
+    } else {
+        result.root = solve_root(shared, formula, solids);
+    }
+    for (const auto& worker : shared.workers) {
+        const EvaluateStats& s = worker->stats();
+        result.stats += s;
+        const auto& incomplete = worker->incomplete();
+        result.incomplete.insert(result.incomplete.end(), incomplete.begin(), incomplete.end());
+    }
+    result.stats.memory = shared.memory.peak();
+    return result;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Three ways to distribute a list, from fast to slow. A list that lies on one side of the wall is
+// handed on as it is. When the wall is between two rounded positions of the frame, comparing the
+// rounded boxes is exact: one pass without branches, each entry written to both sides and the ends
+// advanced by the outcome of the comparisons. Otherwise (a wall that another evaluation chose in
+// another frame) the polygons' own boxes are looked up.
+
+#include <trisect/bsp/detail/partition.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include <trisect/bsp/detail/facet_in_cell.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// In longer lists a few facets too many cost less than looking.
+constexpr std::size_t short_list = 20000;
+
+template <class Visit>
+void for_each_box(const CellNode& leaf, Visit&& visit) {
+    const PolygonList& polygons = leaf.polygons();
+    const Source* source = polygons.whole_source();
+    if (source == nullptr) {
+        for (std::size_t i = 0; i < polygons.size(); ++i)
+            visit(static_cast<std::uint32_t>(i), polygons[i].box());
+    } else if (polygons.has_all_facets()) {
+        for (std::uint32_t f = 0; f < source->facet_count(); ++f) visit(f, source->facet_box(f));
+    } else {
+        for (const std::uint32_t f : polygons.facets()) visit(f, source->facet_box(f));
+    }
+}
+
+bool reaches_out(const Frame& frame, const Box& box) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!frame.covers(k, box.lo[k]) || !frame.covers(k, box.hi[k])) return true;
+    return false;
+}
+
+void set_box(CellOperand& operand, const CellTask& task, const Cell& cell) {
+    operand.box = box_of(operand.entries, operand.count).intersected(packed_cell(task.frame, cell));
+}
+
+// Entries and the two ends of what is written.
+struct Ends {
+    PackedBox* below;
+    PackedBox* above;
+};
+
+Ends distribute_packed(std::span<const PackedBox> list, std::size_t axis, int first_above,
+                       Ends ends) {
+    const auto q = static_cast<std::int16_t>(first_above);
+    const auto minus_q = static_cast<std::int16_t>(-first_above);
+    for (const PackedBox& e : list) {
+        const bool below = e.lo[axis] < q;
+        const bool above = e.minus_hi[axis] <= minus_q;
+        *ends.below = e;
+        *ends.above = e;
+        ends.below += below ? 1 : 0;
+        ends.above += above ? 1 : 0;
+    }
+    return ends;
+}
+
+// A long facet that crosses the wall may still miss one of the cells.
+struct Doubt {
+    int long_facet;
+    std::array<Box, 2> reach;
+};
+
+template <class Sides>
+Ends distribute_with_doubt(const CellOperand& operand, std::size_t axis, const Doubt& doubt,
+                           Ends ends, Sides&& sides) {
+    for (const PackedBox& e : operand.list()) {
+        auto [below, above] = sides(e);
+        if (below && above && e.high(axis) - e.low(axis) > doubt.long_facet) {
+            const PolygonRef r = operand.polygon(e.id);
+            below = !certainly_misses(r, doubt.reach[0]);
+            above = !certainly_misses(r, doubt.reach[1]);
+        }
+        if (below) *ends.below++ = e;
+        if (above) *ends.above++ = e;
+    }
+    return ends;
+}
+
+std::int64_t unpacked(const Frame& frame, std::size_t axis, int q) {
+    return frame.origin[axis] + (static_cast<std::int64_t>(q) << frame.shift);
+}
+
+// The reach of all lists in a child, exact up to rounding outwards.
+Box reach_in(const CellTask& task, const Cell& cell) {
+    PackedBox all;
+    for (const CellOperand& o : task.operands)
+        if (o.is_list && !o.unbounded && !o.box.is_empty()) all.add(o.box);
+    const Box b = cell.lattice_box();
+    if (all.is_empty()) return b;
+    Box reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool open_low = all.low(k) <= -packed_limit;
+        const bool open_high = all.high(k) >= packed_limit;
+        reach.lo[k] = open_low ? b.lo[k] : unpacked(task.frame, k, all.low(k));
+        reach.hi[k] = open_high ? b.hi[k] : unpacked(task.frame, k, all.high(k) + 1) - 1;
+    }
+    return reach.intersected(b);
+}
+
+}  // namespace
+
+PackedBox packed_cell(const Frame& frame, const Cell& cell) {
+    return PackedBox::of(frame, cell.lattice_box());
+}
+
+Box exact_box(const CellOperand& operand, const Cell& cell) {
+    Box all;
+    const PolygonList& polygons = operand.node->polygons();
+    if (operand.is_list) {
+        for (const PackedBox& e : operand.list()) all.add(operand.polygon(e.id).box());
+    } else if (polygons.has_all_facets()) {
+        all = polygons.whole_source()->box();
+    } else {
+        for_each_box(*operand.node, [&](std::uint32_t, const Box& b) { all.add(b); });
+    }
+    return all.intersected(cell.lattice_box());
+}
+
+void open_leaf(CellOperand& operand, const CellTask& task, StackArena& arena) {
+    auto* entries = arena.take<PackedBox>(operand.node->polygons().size());
+    std::uint32_t n = 0;
+    Box all;
+    for_each_box(*operand.node, [&](std::uint32_t id, const Box& b) {
+        entries[n++] = PackedBox::of(task.frame, b, id);
+        all.add(b);
+    });
+    operand.entries = entries;
+    operand.count = n;
+    operand.is_list = true;
+    operand.unbounded = n == 1 && operand.polygon(entries[0].id).source->is_half_space();
+    operand.drawn_in = n != 0 && reaches_out(task.frame, all);
+    set_box(operand, task, task.cell);
+}
+
+void reframe(CellOperand& operand, const CellTask& task, StackArena& arena) {
+    auto* entries = arena.take<PackedBox>(operand.count);
+    Box all;
+    for (std::uint32_t i = 0; i < operand.count; ++i) {
+        const std::uint32_t id = operand.entries[i].id;
+        const Box b = operand.polygon(id).box();
+        entries[i] = PackedBox::of(task.frame, b, id);
+        all.add(b);
+    }
+    operand.entries = entries;
+    operand.drawn_in = operand.count != 0 && reaches_out(task.frame, all);
+    set_box(operand, task, task.cell);
+}
+
+void partition(const CellOperand& operand, const CellTask& task, const Wall& wall,
+               const std::array<Cell, 2>& cells, StackArena& arena,
+               std::array<CellOperand, 2>& out) {
+    const auto k = static_cast<std::size_t>(wall.axis);
+    out[0] = out[1] = operand;
+    if (operand.count == 0) return;
+    const std::int64_t last = wall.last_below();
+    const auto q = task.frame.first_above(k, last);
+    if (!operand.drawn_in) {
+        // The box is exact outside the frame as well.
+        const bool all_below = q ? operand.box.high(k) < *q
+                                 : last >= unpacked(task.frame, k, operand.box.high(k) + 1) - 1;
+        const bool all_above =
+            q ? operand.box.low(k) >= *q : last < unpacked(task.frame, k, operand.box.low(k));
+        if (all_below || all_above) {
+            CellOperand& none = out[all_below ? 1 : 0];
+            none.count = 0;
+            none.box = PackedBox{};
+            return;
+        }
+    }
+    auto* below = arena.take<PackedBox>(2 * std::size_t{operand.count});
+    auto* above = below + operand.count;
+    Ends ends{below, above};
+    const bool small = task.size() < short_list;
+    if (q && !small) {
+        ends = distribute_packed(operand.list(), k, *q, ends);
+    } else {
+        PackedBox reach;
+        for (const CellOperand& o : task.operands)
+            if (o.is_list && !o.unbounded && !o.box.is_empty()) reach.add(o.box);
+        const Doubt doubt{
+            small && !reach.is_empty() ? (reach.high(k) - reach.low(k)) / 4 : 4 * packed_limit,
+            {reach_in(task, cells[0]), reach_in(task, cells[1])}};
+        if (q) {
+            ends = distribute_with_doubt(operand, k, doubt, ends, [&](const PackedBox& e) {
+                return std::pair(e.low(k) < *q, e.high(k) >= *q);
+            });
+        } else {
+            ends = distribute_with_doubt(operand, k, doubt, ends, [&](const PackedBox& e) {
+                const Box b = operand.polygon(e.id).box();
+                return std::pair(b.lo[k] <= last, b.hi[k] > last);
+            });
+        }
+    }
+    const auto n_below = static_cast<std::size_t>(ends.below - below);
+    const auto n_above = static_cast<std::size_t>(ends.above - above);
+    std::memmove(static_cast<void*>(ends.below), above, n_above * sizeof(PackedBox));
+    arena.shrink(ends.below + n_above);
+    out[0].entries = below;
+    out[0].count = static_cast<std::uint32_t>(n_below);
+    out[1].entries = ends.below;
+    out[1].count = static_cast<std::uint32_t>(n_above);
+    for (std::size_t i = 0; i < 2; ++i) set_box(out[i], task, cells[i]);
+}
+
+}  // namespace trisect::detail
