@@ -665,12 +665,20 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sta
     return p;
 }
 
+bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::max(a.c[k], b.c[k]) < box.lo[k] * wall_scale ||
+            std::min(a.c[k], b.c[k]) > box.hi[k] * wall_scale)
+            return true;
+    return false;
+}
+
 // Winding number of a root at a point: at once where the way there is free.
 std::optional<int> winding_of_root(Worker& worker, const SolidState& state, const FinePoint& p) {
     const CellNode& n = *state.root.node;
     const Source* whole =
         n.is_leaf() && n.polygons().has_all_facets() ? n.polygons().whole_source() : nullptr;
-    if (whole != nullptr && !whole->box().overlaps(box_around(n.reference(), p)))
+    if (whole != nullptr && passes_by(whole->box(), n.reference(), p))
         return complemented_winding(n.winding(), state.root.complemented);
     return worker.winding_at(n, state.root.complemented, Cell{}, p);
 }
