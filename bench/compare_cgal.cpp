@@ -36,7 +36,7 @@
 #include <trisect/bsp/solid.h>
 
 #include "corefinement.h"
-#include "scenes.h"
+#include "shapes.h"
 
 namespace {
 
@@ -91,8 +91,8 @@ Scene scene_of(const std::string& name, PolygonMesh a, PolygonMesh b) {
 /// Nothing when the model is absent.
 std::optional<Scene> make_scene(const std::string& name) {
     if (name == "spheres") {
-        PolygonMesh sphere = scenes::icosphere(6);
-        return scene_of(name, sphere, scenes::moved(sphere, scenes::along_1_2_3(0.5)));
+        PolygonMesh sphere = shapes::icosphere(6);
+        return scene_of(name, sphere, shapes::moved(sphere, shapes::along_1_2_3(0.5)));
     }
     const char* models = std::getenv("TRISECT_MODELS");
     const std::filesystem::path path =
@@ -103,7 +103,7 @@ std::optional<Scene> make_scene(const std::string& name) {
         return std::nullopt;
     }
     const PolygonMesh mesh = trisect::read_mesh(path);
-    return scene_of(name, mesh, scenes::turned(mesh));
+    return scene_of(name, mesh, shapes::turned(mesh));
 }
 
 trisect::Expression expression(std::size_t operation, const Solid& a, const Solid& b) {
@@ -179,7 +179,7 @@ json measure(const Scene& scene, std::size_t operation, int runs) {
         run_ours(scene, operation, times, outcome);
         run_peer(scene, operation, times, outcome);
     }
-    const scenes::Size ours = scenes::size_of(outcome.ours);
+    const shapes::Size ours = shapes::size_of(outcome.ours);
     json out{{"scene", scene.name},
              {"operation", names[operation]},
              {"triangles_in", scene.a.face_count() + scene.b.face_count()},
@@ -198,7 +198,7 @@ json measure(const Scene& scene, std::size_t operation, int runs) {
                {"export", median(times.peer_export)},
                {"total", median(times.peer_total)}}}};
     if (outcome.refusal.empty()) {
-        const scenes::Size peer = scenes::size_of(outcome.peer);
+        const shapes::Size peer = shapes::size_of(outcome.peer);
         out["ratio"] = median(times.peer_total) / median(times.total);
         out["difference"] =
             std::max(relative(ours.volume, peer.volume), relative(ours.area, peer.area));

@@ -6,12 +6,15 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/version_macros.h>
 
 #include <chrono>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace corefinement {
@@ -112,6 +115,25 @@ bool operate(Mesh& a, Mesh& b, Mesh& result, Operation operation) {
 }
 
 }  // namespace
+
+std::string version() { return CGAL_VERSION_STR; }
+
+struct Polyhedron {
+    Mesh mesh;
+};
+
+std::shared_ptr<Polyhedron> import(const trisect::PolygonMesh& mesh) {
+    return std::make_shared<Polyhedron>(Polyhedron{surface_mesh(mesh)});
+}
+
+std::shared_ptr<Polyhedron> combine(Polyhedron& a, Polyhedron& b, Operation operation) {
+    auto result = std::make_shared<Polyhedron>();
+    if (!operate(a.mesh, b.mesh, result->mesh, operation))
+        throw std::runtime_error("declined: the result is not a manifold");
+    return result;
+}
+
+trisect::PolygonMesh to_mesh(const Polyhedron& polyhedron) { return polygon_mesh(polyhedron.mesh); }
 
 Answer run(const trisect::PolygonMesh& a, const trisect::PolygonMesh& b, Operation operation) {
     Answer answer;

@@ -50,7 +50,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
-#include "bench/scenes.h"
+#include "bench/shapes.h"
 #ifdef TRISECT_WITH_CGAL
 #include "bench/corefinement.h"
 #endif
@@ -113,7 +113,7 @@ std::optional<Operands> operands_of(const std::filesystem::path& path, bool vali
     if (imported.report.inside_out) return refuse("inside out");
 
     PolygonMesh a = in_doubles(imported.mesh);
-    PolygonMesh b = scenes::turned(a);
+    PolygonMesh b = shapes::turned(a);
     auto points = a.points;
     points.insert(points.end(), b.points.begin(), b.points.end());
     options.lattice = trisect::choose_lattice(points);
@@ -215,7 +215,7 @@ Brep run_operation(int operation, const Solid& a, const Solid& b, json& out) {
     out["cut_vertices"] = cut_vertices(brep);
     out["volume"] = trisect::volume(brep);
     out["area"] = trisect::area(brep).value;
-    const scenes::Size size = scenes::size_of(mesh);
+    const shapes::Size size = shapes::size_of(mesh);
     out["mesh_volume_error"] = relative(size.volume, out["volume"]);
     out["mesh_area_error"] = relative(size.area, out["area"]);
     out["open_edges"] = open_edges(mesh) + open_edges(trisect::to_polygon_mesh(brep));
@@ -278,7 +278,7 @@ void run_peer([[maybe_unused]] const std::filesystem::path& path,
         json& out = report[names[k]];
         out["seconds"] = answer.import_seconds + answer.operation_seconds;
         if (answer.refusal.empty()) {
-            const scenes::Size size = scenes::size_of(answer.mesh);
+            const shapes::Size size = shapes::size_of(answer.mesh);
             out["triangles"] = answer.mesh.face_count();
             out["volume"] = size.volume;
             out["area"] = size.area;

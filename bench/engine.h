@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Engine: what a boolean library must offer to be measured. Each is linked with run_engine.cpp into
+// a program of its own, so that peak memory is its own and a crash stops nobody else.
+#pragma once
+
+#include <any>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <trisect/brep/polygon_mesh.h>
+
+#include "scene.h"
+
+namespace bench {
+
+class Engine {
+public:
+    /// A solid in the library's own form; cheap to copy.
+    using Body = std::any;
+
+    Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+    virtual ~Engine() = default;
+
+    [[nodiscard]] virtual std::string name() const = 0;
+    [[nodiscard]] virtual std::string version() const = 0;
+
+    [[nodiscard]] virtual Body import(const trisect::PolygonMesh& mesh) = 0;
+    /// The union of `first`, combined with the union of `second` unless that is empty; computed
+    /// when this returns. May use its operands up. \pre `first` is not empty.
+    [[nodiscard]] virtual Body evaluate(std::span<const Body> first, std::span<const Body> second,
+                                        Operation operation) = 0;
+    /// Triangles with rounded coordinates.
+    [[nodiscard]] virtual trisect::PolygonMesh to_mesh(const Body& body) = 0;
+    /// Makes the boundary representation and drops it; false when the engine has none to make.
+    virtual bool assemble(const Body& /*body*/) { return false; }
+    /// What the last evaluate() counted.
+    [[nodiscard]] virtual nlohmann::json counters() const { return nlohmann::json::object(); }
+};
+
+/// With the number of threads that it may use.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(int threads);
+
+}  // namespace bench

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Manifold (https://github.com/elalish/manifold) through its public interface.
+
+#include <manifold/manifold.h>
+#include <manifold/version.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#ifdef TRISECT_BENCH_MANIFOLD_PARALLEL
+#include <oneapi/tbb/global_control.h>
+#endif
+
+#include "engine.h"
+
+namespace bench {
+
+namespace {
+
+using manifold::Manifold;
+using manifold::MeshGL64;
+using manifold::OpType;
+
+/// Forces the evaluation, which is lazy.
+Manifold evaluated(Manifold m) {
+    if (m.Status() != Manifold::Error::NoError)
+        throw std::runtime_error("status " + std::to_string(static_cast<int>(m.Status())));
+    static_cast<void>(m.NumTri());
+    return m;
+}
+
+class ManifoldEngine final : public Engine {
+public:
+#ifdef TRISECT_BENCH_MANIFOLD_PARALLEL
+    explicit ManifoldEngine(int threads)
+        : threads_(oneapi::tbb::global_control::max_allowed_parallelism,
+                   static_cast<std::size_t>(threads)) {}
+    std::string name() const override { return "manifold-parallel"; }
+#else
+    explicit ManifoldEngine(int threads) {
+        if (threads != 1) throw std::runtime_error("this Manifold was built serial");
+    }
+    std::string name() const override { return "manifold"; }
+#endif
+    std::string version() const override {
+        return std::to_string(MANIFOLD_VERSION_MAJOR) + "." +
+               std::to_string(MANIFOLD_VERSION_MINOR) + "." +
+               std::to_string(MANIFOLD_VERSION_PATCH);
+    }
+
+    Body import(const trisect::PolygonMesh& mesh) override {
+        MeshGL64 arrays;
+        arrays.numProp = 3;
+        arrays.vertProperties.reserve(3 * mesh.points.size());
+        for (const trisect::Point3d& p : mesh.points)
+            arrays.vertProperties.insert(arrays.vertProperties.end(), p.begin(), p.end());
+        arrays.triVerts.assign(mesh.corners.begin(), mesh.corners.end());
+        return evaluated(Manifold(arrays));
+    }
+
+    Body evaluate(std::span<const Body> first, std::span<const Body> second,
+                  Operation operation) override {
+        const Manifold a = united(first);
+        if (second.empty()) return evaluated(a);
+        return evaluated(a.Boolean(united(second), type_of(operation)));
+    }
+
+    /// The merge vectors join vertices that are there several times for the sake of properties.
+    trisect::PolygonMesh to_mesh(const Body& body) override {
+        const MeshGL64 arrays = std::any_cast<const Manifold&>(body).GetMeshGL64();
+        trisect::PolygonMesh mesh;
+        const std::size_t n = arrays.vertProperties.size() / arrays.numProp;
+        mesh.points.resize(n);
+        std::vector<std::uint32_t> vertex(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            vertex[i] = static_cast<std::uint32_t>(i);
+            for (std::size_t k = 0; k < 3; ++k)
+                mesh.points[i][k] = arrays.vertProperties[i * arrays.numProp + k];
+        }
+        for (std::size_t i = 0; i < arrays.mergeFromVert.size(); ++i)
+            vertex[arrays.mergeFromVert[i]] = static_cast<std::uint32_t>(arrays.mergeToVert[i]);
+        const std::size_t triangles = arrays.triVerts.size() / 3;
+        mesh.corners.resize(3 * triangles);
+        mesh.face_begin.resize(triangles + 1);
+        for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+            mesh.corners[i] = vertex[arrays.triVerts[i]];
+        for (std::size_t i = 0; i <= triangles; ++i)
+            mesh.face_begin[i] = static_cast<std::uint32_t>(3 * i);
+        return mesh;
+    }
+
+private:
+    static OpType type_of(Operation operation) {
+        if (operation == Operation::Union) return OpType::Add;
+        return operation == Operation::Intersection ? OpType::Intersect : OpType::Subtract;
+    }
+
+    static Manifold united(std::span<const Body> bodies) {
+        if (bodies.size() == 1) return std::any_cast<const Manifold&>(bodies[0]);
+        std::vector<Manifold> all;
+        all.reserve(bodies.size());
+        for (const Body& b : bodies) all.push_back(std::any_cast<const Manifold&>(b));
+        return Manifold::BatchBoolean(all, OpType::Add);
+    }
+
+#ifdef TRISECT_BENCH_MANIFOLD_PARALLEL
+    oneapi::tbb::global_control threads_;
+#endif
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine(int threads) {
+    return std::make_unique<ManifoldEngine>(threads);
+}
+
+}  // namespace bench

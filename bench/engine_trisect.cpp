@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <oneapi/tbb/global_control.h>
+
+#include <trisect/brep/brep.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include "engine.h"
+
+namespace bench {
+
+namespace {
+
+using trisect::Expression;
+using trisect::Solid;
+
+class TrisectEngine final : public Engine {
+public:
+    explicit TrisectEngine(int threads)
+        : threads_(oneapi::tbb::global_control::max_allowed_parallelism,
+                   static_cast<std::size_t>(threads)) {}
+
+    std::string name() const override { return "trisect"; }
+    std::string version() const override { return TRISECT_BENCH_VERSION; }
+
+    Body import(const trisect::PolygonMesh& mesh) override { return Solid::from_mesh(mesh); }
+
+    Body evaluate(std::span<const Body> first, std::span<const Body> second,
+                  Operation operation) override {
+        stats_ = {};
+        return trisect::evaluate(expression(first, second, operation), {}, &stats_);
+    }
+
+    trisect::PolygonMesh to_mesh(const Body& body) override { return solid(body).to_mesh(); }
+
+    bool assemble(const Body& body) override {
+        const trisect::Brep brep = solid(body).to_brep();
+        return true;
+    }
+
+    nlohmann::json counters() const override {
+        return {{"cells", stats_.cells},
+                {"shared_cells", stats_.shared_cells},
+                {"constant_cells", stats_.constant_cells},
+                {"mixed_leaves", stats_.mixed_leaves},
+                {"listed_polygons", stats_.listed_polygons},
+                {"pairs_boxes", stats_.pairs_boxes},
+                {"pairs_cutting", stats_.pairs_cutting},
+                {"pieces", stats_.pieces},
+                {"traces", stats_.traces},
+                {"traces_retried", stats_.traces_retried},
+                {"depth", stats_.depth}};
+    }
+
+private:
+    static const Solid& solid(const Body& body) { return *std::any_cast<Solid>(&body); }
+
+    static Expression any_of(std::span<const Body> bodies) {
+        if (bodies.size() == 1) return solid(bodies[0]);
+        std::vector<Expression> terms;
+        terms.reserve(bodies.size());
+        for (const Body& b : bodies) terms.emplace_back(solid(b));
+        return Expression::any_of(terms);
+    }
+
+    static Expression expression(std::span<const Body> first, std::span<const Body> second,
+                                 Operation operation) {
+        const Expression a = any_of(first);
+        if (second.empty()) return a;
+        const Expression b = any_of(second);
+        if (operation == Operation::Union) return a | b;
+        if (operation == Operation::Intersection) return a & b;
+        return a - b;
+    }
+
+    oneapi::tbb::global_control threads_;
+    trisect::EvaluateStats stats_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_engine(int threads) {
+    return std::make_unique<TrisectEngine>(threads);
+}
+
+}  // namespace bench

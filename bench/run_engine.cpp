@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Runs one scene with the engine that this program is linked with, and prints one line of JSON:
+// what was run, the medians of import, evaluation and export in milliseconds, peak memory, the size
+// of the result, and what the engine counted.
+//
+//     bench_ENGINE --scene b:82k --op union [--runs 5] [--threads 1] [--limit SECONDS] [--profile]
+//                  [--serve] [--write FILE]
+//
+// Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
+// the tools' import is import, and all steps together are the evaluation. --limit ends a chain
+// after so much time: `steps` then says how far it came. --profile also times making the B-rep.
+// --write leaves the result's triangles as OFF.
+//
+// With --serve the program waits for a line on its standard input before every run and prints one
+// line for each; at the end of the input it prints the summary. So a script can let engines take
+// turns (scripts/bench-scenes), which is the way to compare on a machine whose speed drifts.
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <trisect/brep/io/write_mesh.h>
+
+#include "engine.h"
+#include "scene.h"
+#include "shapes.h"
+
+namespace {
+
+using bench::Engine;
+using bench::Operation;
+using bench::Scene;
+using nlohmann::json;
+using trisect::PolygonMesh;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    std::string scene;
+    Operation operation = Operation::Union;
+    bool operation_given = false;
+    int runs = 5;
+    int threads = 1;
+    double limit = 0;
+    bool profile = false;
+    bool serve = false;
+    std::string write;
+};
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const std::size_t n = values.size();
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// Of the process, so far.
+double peak_megabytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Of the process, now.
+double resident_megabytes() {
+    std::ifstream statm("/proc/self/statm");
+    double all = 0;
+    double resident = 0;
+    statm >> all >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+/// Of one run, in milliseconds.
+struct Times {
+    double import = 0;
+    double evaluate = 0;
+    double to_mesh = 0;
+    [[nodiscard]] double total() const { return import + evaluate + to_mesh; }
+    [[nodiscard]] json to_json() const {
+        return {{"import_ms", import},
+                {"evaluate_ms", evaluate},
+                {"export_ms", to_mesh},
+                {"total_ms", total()}};
+    }
+};
+
+/// How a chain went: the mean time of a step, import of its tool included, and the memory at the
+/// end, for each window of steps.
+struct Chain {
+    std::size_t steps = 0;
+    std::size_t window = 0;
+    std::vector<double> step_ms;
+    std::vector<double> resident_mb;
+};
+
+class Job {
+public:
+    Job(const Options& options, Engine& engine, Scene scene)
+        : options_(options), engine_(engine), scene_(std::move(scene)) {
+        inputs_mb_ = resident_megabytes();
+    }
+
+    Times run() {
+        Times t;
+        result_ = {};
+        body_.reset();
+        if (scene_.is_chain())
+            run_chain(t);
+        else
+            run_expression(t);
+        counters_ = engine_.counters();
+        const auto start = Clock::now();
+        result_ = engine_.to_mesh(body_);
+        t.to_mesh = milliseconds_since(start);
+        if (times_.empty()) peak_mb_ = peak_megabytes();
+        times_.push_back(t);
+        return t;
+    }
+
+    /// After the last run: the checks of its result need memory and time of their own.
+    json summary();
+
+private:
+    void run_expression(Times& t);
+    void run_chain(Times& t);
+    void check(json& out) const;
+
+    const Options& options_;
+    Engine& engine_;
+    Scene scene_;
+    double inputs_mb_ = 0;
+    double peak_mb_ = 0;  ///< after the first run
+    std::vector<Times> times_;
+    Engine::Body body_;
+    PolygonMesh result_;
+    Chain chain_;
+    json counters_;
+};
+
+void Job::run_expression(Times& t) {
+    auto start = Clock::now();
+    std::vector<Engine::Body> bodies;
+    bodies.reserve(scene_.operands.size());
+    for (const PolygonMesh& m : scene_.operands) bodies.push_back(engine_.import(m));
+    t.import = milliseconds_since(start);
+    start = Clock::now();
+    const std::span<const Engine::Body> all(bodies);
+    body_ = engine_.evaluate(all.first(scene_.first_group), all.subspan(scene_.first_group),
+                             options_.operation);
+    t.evaluate = milliseconds_since(start);
+}
+
+void Job::run_chain(Times& t) {
+    const auto begin = Clock::now();
+    chain_ = {};
+    chain_.window = std::clamp<std::size_t>(scene_.steps / 10, 1, 1000);
+    auto start = Clock::now();
+    body_ = engine_.import(scene_.operands[0]);
+    if (scene_.untimed == 0) t.import = milliseconds_since(start);
+    double window_ms = 0;
+    for (std::size_t i = 0; i < scene_.steps; ++i) {
+        if (options_.limit > 0 && milliseconds_since(begin) > 1000 * options_.limit) break;
+        const bench::Step step = scene_.step(i);
+        start = Clock::now();
+        const Engine::Body tool = engine_.import(step.tool);
+        const double import = milliseconds_since(start);
+        start = Clock::now();
+        body_ = engine_.evaluate({&body_, 1}, {&tool, 1}, step.operation);
+        const double evaluate = milliseconds_since(start);
+        ++chain_.steps;
+        if (i < scene_.untimed) continue;
+        t.import += import;
+        t.evaluate += evaluate;
+        window_ms += import + evaluate;
+        if ((i + 1) % chain_.window != 0) continue;
+        chain_.step_ms.push_back(window_ms / static_cast<double>(chain_.window));
+        chain_.resident_mb.push_back(resident_megabytes());
+        window_ms = 0;
+    }
+}
+
+void Job::check(json& out) const {
+    const shapes::Size size = shapes::size_of(result_);
+    out["vertices"] = result_.points.size();
+    out["triangles"] = result_.face_count();
+    out["open_edges"] = shapes::open_edges(result_);
+    out["volume"] = size.volume;
+    out["area"] = size.area;
+    const auto wanted = bench::expected(scene_.name, options_.operation);
+    if (!wanted || (scene_.is_chain() && chain_.steps != scene_.steps)) return;
+    out["volume_is_right"] =
+        std::abs(size.volume - wanted->volume) <= wanted->tolerance * std::abs(wanted->volume);
+}
+
+json Job::summary() {
+    std::size_t triangles = 0;
+    for (const PolygonMesh& m : scene_.operands) triangles += m.face_count();
+    json out{{"scene", scene_.name},
+             {"operation", bench::name_of(options_.operation)},
+             {"engine", engine_.name()},
+             {"version", engine_.version()},
+             {"threads", options_.threads},
+             {"runs", times_.size()},
+             {"operands", scene_.operands.size()},
+             {"triangles_in", triangles}};
+    const auto median_of = [&](auto part) {
+        std::vector<double> values;
+        for (const Times& t : times_) values.push_back(part(t));
+        return median(values);
+    };
+    out["import_ms"] = median_of([](const Times& t) { return t.import; });
+    out["evaluate_ms"] = median_of([](const Times& t) { return t.evaluate; });
+    out["export_ms"] = median_of([](const Times& t) { return t.to_mesh; });
+    out["total_ms"] = median_of([](const Times& t) { return t.total(); });
+    out["inputs_mb"] = inputs_mb_;
+    out["peak_mb"] = peak_mb_;
+    if (scene_.is_chain())
+        out["chain"] = {{"steps", chain_.steps},
+                        {"of", scene_.steps},
+                        {"window", chain_.window},
+                        {"step_ms", chain_.step_ms},
+                        {"resident_mb", chain_.resident_mb}};
+    out["counters"] = counters_;
+    if (options_.profile) {
+        const auto start = Clock::now();
+        if (engine_.assemble(body_)) out["assemble_ms"] = milliseconds_since(start);
+    }
+    check(out);
+    if (!options_.write.empty()) trisect::write_mesh(options_.write, result_);
+    return out;
+}
+
+std::optional<Options> parse(int argc, char** argv) {
+    Options out;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--serve" || word == "--profile") {
+            (word == "--serve" ? out.serve : out.profile) = true;
+            continue;
+        }
+        if (++i == argc) return std::nullopt;
+        const std::string value = argv[i];
+        if (word == "--scene") {
+            out.scene = value;
+        } else if (word == "--op") {
+            const auto operation = bench::operation_of(value);
+            if (!operation) return std::nullopt;
+            out.operation = *operation;
+            out.operation_given = true;
+        } else if (word == "--runs") {
+            out.runs = std::atoi(value.c_str());
+        } else if (word == "--threads") {
+            out.threads = std::atoi(value.c_str());
+        } else if (word == "--limit") {
+            out.limit = std::atof(value.c_str());
+        } else if (word == "--write") {
+            out.write = value;
+        } else {
+            return std::nullopt;
+        }
+    }
+    if (out.scene.empty() || out.runs <= 0 || out.threads <= 0) return std::nullopt;
+    return out;
+}
+
+void serve(Job& job) {
+    std::cout << json{{"ready", true}} << std::endl;
+    for (std::string line; std::getline(std::cin, line);)
+        std::cout << job.run().to_json() << std::endl;
+}
+
+int run(Options options) {
+    Scene scene = bench::make_scene(options.scene);
+    const auto& operations = scene.operations;
+    if (!options.operation_given) options.operation = operations.front();
+    if (std::ranges::find(operations, options.operation) == operations.end()) {
+        std::cerr << options.scene << " has no " << bench::name_of(options.operation) << "\n";
+        return 2;
+    }
+    const auto engine = bench::make_engine(options.threads);
+    Job job(options, *engine, std::move(scene));
+    if (options.serve)
+        serve(job);
+    else
+        for (int i = 0; i < options.runs; ++i) job.run();
+    std::cout << job.summary() << std::endl;
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto options = parse(argc, argv);
+    if (!options) {
+        std::cerr << "usage: " << argv[0]
+                  << " --scene NAME [--op union|intersection|difference] [--runs 5] [--threads 1] "
+                     "[--limit SECONDS] [--profile] [--serve] [--write FILE]\n";
+        return 2;
+    }
+    try {
+        return run(*options);
+    } catch (const std::exception& e) {
+        std::cout << json{{"scene", options->scene}, {"error", e.what()}} << std::endl;
+        return 1;
+    }
+}

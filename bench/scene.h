@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scene: a boolean job that every engine can be given, found by its name.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <trisect/brep/polygon_mesh.h>
+
+namespace bench {
+
+enum class Operation { Union, Intersection, Difference };
+
+/// "union", "intersection", "difference".
+[[nodiscard]] const char* name_of(Operation operation);
+[[nodiscard]] std::optional<Operation> operation_of(const std::string& name);
+
+/// One step of a chain: what so far is there, combined with a tool.
+struct Step {
+    Operation operation = Operation::Difference;
+    trisect::PolygonMesh tool;
+};
+
+/// Either one expression or a chain.
+///
+/// An expression is the union of the first group of operands, combined with the union of the second
+/// group if there is one. A chain starts with its only operand and is evaluated after every step;
+/// its tools are made when they are due, since there may be a hundred thousand.
+struct Scene {
+    std::string name;
+    std::vector<trisect::PolygonMesh> operands;
+    std::size_t first_group = 1;            ///< operands in the first group
+    std::vector<Operation> operations;      ///< that make sense for it
+    std::size_t steps = 0;                  ///< of a chain
+    std::size_t untimed = 0;                ///< steps at its start that prepare and do not count
+    std::function<Step(std::size_t)> step;  ///< by its number, from 0
+    [[nodiscard]] bool is_chain() const { return steps != 0; }
+};
+
+/// The scenes by name, WHAT:SIZE. All operands of a scene lie on one lattice.
+///
+///     a:bunny a:armadillo a:cow     100k triangles against themselves, turned by 37 degrees about
+///                                   (1,2,3) and moved by a tenth of the box (TRISECT_MODELS)
+///     b:5k b:82k b:328k b:1.3M      two icospheres, centres half a radius apart
+///     c:82k c:1.3M                  an icosphere less one of 320 triangles and a tenth its size
+///     c:82k:indexed c:1.3M:indexed  the same after an untimed cut on the other side
+///     d:spheres d:cubes             the union of 1000 solids, turned and placed at random
+///     d:tori                        the union of fifty tori (TRISECT_MODELS)
+///     e:25k e:99k e:400k            milling: 1000 cuts by a sphere of 320 triangles in a block;
+///                                   e:99k:10000 for another number of cuts, 1000 a layer
+///     f:grid                        1000 cubes united and subtracted one by one, 1999 booleans
+///     f:menger3 f:menger4           Menger sponge: a cube less the bars of x, y and z
+///     f:beams                       20 beams along x and 20 along y that cross
+///     f:fan                         20 cubes turned about an axis, sharing two planes
+///     f:gears                       two fans of 50 cubes each, side by side in the same planes
+///     f:touch f:overlap             10³ cubes that touch in faces, or overlap with coplanar faces
+///
+/// \throw UsageError for an unknown name, InputError when a model is absent.
+[[nodiscard]] Scene make_scene(const std::string& name);
+
+/// What the result must have.
+struct Expected {
+    double volume = 0;
+    double tolerance = 0;  ///< relative, what rounding of coordinates explains
+};
+
+/// Nothing for scenes whose volume is not known from elsewhere.
+[[nodiscard]] std::optional<Expected> expected(const std::string& scene, Operation operation);
+
+}  // namespace bench
