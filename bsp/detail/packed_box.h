@@ -142,6 +142,34 @@ private:
 #endif
 };
 
+/// A point in a frame, as the box that holds it alone.
+[[nodiscard]] inline PackedBox packed_point(const Frame& frame, const LatticePoint& p) {
+    PackedBox b;
+    for (std::size_t k = 0; k < 3; ++k) {
+        b.lo[k] = frame.at(k, p[static_cast<int>(k)]);
+        b.minus_hi[k] = static_cast<std::int16_t>(-b.lo[k]);
+    }
+    return b;
+}
+
+/// The box of three boxes.
+[[nodiscard]] inline PackedBox box_of_three(const PackedBox& a, const PackedBox& b,
+                                            const PackedBox& c) {
+    PackedBox r;
+#if defined(__SSE2__)
+    const auto lanes = [](const PackedBox& p) {
+        return _mm_load_si128(reinterpret_cast<const __m128i*>(&p));
+    };
+    _mm_store_si128(reinterpret_cast<__m128i*>(&r),
+                    _mm_min_epi16(_mm_min_epi16(lanes(a), lanes(b)), lanes(c)));
+#else
+    r.add(a);
+    r.add(b);
+    r.add(c);
+#endif
+    return r;
+}
+
 /// The box of a list.
 [[nodiscard]] inline PackedBox box_of(const PackedBox* list, std::size_t count) {
     PackedBox all;

@@ -18,7 +18,7 @@ namespace trisect::detail {
 namespace {
 
 // In longer lists a few facets too many cost less than looking.
-constexpr std::size_t short_list = 20000;
+constexpr std::size_t short_list = 4000;
 
 template <class Visit>
 void for_each_box(const CellNode& leaf, Visit&& visit) {
@@ -127,8 +127,38 @@ Box exact_box(const CellOperand& operand, const Cell& cell) {
     return all.intersected(cell.lattice_box());
 }
 
+namespace {
+
+// All facets of a mesh: every corner is rounded once.
+void pack_all(const Source& source, const Frame& frame, StackArena& arena, PackedBox* entries) {
+    const auto& mesh = source.mesh();
+    const auto mark = arena.mark();
+    auto* points = arena.take<PackedBox>(mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        points[i] = packed_point(frame, mesh.points[i]);
+    for (std::uint32_t f = 0; f < source.facet_count(); ++f) {
+        const auto& t = mesh.triangles[f];
+        entries[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+        entries[f].id = f;
+    }
+    arena.release(mark);
+}
+
+}  // namespace
+
 void open_leaf(CellOperand& operand, const CellTask& task, StackArena& arena) {
     auto* entries = arena.take<PackedBox>(operand.node->polygons().size());
+    const PolygonList& polygons = operand.node->polygons();
+    if (polygons.has_all_facets() && !polygons.whole_source()->is_half_space()) {
+        pack_all(*polygons.whole_source(), task.frame, arena, entries);
+        operand.entries = entries;
+        operand.count = polygons.whole_source()->facet_count();
+        operand.is_list = true;
+        operand.unbounded = false;
+        operand.drawn_in = reaches_out(task.frame, polygons.whole_source()->box());
+        set_box(operand, task, task.cell);
+        return;
+    }
     std::uint32_t n = 0;
     Box all;
     for_each_box(*operand.node, [&](std::uint32_t id, const Box& b) {
