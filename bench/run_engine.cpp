@@ -16,8 +16,7 @@
 // line for each; at the end of the input it prints the summary. So a script can let engines take
 // turns (scripts/bench-scenes), which is the way to compare on a machine whose speed drifts.
 
-#include <sys/resource.h>
-#include <unistd.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -72,20 +71,21 @@ double median(std::vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-/// Of the process, so far.
-double peak_megabytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
+/// A line of /proc/self/status in megabytes: VmRSS now, VmHWM at its highest. (What getrusage calls
+/// the peak begins with the memory of the process that started this one.)
+double memory_megabytes(const std::string& name) {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(name + ":")) return std::atof(line.c_str() + name.size() + 1) / 1024;
+    return 0;
 }
+double peak_megabytes() { return memory_megabytes("VmHWM"); }
+double resident_megabytes() { return memory_megabytes("VmRSS"); }
 
-/// Of the process, now.
-double resident_megabytes() {
-    std::ifstream statm("/proc/self/statm");
-    double all = 0;
-    double resident = 0;
-    statm >> all >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+/// Making a scene takes more memory than having it: that is given back and forgotten.
+void forget_peak_memory() {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 /// Of one run, in milliseconds.
@@ -115,6 +115,7 @@ class Job {
 public:
     Job(const Options& options, Engine& engine, Scene scene)
         : options_(options), engine_(engine), scene_(std::move(scene)) {
+        forget_peak_memory();
         inputs_mb_ = resident_megabytes();
     }
 
@@ -233,11 +234,9 @@ json Job::summary() {
     out["inputs_mb"] = inputs_mb_;
     out["peak_mb"] = peak_mb_;
     if (scene_.is_chain())
-        out["chain"] = {{"steps", chain_.steps},
-                        {"of", scene_.steps},
-                        {"window", chain_.window},
-                        {"step_ms", chain_.step_ms},
-                        {"resident_mb", chain_.resident_mb}};
+        out["chain"] = {{"steps", chain_.steps},     {"of", scene_.steps},
+                        {"untimed", scene_.untimed}, {"window", chain_.window},
+                        {"step_ms", chain_.step_ms}, {"resident_mb", chain_.resident_mb}};
     out["counters"] = counters_;
     if (options_.profile) {
         const auto start = Clock::now();
