@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -18,14 +19,21 @@ using detail::SolidState;
 
 namespace {
 
-// What is incomplete in an operand stays so in the result, wherever that shares its leaves.
+// What is incomplete in an operand stays so in the result, wherever that shares its leaves. The
+// longest list is merged and not sorted again: in a chain that is all but what the last step added.
 std::vector<FacetName> all_incomplete(
     std::vector<FacetName> made, const std::vector<std::shared_ptr<const SolidState>>& states) {
-    for (const auto& s : states)
-        made.insert(made.end(), s->incomplete.begin(), s->incomplete.end());
-    std::sort(made.begin(), made.end());
+    const auto longest = std::ranges::max_element(
+        states, {}, [](const auto& state) { return state->incomplete.size(); });
+    for (auto s = states.begin(); s != states.end(); ++s)
+        if (s != longest) made.insert(made.end(), (*s)->incomplete.begin(), (*s)->incomplete.end());
+    std::ranges::sort(made);
     made.erase(std::unique(made.begin(), made.end()), made.end());
-    return made;
+    if (longest == states.end() || (*longest)->incomplete.empty()) return made;
+    std::vector<FacetName> all;
+    all.reserve(made.size() + (*longest)->incomplete.size());
+    std::ranges::set_union((*longest)->incomplete, made, std::back_inserter(all));
+    return all;
 }
 
 }  // namespace
