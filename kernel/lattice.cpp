@@ -14,73 +14,150 @@ namespace trisect {
 
 namespace {
 
+constexpr std::uint64_t mantissa_bits = (std::uint64_t{1} << 52) - 1;
+constexpr std::uint64_t magnitude_bits = ~std::uint64_t{0} >> 1;
+constexpr std::uint64_t infinity_bits = std::uint64_t{0x7ff} << 52;
+
+// Magnitudes of finite doubles compare as their bits do.
+std::uint64_t magnitude(double v) { return std::bit_cast<std::uint64_t>(v) & magnitude_bits; }
+
 // Exponent of the lowest set bit of a finite non-zero double.
 int lowest_bit(double v) {
-    int e = 0;
-    const double m = std::frexp(v, &e);  // |m| in [1/2, 1)
-    const auto i = static_cast<std::uint64_t>(std::fabs(std::ldexp(m, 53)));
-    return e - 53 + std::countr_zero(i);
+    const std::uint64_t bits = magnitude(v);
+    const auto field = static_cast<int>(bits >> 52);  // 0: subnormal, exponent as if it were 1
+    const std::uint64_t leading = field == 0 ? 0 : mantissa_bits + 1;
+    return std::max(field, 1) - 1075 + std::countr_zero((bits & mantissa_bits) | leading);
 }
 
 // v · 2^e. A product with a power of two rounds like ldexp and is many times faster.
+bool is_normal_exponent(int e) { return e >= -1022 && e <= 1023; }
+double power_of_two(int e) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+}
 double scaled(double v, int e) {
-    if (e < -1022 || e > 1023) return std::ldexp(v, e);
-    return v * std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+    return is_normal_exponent(e) ? v * power_of_two(e) : std::ldexp(v, e);
 }
 
 int floor_to_multiple_of_8(int e) { return (e >= 0 ? e / 8 : -((-e + 7) / 8)) * 8; }
 int ceil_to_multiple_of_8(int e) { return -floor_to_multiple_of_8(-e); }
 
+double largest_finite(std::span<const std::array<double, 3>> points) {
+    std::uint64_t largest = 0;
+    for (const auto& p : points)
+        for (const double c : p) {
+            const std::uint64_t m = magnitude(c);
+            largest = std::max(largest, m < infinity_bits ? m : 0);
+        }
+    return std::bit_cast<double>(largest);
+}
+
+// Whether some coordinate has a bit of value below 2^limit; and the lowest bit, if there is none.
+bool reaches_below(std::span<const std::array<double, 3>> points, int limit, int& lowest) {
+    for (const auto& p : points)
+        for (const double c : p) {
+            if (c == 0 || !std::isfinite(c)) continue;
+            lowest = std::min(lowest, lowest_bit(c));
+            if (lowest < limit) return true;
+        }
+    return false;
+}
+
+// Rounding to integers by addition: the sum of this and a double below 2^51 lies between 2^52 and
+// 2^53, where doubles are the integers, and its bits count them.
+constexpr double rounder = 0x1.8p52;
+
+class Rounding {
+public:
+    explicit Rounding(Lattice lattice)
+        : lattice_(lattice),
+          factor_(is_normal_exponent(-lattice.exponent) ? power_of_two(-lattice.exponent) : 0) {}
+
+    void report_to(LatticeReport& report) const {
+        report.moved += moved_;
+        report.max_move =
+            std::max({report.max_move, vanished_, std::ldexp(largest_move_, lattice_.exponent)});
+        report.lossless = report.lossless && report.moved == 0;
+    }
+
+    LatticePoint operator()(const std::array<double, 3>& p, std::size_t index) {
+        const std::array<double, 3> units{p[0] * factor_, p[1] * factor_, p[2] * factor_};
+        const bool in_range = std::fabs(units[0]) < 0x1p51 && std::fabs(units[1]) < 0x1p51 &&
+                              std::fabs(units[2]) < 0x1p51 && factor_ != 0;
+        if (!in_range) [[unlikely]]
+            return round_large(p, index);
+        std::array<std::int64_t, 3> c{};
+        double changed = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double sum = units[k] + rounder;
+            c[k] = std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
+            changed += note_move(p[k], units[k], sum - rounder);
+        }
+        moved_ += changed != 0 ? 1 : 0;
+        return {c[0], c[1], c[2]};
+    }
+
+private:
+    // Keeps the largest moves; not zero when the coordinate moved. What is rounded to zero moves by
+    // its own size: scaling a tiny coordinate may underflow.
+    double note_move(double coordinate, double units, double rounded) {
+        const bool zero = rounded == 0;
+        const double vanished = zero ? std::fabs(coordinate) : 0;
+        const double move = zero ? 0 : std::fabs(rounded - units);
+        vanished_ = std::max(vanished_, vanished);
+        largest_move_ = std::max(largest_move_, move);
+        return vanished + move;
+    }
+
+    // Out of line, so that the loop stays small.
+    [[gnu::noinline]] LatticePoint round_large(const std::array<double, 3>& p, std::size_t index) {
+        std::array<std::int64_t, 3> c{};
+        double changed = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double units = scaled(p[k], -lattice_.exponent);
+            if (!(std::fabs(units) < static_cast<double>(coordinate_limit)))
+                throw LimitError("vertex " + std::to_string(index) + ": coordinate " +
+                                 std::to_string(p[k]) +
+                                 " is not finite or outside the lattice of unit 2^" +
+                                 std::to_string(lattice_.exponent));
+            const double rounded = std::nearbyint(units);
+            c[k] = static_cast<std::int64_t>(rounded);
+            changed += note_move(p[k], units, rounded);
+        }
+        moved_ += changed != 0 ? 1 : 0;
+        return {c[0], c[1], c[2]};
+    }
+
+    Lattice lattice_;
+    double factor_;  ///< 0: not a normal double
+    std::size_t moved_ = 0;
+    double largest_move_ = 0;  ///< lattice units
+    double vanished_ = 0;      ///< user's units
+};
+
 }  // namespace
 
 double Lattice::to_double(double lattice_units) const { return scaled(lattice_units, exponent); }
 
+// Files of measured or computed coordinates have bits far below any lattice with room. The first
+// such coordinate decides, so the second pass mostly ends at once.
 Lattice choose_lattice(std::span<const std::array<double, 3>> points) {
-    int lowest = std::numeric_limits<int>::max();
-    double largest = 0;
-    for (const auto& p : points) {
-        for (const double c : p) {
-            if (c == 0 || !std::isfinite(c)) continue;
-            largest = std::max(largest, std::fabs(c));
-            lowest = std::min(lowest, lowest_bit(c));
-        }
-    }
+    const double largest = largest_finite(points);
     if (largest == 0) return {0};
     int top = 0;
     std::frexp(largest, &top);  // largest < 2^top
-    const int coarsest_lossless = floor_to_multiple_of_8(lowest);
     const int finest_with_room = ceil_to_multiple_of_8(top - (coordinate_bits - growth_bits));
-    return {std::max(coarsest_lossless, finest_with_room)};
+    int lowest = std::numeric_limits<int>::max();
+    if (reaches_below(points, finest_with_room, lowest)) return {finest_with_room};
+    return {std::max(floor_to_multiple_of_8(lowest), finest_with_room)};
 }
 
 std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points, Lattice lattice,
                                      LatticeReport& report) {
     report.lattice = lattice;
     std::vector<LatticePoint> out(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        std::array<std::int64_t, 3> c{};
-        bool moved = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double units = scaled(points[i][k], -lattice.exponent);
-            if (!(std::fabs(units) < static_cast<double>(coordinate_limit)))
-                throw LimitError("vertex " + std::to_string(i) + ": coordinate " +
-                                 std::to_string(points[i][k]) +
-                                 " is not finite or outside the lattice of unit 2^" +
-                                 std::to_string(lattice.exponent));
-            const double r = std::nearbyint(units);
-            c[k] = static_cast<std::int64_t>(r);
-            // Scaling a tiny coordinate may underflow to the zero that it is rounded to.
-            if (r != units || (r == 0 && points[i][k] != 0)) {
-                moved = true;
-                const double move = r == 0 ? std::fabs(points[i][k])
-                                           : std::ldexp(std::fabs(r - units), lattice.exponent);
-                report.max_move = std::max(report.max_move, move);
-            }
-        }
-        if (moved) ++report.moved;
-        out[i] = {c[0], c[1], c[2]};
-    }
-    report.lossless = report.lossless && report.moved == 0;
+    Rounding round(lattice);
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = round(points[i], i);
+    round.report_to(report);
     return out;
 }
 

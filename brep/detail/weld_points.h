@@ -3,6 +3,7 @@
 // Welding: naming points by value, so that connectivity does not depend on how a file indexes them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,5 +21,11 @@ struct WeldedPoints {
 
 /// O(n) expected; O(n log n) for inputs made to defeat the hash.
 [[nodiscard]] WeldedPoints weld_points(std::span<const LatticePoint> points);
+
+/// The same numbering without the tables that only repeated points need: keeps the distinct points
+/// and returns the id of each input point, or nothing when all are distinct and keep their indices.
+/// `expected` is how many distinct points there may be, a hint for the size of the table.
+[[nodiscard]] std::vector<std::uint32_t> weld_in_place(std::vector<LatticePoint>& points,
+                                                       std::size_t expected);
 
 }  // namespace trisect::detail

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Import of triangle meshes, and of all meshes: the two ways of import_mesh.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/polygon_mesh.h>
+
+namespace trisect::detail {
+
+/// The short way: for meshes of triangles whose sides cancel by name. It gives the result and the
+/// report of import_polygons, or nothing where that must decide. Repeated points, points of no
+/// triangle, triangles without area, and coordinates that the lattice rounds are all right.
+/// \throw LimitError as import_mesh.
+[[nodiscard]] std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh,
+                                                           const ImportOptions& options);
+
+/// The long way: for every mesh.
+/// \throw as import_mesh.
+[[nodiscard]] ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options);
+
+/// How many meshes of the calling thread went which way: tests hold this against what should be,
+/// because a short way that is never taken changes nothing but the time.
+struct ImportCounters {
+    std::uint64_t triangles = 0;
+    std::uint64_t polygons = 0;
+};
+[[nodiscard]] ImportCounters& import_counters() noexcept;
+
+}  // namespace trisect::detail
