@@ -13,6 +13,7 @@
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/bsp_tree.h>
+#include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>

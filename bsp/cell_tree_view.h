@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the partition behind a solid looks like from outside: its size, and its cells, for reports
+// and drawings. Nobody needs this to compute with solids.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/solid.h>
+
+namespace trisect {
+
+/// The size of a cell tree. Subtrees that a solid shares with others count in full.
+struct CellTreeStats {
+    std::size_t nodes = 0;  ///< walls and leaves
+    std::size_t leaves = 0;
+    std::size_t inside_leaves = 0;    ///< homogeneous: no polygon, and in the solid
+    std::size_t outside_leaves = 0;   ///< the same, not in the solid
+    std::size_t listing_leaves = 0;   ///< with polygons
+    std::size_t arranged_leaves = 0;  ///< of those: where operands met and an arrangement was made
+    std::size_t depth = 0;            ///< walls above the deepest leaf
+    std::size_t polygons = 0;         ///< listed, in all leaves together
+    std::size_t largest_leaf = 0;     ///< most polygons of one leaf
+    std::size_t fragments = 0;        ///< parts of facets that an operation cut out, each once
+    std::size_t bytes = 0;            ///< of nodes, lists and fragments, without the sources
+};
+
+/// O(size of the tree).
+[[nodiscard]] CellTreeStats cell_tree_stats(const Solid& solid);
+
+/// A leaf of the partition.
+struct CellLeaf {
+    std::array<double, 3> lower{};  ///< user's units, rounded; infinite where there is no wall
+    std::array<double, 3> upper{};
+    std::size_t polygons = 0;  ///< 0: homogeneous
+    std::size_t depth = 0;
+    bool is_inside = false;    ///< of a homogeneous leaf
+    bool is_arranged = false;  ///< see CellTreeStats::arranged_leaves
+};
+
+/// The leaves that meet a closed box in the user's units, whose ends may be infinite and may be
+/// equal: lower.z == upper.z asks for a slice. Leaves are in the order of the walls, below first.
+/// O(walls that the box meets).
+/// \throw UsageError when an end is not a number or lower > upper.
+[[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid,
+                                                     const std::array<double, 3>& lower,
+                                                     const std::array<double, 3>& upper);
+
+}  // namespace trisect
