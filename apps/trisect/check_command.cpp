@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// check A: does the mesh bound a solid? Every defect with its place.
+// check A: does the mesh bound a solid? Every defect with its place, and what else there is to say
+// about the file.
 #include <trisect/brep/validate/validate.h>
 
 #include <fmt/format.h>
+
+#include <span>
 
 #include "commands.h"
 #include "mesh_files.h"
@@ -13,13 +16,22 @@
 namespace trisect::app {
 namespace {
 
-std::string answer_text(const ValidationReport& report, const std::string& name) {
-    if (report.empty()) return fmt::format("{}: a solid, nothing found\n", name);
-    std::string out = report.to_string();
+std::string answer_text(const ValidationReport& report, std::span<const FileRemark> remarks,
+                        const std::string& name) {
+    if (report.empty() && remarks.empty()) {
+        return fmt::format("{}: a solid, nothing found\n", name);
+    }
+    std::string out;
+    for (const FileRemark& remark : remarks) {
+        out += fmt::format("remark: {} {}\n  {}\n", remark.count, name_of(remark.kind),
+                           remark.sentence);
+    }
+    out += report.to_string();
     if (!out.empty() && out.back() != '\n') out += '\n';
-    return out + fmt::format("{}: {}; {} errors, {} warnings\n", name,
+    return out + fmt::format("{}: {}; {} errors, {} warnings, {} remarks\n", name,
                              report.is_solid() ? "a solid" : "not a solid",
-                             report.count(Severity::Error), report.count(Severity::Warning));
+                             report.count(Severity::Error), report.count(Severity::Warning),
+                             remarks.size());
 }
 
 }  // namespace
@@ -42,17 +54,17 @@ void add_check_command(CLI::App& app, CheckOptions& options) {
 
 Outcome run_check(Session& session, const CheckOptions& options) {
     session.plan(2);
-    const PolygonMesh mesh =
-        session.stage("read", [&] { return read_input(session, options.input); });
+    const auto [mesh, remarks] =
+        session.stage("read", [&] { return read_input_with_remarks(session, options.input); });
     ValidateOptions validation;
     validation.list_limit = options.places;
     if (session.options().lattice) validation.lattice = Lattice{*session.options().lattice};
-    const ValidationReport report =
-        session.stage("check", [&] { return validate_input(mesh, options.input, validation); });
+    const ValidationReport report = session.stage(
+        "check", [&, &shape = mesh] { return validate_input(shape, options.input, validation); });
     const LatticeReport& lattice = report.lattice();
     note_rounding(session, lattice, options.input);
     Outcome out;
-    out.code = report.empty() ? exit_done : exit_findings;
+    out.code = report.empty() && remarks.empty() ? exit_done : exit_findings;
     out.document["schema"] = "trisect.check/1";
     out.document["file"] = options.input;
     out.document["solid"] = report.is_solid();
@@ -60,9 +72,10 @@ Outcome run_check(Session& session, const CheckOptions& options) {
     out.document["warnings"] = report.count(Severity::Warning);
     out.document["counts"] = defect_counts_json(report);
     out.document["defects"] = defects_json(report);
+    out.document["remarks"] = remarks_json(remarks);
     out.document["lattice"] = lattice_json(lattice);
     out.document["seconds"] = session.seconds();
-    out.answer = answer_text(report, options.input);
+    out.answer = answer_text(report, remarks, options.input);
     return out;
 }
 

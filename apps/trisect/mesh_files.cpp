@@ -15,8 +15,15 @@ namespace {
 
 constexpr const char* standard_input = "standard input";
 
-PolygonMesh read_standard_input(const ReadOptions& options) {
-    const FileBytes bytes = read_descriptor(0, standard_input, options.limits.bytes);
+/// A file in memory whose format is known.
+struct InputFile {
+    FileBytes bytes;
+    MeshFormat format;
+    std::string name;  ///< in messages
+};
+
+InputFile standard_input_file(const ReadOptions& options) {
+    FileBytes bytes = read_descriptor(0, standard_input, options.limits.bytes);
     std::optional<MeshFormat> format = options.format;
     if (!format) format = detect_mesh_format(bytes.view());
     if (!format) {
@@ -24,7 +31,25 @@ PolygonMesh read_standard_input(const ReadOptions& options) {
                          bytes.view().empty() ? "there is nothing to read"
                                               : "the content does not tell the format: --format");
     }
-    return read_mesh(bytes.view(), *format, standard_input, options);
+    return {std::move(bytes), *format, standard_input};
+}
+
+InputFile named_file(const std::string& name, const ReadOptions& options) {
+    FileBytes bytes = read_file(name, options.limits.bytes);
+    const MeshFormat format = mesh_format_of(name, bytes.view(), options);
+    return {std::move(bytes), format, name};
+}
+
+ReadOptions read_options(const Session& session, const std::string& name) {
+    ReadOptions options;
+    options.format = session.options().input_format;
+    if (name == "-" && !options.format) options.format = session.options().format;
+    return options;
+}
+
+InputFile input_file(const Session& session, const std::string& name) {
+    const ReadOptions options = read_options(session, name);
+    return name == "-" ? standard_input_file(options) : named_file(name, options);
 }
 
 /// Errors of the library about one operand, with its name in front.
@@ -84,12 +109,14 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 }  // namespace
 
 PolygonMesh read_input(const Session& session, const std::string& name) {
-    const CommonOptions& common = session.options();
-    ReadOptions options;
-    options.format = common.input_format;
-    if (name != "-") return read_mesh(name, options);
-    if (!options.format) options.format = common.format;
-    return read_standard_input(options);
+    const InputFile file = input_file(session, name);
+    return read_mesh(file.bytes.view(), file.format, file.name);
+}
+
+RemarkedMesh read_input_with_remarks(const Session& session, const std::string& name) {
+    const InputFile file = input_file(session, name);
+    PolygonMesh mesh = read_mesh(file.bytes.view(), file.format, file.name);
+    return {std::move(mesh), file_remarks(file.bytes.view(), file.format, file.name)};
 }
 
 void check_standard_input(std::span<const std::string> names) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/file_remarks.h>
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/validate/validate.h>
@@ -12,6 +13,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "session.h"
 
@@ -33,6 +35,13 @@ private:
 
 /// "-" is the standard input, whose format is that of --format or else shown by its content.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
+
+/// The same with what there is to say about the file; costs another pass over it.
+struct RemarkedMesh {
+    PolygonMesh mesh;
+    std::vector<FileRemark> remarks;
+};
+[[nodiscard]] RemarkedMesh read_input_with_remarks(const Session& session, const std::string& name);
 
 /// At most one of the names may be "-". \throw UsageError
 void check_standard_input(std::span<const std::string> names);

@@ -27,6 +27,25 @@ Json defect_counts_json(const ValidationReport& report) {
     return counts;
 }
 
+Json remarks_json(std::span<const FileRemark> remarks) {
+    Json list = Json::array();
+    for (const FileRemark& remark : remarks) {
+        Json entry;
+        entry["kind"] = name_of(remark.kind);
+        entry["count"] = remark.count;
+        entry["of"] = remark.of;
+        if (remark.first.line != 0) {
+            entry["line"] = remark.first.line;
+            entry["column"] = remark.first.column;
+        } else {
+            entry["offset"] = remark.first.offset;
+        }
+        entry["sentence"] = remark.sentence;
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
 Json lattice_json(const LatticeReport& report) {
     Json out;
     out["exponent"] = report.lattice.exponent;

@@ -3,7 +3,10 @@
 // Reports of the library as JSON.
 #pragma once
 
+#include <trisect/brep/io/file_remarks.h>
 #include <trisect/brep/validate/defect.h>
+
+#include <span>
 
 #include "outcome.h"
 
@@ -13,6 +16,8 @@ namespace trisect::app {
 [[nodiscard]] Json defects_json(const ValidationReport& report);
 /// Number of defects of each kind that occurs.
 [[nodiscard]] Json defect_counts_json(const ValidationReport& report);
+/// kind, count, of, line and column or offset, sentence.
+[[nodiscard]] Json remarks_json(std::span<const FileRemark> remarks);
 /// exponent, lossless, moved, max_move.
 [[nodiscard]] Json lattice_json(const LatticeReport& report);
 

@@ -11,10 +11,9 @@
 #include <trisect/kernel/error.h>
 
 namespace trisect {
-namespace {
 
-MeshFormat format_of(const std::filesystem::path& path, std::string_view data,
-                     const ReadOptions& options) {
+MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view data,
+                          const ReadOptions& options) {
     if (options.format) return *options.format;
     if (const auto by_name = mesh_format_of_extension(path)) return *by_name;
     if (const auto by_content = detect_mesh_format(data)) return *by_content;
@@ -22,8 +21,6 @@ MeshFormat format_of(const std::filesystem::path& path, std::string_view data,
                      "neither the extension nor the content tells the format; known are obj, stl, "
                      "off and ply");
 }
-
-}  // namespace
 
 PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,
                       const ReadOptions& options) {
@@ -60,7 +57,8 @@ PolygonMesh read_mesh(std::span<const std::byte> data, MeshFormat format, const 
 
 PolygonMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     const FileBytes bytes = read_file(path, options.limits.bytes);
-    return read_mesh(bytes.view(), format_of(path, bytes.view(), options), path.string(), options);
+    return read_mesh(bytes.view(), mesh_format_of(path, bytes.view(), options), path.string(),
+                     options);
 }
 
 }  // namespace trisect

@@ -54,6 +54,11 @@ struct ReadOptions {
 [[nodiscard]] PolygonMesh read_mesh(const std::filesystem::path& path,
                                     const ReadOptions& options = {});
 
+/// The format in which read_mesh(path, options) reads a file that holds `data`.
+/// \throw InputError when nothing tells it.
+[[nodiscard]] MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view data,
+                                        const ReadOptions& options = {});
+
 /// Reads bytes that are already in memory; `name` stands for the file in messages and
 /// `options.format` is not looked at.
 [[nodiscard]] PolygonMesh read_mesh(std::string_view data, MeshFormat format,

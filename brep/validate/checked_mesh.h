@@ -68,6 +68,7 @@ void check_self_intersections(const CheckedMesh& m, const ValidateOptions& optio
 void check_duplicate_points(const CheckedMesh& m, ValidationReport& report);
 void check_unused_points(const CheckedMesh& m, ValidationReport& report);
 void check_shells(const CheckedMesh& m, ValidationReport& report);  // orientation and nesting
+void check_emptiness(const CheckedMesh& m, ValidationReport& report);
 void check_holes(const Brep& brep, ValidationReport& report);
 
 }  // namespace trisect::detail

@@ -34,6 +34,7 @@ constexpr std::array<KindFacts, defect_kind_count> kind_facts{{
     {"inside_out_shell", Severity::Error},
     {"shell_nesting", Severity::Error},
     {"hole_outside_face", Severity::Error},
+    {"empty_mesh", Severity::Warning},
 }};
 
 void append_number(std::string& out, double v) {

@@ -37,9 +37,10 @@ enum class DefectKind : std::uint8_t {
     UnusedPoint,             ///< a point of no face
     InsideOutShell,          ///< an outermost shell that bounds its outside
     ShellNesting,            ///< a shell inside another one with the wrong orientation
-    HoleOutsideFace          ///< an inner loop outside its outer loop
+    HoleOutsideFace,         ///< an inner loop outside its outer loop
+    EmptyMesh                ///< no faces
 };
-inline constexpr std::size_t defect_kind_count = 18;
+inline constexpr std::size_t defect_kind_count = 19;
 
 /// Errors: the mesh does not bound a solid. Warnings: it does, but somebody should look.
 enum class Severity : std::uint8_t { Warning, Error };

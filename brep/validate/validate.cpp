@@ -44,6 +44,7 @@ ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options
     detail::check_duplicate_points(m, report);
     detail::check_unused_points(m, report);
     detail::check_shells(m, report);
+    detail::check_emptiness(m, report);
     report.sort();
     return report;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "process.h"
@@ -50,6 +51,38 @@ TEST_F(CheckCommand, WarningsAreFindingsOfASolid) {
     const json report = result.json();
     EXPECT_EQ(report["solid"], true);
     EXPECT_EQ(report["counts"]["unused_point"], 1);
+}
+
+TEST_F(CheckCommand, AFileWithoutFacesIsAFinding) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 0\nproperty list uchar uint vertex_indices\nend_header\n";
+    for (const auto& file : {write("empty.obj", "# nothing\n"), write("empty.ply", ply),
+                             write("empty.stl", "solid Empty\nendsolid Empty")}) {
+        const Finished result = trisect({"check", file, "--json"});
+        EXPECT_EQ(result.code, 1) << file;
+        const json report = result.json();
+        EXPECT_EQ(report["solid"], true) << file;
+        EXPECT_EQ(report["counts"]["empty_mesh"], 1) << file;
+    }
+}
+
+TEST_F(CheckCommand, RemarksOnTheFileAreFindingsWithPlaces) {
+    const std::string slash = trisect::test::box_text({0, 0, 0}, {1, 1, 1});
+    const std::size_t face = slash.find("\nf ");
+    ASSERT_NE(face, std::string::npos);
+    std::string text = slash;
+    text.insert(text.find(' ', face + 3), "//");
+    const Finished result = trisect({"check", write("slash.obj", text), "--json"});
+    EXPECT_EQ(result.code, 1);
+    const json report = result.json();
+    EXPECT_EQ(report["solid"], true);
+    EXPECT_EQ(report["warnings"], 0);
+    ASSERT_EQ(report["remarks"].size(), 1U);
+    EXPECT_EQ(report["remarks"][0]["kind"], "empty_index_field");
+    EXPECT_EQ(report["remarks"][0]["line"],
+              2 + std::count(text.begin(), text.begin() + static_cast<long>(face), '\n'));
+    EXPECT_EQ(report["remarks"][0]["column"], 3);
 }
 
 TEST_F(CheckCommand, TextNamesTheDefects) {

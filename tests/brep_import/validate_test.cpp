@@ -33,7 +33,11 @@ TEST(Validate, CuboidIsASolid) {
     EXPECT_TRUE(r.is_solid());
 }
 
-TEST(Validate, EmptyMeshIsASolid) { EXPECT_TRUE(validate(PolygonMesh{}).empty()); }
+TEST(Validate, EmptyMeshIsASolidButWorthAWarning) {
+    const auto r = validate(PolygonMesh{});
+    expect_only(r, DefectKind::EmptyMesh, 1);
+    EXPECT_TRUE(r.is_solid());
+}
 
 TEST(Validate, OpenEdge) {
     const auto r = validate(test::without_face(cuboid(), 1));
