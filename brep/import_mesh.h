@@ -62,7 +62,8 @@ struct ImportedMesh {
 /// Points of no triangle are left out; the others keep their order.
 ///
 /// Nothing else is checked (see validate) and nothing is repaired: an inside-out mesh stays so.
-/// Cost: O(n), about 100 ns a triangle.
+/// Cost: O(n); 20 ns a triangle for meshes of triangles whose sides cancel by name, 100 ns for
+/// others.
 /// \throw UsageError for indices out of range, LimitError for coordinates that are not finite or
 /// leave the lattice, InvalidSolid as the options say, UnsupportedError for a face that Refit
 /// cannot make planar.

@@ -96,7 +96,7 @@ struct PolygonRef {
     bool flipped = false;
     bool touched = false;
 
-    [[nodiscard]] const Box& box() const {
+    [[nodiscard]] Box box() const {
         return fragment != nullptr ? fragment->box() : source->facet_box(facet);
     }
 };

@@ -28,11 +28,7 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh) {
     auto* s = new Source;
     auto shared = share(s);
     s->mesh_ = std::move(mesh);
-    s->boxes_.resize(s->mesh_.triangles.size());
-    for (std::size_t i = 0; i < s->boxes_.size(); ++i) {
-        for (const std::uint32_t v : s->mesh_.triangles[i]) s->boxes_[i].add(s->mesh_.points[v]);
-        s->box_.add(s->boxes_[i]);
-    }
+    for (const LatticePoint& p : s->mesh_.points) s->box_.add(p);
     return shared;
 }
 
@@ -44,7 +40,6 @@ std::shared_ptr<const Source> Source::half_space(const Plane& plane, Lattice lat
     s->mesh_.lattice = lattice;
     s->box_.lo.fill(-coordinate_limit);
     s->box_.hi.fill(coordinate_limit);
-    s->boxes_.push_back(s->box_);
     return shared;
 }
 

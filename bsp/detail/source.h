@@ -47,7 +47,15 @@ public:
     [[nodiscard]] std::uint32_t corner_index(std::uint32_t facet, int i) const {
         return mesh_.triangles[facet][static_cast<std::size_t>(i)];
     }
-    [[nodiscard]] const Box& facet_box(std::uint32_t facet) const { return boxes_[facet]; }
+    /// Made from the corners: stored boxes would be twice the size of the mesh itself, and writing
+    /// them would take as long as the rest of an import. Who needs many at a time packs them.
+    [[nodiscard]] Box facet_box(std::uint32_t facet) const {
+        if (half_space_) return box_;
+        Box b;
+        for (int i = 0; i < 3; ++i) b.add(corner(facet, i));
+        return b;
+    }
+    /// Contains all facets; of a mesh, the box of its points.
     [[nodiscard]] const Box& box() const { return box_; }
 
     [[nodiscard]] Plane support(std::uint32_t facet) const;
@@ -74,7 +82,6 @@ private:
     LatticeMesh mesh_;
     bool half_space_ = false;
     Plane plane_;
-    std::vector<Box> boxes_;
     Box box_;
     std::uint64_t serial_ = 0;
     mutable std::atomic<std::uint32_t> count_{0};
