@@ -103,6 +103,9 @@ public:
     RayParameter() = default;
     /// The ends of a ray or segment: 0 or 1.
     explicit RayParameter(int end) : value_(end) {}
+    /// Where a ray in an unbounded face ends. It has no exact value.
+    [[nodiscard]] static RayParameter infinite();
+    [[nodiscard]] bool is_infinite() const { return form_ == Form::Infinite; }
     /// Where a line meets a plane given in units of 2^exponent. \pre in one point.
     RayParameter(const Ray& ray, int exponent, const Plane& plane);
     RayParameter(const Segment& segment, int exponent, const Plane& plane);
@@ -112,13 +115,14 @@ public:
     [[nodiscard]] double error() const { return error_; }
     /// The double nearest to the exact value.
     [[nodiscard]] double nearest() const;
+    /// \pre !is_infinite()
     [[nodiscard]] ExactRational exact() const;
     /// Of parameters of the same ray. Doubles first, rationals where these cannot tell.
     friend std::strong_ordering operator<=>(const RayParameter& a, const RayParameter& b);
     friend bool operator==(const RayParameter& a, const RayParameter& b) { return a <=> b == 0; }
 
 private:
-    enum class Form : std::uint8_t { Number, Ray, Segment };
+    enum class Form : std::uint8_t { Number, Ray, Segment, Infinite };
 
     void approximate_value();
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// IndexCore: what copies of a BrepIndex share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/detail/index_point.h>
+#include <trisect/bsp/detail/index_polygons.h>
+#include <trisect/bsp/detail/index_tree.h>
+
+namespace trisect::detail {
+
+/// The tree over a solid's polygons. Immutable.
+struct IndexBase {
+    explicit IndexBase(const Solid& solid);
+
+    Solid solid;  // keeps sources and fragments
+    IndexPolygons polygons;
+    IndexTree tree;
+    double build_seconds = 0;
+};
+
+/// With the handles of a B-rep, if there is one.
+class IndexHandles;
+
+class IndexCore {
+public:
+    std::shared_ptr<const IndexBase> base;
+    std::shared_ptr<const IndexHandles> handles;  // may be null
+
+    [[nodiscard]] const IndexPolygons& polygons() const { return base->polygons; }
+    [[nodiscard]] const IndexTree& tree() const { return base->tree; }
+};
+
+using PolygonId = IndexPolygons::Id;
+
+/// Inside, Outside or, when the point is on the boundary, OnFace with `on` naming all polygons that
+/// contain it (each once, in no order).
+[[nodiscard]] Location locate_polygons(const IndexBase& index, const IndexPoint& point,
+                                       std::vector<PolygonId>& on);
+
+/// Location and names of a point from the polygons that contain it, in any order, not none.
+/// Handles are not set.
+[[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on,
+                             const IndexPoint& point);
+
+/// The same, for what is not a point: the rank is that of the normals, and no corner is looked for.
+[[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on);
+
+}  // namespace trisect::detail
