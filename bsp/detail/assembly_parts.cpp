@@ -5,10 +5,9 @@
 // into (see PolygonRef) and passes through as it is. All others are turned into convex parts with
 // exact vertices, one for every cell.
 //
-// Vertices are identified by name as they are made (Workbench::meet), then by value: all points are
-// sorted along x by their certified doubles, and points whose error boxes meet are compared
-// exactly. A second stage is indispensable: where several planes run through one point its names
-// differ.
+// Vertices are identified by name as they are made (Workbench::meet), then by value: points
+// whose certified doubles are close (near_points.h) are compared exactly. A second stage is
+// indispensable: where several planes run through one point its names differ.
 //
 // T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
 // the vertices of the leaf are all that can lie on an edge inside it. That keeps a search that is
@@ -19,9 +18,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
+#include <span>
 
 #include <trisect/bsp/detail/leaf_arrangement.h>
+#include <trisect/bsp/detail/near_points.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -219,32 +219,20 @@ void Gatherer::merge_equal_points() {
     const std::size_t n = bench.point_count();
     same_.resize(n);
     std::iota(same_.begin(), same_.end(), 0);
-    std::vector<PointId> order(same_);
-    double widest = 0;
-    for (const PointId p : order) widest = std::max(widest, bench.approximation(p).error);
-    std::sort(order.begin(), order.end(), [&](PointId a, PointId b) {
-        const double xa = bench.approximation(a).c[0];
-        const double xb = bench.approximation(b).c[0];
-        return std::tie(xa, a) < std::tie(xb, b);
-    });
     const auto better = [&](PointId a, PointId b) {
         return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
     };
-    for (std::size_t i = 0; i < n; ++i) {
-        const Approximation& a = bench.approximation(order[i]);
-        const double reach = a.c[0] + (a.error + widest) * 1.0000001;
-        for (std::size_t j = i + 1; j < n && bench.approximation(order[j]).c[0] <= reach; ++j) {
-            if (!bench.same_point(order[i], order[j])) continue;
-            const PointId x = root(order[i]);
-            const PointId y = root(order[j]);
-            if (x == y) continue;
-            if (better(x, y)) {
-                same_[u(y)] = x;
-            } else {
-                same_[u(x)] = y;
+    for_each_near_group(bench, [&](std::span<const PointId> group) {
+        // Against one of each value: what is equal to it needs no comparison of its own.
+        for (std::size_t i = 1; i < group.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                if (same_[u(group[j])] != group[j] || !bench.same_point(group[i], group[j]))
+                    continue;
+                const bool first = better(group[j], group[i]);
+                same_[u(group[first ? i : j])] = group[first ? j : i];
+                break;
             }
-        }
-    }
+    });
 }
 
 void append_edges(const WorkPolygon& shape, std::int32_t facet, bool flipped,
