@@ -3,8 +3,41 @@
 #include <trisect/bsp/detail/residual.h>
 
 #include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 namespace trisect::detail {
+
+namespace {
+
+using Kind = Residual::Kind;
+using Ref = Residual::Ref;
+
+std::uint32_t operations_of(std::span<const Ref> terms) {
+    std::uint64_t n = 1;
+    for (const Ref& t : terms) n += t->operations;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(n, Residual::many_operations));
+}
+
+// Keeps the first of equal terms, or, for an exclusive or, one of an odd number of them.
+void drop_repeated(Kind kind, std::vector<Ref>& terms) {
+    std::unordered_map<const Residual*, std::size_t> left;
+    for (const Ref& t : terms) ++left[t.get()];
+    if (left.size() == terms.size()) return;
+    if (kind == Kind::Xor)
+        for (auto& [term, n] : left) n %= 2;
+    std::erase_if(terms, [&](const Ref& t) { return std::exchange(left[t.get()], 0) == 0; });
+}
+
+bool has_repeated(std::span<const Ref> terms) {
+    for (std::size_t i = 1; i < terms.size(); ++i)
+        if (std::find(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(i), terms[i]) !=
+            terms.begin() + static_cast<std::ptrdiff_t>(i))
+            return true;
+    return false;
+}
+
+}  // namespace
 
 Residual::Ref Residual::constant(bool value) {
     static const auto make = [](bool v) {
@@ -29,8 +62,19 @@ Residual::Ref Residual::negation(Ref a) {
     if (a->kind == Kind::Not) return a->children[0];
     auto r = std::make_shared<Residual>();
     r->kind = Kind::Not;
+    r->operations = operations_of({&a, 1});
     r->children.push_back(std::move(a));
     return r;
+}
+
+Residual::Ref Residual::of_distinct(Kind kind, std::vector<Ref> terms) {
+    if (terms.empty()) return constant(kind == Kind::And);
+    if (terms.size() == 1) return terms.front();
+    auto n = std::make_shared<Residual>();
+    n->kind = kind;
+    n->operations = operations_of(terms);
+    n->children = std::move(terms);
+    return n;
 }
 
 Residual::Ref Residual::combination(Kind kind, std::span<const Ref> terms) {
@@ -47,62 +91,111 @@ Residual::Ref Residual::combination(Kind kind, std::span<const Ref> terms) {
             left.push_back(t);
         }
     }
-    if (left.empty()) return constant(kind == Kind::And ? true : flip);
-    Ref r = left.front();
-    if (left.size() > 1) {
-        auto n = std::make_shared<Residual>();
-        n->kind = kind;
-        n->children = std::move(left);
-        r = n;
-    }
+    if (left.size() > 8 || has_repeated(left)) drop_repeated(kind, left);
+    const Ref r = of_distinct(kind, std::move(left));
     return flip ? negation(r) : r;
 }
 
-Residual::Ref simplified(const Residual::Ref& formula, const SlotValues& values) {
-    switch (formula->kind) {
-        case Residual::Kind::Constant:
-            return formula;
-        case Residual::Kind::Slot: {
-            const auto v = values[static_cast<std::size_t>(formula->slot)];
+namespace {
+
+// Both walks remember inner nodes, if the formula is large.
+class Simplifier {
+public:
+    Simplifier(const Residual& formula, const SlotValues& values)
+        : values_(values), remembers_(formula.is_large()) {}
+
+    Ref of(const Ref& formula) {
+        if (formula->kind == Kind::Constant) return formula;
+        if (formula->kind == Kind::Slot) {
+            const auto v = values_[static_cast<std::size_t>(formula->slot)];
             return v < 0 ? formula : Residual::constant(v != 0);
         }
-        default:
-            break;
+        if (!remembers_) return of_operation(formula);
+        if (const auto known = known_.find(formula.get()); known != known_.end())
+            return known->second;
+        Ref result = of_operation(formula);
+        known_.emplace(formula.get(), result);
+        return result;
     }
-    std::vector<Residual::Ref> children;
-    children.reserve(formula->children.size());
-    bool changed = false;
-    for (const auto& c : formula->children) {
-        children.push_back(simplified(c, values));
-        changed = changed || children.back() != c;
-        if (children.back()->kind == Residual::Kind::Constant &&
-            ((formula->kind == Residual::Kind::And && !children.back()->value) ||
-             (formula->kind == Residual::Kind::Or && children.back()->value)))
-            return children.back();
+
+private:
+    Ref of_operation(const Ref& formula) {
+        const Kind kind = formula->kind;
+        std::vector<Ref> children;
+        children.reserve(formula->children.size());
+        bool changed = false;
+        bool distinct = true;  // what is left was there before
+        for (const Ref& c : formula->children) {
+            children.push_back(of(c));
+            if (children.back() == c) continue;
+            changed = true;
+            if (children.back()->kind != Kind::Constant || kind == Kind::Xor) {
+                distinct = false;
+            } else if ((kind == Kind::And && !children.back()->value) ||
+                       (kind == Kind::Or && children.back()->value)) {
+                return children.back();
+            }
+        }
+        if (!changed) return formula;
+        if (kind == Kind::Not) return Residual::negation(children[0]);
+        if (!distinct) return Residual::combination(kind, children);
+        std::erase_if(children, [](const Ref& c) { return c->kind == Kind::Constant; });
+        return Residual::of_distinct(kind, std::move(children));
     }
-    if (!changed) return formula;
-    if (formula->kind == Residual::Kind::Not) return Residual::negation(children[0]);
-    return Residual::combination(formula->kind, children);
+
+    const SlotValues& values_;
+    bool remembers_;
+    std::unordered_map<const Residual*, Ref> known_;
+};
+
+class Valuer {
+public:
+    Valuer(const Residual& formula, const SlotValues& values)
+        : values_(values), remembers_(formula.is_large()) {}
+
+    bool of(const Residual& formula) {
+        if (formula.kind == Kind::Constant) return formula.value;
+        if (formula.kind == Kind::Slot) return values_[static_cast<std::size_t>(formula.slot)] > 0;
+        if (!remembers_) return of_operation(formula);
+        if (const auto known = known_.find(&formula); known != known_.end()) return known->second;
+        const bool result = of_operation(formula);
+        known_.emplace(&formula, result);
+        return result;
+    }
+
+private:
+    bool of_operation(const Residual& formula) {
+        const auto child = [&](const Ref& c) { return of(*c); };
+        const auto& cs = formula.children;
+        switch (formula.kind) {
+            case Kind::Not:
+                return !child(cs[0]);
+            case Kind::And:
+                return std::all_of(cs.begin(), cs.end(), child);
+            case Kind::Or:
+                return std::any_of(cs.begin(), cs.end(), child);
+            case Kind::Xor:
+                return std::count_if(cs.begin(), cs.end(), child) % 2 != 0;
+            case Kind::Constant:
+            case Kind::Slot:
+                break;
+        }
+        return false;
+    }
+
+    const SlotValues& values_;
+    bool remembers_;
+    std::unordered_map<const Residual*, bool> known_;
+};
+
+}  // namespace
+
+Residual::Ref simplified(const Residual::Ref& formula, const SlotValues& values) {
+    return Simplifier(*formula, values).of(formula);
 }
 
 bool value_of(const Residual& formula, const SlotValues& values) {
-    const auto child = [&](const Residual::Ref& c) { return value_of(*c, values); };
-    const auto& cs = formula.children;
-    switch (formula.kind) {
-        case Residual::Kind::Constant:
-            return formula.value;
-        case Residual::Kind::Slot:
-            return values[static_cast<std::size_t>(formula.slot)] > 0;
-        case Residual::Kind::Not:
-            return !child(cs[0]);
-        case Residual::Kind::And:
-            return std::all_of(cs.begin(), cs.end(), child);
-        case Residual::Kind::Or:
-            return std::any_of(cs.begin(), cs.end(), child);
-        case Residual::Kind::Xor:
-            return std::count_if(cs.begin(), cs.end(), child) % 2 != 0;
-    }
-    return false;
+    return Valuer(formula, values).of(formula);
 }
 
 }  // namespace trisect::detail

@@ -184,4 +184,22 @@ TEST_F(LongChains, ManyDifferentSolids) {
     EXPECT_EQ(volume(Expression::any_of(terms)), "3000");
 }
 
+// Every level names the one below twice, under different operations.
+TEST_F(Operators, SharedSubformulasAreTranslatedOnce) {
+    Expression e = a;
+    for (int i = 0; i < 60; ++i) {
+        const Expression other = i % 2 == 0 ? b : c;
+        e = (e - other) ^ (e | other);
+    }
+    // Whatever e is, (e - x) ^ (e | x) is x: the last level has the say.
+    EXPECT_EQ(volume(e), volume(c));
+    EXPECT_TRUE(evaluate(e ^ c).is_empty());
+}
+
+TEST_F(Operators, PrefixesThatAreKeptDoNotMakeAChainDeep) {
+    std::vector<Expression> prefixes{a};
+    for (int i = 0; i < chain_length; ++i) prefixes.push_back(prefixes.back() | (i % 2 ? b : c));
+    EXPECT_EQ(volume(prefixes.back()), "16");
+}
+
 }  // namespace

@@ -61,6 +61,41 @@ TEST(Residual, NestedOperatorsOfOneKindAreOne) {
     EXPECT_EQ(s->children.size(), 2U);
 }
 
+TEST(Residual, EqualTermsAreOneAndCancelInAnExclusiveOr) {
+    const Ref a = slot(0);
+    const Ref b = combined(Kind::And, {a, slot(1)});
+    EXPECT_EQ(combined(Kind::Or, {a, b, a})->children.size(), 2U);
+    EXPECT_EQ(combined(Kind::And, {a, a}), a);
+    EXPECT_EQ(combined(Kind::Xor, {a, b, a}), b);
+    EXPECT_TRUE(is_constant(combined(Kind::Xor, {a, b, a, b}), false));
+}
+
+// Every level names the one below twice: as a tree it would have 2^60 leaves.
+TEST(Residual, SharedSubformulasAreLookedAtOnce) {
+    Ref r = slot(0);
+    for (int i = 0; i < 60; ++i) {
+        const Ref low = combined(Kind::And, {r, slot(1 + i % 3)});
+        const Ref high = combined(Kind::Or, {r, Residual::negation(slot(1 + (i + 1) % 3))});
+        r = combined(Kind::Xor, {low, high});
+    }
+    for (int mask = 0; mask < 16; ++mask) {
+        SlotValues values(4);
+        for (std::size_t k = 0; k < 4; ++k) values[k] = static_cast<std::int8_t>(mask >> k & 1);
+        bool expected = values[0] > 0;
+        for (std::size_t i = 0; i < 60; ++i)
+            expected =
+                (expected && values[1 + i % 3] > 0) != (expected || values[1 + (i + 1) % 3] == 0);
+        EXPECT_EQ(value_of(*r, values), expected) << mask;
+        EXPECT_TRUE(is_constant(simplified(r, values), expected)) << mask;
+        SlotValues partial = values;
+        partial[2] = -1;
+        EXPECT_EQ(value_of(*simplified(r, partial), values), expected) << mask;
+    }
+    std::array<int, 4> met{};
+    for_each_slot(*r, [&](std::int32_t s) { met[static_cast<std::size_t>(s)] = 1; });
+    EXPECT_EQ(met, (std::array<int, 4>{1, 1, 1, 1}));
+}
+
 TEST(Residual, NothingKnownMeansTheSameObject) {
     const Ref r = combined(Kind::Xor, {combined(Kind::And, {slot(0), slot(1)}), slot(2)});
     EXPECT_EQ(simplified(r, {-1, -1, -1}), r);
