@@ -49,6 +49,11 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     pieces += part.pieces;
     traces += part.traces;
     traces_retried += part.traces_retried;
+    traces_within += part.traces_within;
+    pairs_touching += part.pairs_touching;
+    untouched_polygons += part.untouched_polygons;
+    cuts_undone += part.cuts_undone;
+    linked += part.linked;
     memory = std::max(memory, part.memory);
     depth = std::max(depth, part.depth);
     return *this;

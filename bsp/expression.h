@@ -86,11 +86,18 @@ struct EvaluateStats {
     std::uint64_t mixed_leaves = 0;     ///< resolved by a local arrangement
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
-    std::uint64_t pairs_cutting = 0;    ///< of them, pairs where one cuts the other
-    std::uint64_t pieces = 0;           ///< convex pieces made in mixed leaves
-    std::uint64_t traces = 0;           ///< winding numbers found by a segment trace
-    std::uint64_t traces_retried = 0;   ///< degenerate segments
-    std::uint64_t memory = 0;           ///< most bytes held at once, as max_memory counts them
+    std::uint64_t pairs_touching = 0;   ///< of them, pairs in contact
+    std::uint64_t pairs_cutting = 0;    ///< of those, pairs where one cuts the other
+    /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
+    std::uint64_t untouched_polygons = 0;
+    std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves
+    /// Polygons and pieces that know their winding numbers from a neighbour.
+    std::uint64_t linked = 0;
+    std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
+    std::uint64_t traces_retried = 0;  ///< degenerate segments
+    std::uint64_t traces_within = 0;   ///< winding numbers carried over within a polygon
+    std::uint64_t cuts_undone = 0;     ///< because nothing differed on their two sides
+    std::uint64_t memory = 0;          ///< most bytes held at once, as max_memory counts them
     int depth = 0;
 
     /// Adds the counts of another part of the same evaluation.
