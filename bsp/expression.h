@@ -74,6 +74,10 @@ struct EvaluateOptions {
     /// Threads that may take part; 0 means one for every processor. The result does not depend on
     /// it. Small work, and work under a budget, is done by the calling thread alone.
     std::uint32_t threads = 0;
+    /// What happens to operands on lattices that do not fit together, where one is too large for
+    /// the unit of another: round the finer ones to the finest common lattice and report it, or
+    /// refuse.
+    enum class Lattices : std::uint8_t { Round, Refuse } lattices = Lattices::Round;
     /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
     const std::atomic<bool>* cancel = nullptr;
 };
@@ -99,12 +103,16 @@ struct EvaluateStats {
     std::uint64_t cuts_undone = 0;     ///< because nothing differed on their two sides
     std::uint64_t memory = 0;          ///< most bytes held at once, as max_memory counts them
     int depth = 0;
+    LatticeReport lattice;  ///< of the result, and what moving the operands to it rounded
 
     /// Adds the counts of another part of the same evaluation.
     EvaluateStats& operator+=(const EvaluateStats& part);
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
+/// Operands of different lattices are moved to the finest one on which all of them fit. That is
+/// exact, except for operands of very different size: see EvaluateOptions::lattices and
+/// EvaluateStats::lattice.
 /// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
 /// alternating operations, or the work or memory budget is spent; CancelledError. Operands stay as
 /// they were.
