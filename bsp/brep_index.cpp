@@ -3,7 +3,10 @@
 #include <trisect/bsp/brep_index.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -11,10 +14,13 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <trisect/bsp/detail/index_box.h>
 #include <trisect/bsp/detail/index_cells.h>
 #include <trisect/bsp/detail/index_core.h>
 #include <trisect/bsp/detail/index_handles.h>
+#include <trisect/bsp/detail/index_nearest.h>
 #include <trisect/bsp/detail/index_ray.h>
+#include <trisect/bsp/detail/index_section.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
@@ -59,7 +65,18 @@ Place located(const IndexCore& core, const IndexPoint& point, std::vector<Polygo
     return place;
 }
 
-// Calls work(i) for all i below n, in parts, on so many threads.
+template <class T>
+void sort_unique(std::vector<T>& v) {
+    std::sort(v.begin(), v.end());
+    v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Node& n,
+                  const detail::DoubleBox& cell) {
+    return {cell.lo, cell.hi, core.tree().leaf(n.next).count, false};
+}
+
+// Calls work(begin, end) for all i below n, in parts, on so many threads.
 template <class Work>
 void for_each_part(std::size_t n, unsigned threads, const Work& work) {
     if (threads == 1 || n < 1024) {
@@ -206,8 +223,160 @@ std::vector<RayHit> BrepIndex::all_hits(const Segment& segment) const {
     return detail::all_hits(*core_, IndexLine(segment, solid().lattice()));
 }
 
+std::optional<Nearest> BrepIndex::nearest(const std::array<double, 3>& point) const {
+    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+                           detail::NearestKind::Boundary);
+}
+std::optional<Nearest> BrepIndex::nearest_edge(const std::array<double, 3>& point) const {
+    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+                           detail::NearestKind::Edge);
+}
+std::optional<Nearest> BrepIndex::nearest_vertex(const std::array<double, 3>& point) const {
+    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+                           detail::NearestKind::Vertex);
+}
+
+std::optional<SignedDistance> BrepIndex::signed_distance(const std::array<double, 3>& point) const {
+    auto found = nearest(point);
+    if (!found) return std::nullopt;
+    const IndexPoint p = IndexPoint::from_user(point, solid().lattice());
+    std::vector<PolygonId> on;
+    const Location l = detail::locate_polygons(*core_->base, p, on);
+    const int sign = l == Location::Inside ? -1 : (l == Location::Outside ? 1 : 0);
+    return SignedDistance{sign, std::move(*found)};
+}
+
+std::vector<SectionRegion> BrepIndex::section(const Plane& plane) const {
+    return detail::section(*core_, plane);
+}
+PlaneRelation BrepIndex::relation_to(const Plane& plane) const {
+    return detail::relation_to(*core_, plane);
+}
+
+BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
+                              const std::array<double, 3>& hi) const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(lo[k] <= hi[k])) throw UsageError("a box whose lower end is above its upper one");
+    const Lattice lattice = solid().lattice();
+    const IndexPoint low = IndexPoint::from_user(lo, lattice);
+    const IndexPoint high = IndexPoint::from_user(hi, lattice);
+    BoxEntities out;
+    for (const PolygonId id : detail::polygons_in_box(*core_->base, low, high)) {
+        out.faces.push_back(core_->polygons().face_source(id));
+        if (core_->handles) out.face_ids.push_back(core_->handles->face_of(id));
+    }
+    sort_unique(out.faces);
+    sort_unique(out.face_ids);
+    if (!core_->handles) return out;
+    // An edge that meets the box is one of a face that does.
+    const Brep& b = brep();
+    for (const FaceId f : out.face_ids)
+        for (const HalfedgeId h : b.halfedges(f)) {
+            out.edge_ids.push_back(b.edge(h));
+            out.vertex_ids.push_back(b.origin(h));
+        }
+    sort_unique(out.edge_ids);
+    sort_unique(out.vertex_ids);
+    std::erase_if(out.vertex_ids,
+                  [&](VertexId v) { return !detail::is_in_box(b.point(v), low, high); });
+    std::erase_if(out.edge_ids, [&](EdgeId e) {
+        const HalfedgeId h = b.halfedge(e);
+        return !detail::meets_box(b.point(b.origin(h)), b.point(b.target(h)), low, high);
+    });
+    return out;
+}
+
+std::vector<IndexCell> BrepIndex::cells(FaceId face) const {
+    TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
+    std::vector<IndexCell> out;
+    const auto polygons = core_->handles->polygons_of(face);
+    detail::for_leaves(
+        core_->tree(),
+        [&](const detail::DoubleBox& cell) {
+            return std::any_of(polygons.begin(), polygons.end(), [&](PolygonId id) {
+                return cell.overlaps(detail::to_doubles(core_->polygons().box(id)));
+            });
+        },
+        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
+            if (!n.is_mixed()) return;
+            const auto listed = core_->tree().listed(core_->tree().leaf(n.next));
+            if (std::any_of(listed.begin(), listed.end(),
+                            [&](PolygonId id) { return core_->handles->face_of(id) == face; }))
+                out.push_back(to_cell(*core_, n, cell));
+        });
+    return out;
+}
+
+std::vector<IndexCell> BrepIndex::cells(EdgeId edge) const {
+    TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
+    const Brep& b = brep();
+    const HalfedgeId h = b.halfedge(edge);
+    const detail::DoubleBox box = detail::hull(b.point(b.origin(h)), b.point(b.target(h)));
+    std::vector<IndexCell> out;
+    detail::for_leaves(
+        core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
+        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
+            if (!n.is_mixed()) return;
+            const auto edges = core_->handles->edges_in(n.next);
+            if (std::find(edges.begin(), edges.end(), edge) != edges.end())
+                out.push_back(to_cell(*core_, n, cell));
+        });
+    return out;
+}
+
+std::vector<IndexCell> BrepIndex::cells(VertexId vertex) const {
+    TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
+    const Point& p = brep().point(vertex);
+    const detail::DoubleBox box = detail::hull(p, p);
+    std::vector<IndexCell> out;
+    detail::for_leaves(
+        core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
+        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
+            if (!n.is_mixed()) return;
+            const auto vertices = core_->handles->vertices_in(n.next);
+            if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
+                out.push_back(to_cell(*core_, n, cell));
+        });
+    return out;
+}
+
 IndexCell BrepIndex::cell_at(const std::array<double, 3>& point) const {
     return detail::cell_at(*core_->base, IndexPoint::from_user(point, solid().lattice()));
+}
+
+Plane plane_on_lattice(const std::array<double, 4>& coefficients, Lattice lattice) {
+    // a x + b y + c z + d with x = X 2^e: integers times a common power of two.
+    std::array<std::int64_t, 4> mantissa{};
+    std::array<int, 4> exponent{};
+    int least = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!std::isfinite(coefficients[i]))
+            throw UsageError("a plane with a coefficient that is not finite");
+        if (coefficients[i] == 0) continue;
+        int e = 0;
+        const double m = std::ldexp(std::frexp(coefficients[i], &e), 53);
+        const auto v = static_cast<std::int64_t>(m);
+        const int zeros = std::countr_zero(static_cast<std::uint64_t>(v));
+        mantissa[i] = v >> zeros;
+        exponent[i] = e - 53 + zeros + (i < 3 ? lattice.exponent : 0);
+        least = std::min(least, exponent[i]);
+    }
+    if (mantissa[0] == 0 && mantissa[1] == 0 && mantissa[2] == 0)
+        throw UsageError("a plane whose normal is 0");
+    std::array<Plane::Offset, 4> n;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (mantissa[i] == 0) continue;
+        const int shift = exponent[i] - least;
+        const int limit = i < 3 ? 109 : 162;
+        const Plane::Offset m(mantissa[i]);
+        if (shift > limit || m.bit_length() + shift >= limit)
+            throw LimitError("the coefficients of the plane span too many bits for the lattice");
+        n[i] = m.shifted_left(shift);
+    }
+    const auto narrow = [](const Plane::Offset& v) {
+        return static_cast<Int128>((Uint128{v.limb(1)} << 64) | v.limb(0));
+    };
+    return {narrow(n[0]), narrow(n[1]), narrow(n[2]), n[3]};
 }
 
 }  // namespace trisect

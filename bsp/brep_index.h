@@ -149,7 +149,8 @@ struct RayHit {
     Plane plane;
 };
 
-/// How a plane lies to a solid.
+/// How the boundary of a solid lies to a plane. A half-space bounded by the plane itself touches it
+/// from its own side.
 enum class PlaneRelation : std::uint8_t {
     Empty,          ///< the solid has no boundary (nothing, or all of space)
     Below,          ///< the boundary lies strictly below the plane

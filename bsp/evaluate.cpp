@@ -49,11 +49,6 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     pieces += part.pieces;
     traces += part.traces;
     traces_retried += part.traces_retried;
-    traces_within += part.traces_within;
-    pairs_touching += part.pairs_touching;
-    untouched_polygons += part.untouched_polygons;
-    cuts_undone += part.cuts_undone;
-    linked += part.linked;
     memory = std::max(memory, part.memory);
     depth = std::max(depth, part.depth);
     return *this;
@@ -63,14 +58,13 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     const detail::Translation t = detail::translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const Solid& s : t.slots) states.push_back(s.state());
-    const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
+    const Lattice lattice = detail::move_to_common_lattice(states);
     detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, options);
     auto state = std::make_shared<SolidState>();
-    state->lattice = lattice.lattice;
+    state->lattice = lattice;
     state->root = std::move(evaluation.root);
     state->embedded = true;
     state->incomplete = all_incomplete(std::move(evaluation.incomplete), states);
-    evaluation.stats.lattice = lattice;
     if (stats != nullptr) *stats = evaluation.stats;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

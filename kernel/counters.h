@@ -26,13 +26,7 @@ struct PredicateCounters {
     }
 };
 
-namespace detail {
-inline constinit thread_local PredicateCounters predicate_counters_of_thread;
-}
-
 /// The counters of the calling thread.
-[[nodiscard]] inline PredicateCounters& predicate_counters() noexcept {
-    return detail::predicate_counters_of_thread;
-}
+[[nodiscard]] PredicateCounters& predicate_counters() noexcept;
 
 }  // namespace trisect

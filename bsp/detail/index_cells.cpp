@@ -2,9 +2,30 @@
 
 #include <trisect/bsp/detail/index_cells.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace trisect::detail {
+
+DoubleBox to_doubles(const Box& box) {
+    DoubleBox b;
+    for (std::size_t k = 0; k < 3; ++k) {
+        b.lo[k] = static_cast<double>(box.lo[k]);
+        b.hi[k] = static_cast<double>(box.hi[k]);
+    }
+    return b;
+}
+
+DoubleBox hull(const Point& a, const Point& b) {
+    DoubleBox box;
+    const Approximation& p = a.approximation();
+    const Approximation& q = b.approximation();
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.lo[k] = std::min(p.c[k], q.c[k]) - 2 * (p.error + q.error);
+        box.hi[k] = std::max(p.c[k], q.c[k]) + 2 * (p.error + q.error);
+    }
+    return box;
+}
 
 DoubleBox root_cell() {
     constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -21,6 +21,9 @@ struct DoubleBox {
     }
 };
 
+/// Contain a box of lattice points, and a segment.
+[[nodiscard]] DoubleBox to_doubles(const Box& box);
+[[nodiscard]] DoubleBox hull(const Point& a, const Point& b);
 /// Everything.
 [[nodiscard]] DoubleBox root_cell();
 /// The cells of a node's children. Rounded where an inherited wall is no double.

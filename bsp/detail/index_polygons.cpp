@@ -3,15 +3,12 @@
 #include <trisect/bsp/detail/index_polygons.h>
 
 #include <algorithm>
-#include <limits>
 
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
 
 namespace {
-
-constexpr std::uint32_t no_id = std::numeric_limits<std::uint32_t>::max();
 
 // The corners of a convex polygon given by its edges in any order: the points where two edges meet
 // that lie on no wrong side. Only for the rare facets that are cut by a cell; sorted around by the
@@ -68,13 +65,18 @@ IndexPolygons::IndexPolygons(const Source& source) : only_(&source), size_(sourc
 
 std::uint32_t IndexPolygons::slot_of(const Source* source) {
     if (last_slot_ < sources_.size() && sources_[last_slot_] == source) return last_slot_;
-    const auto it = std::find(sources_.begin(), sources_.end(), source);
-    last_slot_ = static_cast<std::uint32_t>(it - sources_.begin());
-    if (it == sources_.end()) {
+    const auto [it, is_new] =
+        slots_.try_emplace(source, static_cast<std::uint32_t>(sources_.size()));
+    if (is_new) {
         sources_.push_back(source);
-        whole_.emplace_back();
+        facets_.emplace_back(std::size_t{2} * source->facet_count());
     }
-    return last_slot_;
+    return last_slot_ = it->second;
+}
+
+IndexPolygons::Facet& IndexPolygons::facet_at(std::uint32_t slot, std::uint32_t facet,
+                                              bool flipped) {
+    return facets_[slot][std::size_t{2} * facet + (flipped ? 1 : 0)];
 }
 
 IndexPolygons::Id IndexPolygons::add_convex(const PolygonRef& ref, bool flipped, std::uint32_t slot,
@@ -94,9 +96,18 @@ IndexPolygons::Id IndexPolygons::add_convex(const PolygonRef& ref, bool flipped,
     return size_++;
 }
 
-IndexPolygons::Id IndexPolygons::add(const PolygonRef& ref, bool turned, const Cell& cell,
-                                     bool incomplete) {
-    TRISECT_EXPECTS(size_ + 1 < no_id, "too many polygons for an index");
+void IndexPolygons::note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete) {
+    Facet& f = facet_at(slot_of(ref.source), ref.facet, ref.flipped != turned);
+    if (incomplete || ref.fragment != nullptr) {
+        f.cut = true;
+    } else if (ref.source->is_half_space() ||
+               cell.contains(Box::of(ref.source->corner(ref.facet, 0)))) {
+        f.owned = true;
+    }
+}
+
+IndexPolygons::Id IndexPolygons::add(const PolygonRef& ref, bool turned, const Cell& cell) {
+    TRISECT_EXPECTS(size_ + 1 < none, "too many polygons for an index");
     const bool flipped = ref.flipped != turned;
     const std::uint32_t slot = slot_of(ref.source);
     if (ref.fragment != nullptr) {
@@ -107,36 +118,43 @@ IndexPolygons::Id IndexPolygons::add(const PolygonRef& ref, bool turned, const C
         }
         return add_convex(ref, flipped, slot, edges, ref.fragment->box());
     }
-    if (incomplete && !ref.source->is_half_space()) {
-        const Plane support = ref.source->support(ref.facet);
-        std::vector<Plane> edges;
-        for (int i = 0; i < 3; ++i) edges.push_back(ref.source->edge_plane(ref.facet, i, support));
-        for (int k = 0; k < 3; ++k) {
-            const auto kk = static_cast<std::size_t>(k);
-            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.lo[kk]).flipped());
-            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.hi[kk]));
-        }
-        edges = edges_in_order(support, edges);
-        // What only touches the cell is listed whole or cut in the cells that it is in.
-        if (edges.size() < 3) return no_id;
-        return add_convex(ref, flipped, slot, edges, ref.source->facet_box(ref.facet));
-    }
-    std::vector<Id>& numbers = whole_[slot];
-    if (numbers.empty()) numbers.assign(std::size_t{2} * ref.source->facet_count(), no_id);
-    Id& number = numbers[std::size_t{2} * ref.facet + (flipped ? 1 : 0)];
-    if (number != no_id) return number;
+    Facet& f = facet_at(slot, ref.facet, flipped);
+    if (f.cut) return add_clipped(ref, flipped, slot, cell);
+    if (!f.owned) return none;
+    if (f.id != none) return f.id;
     if (ref.source->is_half_space())
-        return number = add_convex(ref, flipped, slot, {}, ref.source->box());
+        return f.id = add_convex(ref, flipped, slot, {}, ref.source->box());
     Record r;
     r.source = slot;
     r.facet = ref.facet;
     r.flipped = flipped;
     records_.push_back(r);
-    return number = size_++;
+    return f.id = size_++;
+}
+
+// What is of a facet in a cell.
+IndexPolygons::Id IndexPolygons::add_clipped(const PolygonRef& ref, bool flipped,
+                                             std::uint32_t slot, const Cell& cell) {
+    const Plane support = ref.source->support(ref.facet);
+    const Box box = ref.box();
+    std::vector<Plane> edges;
+    if (!ref.source->is_half_space())
+        for (int i = 0; i < 3; ++i) edges.push_back(ref.source->edge_plane(ref.facet, i, support));
+    for (int k = 0; k < 3; ++k) {
+        const auto kk = static_cast<std::size_t>(k);
+        if (box.lo[kk] <= (cell.lo[kk] >> wall_bits))
+            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.lo[kk]).flipped());
+        if (box.hi[kk] > (cell.hi[kk] >> wall_bits))
+            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.hi[kk]));
+    }
+    edges = edges_in_order(support, edges);
+    if (edges.size() < 3) return none;
+    return add_convex(ref, flipped, slot, edges, box);
 }
 
 void IndexPolygons::finish() {
-    whole_ = {};
+    facets_ = {};
+    slots_ = {};
     records_.shrink_to_fit();
     planes_.shrink_to_fit();
     boxes_.shrink_to_fit();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include <trisect/brep/brep.h>
@@ -34,9 +35,17 @@ public:
     /// All facets of one source, unturned.
     explicit IndexPolygons(const Source& source);
 
-    /// Numbers a polygon of a leaf; the same number again for the same whole facet. A facet that is
-    /// `incomplete` is only what is of it in the cell.
-    Id add(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete);
+    static constexpr Id none = 0xffffffffU;
+
+    // Made in two passes over the leaves. A leaf may list facets that only pass by its cell, and a
+    // facet that is listed whole in one cell may be cut in another one: then what is of it in each
+    // cell counts. So facets are looked at in all cells before they are numbered.
+
+    /// First pass: every polygon of every leaf.
+    void note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete);
+    /// Second pass: numbers a polygon of a leaf; the same number again for the same whole facet.
+    /// `none` for what is no part of the boundary.
+    Id add(const PolygonRef& ref, bool turned, const Cell& cell);
     /// Forgets what only `add` needs.
     void finish();
 
@@ -102,7 +111,16 @@ private:
         bool flipped = false;
     };
 
+    // What is known of a facet, turned or not, while polygons are added.
+    struct Facet {
+        Id id = none;
+        bool owned = false;  // listed whole where its first corner is
+        bool cut = false;    // or incomplete
+    };
+
     std::uint32_t slot_of(const Source* source);
+    [[nodiscard]] Facet& facet_at(std::uint32_t slot, std::uint32_t facet, bool flipped);
+    Id add_clipped(const PolygonRef& ref, bool flipped, std::uint32_t slot, const Cell& cell);
     Id add_convex(const PolygonRef& ref, bool flipped, std::uint32_t slot,
                   std::span<const Plane> edges, const Box& box);
 
@@ -112,8 +130,8 @@ private:
     std::vector<Record> records_;
     std::vector<Plane> planes_;
     std::vector<Box> boxes_;
-    // While adding: the numbers of whole facets, two per facet (unturned, flipped).
-    std::vector<std::vector<Id>> whole_;
+    std::vector<std::vector<Facet>> facets_;  // by source: two for each facet, unturned and flipped
+    std::unordered_map<const Source*, std::uint32_t> slots_;
     std::uint32_t last_slot_ = 0;
 };
 

@@ -113,6 +113,7 @@ private:
     };
 
     void find_bounds(const CellRef& root);
+    void note_polygons(const SolidState& state, const CellRef& ref, bool turned, const Cell& cell);
     void add_cells(const CellRef& ref, bool turned, const Cell& cell, std::uint32_t node,
                    int depth);
     void add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell, std::uint32_t node,
@@ -135,15 +136,14 @@ private:
 
     IndexTree& t_;
     IndexPolygons& polygons_;
-    const std::vector<FacetName>* incomplete_ = nullptr;
     std::array<std::int64_t, 3> middle_{};
     float grid_ = 1.0F / 256;  // walls are odd multiples of it where floats have the bits
     std::vector<Item> items_;
 };
 
 void IndexTreeBuilder::build(const SolidState& state) {
-    incomplete_ = &state.incomplete;
     find_bounds(state.root);
+    if (polygons_.only_source() == nullptr) note_polygons(state, state.root, false, Cell{});
     add_cells(state.root, false, Cell{}, 0, 0);
     polygons_.finish();
     t_.nodes_.shrink_to_fit();
@@ -198,7 +198,25 @@ FloatBox IndexTreeBuilder::relative(const Cell& cell) const {
     return b;
 }
 
-// Depth is bounded by the cell tree's own.
+// Depth is bounded by the cell tree's own, here and in add_cells.
+void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref, bool turned,
+                                     const Cell& cell) {
+    turned = turned != ref.complemented;
+    const CellNode& n = *ref.node;
+    if (!n.is_leaf()) {
+        note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.wall()));
+        note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.wall()));
+        return;
+    }
+    const auto& incomplete = state.incomplete;
+    for (const PolygonRef r : n.polygons()) {
+        const bool is_incomplete =
+            !incomplete.empty() && std::binary_search(incomplete.begin(), incomplete.end(),
+                                                      FacetName{r.source->serial(), r.facet});
+        polygons_.note(r, turned, cell, is_incomplete);
+    }
+}
+
 void IndexTreeBuilder::add_cells(const CellRef& ref, bool turned, const Cell& cell,
                                  std::uint32_t node, int depth) {
     turned = turned != ref.complemented;
@@ -222,11 +240,8 @@ void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, con
             (void)only;
             id = r.facet;
         } else {
-            const bool incomplete = !incomplete_->empty() &&
-                                    std::binary_search(incomplete_->begin(), incomplete_->end(),
-                                                       FacetName{r.source->serial(), r.facet});
-            id = polygons_.add(r, turned, cell, incomplete);
-            if (id == std::numeric_limits<Id>::max()) continue;
+            id = polygons_.add(r, turned, cell);
+            if (id == IndexPolygons::none) continue;
         }
         Item item;
         item.id = id;
@@ -248,7 +263,13 @@ void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, con
     s.reference = cell_node.reference();
     const int inside = cell_node.winding() > 0 ? 1 : 0;
     s.winding = turned ? 1 - inside : inside;
-    TRISECT_EXPECTS(enter_cell(s), "no point off the surface found in a cell");
+    // A cell without polygons may be narrow or beyond the model; where there is no better reference
+    // the cell's own serves, and the cell stays as it is.
+    if (items_.empty() || !enter_cell(s)) {
+        make_leaf(s);
+        items_.clear();
+        return;
+    }
     subdivide(s);
 }
 

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nearest points, by branch and bound in doubles and a decision among the few that are left in
+// rationals.
+//
+// For a convex set C, the hull of corners c_i, and any point q of it, |p - q| bounds the distance
+// of p from above, and with g = p - q the smallest g · (p - c_i) / |g| bounds it from below: all of
+// C lies behind the plane through the nearest such corner. That holds however q was found, so q
+// may come from plain floating-point arithmetic; a bad one only leaves more work to the rationals.
+// The same serves polygons, edges (two corners) and corners (one).
+//
+// Rounding of bounds: q is a combination of the corners with weights that are not negative and sum
+// to 1 up to 2^-50; differences and products err relative to the largest difference M of
+// coordinates involved, 2^-44 M covers all of it amply.
+
+#include <trisect/bsp/detail/index_nearest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <trisect/bsp/detail/index_cells.h>
+#include <trisect/bsp/detail/index_handles.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+using Exact = IndexPoint::Rational;
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double largest(const Vector& a) {
+    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
+Exact minus(const Exact& a, const Exact& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+ExactRational dot(const Exact& a, const Exact& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+ExactRational squared_distance(const Exact& a, const Exact& b) {
+    const Exact d = minus(a, b);
+    return dot(d, d);
+}
+
+// The nearest point to the origin of the triangle a, b, c, up to rounding: a combination of the
+// corners with weights >= 0.
+Vector nearest_on_segment(const Vector& a, const Vector& b) {
+    const Vector e = minus(b, a);
+    const double ee = dot(e, e);
+    const double t = ee > 0 ? std::clamp(-dot(a, e) / ee, 0.0, 1.0) : 0.0;
+    Vector q{};
+    for (std::size_t k = 0; k < 3; ++k) q[k] = (1 - t) * a[k] + t * b[k];
+    return q;
+}
+
+Vector nearest_on_triangle(const Vector& a, const Vector& b, const Vector& c) {
+    const Vector u = minus(b, a);
+    const Vector v = minus(c, a);
+    const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const auto weight = [&](const Vector& s, const Vector& t) {
+        return n[0] * (s[1] * t[2] - s[2] * t[1]) + n[1] * (s[2] * t[0] - s[0] * t[2]) +
+               n[2] * (s[0] * t[1] - s[1] * t[0]);
+    };
+    const double wa = weight(b, c);
+    const double wb = weight(c, a);
+    const double wc = weight(a, b);
+    const double sum = wa + wb + wc;
+    if (wa >= 0 && wb >= 0 && wc >= 0 && sum > 0) {
+        Vector q{};
+        for (std::size_t k = 0; k < 3; ++k)
+            q[k] = (wa / sum) * a[k] + (wb / sum) * b[k] + (wc / sum) * c[k];
+        return q;
+    }
+    Vector best = nearest_on_segment(a, b);
+    for (const Vector& q : {nearest_on_segment(b, c), nearest_on_segment(c, a)})
+        if (dot(q, q) < dot(best, best)) best = q;
+    return best;
+}
+
+struct Bounds {
+    double lo = 0;
+    double hi = HUGE_VAL;
+};
+
+// Of the distance from the origin to the hull of the corners, which are known within `error`.
+Bounds bounds_of(std::span<const Vector> corners, double error) {
+    double m = 0;
+    for (const Vector& c : corners) m = std::max(m, largest(c));
+    if (!(m < 0x1p500)) return {};
+    Vector q = corners[0];
+    if (corners.size() == 2) q = nearest_on_segment(corners[0], corners[1]);
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const Vector r = nearest_on_triangle(corners[0], corners[i - 1], corners[i]);
+        if (i == 2 || dot(r, r) < dot(q, q)) q = r;
+    }
+    const double length = std::sqrt(dot(q, q));
+    const double slack = m * 0x1p-44 + 4 * error;
+    Bounds b{0, length + slack};
+    if (length > 4 * slack) {
+        double least = HUGE_VAL;
+        for (const Vector& c : corners) least = std::min(least, dot(q, c));
+        // |g| is within slack of exact; so is each g · c / |g| times a few.
+        b.lo = std::max(0.0, least / length - 8 * slack * (1 + m / length));
+    }
+    return b;
+}
+
+// Something that may hold the nearest point: a polygon, an edge or a corner.
+struct Feature {
+    PolygonId polygon = 0;
+    std::int32_t edge = -1;
+    std::int32_t corner = -1;
+    Bounds bounds;
+};
+
+class Search {
+public:
+    Search(const IndexCore& core, const IndexPoint& point, NearestKind kind)
+        : core_(core), polygons_(core.polygons()), p_(point), kind_(kind) {}
+
+    [[nodiscard]] std::optional<Nearest> run() {
+        walk();
+        std::sort(features_.begin(), features_.end(),
+                  [](const Feature& a, const Feature& b) { return a.bounds.lo < b.bounds.lo; });
+        for (const Feature& f : features_) {
+            if (f.bounds.lo > limit_) break;
+            decide(f);
+        }
+        if (!found_) return std::nullopt;
+        return finished();
+    }
+
+private:
+    struct Pending {
+        std::uint32_t node = 0;
+        DoubleBox cell;
+        double distance = 0;
+    };
+
+    // The distance from the point to a cell, rounded down a little.
+    [[nodiscard]] double distance_to(const DoubleBox& cell) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double lo = std::max(cell.lo[k], core_.tree().lo()[k]);
+            const double hi = std::min(cell.hi[k], core_.tree().hi()[k]);
+            const double d = std::max({0.0, lo - p_[k], p_[k] - hi});
+            sum += d * d;
+        }
+        const double d = std::sqrt(sum) * (1 - 0x1p-48) - 2 * p_.error();
+        return d > 0 ? d : 0;  // also for what is no number
+    }
+
+    void walk() {
+        const IndexTree& tree = core_.tree();
+        std::vector<Pending> pending{{0, root_cell(), 0}};
+        while (!pending.empty()) {
+            const Pending at = pending.back();
+            pending.pop_back();
+            if (at.distance > limit_) continue;
+            const IndexTree::Node& n = tree.node(at.node);
+            if (n.is_leaf()) {
+                if (n.is_mixed())
+                    for (const PolygonId id : tree.listed(tree.leaf(n.next))) visit(id);
+                continue;
+            }
+            Pending near{n.next, child_cell(at.cell, n, false), 0};
+            Pending far{n.next + 1, child_cell(at.cell, n, true), 0};
+            near.distance = distance_to(near.cell);
+            far.distance = distance_to(far.cell);
+            if (far.distance < near.distance ||
+                (far.distance == near.distance && p_[n.axis()] > n.rounded_wall()))
+                std::swap(near, far);
+            pending.push_back(far);
+            pending.push_back(near);
+        }
+    }
+
+    [[nodiscard]] std::vector<Vector> relative_corners(PolygonId id, double& error) const {
+        std::vector<Vector> out;
+        error = p_.error();
+        if (polygons_.is_triangle(id)) {
+            for (int i = 0; i < 3; ++i) {
+                const LatticePoint& c = polygons_.corner(id, i);
+                out.push_back(minus(
+                    {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)},
+                    p_.approximate()));
+            }
+            return out;
+        }
+        for (const Point& c : polygons_.corners(id)) {
+            out.push_back(minus(c.approximation().c, p_.approximate()));
+            error = std::max(error, p_.error() + c.approximation().error);
+        }
+        return out;
+    }
+
+    void visit(PolygonId id) {
+        if (polygons_.is_unbounded(id)) {
+            if (kind_ == NearestKind::Boundary) offer({id, -1, -1, {}});
+            return;
+        }
+        double error = 0;
+        const std::vector<Vector> c = relative_corners(id, error);
+        if (kind_ == NearestKind::Boundary) {
+            offer({id, -1, -1, bounds_of(c, error)});
+            return;
+        }
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            const auto number = static_cast<std::int32_t>(i);
+            offer({id, -1, number, bounds_of(std::span(c).subspan(i, 1), error)});
+            if (kind_ != NearestKind::Edge) continue;
+            const std::array<Vector, 2> ends{c[i], c[(i + 1) % c.size()]};
+            offer({id, number, -1, bounds_of(ends, error)});
+        }
+    }
+
+    void offer(const Feature& f) {
+        if (f.bounds.lo > limit_) return;
+        if (kind_ == NearestKind::Boundary) {
+            limit_ = std::min(limit_, f.bounds.hi);
+        } else if (f.bounds.hi < limit_) {
+            // Only what is an edge or vertex of the set limits the search.
+            decide(f);
+            return;
+        }
+        features_.push_back(f);
+    }
+
+    // The exact point of a feature, and whether it is the best so far.
+    void decide(const Feature& f) {
+        Exact q = nearest_of(f);
+        ExactRational d = squared_distance(q, p_.rational());
+        if (found_) {
+            const auto order = d <=> squared_;
+            if (order > 0) return;
+            if (order == 0 && !(q < q_) && !(q == q_)) return;
+            if (order == 0 && q == q_) {
+                on_.push_back(f.polygon);
+                return;
+            }
+        }
+        if (kind_ != NearestKind::Boundary) {
+            std::vector<PolygonId> on;
+            const IndexPoint at{Exact(q)};
+            Location l = locate_polygons(*core_.base, at, on);
+            if (l == Location::OnFace) l = place_on(polygons_, on).location;
+            if (l != Location::OnVertex && (kind_ != NearestKind::Edge || l != Location::OnEdge))
+                return;
+        }
+        found_ = true;
+        q_ = std::move(q);
+        squared_ = std::move(d);
+        on_.assign(1, f.polygon);
+        const double root = std::sqrt(squared_.to_double());
+        limit_ = std::min(limit_, root * (1 + 0x1p-50) + 0x1p-500);
+    }
+
+    [[nodiscard]] Exact nearest_of(const Feature& f) const {
+        if (f.corner >= 0)
+            return IndexPoint(polygons_.corners(f.polygon)[static_cast<std::size_t>(f.corner)])
+                .rational();
+        std::vector<Exact> c;
+        if (!polygons_.is_unbounded(f.polygon))
+            for (const Point& p : polygons_.corners(f.polygon))
+                c.push_back(IndexPoint(p).rational());
+        const auto on_edge = [&](std::size_t i) {
+            const Exact& a = c[i];
+            const Exact e = minus(c[(i + 1) % c.size()], a);
+            ExactRational t = dot(minus(p_.rational(), a), e) / dot(e, e);
+            if (t.sign() < 0) t = ExactRational();
+            if (t > ExactRational(1)) t = ExactRational(1);
+            return Exact{a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]};
+        };
+        if (f.edge >= 0) return on_edge(static_cast<std::size_t>(f.edge));
+        // The foot of the perpendicular, if it is in the polygon; else some edge has the nearest.
+        const Plane support = polygons_.support(f.polygon);
+        Exact n;
+        for (int k = 0; k < 3; ++k)
+            n[static_cast<std::size_t>(k)] = ExactRational(WideInt<2>(support.normal(k)));
+        const ExactRational t = value_at(p_.rational(), support) / dot(n, n);
+        Exact foot = p_.rational();
+        for (std::size_t k = 0; k < 3; ++k) foot[k] -= t * n[k];
+        std::array<Plane, 3> storage;
+        const auto edges = polygons_.edges(f.polygon, storage);
+        if (std::all_of(edges.begin(), edges.end(),
+                        [&](const Plane& e) { return value_at(foot, e).sign() <= 0; }))
+            return foot;
+        Exact best = on_edge(0);
+        ExactRational least = squared_distance(best, p_.rational());
+        for (std::size_t i = 1; i < c.size(); ++i) {
+            Exact q = on_edge(i);
+            ExactRational d = squared_distance(q, p_.rational());
+            if (d < least) {
+                least = std::move(d);
+                best = std::move(q);
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] Nearest finished() {
+        const IndexPoint at{Exact(q_)};
+        if (kind_ != NearestKind::Boundary) (void)locate_polygons(*core_.base, at, on_);
+        std::sort(on_.begin(), on_.end());
+        on_.erase(std::unique(on_.begin(), on_.end()), on_.end());
+        Nearest out;
+        out.place = place_on(polygons_, on_, at);
+        if (core_.handles) core_.handles->name(core_, out.place, on_, at);
+        const int e = core_.base->solid.lattice().exponent;
+        for (std::size_t k = 0; k < 3; ++k) out.point[k] = q_[k].scaled(e);
+        out.squared_distance = squared_.scaled(2 * e);
+        out.squared_rounded = out.squared_distance.to_double();
+        out.distance = nearest_root(out.squared_distance);
+        return out;
+    }
+
+    const IndexCore& core_;
+    const IndexPolygons& polygons_;
+    const IndexPoint& p_;
+    NearestKind kind_;
+    double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
+    std::vector<Feature> features_;
+    bool found_ = false;
+    Exact q_;
+    ExactRational squared_;
+    std::vector<PolygonId> on_;
+};
+
+}  // namespace
+
+double nearest_root(const ExactRational& square) {
+    const double s = square.to_double();
+    double r = std::sqrt(s);
+    if (!std::isfinite(r) || s < 0x1p-900) return r;
+    // Compare with the middles between r and its neighbours; sqrt of the rounded square is at most
+    // one step off.
+    const auto middle = [](double a, double b) {
+        return (ExactRational::from_double(a) + ExactRational::from_double(b)) / ExactRational(2);
+    };
+    const auto even = [](double v) {
+        int e = 0;
+        return std::fmod(std::ldexp(std::frexp(v, &e), 53), 2.0) == 0;
+    };
+    const double up = std::nextafter(r, HUGE_VAL);
+    const ExactRational high = middle(r, up);
+    const auto above = square <=> high * high;
+    if (above > 0 || (above == 0 && even(up))) return up;
+    const double down = std::nextafter(r, 0.0);
+    const ExactRational low = middle(down, r);
+    const auto below = square <=> low * low;
+    if (below < 0 || (below == 0 && even(down))) return down;
+    return r;
+}
+
+std::optional<Nearest> nearest(const IndexCore& core, const IndexPoint& point, NearestKind kind) {
+    return Search(core, point, kind).run();
+}
+
+}  // namespace trisect::detail
