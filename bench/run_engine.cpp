@@ -205,6 +205,7 @@ void Job::check(json& out) const {
     out["open_edges"] = shapes::open_edges(result_);
     out["volume"] = size.volume;
     out["area"] = size.area;
+    out["hash"] = shapes::hash_of(result_);
     const auto wanted = bench::expected(scene_.name, options_.operation);
     if (!wanted || (scene_.is_chain() && chain_.steps != scene_.steps)) return;
     out["volume_is_right"] =

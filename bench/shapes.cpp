@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -313,6 +314,16 @@ std::size_t open_edges(const PolygonMesh& mesh) {
         open += balance != 0 ? 1U : 0U;
     }
     return open;
+}
+
+std::uint64_t hash_of(const PolygonMesh& mesh) {
+    std::uint64_t hash = 0xCBF29CE484222325U;
+    const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001B3U; };
+    for (const Point3d& p : mesh.points)
+        for (const double x : p) add(std::bit_cast<std::uint64_t>(x));
+    for (const std::uint32_t begin : mesh.face_begin) add(begin);
+    for (const std::uint32_t corner : mesh.corners) add(corner);
+    return hash;
 }
 
 }  // namespace shapes

@@ -73,4 +73,7 @@ struct Size {
 /// Edges that are not used equally often in both directions; 0 for a closed mesh.
 [[nodiscard]] std::size_t open_edges(const trisect::PolygonMesh& mesh);
 
+/// Of all arrays, bit by bit (FNV-1a): equal for meshes that are the same in every respect.
+[[nodiscard]] std::uint64_t hash_of(const trisect::PolygonMesh& mesh);
+
 }  // namespace shapes

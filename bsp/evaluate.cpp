@@ -49,6 +49,11 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     pieces += part.pieces;
     traces += part.traces;
     traces_retried += part.traces_retried;
+    traces_within += part.traces_within;
+    pairs_touching += part.pairs_touching;
+    untouched_polygons += part.untouched_polygons;
+    cuts_undone += part.cuts_undone;
+    linked += part.linked;
     memory = std::max(memory, part.memory);
     depth = std::max(depth, part.depth);
     return *this;
@@ -58,13 +63,14 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     const detail::Translation t = detail::translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const Solid& s : t.slots) states.push_back(s.state());
-    const Lattice lattice = detail::move_to_common_lattice(states);
+    const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
     detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, options);
     auto state = std::make_shared<SolidState>();
-    state->lattice = lattice;
+    state->lattice = lattice.lattice;
     state->root = std::move(evaluation.root);
     state->embedded = true;
     state->incomplete = all_incomplete(std::move(evaluation.incomplete), states);
+    evaluation.stats.lattice = lattice;
     if (stats != nullptr) *stats = evaluation.stats;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

@@ -74,6 +74,10 @@ struct EvaluateOptions {
     /// Threads that may take part; 0 means one for every processor. The result does not depend on
     /// it. Small work, and work under a budget, is done by the calling thread alone.
     std::uint32_t threads = 0;
+    /// What happens to operands on lattices that do not fit together, where one is too large for
+    /// the unit of another: round the finer ones to the finest common lattice and report it, or
+    /// refuse.
+    enum class Lattices : std::uint8_t { Round, Refuse } lattices = Lattices::Round;
     /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
     const std::atomic<bool>* cancel = nullptr;
 };
@@ -86,18 +90,29 @@ struct EvaluateStats {
     std::uint64_t mixed_leaves = 0;     ///< resolved by a local arrangement
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
-    std::uint64_t pairs_cutting = 0;    ///< of them, pairs where one cuts the other
-    std::uint64_t pieces = 0;           ///< convex pieces made in mixed leaves
-    std::uint64_t traces = 0;           ///< winding numbers found by a segment trace
-    std::uint64_t traces_retried = 0;   ///< degenerate segments
-    std::uint64_t memory = 0;           ///< most bytes held at once, as max_memory counts them
+    std::uint64_t pairs_touching = 0;   ///< of them, pairs in contact
+    std::uint64_t pairs_cutting = 0;    ///< of those, pairs where one cuts the other
+    /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
+    std::uint64_t untouched_polygons = 0;
+    std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves
+    /// Polygons and pieces that know their winding numbers from a neighbour.
+    std::uint64_t linked = 0;
+    std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
+    std::uint64_t traces_retried = 0;  ///< degenerate segments
+    std::uint64_t traces_within = 0;   ///< winding numbers carried over within a polygon
+    std::uint64_t cuts_undone = 0;     ///< because nothing differed on their two sides
+    std::uint64_t memory = 0;          ///< most bytes held at once, as max_memory counts them
     int depth = 0;
+    LatticeReport lattice;  ///< of the result, and what moving the operands to it rounded
 
     /// Adds the counts of another part of the same evaluation.
     EvaluateStats& operator+=(const EvaluateStats& part);
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
+/// Operands of different lattices are moved to the finest one on which all of them fit. That is
+/// exact, except for operands of very different size: see EvaluateOptions::lattices and
+/// EvaluateStats::lattice.
 /// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
 /// alternating operations, or the work or memory budget is spent; CancelledError. Operands stay as
 /// they were.

@@ -26,7 +26,13 @@ struct PredicateCounters {
     }
 };
 
+namespace detail {
+inline constinit thread_local PredicateCounters predicate_counters_of_thread;
+}
+
 /// The counters of the calling thread.
-[[nodiscard]] PredicateCounters& predicate_counters() noexcept;
+[[nodiscard]] inline PredicateCounters& predicate_counters() noexcept {
+    return detail::predicate_counters_of_thread;
+}
 
 }  // namespace trisect

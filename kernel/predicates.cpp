@@ -39,11 +39,6 @@ using detail::subtract_product;
 using detail::to_digits;
 using detail::to_wide_int;
 
-PredicateCounters& predicate_counters() noexcept {
-    thread_local PredicateCounters counters;
-    return counters;
-}
-
 namespace {
 
 // Widths of one tier in digits of 56 bits; the top digit may have 62 bits.

@@ -53,7 +53,10 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         mesh = to_polygon_mesh(boundary);
         return boundary;
     });
-    session.stage("describe", [&] { result.description = describe(brep); });
+    session.stage("describe", [&] {
+        result.description = describe(brep);
+        result.description.lattice = result.stats.lattice;
+    });
     if (options.certificate) {
         session.stage("certify", [&] { result.certificate = certify(brep, mesh, format); });
     }
@@ -125,10 +128,11 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
     BooleanResult result;
-    const EvaluateOptions evaluation = session.evaluation_options(options.operands.winding);
+    const EvaluateOptions evaluation = session.evaluation_options(options.operands);
     const Solid solid = session.interruptible_stage("evaluate", [&] {
         return evaluate(formula(options.operation, operands), evaluation, &result.stats);
     });
+    note_rounding(session, result.stats.lattice, "the operands");
     deliver(session, options, solid, format, result);
     Outcome out;
     out.document = document_of(session, options, operands, result);

@@ -10,7 +10,9 @@
 
 #include "commands.h"
 #include "description.h"
+#include "mesh_files.h"
 #include "operand.h"
+#include "report_json.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -61,19 +63,22 @@ Outcome run_diff(Session& session, const DiffOptions& options) {
     session.plan(3);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
-    const EvaluateOptions evaluation = session.evaluation_options(options.operands.winding);
+    const EvaluateOptions evaluation = session.evaluation_options(options.operands);
     const Expression a = operands[0].solid;
     const Expression b = operands[1].solid;
+    EvaluateStats stats;
     const auto [difference, only_a, only_b] = session.interruptible_stage("evaluate", [&] {
-        return std::array{evaluate(a ^ b, evaluation), evaluate(a - b, evaluation),
+        return std::array{evaluate(a ^ b, evaluation, &stats), evaluate(a - b, evaluation),
                           evaluate(b - a, evaluation)};
     });
+    note_rounding(session, stats.lattice, "the operands");
     Outcome out;
     const bool equal = difference.is_empty();
     out.code = equal ? exit_done : exit_findings;
     out.document["schema"] = "trisect.diff/1";
     out.document["inputs"] = {operands[0].facts, operands[1].facts};
     out.document["equal"] = equal;
+    out.document["lattice"] = lattice_json(stats.lattice);
     session.stage("measure", [&] {
         const Description both = describe_set(difference, options.exact);
         const Description first = describe_set(only_a, options.exact);

@@ -49,6 +49,13 @@ void add_operand_options(CLI::App& command, OperandOptions& options) {
     command.add_option("--winding", options.winding, "which winding numbers are inside")
         ->transform(CLI::CheckedTransformer(rules))
         ->type_name("positive|nonzero");
+    static const std::map<std::string, EvaluateOptions::Lattices> policies{
+        {"round", EvaluateOptions::Lattices::Round}, {"refuse", EvaluateOptions::Lattices::Refuse}};
+    command
+        .add_option("--mixed-lattices", options.lattices,
+                    "inputs too large and too fine for one lattice: round the fine ones, or stop")
+        ->transform(CLI::CheckedTransformer(policies))
+        ->type_name("round|refuse");
 }
 
 std::vector<Operand> read_operands(Session& session, std::span<const std::string> names,

@@ -42,6 +42,7 @@ struct CommonOptions {
 struct OperandOptions {
     bool assume_embedded = false;
     EvaluateOptions::Winding winding = EvaluateOptions::Winding::Positive;
+    EvaluateOptions::Lattices lattices = EvaluateOptions::Lattices::Round;
 };
 
 struct BooleanOptions {

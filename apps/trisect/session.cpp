@@ -13,9 +13,10 @@ Session::Timer::~Timer() {
     session_.detail(fmt::format("{:<12}{:.3f} s", name_, time.count()));
 }
 
-EvaluateOptions Session::evaluation_options(EvaluateOptions::Winding winding) const {
+EvaluateOptions Session::evaluation_options(const OperandOptions& operands) const {
     EvaluateOptions out;
-    out.winding = winding;
+    out.winding = operands.winding;
+    out.lattices = operands.lattices;
     out.max_work = options_.max_work;
     out.max_memory = options_.max_memory;
     out.cancel = &supervisor_.stop_flag();

@@ -44,7 +44,7 @@ public:
         return stage(name, [&] { return supervisor_.interruptibly(work); });
     }
     /// The limits of the command line, as far as one evaluation can keep them.
-    [[nodiscard]] EvaluateOptions evaluation_options(EvaluateOptions::Winding winding) const;
+    [[nodiscard]] EvaluateOptions evaluation_options(const OperandOptions& operands) const;
     [[nodiscard]] const Json& seconds() const { return seconds_; }
 
     /// Writes bytes of a result to the standard output ("-") or completely or not at all to a file.

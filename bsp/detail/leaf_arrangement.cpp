@@ -7,8 +7,10 @@
 // piece's interior. A piece is then on one side of everything, so one winding number on each side
 // of it says whether it bounds the result: it does iff the formula changes across it.
 //
-// Winding numbers come from exact segment traces from the cell's reference point. One trace serves
-// a whole patch of untouched facets that hang together by edges within the cell.
+// Winding numbers come from exact segment traces from the cell's reference point. Those are dear,
+// so they are carried over as far as possible: where all operands are embedded, from vertex to
+// vertex and within each polygon (leaf_anchors.h, leaf_cutting.h); where an operand may meet
+// itself, from piece to piece (leaf_links.h).
 //
 // Coplanar overlaps: the pieces of a facet are split along the edges of every facet that covers it,
 // so each piece is covered completely or not at all. Of all facets that cover a piece the first one
@@ -23,14 +25,16 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/detail/leaf_anchors.h>
+#include <trisect/bsp/detail/leaf_classification.h>
+#include <trisect/bsp/detail/leaf_cutting.h>
+#include <trisect/bsp/detail/leaf_formula.h>
+#include <trisect/bsp/detail/leaf_links.h>
 #include <trisect/bsp/detail/leaf_pairs.h>
-#include <trisect/bsp/detail/leaf_patches.h>
 #include <trisect/bsp/detail/leaf_pieces.h>
-#include <trisect/bsp/detail/leaf_windings.h>
 #include <trisect/bsp/detail/leaf_work.h>
 
 namespace trisect::detail {
@@ -40,15 +44,22 @@ public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
 
 private:
-    void emit_all(LeafPatches& patches, LeafWindings& windings);
-    void emit_whole(LeafIndex i, LeafPatches& patches, LeafWindings& windings);
-    void emit_pieces(LeafIndex i, std::size_t first, LeafWindings& windings);
-    void emit(const PolygonRef& ref, const LeafSides& sides);
-    static std::size_t u(LeafIndex i) { return LeafWork::u(i); }
+    void arrange_embedded(SlotValues& values);
+    void arrange_any(SlotValues& values);
+    void emit_remains(LeafIndex i, const LeafRemains& remains);
+    void emit_all();
+    void emit_pieces(LeafIndex i, std::size_t first, std::size_t last);
+    void emit(const PolygonRef& ref, bool inside_above);
 
     LeafWork work_;
-    std::vector<std::optional<LeafSides>> patch_sides_;
+    LeafPairs pairs_;
+    LeafLinks links_;
+    LeafClassification classes_;
+    LeafWindings windings_;
+    LeafAnchors anchors_;
+    LeafCutting cutting_;
     std::vector<PolygonRef> out_;
+    std::vector<std::pair<const WorkPolygon*, LeafSides>> kept_;
 };
 
 LeafArranger::LeafArranger() : impl_(std::make_unique<Impl>()) {}
@@ -61,15 +72,17 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
 
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
-    work_.start(problem, stats);
     out_.clear();
-    LeafPairs(work_).relate_all();
-    for (LeafItem& item : work_.items) item.ref.touched = item.ref.touched || item.touched;
-    LeafPatches patches(work_);
-    LeafWindings windings(work_, values);
-    patch_sides_.assign(work_.items.size(), std::nullopt);
+    work_.start(problem, stats);
+    pairs_.relate_all(work_);
+    const bool embedded = std::all_of(problem.operands.begin(), problem.operands.end(),
+                                      [](const LeafOperand& o) { return o.embedded; });
     try {
-        emit_all(patches, windings);
+        if (embedded) {
+            arrange_embedded(values);
+        } else {
+            arrange_any(values);
+        }
     } catch (...) {
         const PolygonList freed(std::move(out_));  // the fragments made so far
         throw;
@@ -78,68 +91,92 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
     return {std::move(out_), std::move(work_.incomplete)};
 }
 
-void LeafArranger::Impl::emit_all(LeafPatches& patches, LeafWindings& windings) {
-    for (LeafIndex i = 0; i < static_cast<LeafIndex>(work_.items.size()); ++i) {
-        if (work_.item(i).is_whole()) {
-            emit_whole(i, patches, windings);
-        } else {
-            const std::size_t first = work_.pieces.size();
-            make_pieces(work_, i);
-            emit_pieces(i, first, windings);
-        }
+// Operands without self-intersections: cut only what the result needs (leaf_cutting.h).
+void LeafArranger::Impl::arrange_embedded(SlotValues& values) {
+    windings_.start(work_);
+    anchors_.build(work_, windings_);
+    LeafFormula formula(*work_.problem, values);
+    cutting_.start(work_, windings_, anchors_, formula);
+    for (LeafIndex i = 0; i < work_.item_count(); ++i) {
+        const bool whole = work_.item(i).is_whole();
+        if (whole && !work_.item(i).ref.touched) ++work_.stats->untouched_polygons;
+        emit_remains(i, whole ? cutting_.whole(i) : cutting_.cut(i));
     }
 }
 
-void LeafArranger::Impl::emit_whole(LeafIndex i, LeafPatches& patches, LeafWindings& windings) {
-    const LeafIndex patch = patches.patch_of(i);
-    std::optional<LeafSides>& sides = patch_sides_[u(patch)];
-    if (!sides) {
-        // A facet within the cell needs no clipping.
-        const LeafIndex within = patches.facet_within_cell(patch);
-        const LeafIndex speaker = within >= 0 ? within : i;
-        const LeafItem& item = work_.item(speaker);
-        const bool needs_clipping = within < 0 || item.shape.is_empty();
-        const WorkPolygon part = needs_clipping
-                                     ? work_.bench.clipped(work_.with_edges(speaker),
-                                                           item.ref.box(), work_.problem->cell)
-                                     : item.shape;
-        if (part.is_empty()) return;  // listed for its box, but not in the cell
-        sides = windings.sides_of(speaker, part, work_.step_of(speaker));
-    }
-    emit(work_.item(i).ref, *sides);
-}
-
-void LeafArranger::Impl::emit_pieces(LeafIndex i, std::size_t first, LeafWindings& windings) {
+void LeafArranger::Impl::emit_remains(LeafIndex i, const LeafRemains& remains) {
     const LeafItem& item = work_.item(i);
-    std::vector<std::pair<const WorkPolygon*, LeafSides>> kept;
-    for (std::size_t k = first; k < work_.pieces.size(); ++k) {
-        const LeafPiece& piece = work_.pieces[k];
-        if (piece.dropped) continue;
-        const LeafSides sides =
-            windings.sides_of(i, piece.shape, work_.steps[static_cast<std::size_t>(piece.step)]);
-        if (sides.differ()) kept.emplace_back(&piece.shape, sides);
+    switch (remains.kind) {
+        case LeafRemains::Kind::Nothing:
+            return;
+        case LeafRemains::Kind::Uncut:
+            if (item.is_whole()) {
+                emit(item.ref, remains.inside_above);
+            } else if (const auto part = clip_to_cell(work_.bench, item.ref, work_.problem->cell)) {
+                // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a
+                // facet within the cell stays whole.
+                emit(*part, remains.inside_above);
+            }
+            return;
+        case LeafRemains::Kind::Parts:
+            for (const LeafPart& part : cutting_.parts())
+                emit(make_fragment(work_.bench, item.ref, part.shape), part.inside_above);
+            return;
     }
-    if (kept.empty()) return;
-    const bool uniform = std::all_of(kept.begin(), kept.end(), [&](const auto& k) {
-        return k.second.above == kept.front().second.above;
+}
+
+// Any operands: cut everything, then let the pieces know from each other what they are.
+void LeafArranger::Impl::arrange_any(SlotValues& values) {
+    for (LeafIndex i = 0; i < work_.item_count(); ++i)
+        if (!work_.item(i).is_whole()) make_pieces(work_, i);
+    links_.build(work_);
+    classes_.classify(work_, links_, values);
+    emit_all();
+}
+
+void LeafArranger::Impl::emit_all() {
+    std::size_t first = 0;
+    for (LeafIndex i = 0; i < work_.item_count(); ++i) {
+        const LeafItem& item = work_.item(i);
+        if (item.is_whole()) {
+            if (!item.ref.touched) ++work_.stats->untouched_polygons;
+            if (const auto& sides = classes_.sides(i); sides && sides->differ())
+                emit(item.ref, sides->above);
+            continue;
+        }
+        std::size_t last = first;
+        while (last < work_.pieces.size() && work_.pieces[last].item == i) ++last;
+        emit_pieces(i, first, last);
+        first = last;
+    }
+}
+
+void LeafArranger::Impl::emit_pieces(LeafIndex i, std::size_t first, std::size_t last) {
+    const LeafItem& item = work_.item(i);
+    kept_.clear();
+    for (std::size_t k = first; k < last; ++k) {
+        const auto& sides = classes_.sides(work_.item_count() + static_cast<LeafNode>(k));
+        if (sides && sides->differ()) kept_.emplace_back(&work_.pieces[k].shape, *sides);
+    }
+    if (kept_.empty()) return;
+    const bool uniform = std::all_of(kept_.begin(), kept_.end(), [&](const auto& k) {
+        return k.second.above == kept_.front().second.above;
     });
-    if (kept.size() == work_.pieces.size() - first && uniform) {
+    if (kept_.size() == last - first && uniform) {
         // Every cut was in vain here: keep what there was. What cuts a facet somewhere must show in
         // every cell, though (see PolygonRef), so only a facet within the cell stays whole.
         if (const auto part = clip_to_cell(work_.bench, item.ref, work_.problem->cell))
-            emit(*part, kept.front().second);
+            emit(*part, kept_.front().second.above);
         return;
     }
-    for (const auto& [shape, sides] : kept)
-        emit(make_fragment(work_.bench, item.ref, *shape), sides);
+    for (const auto& [shape, sides] : kept_)
+        emit(make_fragment(work_.bench, item.ref, *shape), sides.above);
 }
 
-// A polygon bounds the result when it is inside on one side only; its outside faces upwards, unless
-// flipped.
-void LeafArranger::Impl::emit(const PolygonRef& ref, const LeafSides& sides) {
-    if (!sides.differ()) return;
+// The outside faces upwards, unless flipped.
+void LeafArranger::Impl::emit(const PolygonRef& ref, bool inside_above) {
     PolygonRef out = ref;
-    out.flipped = sides.above;
+    out.flipped = inside_above;
     out_.push_back(out);
 }
 

@@ -11,4 +11,11 @@ namespace trisect::detail {
 /// winding numbers across all that coincides there. \pre they are the pieces of one item.
 void resolve_coincidence(LeafWork& work, std::size_t first);
 
+/// Whether a piece lies in a polygon of the same plane. \pre the polygon has its edges.
+[[nodiscard]] bool covered_by(const Workbench& bench, const WorkPolygon& piece,
+                              const WorkPolygon& cover);
+
+/// Of two coincident items, which one speaks for both?
+[[nodiscard]] bool speaks_before(const LeafWork& work, LeafIndex a, LeafIndex b);
+
 }  // namespace trisect::detail

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Two facets that are strictly on one side of each other's plane have nothing in common; that, by
+// doubles with a proved bound, disposes of most pairs whose boxes meet. Corners that two facets of
+// one mesh share are on both planes by name, and facets around a common corner are the many pairs
+// of a fan, so they cost no arithmetic.
 
 #include <trisect/bsp/detail/leaf_pairs.h>
 
 #include <algorithm>
-#include <utility>
+#include <array>
 
 #include <trisect/bsp/detail/leaf_pieces.h>
 #include <trisect/bsp/detail/work_budget.h>
@@ -12,106 +17,188 @@ namespace trisect::detail {
 
 namespace {
 
-// Corners of sources that two whole facets have in common.
-int shared_corners(const LeafItem& a, const LeafItem& b) {
-    if (a.ref.source != b.ref.source || a.ref.fragment != nullptr || b.ref.fragment != nullptr)
-        return 0;
-    int n = 0;
-    for (const PointId p : a.shape.points)
-        n += static_cast<int>(std::count(b.shape.points.begin(), b.shape.points.end(), p));
-    return n;
-}
+// Where the corners of a polygon are with respect to a plane.
+struct SideRange {
+    int lo = 2;
+    int hi = -2;
+    int zeros = 0;
+    [[nodiscard]] bool is_off() const { return lo > 0 || hi < 0; }
+    [[nodiscard]] bool is_on() const { return lo == 0 && hi == 0; }
+    [[nodiscard]] bool straddles() const { return lo < 0 && hi > 0; }
+    /// Touches the plane in one corner.
+    [[nodiscard]] bool rests_on_a_corner() const { return !straddles() && zeros == 1; }
+};
+
+// Compares two items of a leaf.
+class Relation {
+public:
+    Relation(LeafWork& work, LeafIndex s, LeafIndex t)
+        : work_(work), bench_(work.bench), s_(s), t_(t), a_(work.shape(s)), b_(work.shape(t)) {
+        const LeafItem& i = work.item(s);
+        const LeafItem& j = work.item(t);
+        same_mesh_ = i.operand == j.operand && i.ref.source == j.ref.source &&
+                     i.ref.fragment == nullptr && j.ref.fragment == nullptr;
+    }
+
+    // Whether the items are in contact; then `of_first` and `of_second` say how.
+    bool find(LeafContact& of_first, LeafContact& of_second) {
+        of_first = {t_, false, false};
+        of_second = {s_, false, false};
+        const SideRange b_range = range(b_, a_);
+        if (b_range.is_off()) return false;
+        if (b_range.is_on()) {
+            bench_.declare_same(a_.support, b_.support);
+            if (separated_by_edges(s_, b_) || separated_by_edges(t_, a_))
+                return !(same_mesh_ && shared_corners() == 2);
+            of_first.covers = of_second.covers = true;
+            return true;
+        }
+        const SideRange a_range = range(a_, b_);
+        if (a_range.is_off()) return false;
+        if (same_mesh_ && meets_in_common_corners_only(a_range, b_range)) return false;
+        if (a_range.straddles() && b_range.straddles()) {
+            // The common line of the planes runs through both interiors.
+            of_first.cuts = of_second.cuts =
+                cuts(bench_, work_.with_edges(s_), work_.with_edges(t_));
+        } else if (a_range.straddles()) {
+            of_first.cuts = cuts(bench_, work_.with_edges(s_), work_.with_edges(t_));
+        } else if (b_range.straddles()) {
+            of_second.cuts = cuts(bench_, work_.with_edges(t_), work_.with_edges(s_));
+        }
+        return true;
+    }
+
+private:
+    [[nodiscard]] static bool has_corner(const WorkPolygon& w, PointId p) {
+        return std::find(w.points.begin(), w.points.end(), p) != w.points.end();
+    }
+    // Of the corners of `w` with respect to the support of `other`.
+    [[nodiscard]] SideRange range(const WorkPolygon& w, const WorkPolygon& other) const {
+        SideRange r;
+        for (const PointId p : w.points) {
+            const int x = same_mesh_ && has_corner(other, p) ? 0 : bench_.side(p, other.support);
+            r.lo = std::min(r.lo, x);
+            r.hi = std::max(r.hi, x);
+            if (x == 0) ++r.zeros;
+        }
+        return r;
+    }
+    [[nodiscard]] int shared_corners() const {
+        return static_cast<int>(std::count_if(a_.points.begin(), a_.points.end(),
+                                              [&](PointId p) { return has_corner(b_, p); }));
+    }
+    // Two facets in different planes with a common edge meet nowhere else; with one common corner
+    // and the rest of one of them strictly on one side they meet in that corner only.
+    [[nodiscard]] bool meets_in_common_corners_only(const SideRange& a, const SideRange& b) const {
+        const int shared = shared_corners();
+        return shared >= 2 || (shared == 1 && (a.rests_on_a_corner() || b.rests_on_a_corner()));
+    }
+    // Whether `other`, in the plane of an item, lies beyond one of the item's edges.
+    [[nodiscard]] bool separated_by_edges(LeafIndex item, const WorkPolygon& other) {
+        const auto& edges = work_.with_edges(item).edges;
+        return std::any_of(edges.begin(), edges.end(), [&](const WorkEdge& e) {
+            const int outside = e.above ? -1 : 1;
+            return std::all_of(other.points.begin(), other.points.end(),
+                               [&](PointId p) { return bench_.side(p, e.plane) * outside >= 0; });
+        });
+    }
+
+    LeafWork& work_;
+    Workbench& bench_;
+    LeafIndex s_;
+    LeafIndex t_;
+    const WorkPolygon& a_;
+    const WorkPolygon& b_;
+    bool same_mesh_;
+};
 
 }  // namespace
 
-void LeafPairs::relate_all() {
-    const auto n = static_cast<LeafIndex>(work_.items.size());
-    for (LeafIndex i = 0; i < n; ++i) {
-        check_budget(*work_.problem->options, *work_.stats);
-        for (LeafIndex j = i + 1; j < n; ++j) {
-            const LeafItem& a = work_.item(i);
-            const LeafItem& b = work_.item(j);
-            if (a.operand == b.operand && work_.operand_of(a).embedded) continue;
-            if (!a.box.overlaps(b.box)) continue;
-            ++work_.stats->pairs_boxes;
-            relate(i, j);
-        }
+void LeafPairs::relate_all(LeafWork& work) {
+    contacts_.clear();
+    list_candidates(work);
+    sweep(work, best_axis(work));
+    work.set_contacts(contacts_);
+}
+
+// Items that may meet one of another operand, or of their own if that is not embedded.
+void LeafPairs::list_candidates(const LeafWork& work) {
+    const std::size_t n = work.problem->operands.size();
+    spans_.clear();
+    // With many operands the boxes of the others overlap nearly everything.
+    const bool compare = n <= 8;
+    operand_boxes_.assign(n, Box{});
+    if (compare)
+        for (const LeafItem& item : work.items)
+            operand_boxes_[LeafWork::u(item.operand)].add(item.box);
+    for (LeafIndex i = 0; i < work.item_count(); ++i) {
+        const LeafItem& item = work.item(i);
+        const bool embedded = work.operand_of(item).embedded;
+        bool candidate = !compare || !embedded;
+        for (std::size_t o = 0; o < n && !candidate; ++o)
+            candidate = o != LeafWork::u(item.operand) && operand_boxes_[o].overlaps(item.box);
+        if (candidate) spans_.push_back({0, 0, i, embedded});
     }
 }
 
-void LeafPairs::relate(LeafIndex s, LeafIndex t) {
-    LeafItem& a = work_.item(s);
-    LeafItem& b = work_.item(t);
-    const auto range = [&](const WorkPolygon& w, PlaneId plane) {
-        int lo = 2;
-        int hi = -2;
-        for (const PointId p : w.points) {
-            const int x = work_.bench.side(p, plane);
-            lo = std::min(lo, x);
-            hi = std::max(hi, x);
+// The axis on which the fewest boxes overlap: where their lengths sum up to the smallest part of
+// the whole extent.
+int LeafPairs::best_axis(const LeafWork& work) const {
+    Box all;
+    std::array<double, 3> lengths{};
+    for (const Span& s : spans_) {
+        const Box& b = work.item(s.item).box;
+        all.add(b);
+        for (std::size_t k = 0; k < 3; ++k) lengths[k] += static_cast<double>(b.hi[k] - b.lo[k]);
+    }
+    int best = 0;
+    double best_share = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = lengths[k] / (static_cast<double>(all.hi[k] - all.lo[k]) + 1);
+        if (k == 0 || share < best_share) {
+            best = static_cast<int>(k);
+            best_share = share;
         }
-        return std::pair{lo, hi};
-    };
-    const auto [b_lo, b_hi] = range(b.shape, a.shape.support);
-    if (b_lo > 0 || b_hi < 0) return;
-    if (b_lo == 0 && b_hi == 0) {
-        work_.bench.declare_same(a.shape.support, b.shape.support);
-        relate_coplanar(s, t);
-        return;
     }
-    const auto [a_lo, a_hi] = range(a.shape, b.shape.support);
-    if (a_lo > 0 || a_hi < 0) return;
-    const int shared = a.operand == b.operand ? shared_corners(a, b) : 0;
-    // Two facets in different planes with a common edge meet nowhere else; with one common corner
-    // and the rest of one of them strictly on one side they meet in that corner only.
-    if (shared >= 2) return;
-    if (shared == 1 && (b_lo == 0 || b_hi == 0) &&
-        std::count_if(b.shape.points.begin(), b.shape.points.end(),
-                      [&](PointId p) { return work_.bench.side(p, a.shape.support) == 0; }) == 1)
-        return;
-    if (shared == 1 && (a_lo == 0 || a_hi == 0) &&
-        std::count_if(a.shape.points.begin(), a.shape.points.end(),
-                      [&](PointId p) { return work_.bench.side(p, b.shape.support) == 0; }) == 1)
-        return;
-    a.touched = true;
-    b.touched = true;
-    bool cutting = false;
-    if (a_lo < 0 && a_hi > 0 && cuts(work_.bench, work_.with_edges(s), work_.with_edges(t))) {
-        a.cutters.push_back(t);
-        cutting = true;
-    }
-    if (b_lo < 0 && b_hi > 0 && cuts(work_.bench, work_.with_edges(t), work_.with_edges(s))) {
-        b.cutters.push_back(s);
-        cutting = true;
-    }
-    if (cutting) ++work_.stats->pairs_cutting;
+    return best;
 }
 
-bool LeafPairs::separated_by_edges_of(LeafIndex s, LeafIndex t) {
-    const WorkPolygon& a = work_.with_edges(s);
-    const WorkPolygon& b = work_.item(t).shape;
-    return std::any_of(a.edges.begin(), a.edges.end(), [&](const WorkEdge& e) {
-        const int outside = e.above ? -1 : 1;
-        return std::all_of(b.points.begin(), b.points.end(),
-                           [&](PointId p) { return work_.bench.side(p, e.plane) * outside >= 0; });
+void LeafPairs::sweep(LeafWork& work, int axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    for (Span& s : spans_) {
+        const Box& b = work.item(s.item).box;
+        s.lo = b.lo[k];
+        s.hi = b.hi[k];
+    }
+    std::sort(spans_.begin(), spans_.end(), [](const Span& a, const Span& b) {
+        return a.lo != b.lo ? a.lo < b.lo : a.item < b.item;
     });
-}
-
-void LeafPairs::relate_coplanar(LeafIndex s, LeafIndex t) {
-    LeafItem& a = work_.item(s);
-    LeafItem& b = work_.item(t);
-    const bool same_surface = a.operand == b.operand && shared_corners(a, b) == 2;
-    if (separated_by_edges_of(s, t) || separated_by_edges_of(t, s)) {
-        if (!same_surface) {
-            a.touched = true;
-            b.touched = true;
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+        check_budget(*work.problem->options, *work.stats);
+        const Span& a = spans_[i];
+        const LeafItem& item = work.item(a.item);
+        for (std::size_t j = i + 1; j < spans_.size() && spans_[j].lo <= a.hi; ++j) {
+            const Span& b = spans_[j];
+            const LeafItem& other = work.item(b.item);
+            if (a.skips_own && item.operand == other.operand) continue;
+            if (!item.box.overlaps(other.box)) continue;
+            ++work.stats->pairs_boxes;
+            const auto [s, t] = std::minmax(a.item, b.item);
+            LeafContact first;
+            LeafContact second;
+            if (!Relation(work, s, t).find(first, second)) continue;
+            ++work.stats->pairs_touching;
+            if (first.cuts || second.cuts) ++work.stats->pairs_cutting;
+            contacts_.emplace_back(s, first);
+            contacts_.emplace_back(t, second);
         }
-        return;
     }
-    a.touched = true;
-    b.touched = true;
-    a.covers.push_back(t);
-    b.covers.push_back(s);
+    for (const auto& [i, contact] : contacts_) {
+        LeafItem& item = work.item(i);
+        item.ref.touched = true;
+        item.cut = item.cut || contact.cuts;
+        item.covered = item.covered || contact.covers;
+    }
 }
 
 }  // namespace trisect::detail

@@ -9,30 +9,33 @@
 
 namespace trisect::detail {
 
+namespace {
+
 // The interval of the line within the piece is clipped by the edges of the cutter; at every step
-// its ends are exact points.
-bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
-                            const WorkPolygon& cutter) {
+// its ends are exact points. `sides`: of the piece's corners with respect to `line`.
+bool meets_interior(Workbench& bench, const WorkPolygon& piece, const Workbench::Sides& sides,
+                    PlaneId line, const WorkPolygon& cutter) {
     const std::size_t n = piece.points.size();
     std::array<PointId, 2> ends{-1, -1};
     bool above = false;
     bool below = false;
-    std::size_t found = 0;
-    // Sides once around; ends of the interval are vertices on the line or crossings of edges.
-    int here = bench.side(piece.points[0], line);
-    const int first = here;
     for (std::size_t i = 0; i < n; ++i) {
-        const int next = i + 1 < n ? bench.side(piece.points[i + 1], line) : first;
-        above = above || here > 0;
-        below = below || here < 0;
-        if (here == 0 && found < 2) {
+        above = above || sides[i] > 0;
+        below = below || sides[i] < 0;
+    }
+    if (!above || !below) return false;
+    // Ends of the interval are corners on the line or crossings of edges.
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < n && found < 2; ++i) {
+        const int here = sides[i];
+        const int next = sides[i + 1 < n ? i + 1 : 0];
+        if (here == 0) {
             ends[found++] = piece.points[i];
-        } else if (here * next < 0 && found < 2) {
+        } else if (here * next < 0) {
             ends[found++] = bench.meet(piece.support, piece.edges[i].plane, line);
         }
-        here = next;
     }
-    if (!above || !below || found < 2) return false;
+    if (found < 2) return false;
     for (const WorkEdge& e : cutter.edges) {
         const int outside = e.above ? -1 : 1;
         const int s0 = bench.side(ends[0], e.plane) * outside;
@@ -47,41 +50,61 @@ bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId 
     return true;
 }
 
-namespace {
-
 // Splits the pieces from `first` on.
 void split_all(LeafWork& work, std::size_t first, PlaneId plane, const WorkPolygon& cutter) {
     const std::size_t end = work.pieces.size();
     for (std::size_t i = first; i < end; ++i) {
-        if (!segment_meets_interior(work.bench, work.pieces[i].shape, plane, cutter)) continue;
-        WorkPolygon below;
         WorkPolygon above;
-        if (!work.bench.split(work.pieces[i].shape, plane, below, above)) continue;
-        LeafPiece other = work.pieces[i];
+        if (!split_along(work.bench, work.pieces[i].shape, plane, cutter, above)) continue;
+        LeafPiece other;
+        other.item = work.pieces[i].item;
         other.shape = std::move(above);
-        work.pieces[i].shape = std::move(below);
         work.pieces.push_back(std::move(other));
     }
 }
 
 }  // namespace
 
-void make_pieces(LeafWork& work, LeafIndex s) {
-    const LeafItem& item = work.item(s);
+bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
+                 WorkPolygon& above) {
+    const Workbench::Sides& sides = bench.sides_of(piece, line);
+    if (!meets_interior(bench, piece, sides, line, cutter)) return false;
+    WorkPolygon below;
+    bench.split(piece, line, sides, below, above);
+    piece = std::move(below);
+    return true;
+}
+
+bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
+                            const WorkPolygon& cutter) {
+    return meets_interior(bench, piece, bench.sides_of(piece, line), line, cutter);
+}
+
+void make_pieces(LeafWork& work, LeafIndex i) {
+    const LeafItem& item = work.item(i);
     LeafPiece start;
-    start.item = s;
-    start.shape = work.bench.clipped(work.with_edges(s), item.ref.box(), work.problem->cell);
+    start.item = i;
+    start.shape = work.with_edges(i);
+    if (!item.contained)
+        start.shape = work.bench.clipped(start.shape, item.ref.box(), work.problem->cell);
     if (start.shape.is_empty()) return;
     const std::size_t first = work.pieces.size();
     work.pieces.push_back(std::move(start));
-    for (const LeafIndex t : work.item(s).cutters)
-        split_all(work, first, work.item(t).shape.support, work.item(t).shape);
-    for (const LeafIndex t : work.item(s).covers) {
-        // The edges of the covering facet are lines in the plane of s, given by its edge planes.
-        const WorkPolygon cover = work.with_edges(t);
-        for (const WorkEdge& e : cover.edges) split_all(work, first, e.plane, cover);
+    for (const LeafContact& c : work.contacts(i)) {
+        if (!c.cuts) continue;
+        const WorkPolygon& cutter = work.with_edges(c.other);
+        split_all(work, first, cutter.support, cutter);
     }
-    resolve_coincidence(work, first);
+    if (item.covered) {
+        for (const LeafContact& c : work.contacts(i)) {
+            if (!c.covers) continue;
+            // The edges of the covering facet are lines in the plane of the item, given by its edge
+            // planes.
+            const WorkPolygon& cover = work.with_edges(c.other);
+            for (const WorkEdge& e : cover.edges) split_all(work, first, e.plane, cover);
+        }
+        resolve_coincidence(work, first);
+    }
     work.stats->pieces += work.pieces.size() - first;
 }
 

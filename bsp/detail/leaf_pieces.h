@@ -19,6 +19,11 @@ namespace trisect::detail {
     return segment_meets_interior(bench, piece, cutter.support, cutter);
 }
 
+/// Splits a piece along a line if the cutter runs through its interior there: `piece` is then the
+/// part below and `above` the other one. False when nothing was split.
+bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
+                 WorkPolygon& above);
+
 /// Clips an item to the cell and splits it along its cutters and the edges of what covers it. The
 /// pieces are appended to the work's list; each is on one side of everything else in the leaf.
 void make_pieces(LeafWork& work, LeafIndex item);

@@ -1,48 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the formula says on both sides of a polygon of a leaf: winding numbers from exact traces.
+// Winding numbers in a leaf from exact traces.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <trisect/bsp/detail/leaf_work.h>
-#include <trisect/bsp/detail/residual.h>
 #include <trisect/bsp/detail/trace.h>
 
 namespace trisect::detail {
 
-/// The value of the formula just above and just below a polygon, in the sense of its support.
-struct LeafSides {
-    bool above = false;
-    bool below = false;
-    /// Such a polygon bounds the result.
-    [[nodiscard]] bool differ() const { return above != below; }
-};
-
 /// Traces from the leaf's reference point, or from another one that it finds when segments from
-/// there are degenerate.
+/// there are degenerate. Costs one pass over the boxes of the leaf's items.
 class LeafWindings {
 public:
-    LeafWindings(LeafWork& work, SlotValues& values);
+    /// Before the first trace of a leaf.
+    void start(LeafWork& work);
 
-    /// Both sides of a part of an item which everything else is on one side of. `step`: how winding
-    /// numbers change from below to above.
-    [[nodiscard]] LeafSides sides_of(LeafIndex item, const WorkPolygon& part,
-                                     const std::vector<int>& step);
+    /// Winding numbers just above a part of an item which everything else is on one side of. Those
+    /// of operands with `known[o]` are left as they are. `step`: how they change from above to
+    /// below. Returns where in the part that was.
+    Approximation windings_above(LeafIndex item, const WorkPolygon& part,
+                                 const std::vector<int>& step, const std::vector<char>& known,
+                                 std::vector<int>& windings);
 
-private:
-    [[nodiscard]] bool trace(const TraceTarget& target, PlaneId own_class, LeafIndex own_operand,
-                             std::vector<int>& w);
-    [[nodiscard]] bool formula_at(const std::vector<int>& windings);
+    /// Winding numbers at a point, with a meaningless one for `own`. False when the segment to it
+    /// is degenerate or it lies on the surface of another operand.
+    [[nodiscard]] bool at_point(const TraceTarget& target, LeafIndex own, std::vector<int>& w);
+    /// Moves to another reference point; with luck, segments from there are not degenerate.
     void next_reference();
 
-    LeafWork& work_;
-    SlotValues& values_;
+private:
+    [[nodiscard]] bool trace(const TraceTarget& target, PlaneId own_class,
+                             const std::vector<char>& known, std::vector<int>& w);
+
+    LeafWork* work_ = nullptr;
     FinePoint reference_;
     Approximation reference_approximation_;
     std::vector<int> reference_windings_;
+    std::vector<int> traced_;
+    std::vector<char> own_;
     int reference_attempt_ = 0;
 };
+
+/// The barycentre of three well-separated corners of a part.
+[[nodiscard]] TraceTarget middle_of(const Workbench& bench, const WorkPolygon& part);
 
 }  // namespace trisect::detail

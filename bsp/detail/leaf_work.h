@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/detail/leaf_problem.h>
@@ -16,27 +17,38 @@ namespace trisect::detail {
 /// Number of an item, a piece or an operand of a leaf.
 using LeafIndex = std::int32_t;
 
-/// A polygon of the leaf with everything that the arrangement learns about it.
+/// A polygon of the leaf.
 struct LeafItem {
     PolygonRef ref;
+    Box box;  ///< of the polygon, within the cell
     LeafIndex operand = 0;
-    int orientation = 1;  ///< -1 when flipped
-    WorkPolygon shape;    ///< unclipped
-    Box box;              ///< within the cell
-    std::vector<LeafIndex> cutters;
-    std::vector<LeafIndex> covers;  ///< coplanar, interiors meet
-    bool touched = false;           ///< something of another surface may touch it
-    int side_of_reference = 2;      ///< of the support; 2 = not computed
+    LeafIndex sheet = 0;            ///< one number for each operand and source in it
+    std::int8_t orientation = 1;    ///< -1 when flipped
+    std::int8_t side_of_reference;  ///< of the support, see LeafWindings; 2 = not computed
+    bool contained = false;         ///< lies in the cell
+    bool cut = false;               ///< another one runs through its interior
+    bool covered = false;           ///< another one in its plane shares interior with it
+    WorkPolygon shape;              ///< unclipped; made when asked for
 
-    [[nodiscard]] bool is_whole() const { return cutters.empty() && covers.empty(); }
+    [[nodiscard]] bool is_whole() const { return !cut && !covered; }
+};
+
+/// Contact of an item with another one, of another surface. Facets that merely share an edge or a
+/// corner of their mesh have none.
+struct LeafContact {
+    LeafIndex other = 0;
+    bool cuts = false;    ///< the other one runs through the item's interior
+    bool covers = false;  ///< coplanar, interiors meet
 };
 
 /// A convex part of an item, on one side of everything else.
 struct LeafPiece {
     LeafIndex item = 0;
-    WorkPolygon shape;
-    int step = 0;          ///< index into steps: how winding numbers change across
+    /// How winding numbers change across, as an index into `steps`; -1 when only the item's own
+    /// operand changes.
+    LeafIndex step = -1;
     bool dropped = false;  ///< a coincident piece speaks for it
+    WorkPolygon shape;
 };
 
 struct LeafWork {
@@ -44,7 +56,7 @@ struct LeafWork {
     const LeafProblem* problem = nullptr;
     EvaluateStats* stats = nullptr;
     std::vector<LeafItem> items;
-    std::vector<LeafPiece> pieces;
+    std::vector<LeafPiece> pieces;  ///< those of one item in a row, items ascending
     std::vector<std::vector<int>> steps;
     std::vector<FacetName> incomplete;
 
@@ -52,19 +64,39 @@ struct LeafWork {
     void start(const LeafProblem& leaf, EvaluateStats& counters);
 
     [[nodiscard]] static std::size_t u(LeafIndex i) { return static_cast<std::size_t>(i); }
+    [[nodiscard]] LeafIndex item_count() const { return static_cast<LeafIndex>(items.size()); }
     [[nodiscard]] LeafItem& item(LeafIndex i) { return items[u(i)]; }
     [[nodiscard]] const LeafItem& item(LeafIndex i) const { return items[u(i)]; }
     [[nodiscard]] const LeafOperand& operand_of(const LeafItem& i) const {
         return problem->operands[u(i.operand)];
     }
-    /// The edge planes of a whole facet are made when something asks for them: most facets of a
-    /// leaf meet nothing.
+    /// The polygon with its corners. Most facets of a leaf meet nothing and never need them.
+    const WorkPolygon& shape(LeafIndex i) {
+        LeafItem& it = item(i);
+        if (it.shape.is_empty()) it.shape = bench.polygon(it.ref);
+        return it.shape;
+    }
+    /// The polygon with its edge planes.
     const WorkPolygon& with_edges(LeafIndex i) {
+        (void)shape(i);
         bench.with_edges(item(i).shape, item(i).ref);
         return item(i).shape;
     }
-    /// How winding numbers change from below to above an item that nothing covers.
-    [[nodiscard]] std::vector<int> step_of(LeafIndex i) const;
+    /// Contacts of an item, by ascending `other`.
+    [[nodiscard]] std::span<const LeafContact> contacts(LeafIndex i) const {
+        return {contacts_.data() + first_contact_[u(i)],
+                contacts_.data() + first_contact_[u(i) + 1]};
+    }
+    /// Takes (item, contact) pairs in any order.
+    void set_contacts(std::span<const std::pair<LeafIndex, LeafContact>> pairs);
+
+private:
+    void add_operand(LeafIndex operand);
+    [[nodiscard]] LeafIndex sheet_of(const Source* source, LeafIndex operand);
+
+    std::vector<LeafContact> contacts_;
+    std::vector<std::size_t> first_contact_;
+    FlatMap sheets_;
 };
 
 }  // namespace trisect::detail

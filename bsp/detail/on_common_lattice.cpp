@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Moving to a finer lattice shifts integers and changes nothing. It needs room above the largest
+// coordinate. Where that is missing, because one operand is huge and another one fine, the common
+// lattice is as fine as the huge one allows and the fine one is rounded to it, corner by corner,
+// like an import: a boundary that was closed stays closed, but facets may turn over or cross, so
+// the result is resolved and not taken to be embedded.
 
 #include <trisect/bsp/detail/on_common_lattice.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/measure.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
+#include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -101,22 +114,136 @@ private:
     std::unordered_map<const Source*, std::shared_ptr<const Source>> sources_;
 };
 
+// The sources of all polygons of a state.
+std::unordered_set<const Source*> sources_of(const SolidState& state) {
+    std::unordered_set<const Source*> out;
+    std::vector<const CellNode*> pending{state.root.node.get()};
+    while (!pending.empty()) {
+        const CellNode& n = *pending.back();
+        pending.pop_back();
+        if (n.is_leaf()) {
+            for (const PolygonRef& r : n.polygons()) out.insert(r.source);
+        } else {
+            for (int i = 0; i < 2; ++i) pending.push_back(n.child(i).node.get());
+        }
+    }
+    return out;
+}
+
+// A few units are added for reference points and walls, which lie just beyond the corners.
+std::int64_t largest_coordinate(const std::unordered_set<const Source*>& sources) {
+    std::int64_t largest = 0;
+    for (const Source* s : sources) {
+        if (s->is_half_space()) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max({largest, std::abs(s->box().lo[k]), std::abs(s->box().hi[k])});
+    }
+    return largest + 4;
+}
+
+// The finest exponent, a multiple of 8, to which coordinates of this size can be moved.
+int finest_for(std::int64_t largest, int exponent) {
+    int room = 0;
+    while (room < coordinate_bits && largest < (coordinate_limit >> (room + 8))) room += 8;
+    return exponent - room;
+}
+
+// The boundary in triangles with coordinates as doubles, which are exact for an imported solid.
+// `unbounded` says that it is turned over and bounds the complement.
+struct Boundary {
+    PolygonMesh mesh;
+    bool unbounded = false;
+};
+
+Boundary boundary_of(const std::shared_ptr<const SolidState>& state) {
+    if (state->source != 0) {  // imported, maybe not free of self-intersection: as it came
+        const LatticeMesh& mesh = (*state->root.node->polygons().begin()).source->mesh();
+        Boundary out;
+        for (const LatticePoint& p : mesh.points)
+            out.mesh.points.push_back(to_user(p, mesh.lattice));
+        for (const auto& t : mesh.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
+        return out;
+    }
+    const Brep brep = Solid(state).to_brep();
+    Boundary out{to_polygon_mesh(brep), exact_volume(brep).sign() < 0};
+    if (out.unbounded)
+        for (std::size_t f = 0; f < out.mesh.face_count(); ++f)
+            std::reverse(out.mesh.corners.begin() + out.mesh.face_begin[f],
+                         out.mesh.corners.begin() + out.mesh.face_begin[f + 1]);
+    return out;
+}
+
+std::string unit_text(int exponent) { return "2^" + std::to_string(exponent); }
+
+std::shared_ptr<const SolidState> rounded(const std::shared_ptr<const SolidState>& state,
+                                          Lattice lattice, LatticeReport& report) {
+    Boundary boundary = boundary_of(state);
+    ImportOptions options;
+    options.lattice = lattice;
+    ImportedMesh imported = import_mesh(boundary.mesh, options);
+    if (imported.mesh.triangles.empty())
+        throw LimitError(
+            "the sizes of the operands differ too much: on the common lattice of unit " +
+            unit_text(lattice.exponent) + " nothing is left of an operand of unit " +
+            unit_text(state->lattice.exponent));
+    report.lossless = false;
+    report.moved += imported.report.lattice.moved;
+    report.max_move = std::max(report.max_move, imported.report.lattice.max_move);
+    report.flipped_faces += imported.report.lattice.flipped_faces;
+    auto out = std::make_shared<SolidState>(
+        *Solid::from_import(std::move(imported), Embedding::Resolve).state());
+    out->root.complemented = out->root.complemented != boundary.unbounded;
+    return out;
+}
+
+std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState>& state,
+                                          Lattice lattice) {
+    auto out = std::make_shared<SolidState>(*state);
+    out->lattice = lattice;
+    out->incomplete.clear();  // refining clips every facet to its cell
+    out->root = Refiner(state->lattice.exponent, lattice.exponent).refine(state->root);
+    return out;
+}
+
+[[noreturn]] void refuse(int finest, int common) {
+    throw LimitError("the operands have no common lattice without rounding: the finest unit is " +
+                     unit_text(finest) + ", the finest on which all of them fit " +
+                     unit_text(common));
+}
+
 }  // namespace
 
-Lattice move_to_common_lattice(std::vector<std::shared_ptr<const SolidState>>& states) {
+LatticeReport move_to_common_lattice(std::vector<std::shared_ptr<const SolidState>>& states,
+                                     EvaluateOptions::Lattices policy) {
+    LatticeReport report;
     int finest = std::numeric_limits<int>::max();
-    for (const auto& s : states)
-        if (s->lattice_matters) finest = std::min(finest, s->lattice.exponent);
-    if (finest == std::numeric_limits<int>::max()) return {};
-    for (auto& s : states) {
-        if (!s->lattice_matters || s->lattice.exponent == finest) continue;
-        auto moved = std::make_shared<SolidState>(*s);
-        moved->lattice.exponent = finest;
-        moved->incomplete.clear();  // refining clips every facet to its cell
-        moved->root = Refiner(s->lattice.exponent, finest).refine(s->root);
-        s = std::move(moved);
+    int coarsest = std::numeric_limits<int>::min();
+    for (const auto& s : states) {
+        if (!s->lattice_matters) continue;
+        finest = std::min(finest, s->lattice.exponent);
+        coarsest = std::max(coarsest, s->lattice.exponent);
     }
-    return {finest};
+    if (finest > coarsest) return report;
+    report.lattice.exponent = finest;
+    if (finest == coarsest) return report;
+
+    int& common = report.lattice.exponent;
+    for (const auto& s : states)
+        if (s->lattice_matters && s->lattice.exponent != finest)
+            common = std::max(common,
+                              finest_for(largest_coordinate(sources_of(*s)), s->lattice.exponent));
+    if (common != finest && policy == EvaluateOptions::Lattices::Refuse) refuse(finest, common);
+    for (auto& s : states) {
+        if (!s->lattice_matters || s->lattice.exponent == common) continue;
+        if (s->lattice.exponent > common) {
+            s = refined(s, report.lattice);
+            continue;
+        }
+        for (const Source* source : sources_of(*s))
+            if (source->is_half_space()) refuse(finest, common);
+        s = rounded(s, report.lattice, report);
+    }
+    return report;
 }
 
 }  // namespace trisect::detail

@@ -148,44 +148,63 @@ private:
     std::unordered_map<const Residual*, Ref> known_;
 };
 
+// Values 0, 1 and, for what is not known, -1.
 class Valuer {
 public:
     Valuer(const Residual& formula, const SlotValues& values)
         : values_(values), remembers_(formula.is_large()) {}
 
-    bool of(const Residual& formula) {
-        if (formula.kind == Kind::Constant) return formula.value;
-        if (formula.kind == Kind::Slot) return values_[static_cast<std::size_t>(formula.slot)] > 0;
+    int of(const Residual& formula) {
+        if (formula.kind == Kind::Constant) return formula.value ? 1 : 0;
+        if (formula.kind == Kind::Slot) return values_[static_cast<std::size_t>(formula.slot)];
         if (!remembers_) return of_operation(formula);
         if (const auto known = known_.find(&formula); known != known_.end()) return known->second;
-        const bool result = of_operation(formula);
+        const int result = of_operation(formula);
         known_.emplace(&formula, result);
         return result;
     }
 
 private:
-    bool of_operation(const Residual& formula) {
-        const auto child = [&](const Ref& c) { return of(*c); };
+    int of_operation(const Residual& formula) {
         const auto& cs = formula.children;
         switch (formula.kind) {
-            case Kind::Not:
-                return !child(cs[0]);
+            case Kind::Not: {
+                const int v = of(*cs[0]);
+                return v < 0 ? -1 : 1 - v;
+            }
             case Kind::And:
-                return std::all_of(cs.begin(), cs.end(), child);
+                return of_terms(cs, 0);
             case Kind::Or:
-                return std::any_of(cs.begin(), cs.end(), child);
-            case Kind::Xor:
-                return std::count_if(cs.begin(), cs.end(), child) % 2 != 0;
+                return of_terms(cs, 1);
+            case Kind::Xor: {
+                int sum = 0;
+                for (const Ref& c : cs) {
+                    const int v = of(*c);
+                    if (v < 0) return -1;
+                    sum ^= v;
+                }
+                return sum;
+            }
             case Kind::Constant:
             case Kind::Slot:
                 break;
         }
-        return false;
+        return -1;
+    }
+    // Terms of which one that has the decisive value decides.
+    int of_terms(const std::vector<Ref>& terms, int decisive) {
+        int result = 1 - decisive;
+        for (const Ref& t : terms) {
+            const int v = of(*t);
+            if (v == decisive) return decisive;
+            if (v < 0) result = -1;
+        }
+        return result;
     }
 
     const SlotValues& values_;
     bool remembers_;
-    std::unordered_map<const Residual*, bool> known_;
+    std::unordered_map<const Residual*, int> known_;
 };
 
 }  // namespace
@@ -195,6 +214,10 @@ Residual::Ref simplified(const Residual::Ref& formula, const SlotValues& values)
 }
 
 bool value_of(const Residual& formula, const SlotValues& values) {
+    return Valuer(formula, values).of(formula) > 0;
+}
+
+int bounded_value_of(const Residual& formula, const SlotValues& values) {
     return Valuer(formula, values).of(formula);
 }
 

@@ -53,6 +53,10 @@ using SlotValues = std::vector<std::int8_t>;
 /// The formula's value; every slot that it names must be known.
 [[nodiscard]] bool value_of(const Residual& formula, const SlotValues& values);
 
+/// The formula's value when some slots are unknown: 0 or 1 where those that are known decide it,
+/// else -1. May be -1 although no choice of the unknown ones changes the value.
+[[nodiscard]] int bounded_value_of(const Residual& formula, const SlotValues& values);
+
 /// Calls visit(slot) once or more for every slot that occurs.
 template <class Visit>
 void for_each_slot(const Residual& formula, Visit&& visit) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect::detail {
 
@@ -67,7 +68,9 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
     const int shift = mesh_.lattice.exponent - exponent;
     TRISECT_EXPECTS(shift >= 0, "a source can only move to a finer lattice");
     if (half_space_) {
-        TRISECT_EXPECTS(shift <= 48, "half-space on a much finer lattice");
+        if (shift > 48)
+            throw LimitError("a half-space of unit 2^" + std::to_string(mesh_.lattice.exponent) +
+                             " cannot move to the lattice of unit 2^" + std::to_string(exponent));
         const Plane p(plane_.normal(0), plane_.normal(1), plane_.normal(2),
                       plane_.offset().shifted_left(shift));
         return numbered(half_space(p, Lattice{exponent}), serial_);

@@ -61,12 +61,13 @@ Bounded bounded_value(const Approximation& a, const Plane& plane) {
     return {value, 0x1p-50 * terms + 1.0000001 * (a.error * normals)};
 }
 
+}  // namespace
+
 // The crossing in doubles: R + λ (G - R), λ = r / (r - g) with r and g of different signs.
-std::optional<Approximation> approximate_crossing(const Approximation& reference,
-                                                  const Approximation& target,
-                                                  const Plane& support) {
-    const Bounded r = bounded_value(reference, support);
-    const Bounded g = bounded_value(target, support);
+std::optional<Approximation> approximate_crossing(const Approximation& from,
+                                                  const Approximation& to, const Plane& plane) {
+    const Bounded r = bounded_value(from, plane);
+    const Bounded g = bounded_value(to, plane);
     const double spread = std::fabs(r.value) + std::fabs(g.value);
     const double error = r.error + g.error;
     if (!(spread > 4 * error) || r.value * g.value >= 0) return std::nullopt;
@@ -77,16 +78,14 @@ std::optional<Approximation> approximate_crossing(const Approximation& reference
     double largest = 0;
     double span = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double step = target.c[k] - reference.c[k];
-        x.c[k] = reference.c[k] + lambda * step;
+        const double step = to.c[k] - from.c[k];
+        x.c[k] = from.c[k] + lambda * step;
         span = std::max(span, std::fabs(step));
-        largest = std::max({largest, std::fabs(reference.c[k]), std::fabs(target.c[k])});
+        largest = std::max({largest, std::fabs(from.c[k]), std::fabs(to.c[k])});
     }
-    x.error = (span * lambda_error + reference.error + target.error + largest * 0x1p-50) * 1.001;
+    x.error = (span * lambda_error + from.error + to.error + largest * 0x1p-50) * 1.001;
     return x;
 }
-
-}  // namespace
 
 TraceTarget::TraceTarget(const FinePoint& p) : approximation_(detail::approximate(p)), fine_(p) {}
 

@@ -60,6 +60,11 @@ enum class Crossing : std::int8_t {
 /// Side of a target.
 [[nodiscard]] int side(const TraceTarget& target, const Plane& plane);
 
+/// Where a segment crosses a plane, in doubles. Nothing when they cannot tell that it does.
+[[nodiscard]] std::optional<Approximation> approximate_crossing(const Approximation& from,
+                                                                const Approximation& to,
+                                                                const Plane& plane);
+
 /// Where a segment crosses the support of a polygon. \pre its ends lie strictly on different sides.
 class SupportCrossing {
 public:

@@ -122,11 +122,27 @@ Point Workbench::point(PointId id) const {
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
-int Workbench::side(PointId point, PlaneId plane) const {
+// Whether the name of a plane says that it passes through a corner of a source.
+bool Workbench::passes_by_name(const PlaneName& plane, const PointRecord& corner) const {
+    if (plane.is_wall() || plane.source() != corner.source) return false;
+    const auto is_corner = [&](std::uint32_t i) {
+        return corner.source->corner_index(plane.facet, static_cast<int>(i % 3)) == corner.vertex;
+    };
+    if (plane.is_edge()) return is_corner(plane.kind) || is_corner(plane.kind + 1);
+    return !corner.source->is_half_space() && (is_corner(0) || is_corner(1) || is_corner(2));
+}
+
+int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
     const PointRecord& r = points_[u(point)];
     const Plane& p = plane_at(plane);
     auto& counters = predicate_counters();
-    if (r.planes[0] < 0) return sign_of(side_of(r.lattice, p));
+    if (r.planes[0] < 0) {
+        if (passes_by_name(name(plane), r)) {
+            ++counters.symbolic;
+            return 0;
+        }
+        return sign_of(side_of(r.lattice, p));
+    }
     const PlaneId c = plane_class(plane);
     for (const PlaneId q : r.planes) {
         if (q == plane || plane_class(q) == c) {
@@ -186,24 +202,23 @@ void Workbench::with_edges(WorkPolygon& polygon, const PolygonRef& ref) {
         polygon.edges.push_back({plane(PlaneName::edge(ref.source, ref.facet, i)), false});
 }
 
-void Workbench::sides_of(const WorkPolygon& polygon, PlaneId plane) {
+const Workbench::Sides& Workbench::sides_of(const WorkPolygon& polygon, PlaneId plane) {
     sides_.clear();
-    for (const PointId p : polygon.points) sides_.push_back(side(p, plane));
+    for (const PointId p : polygon.points)
+        sides_.push_back(static_cast<std::int8_t>(side(p, plane)));
+    return sides_;
 }
 
-bool Workbench::split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& below,
-                      WorkPolygon& above) {
-    sides_of(polygon, plane);
-    if (std::find(sides_.begin(), sides_.end(), 1) == sides_.end()) return false;
-    if (std::find(sides_.begin(), sides_.end(), -1) == sides_.end()) return false;
+void Workbench::split(const WorkPolygon& polygon, PlaneId plane, const Sides& sides,
+                      WorkPolygon& below, WorkPolygon& above) {
     below = {polygon.support, {}, {}};
     above = {polygon.support, {}, {}};
     const std::size_t n = polygon.points.size();
     // Walk once around. A point goes to the parts it touches; where the walk leaves a part along
     // the cut, that part gets an edge on the cutting plane.
     for (std::size_t i = 0; i < n; ++i) {
-        const int here = sides_[i];
-        const int next = sides_[(i + 1) % n];
+        const int here = sides[i];
+        const int next = sides[(i + 1) % n];
         const PointId p = polygon.points[i];
         const WorkEdge& e = polygon.edges[i];
         const auto add = [](WorkPolygon& w, PointId point, WorkEdge edge) {
@@ -233,16 +248,18 @@ bool Workbench::split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& be
             }
         }
     }
-    return true;
 }
 
-WorkPolygon Workbench::clipped(const WorkPolygon& polygon, PlaneId plane, int keep) {
-    WorkPolygon below;
-    WorkPolygon above;
-    if (split(polygon, plane, below, above)) return keep < 0 ? below : above;
-    // Not cut: all of it is on one side; `sides_` still holds the sides.
-    const bool outside = std::find(sides_.begin(), sides_.end(), -keep) != sides_.end();
-    return outside ? WorkPolygon{polygon.support, {}, {}} : polygon;
+WorkPolygon Workbench::clipped(WorkPolygon polygon, PlaneId plane, int keep) {
+    const Sides& sides = sides_of(polygon, plane);
+    const auto has = [&](int side) {
+        return std::find(sides.begin(), sides.end(), side) != sides.end();
+    };
+    if (!has(-keep)) return polygon;
+    WorkPolygon below{polygon.support, {}, {}};
+    WorkPolygon above{polygon.support, {}, {}};
+    if (has(keep)) split(polygon, plane, sides, below, above);
+    return keep < 0 ? std::move(below) : std::move(above);
 }
 
 WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
@@ -265,15 +282,15 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
     return w;
 }
 
-WorkPolygon Workbench::clipped(const WorkPolygon& polygon, const Box& box, const Cell& cell) {
-    WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : polygon;
+WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& cell) {
+    WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : std::move(polygon);
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
         if (box.lo[k] <= (cell.lo[k] >> wall_bits))
-            w = clipped(w, plane(PlaneName::wall(axis, cell.lo[k])), 1);
+            w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;
         if (box.hi[k] > (cell.hi[k] >> wall_bits))
-            w = clipped(w, plane(PlaneName::wall(axis, cell.hi[k])), -1);
+            w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.hi[k])), -1);
         if (w.is_empty()) return w;
     }
     return w;

@@ -16,6 +16,7 @@
 #include <trisect/bsp/cell_tree.h>
 #include <trisect/bsp/detail/few.h>
 #include <trisect/bsp/detail/flat_map.h>
+#include <trisect/kernel/counters.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
 
@@ -76,7 +77,14 @@ public:
     [[nodiscard]] bool same_point(PointId a, PointId b) const;
 
     /// -1 below, 0 on, 1 above: symbolic, filtered, exact.
-    [[nodiscard]] int side(PointId point, PlaneId plane) const;
+    [[nodiscard]] int side(PointId point, PlaneId plane) const {
+        // The filter first: it never says On, and far most points are off.
+        if (const auto s = filtered_side(approximation(point), plane_at(plane))) {
+            ++predicate_counters().filtered;
+            return sign_of(*s);
+        }
+        return unfiltered_side(point, plane);
+    }
 
     /// The polygon that a reference names, unclipped. Edges of whole facets carry their planes only
     /// after with_edges().
@@ -84,13 +92,18 @@ public:
     void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
 
     /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
-    /// empty when that part has no area. \pre the plane is not the support's.
-    [[nodiscard]] WorkPolygon clipped(const WorkPolygon& polygon, PlaneId plane, int keep);
-    /// Both parts; false, and nothing written, when the plane does not cut the interior.
-    bool split(const WorkPolygon& polygon, PlaneId plane, WorkPolygon& below, WorkPolygon& above);
+    /// empty when that part has no area; moved from where nothing is cut. \pre the plane is not the
+    /// support's.
+    [[nodiscard]] WorkPolygon clipped(WorkPolygon polygon, PlaneId plane, int keep);
+    /// Sides of the polygon's points, in their order; scratch that the next call overwrites.
+    using Sides = std::vector<std::int8_t>;
+    const Sides& sides_of(const WorkPolygon& polygon, PlaneId plane);
+    /// Both parts. \pre `sides` are of the polygon and the plane, and there are points on both.
+    void split(const WorkPolygon& polygon, PlaneId plane, const Sides& sides, WorkPolygon& below,
+               WorkPolygon& above);
     /// The part of the polygon in the closed cell; empty when it has no area. The polygon needs its
     /// edges; one without points stands for the whole plane of its support.
-    [[nodiscard]] WorkPolygon clipped(const WorkPolygon& polygon, const Box& box, const Cell& cell);
+    [[nodiscard]] WorkPolygon clipped(WorkPolygon polygon, const Box& box, const Cell& cell);
 
 private:
     struct PointRecord {
@@ -101,9 +114,10 @@ private:
         std::uint32_t vertex = 0;
     };
     static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+    [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
+    [[nodiscard]] bool passes_by_name(const PlaneName& plane, const PointRecord& corner) const;
     [[nodiscard]] std::uint64_t line_item(PlaneId p);
     [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
-    void sides_of(const WorkPolygon& polygon, PlaneId plane);
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
     std::vector<Plane> planes_;
@@ -115,7 +129,7 @@ private:
     FlatMap line_ids_;
     FlatMap point_ids_;
     std::vector<std::int32_t> line_of_;  // of edge planes: the source's edge, -1 not looked up
-    std::vector<int> sides_;             // scratch of split
+    Sides sides_;
 };
 
 }  // namespace trisect::detail

@@ -123,4 +123,26 @@ TEST_F(BooleanCommand, SelfIntersectionsAreResolved) {
     EXPECT_EQ(run("union", {both, c_})["output"]["volume"], 16);
 }
 
+// A box of edge 2^44 and one whose corners need the unit 2^-16.
+TEST_F(BooleanCommand, LatticesThatDoNotFitAreRoundedWithAReport) {
+    const std::string huge =
+        write("huge.off",
+              "OFF\n4 4 0\n0 0 0\n17592186044416 0 0\n0 17592186044416 0\n0 0 17592186044416\n"
+              "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    const std::string fine = write("fine.off",
+                                   "OFF\n4 4 0\n-1 -1 -1\n3.0000152587890625 -1 -1\n-1 3 -1\n"
+                                   "-1 -1 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    const Finished result = trisect({"intersection", huge, fine, "-o", path("o.off"), "--json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.err.find("rounded to the lattice"), std::string::npos) << result.err;
+    const json lattice = result.json()["output"]["lattice"];
+    EXPECT_EQ(lattice["lossless"], false);
+    EXPECT_EQ(lattice["moved"], 1);
+    EXPECT_EQ(lattice["max_move"], 0x1p-16);
+    const Finished refused =
+        trisect({"union", huge, fine, "-o", path("o.off"), "--mixed-lattices", "refuse", "--json"});
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_NE(refused.err.find("no common lattice"), std::string::npos) << refused.err;
+}
+
 }  // namespace

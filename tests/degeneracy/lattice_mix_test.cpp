@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operands on different lattices move to the finest one, exactly, or not at all.
+// Operands on different lattices move to the finest one exactly, or, where one is too large for
+// that, to the finest on which all fit, with a report.
 
 #include <gtest/gtest.h>
 
@@ -89,11 +90,57 @@ TEST(LatticeMix, SetsWithoutBoundaryHaveNoLattice) {
     EXPECT_EQ(evaluate(coarse & Solid::whole_space()).lattice(), Lattice{16});
 }
 
-TEST(LatticeMix, WhatDoesNotFitIsRefused) {
+// A cube of edge 2^k in units of 2^exponent.
+Solid large_cube(int exponent, int k) {
     trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box({0, 0, 0}, {1, 1, 1}));
-    mesh.lattice = Lattice{16};
-    for (trisect::LatticePoint& p : mesh.points) p = {p.x << 50, p.y << 50, p.z << 50};
-    const Solid wide = Solid::from_lattice_mesh(std::move(mesh));
+    mesh.lattice = Lattice{exponent};
+    for (trisect::LatticePoint& p : mesh.points) p = {p.x << k, p.y << k, p.z << k};
+    return Solid::from_lattice_mesh(std::move(mesh));
+}
+
+TEST(LatticeMix, WhatDoesNotFitIsRoundedAndReported) {
+    // Edge 2^44 and unit 2^0: no room for the unit 2^-16.
+    const Solid wide = large_cube(0, 44);
+    const Solid fine = box_on(-16, {-65536, -65536, -65536}, {3 * 65536 + 1, 65536, 131072 - 1});
+    trisect::EvaluateStats stats;
+    const Solid both = evaluate(wide & fine, {}, &stats);
+    EXPECT_EQ(both.lattice(), Lattice{-8});
+    EXPECT_EQ(stats.lattice.lattice, Lattice{-8});
+    EXPECT_FALSE(stats.lattice.lossless);
+    EXPECT_EQ(stats.lattice.moved, 6U);  // the corners of two faces, two of them in both
+    EXPECT_EQ(stats.lattice.max_move, 0x1p-16);
+    EXPECT_EQ(stats.lattice.flipped_faces, 0U);
+    EXPECT_EQ(trisect::exact_volume(both.to_brep()).to_string(), "6");  // 3 x 1 x 2
+    trisect::EvaluateOptions refuse;
+    refuse.lattices = trisect::EvaluateOptions::Lattices::Refuse;
+    EXPECT_THROW((void)evaluate(wide & fine, refuse), trisect::LimitError);
+    (void)evaluate(wide & box_on(-8, {0, 0, 0}, {256, 256, 256}), refuse, &stats);
+    EXPECT_TRUE(stats.lattice.lossless);
+}
+
+TEST(LatticeMix, ResultsAreRoundedByTheirBoundary) {
+    const Solid wide = large_cube(0, 44);
+    const Solid tool = box_on(-16, {1, 1, 1}, {65536 + 1, 65536 + 1, 65536 + 1});
+    const Solid cut =
+        evaluate(box_on(-16, {-65536, -65536, -65536}, {131072, 131072, 131072}) - tool);
+    EXPECT_EQ(volume(cut & wide), "7");  // what was cut off by 2^-16 is 2^-8 units away
+    // The complement of a bounded result keeps its outside.
+    const Solid outside = evaluate(~cut);
+    EXPECT_EQ(volume(outside & (wide - large_cube(0, 43))), volume(wide - large_cube(0, 43)));
+    EXPECT_EQ(volume((outside | wide) & box_on(-8, {-256, -256, -256}, {256, 256, 256})), "1");
+}
+
+TEST(LatticeMix, HalfSpacesAreNotRounded) {
+    const Solid half =
+        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{-16});
+    EXPECT_THROW((void)evaluate(half & large_cube(0, 44)), trisect::LimitError);
+    const Solid coarse =
+        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{48});
+    EXPECT_THROW((void)evaluate(coarse & box_on(-8, {0, 0, 0}, {1, 1, 1})), trisect::LimitError);
+}
+
+TEST(LatticeMix, WhatWouldVanishIsRefused) {
+    const Solid wide = large_cube(16, 50);
     const Solid fine = box_on(-8, {0, 0, 0}, {1, 1, 1});
     EXPECT_THROW((void)evaluate(wide - fine), trisect::LimitError);
     // Alone each of them is fine.

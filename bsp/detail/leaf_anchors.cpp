@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/leaf_anchors.h>
+
+#include <cmath>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr LeafIndex none = -1;
+constexpr LeafIndex outside = -2;
+
+bool is_facet(const LeafItem& item) {
+    return item.ref.fragment == nullptr && !item.ref.source->is_half_space();
+}
+
+}  // namespace
+
+void LeafAnchors::build(LeafWork& work, LeafWindings& windings) {
+    work_ = &work;
+    windings_ = &windings;
+    ids_.clear();
+    vertex_of_id_.clear();
+    vertices_.clear();
+    known_count_ = 0;
+    first_.assign(work.items.size(), none);
+    for (LeafIndex i = 0; i < work.item_count(); ++i) {
+        // Only what nothing touches makes others hang together; the rest is looked at when asked.
+        if (!work.contacts(i).empty()) continue;
+        const std::size_t n = corner_count(i);
+        for (std::size_t k = 0; k < n; ++k) {
+            const LeafIndex v = vertex_of(i, k);
+            if (v < 0) continue;
+            LeafIndex& first = first_[LeafWork::u(i)];
+            if (first < 0) {
+                first = v;
+            } else {
+                join(first, v);
+            }
+        }
+    }
+}
+
+std::size_t LeafAnchors::corner_count(LeafIndex item) {
+    return is_facet(work_->item(item)) ? 3 : work_->shape(item).points.size();
+}
+
+bool LeafAnchors::is_in_cell(LeafIndex i, std::size_t corner) {
+    const LeafItem& item = work_->item(i);
+    const Cell& cell = work_->problem->cell;
+    if (item.contained) return true;
+    if (is_facet(item))
+        return cell.contains(
+            Box::of(item.ref.source->corner(item.ref.facet, static_cast<int>(corner))));
+    const PointId p = work_->shape(i).points[corner];
+    if (work_->bench.is_corner(p)) return cell.contains(Box::of(work_->bench.lattice(p)));
+    // A vertex very near to a wall does not count.
+    const Approximation& a = work_->bench.approximation(p);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double slack = 1.001 * a.error + 0x1p-45 * std::fabs(a.c[k]);
+        const auto scale = static_cast<double>(wall_scale);
+        if ((a.c[k] - slack) * scale <= static_cast<double>(cell.lo[k]) ||
+            (a.c[k] + slack) * scale >= static_cast<double>(cell.hi[k]))
+            return false;
+    }
+    return true;
+}
+
+LeafIndex LeafAnchors::vertex_of(LeafIndex i, std::size_t corner) {
+    const LeafItem& item = work_->item(i);
+    // Corners of the source by name, so that facets need no shape; other points by the bench's.
+    Key128 key{static_cast<std::uint64_t>(item.sheet), 0};
+    if (is_facet(item)) {
+        key.b = item.ref.source->corner_index(item.ref.facet, static_cast<int>(corner));
+    } else {
+        const PointId p = work_->shape(i).points[corner];
+        if (work_->bench.is_corner(p) && work_->bench.corner_name(p).first == item.ref.source) {
+            key.b = work_->bench.corner_name(p).second;
+        } else {
+            key = {(std::uint64_t{1} << 40) | static_cast<std::uint64_t>(item.operand),
+                   static_cast<std::uint64_t>(p)};
+        }
+    }
+    const auto [id, inserted] = ids_.insert(key, static_cast<std::int32_t>(vertex_of_id_.size()));
+    if (inserted) {
+        vertex_of_id_.push_back(outside);
+        if (is_in_cell(i, corner)) {
+            const auto v = static_cast<LeafIndex>(vertices_.size());
+            vertex_of_id_.back() = v;
+            Vertex vertex;
+            vertex.item = i;
+            vertex.corner = static_cast<std::int32_t>(corner);
+            vertex.parent = v;
+            vertices_.push_back(vertex);
+        }
+    }
+    return vertex_of_id_[LeafWork::u(id)];
+}
+
+LeafIndex LeafAnchors::root(LeafIndex v) {
+    while (vertices_[LeafWork::u(v)].parent != v) {
+        LeafIndex& parent = vertices_[LeafWork::u(v)].parent;
+        v = parent = vertices_[LeafWork::u(parent)].parent;
+    }
+    return v;
+}
+
+void LeafAnchors::join(LeafIndex a, LeafIndex b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    vertices_[LeafWork::u(b)].parent = a;
+    vertices_[LeafWork::u(a)].example = b;
+}
+
+bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
+    const LeafItem& item = work_->item(v.item);
+    if (is_facet(item)) {
+        const LatticePoint& c = item.ref.source->corner(item.ref.facet, v.corner);
+        const TraceTarget target(FinePoint{{c.x * wall_scale, c.y * wall_scale, c.z * wall_scale}});
+        return windings_->at_point(target, item.operand, w);
+    }
+    const PointId p = work_->shape(v.item).points[static_cast<std::size_t>(v.corner)];
+    const TraceTarget target(work_->bench, {p, p, p}, {1, 0, 0});
+    return windings_->at_point(target, item.operand, w);
+}
+
+// One trace, to another vertex or from another reference when the first is degenerate.
+void LeafAnchors::find_windings(LeafIndex r) {
+    vertices_[LeafWork::u(r)].state = State::Useless;
+    if (known_count_ == known_.size()) known_.emplace_back();
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        if (attempt == 2) windings_->next_reference();
+        const LeafIndex example = vertices_[LeafWork::u(r)].example;
+        const LeafIndex at = attempt % 2 == 0 ? r : example;
+        if (at < 0 || !trace_to(vertices_[LeafWork::u(at)], known_[known_count_])) continue;
+        vertices_[LeafWork::u(r)].state = State::Known;
+        vertices_[LeafWork::u(r)].windings = static_cast<LeafIndex>(known_count_++);
+        return;
+    }
+}
+
+LeafAnchor LeafAnchors::anchor_of(LeafIndex item) {
+    const std::size_t n = corner_count(item);
+    // First a vertex of which the windings are known.
+    for (const bool ask : {false, true}) {
+        for (std::size_t k = 0; k < n; ++k) {
+            const LeafIndex v = vertex_of(item, k);
+            if (v < 0) continue;
+            const LeafIndex r = root(v);
+            if (ask && vertices_[LeafWork::u(r)].state == State::Unknown) find_windings(r);
+            const Vertex& at = vertices_[LeafWork::u(r)];
+            if (at.state == State::Known) return {at.windings, k};
+        }
+    }
+    return {};
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The way from an item's start (a vertex, or the middle of what the cell leaves of it) to a part
+// runs in the item's plane, so it meets only what cuts the item: a handful of polygons instead of
+// the whole leaf. What is wanted are the winding numbers just above the plane. A cutter that goes
+// through the plane is met there as it is in the plane; one that stands on the plane with an edge
+// is met just above it, although in the plane only its edge is; one that hangs below is not.
+// All signs come from doubles; where those cannot tell, a trace through the leaf does.
+
+#include <trisect/bsp/detail/leaf_cutting.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <trisect/bsp/detail/leaf_coincidence.h>
+#include <trisect/bsp/detail/leaf_pieces.h>
+#include <trisect/bsp/detail/trace.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(LeafIndex i) { return LeafWork::u(i); }
+
+}  // namespace
+
+void LeafCutting::start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors,
+                        LeafFormula& formula) {
+    work_ = &work;
+    windings_ = &windings;
+    anchors_ = &anchors;
+    formula_ = &formula;
+    last_anchor_ = -1;
+}
+
+LeafCutting::Part& LeafCutting::add_part() {
+    if (count_ == parts_.size()) parts_.emplace_back();
+    Part& p = parts_[count_++];
+    p.state = Part::State::Open;
+    p.unspoken = false;
+    return p;
+}
+
+// An embedded operand has 0 outside its own facets and 1 inside.
+void LeafCutting::set_own_sides(Sides& sides) const {
+    const LeafItem& item = work_->item(item_);
+    sides.above[u(item.operand)] = item.orientation > 0 ? 0 : 1;
+    sides.below[u(item.operand)] = item.orientation > 0 ? 1 : 0;
+}
+
+// Winding numbers of the other operands at some point of the item.
+void LeafCutting::set_start(const WorkPolygon& part) {
+    if (const LeafAnchor anchor = anchors_->anchor_of(item_); anchor.windings >= 0) {
+        start_.windings = anchors_->windings(anchor.windings);
+        start_.vertex = work_->shape(item_).points[anchor.corner];
+        start_.at = work_->bench.approximation(start_.vertex);
+        return;
+    }
+    const LeafItem& item = work_->item(item_);
+    known_.assign(work_->problem->operands.size(), 0);
+    known_[u(item.operand)] = 1;
+    step_.assign(known_.size(), 0);
+    start_.windings.assign(known_.size(), 0);
+    start_.at = windings_->windings_above(item_, part, step_, known_, start_.windings);
+    start_.vertex = -1;
+    // In the plane of another facet it is not clear whether the point lies on that.
+    for (const LeafContact& c : work_->contacts(item_))
+        if (c.covers) start_.windings[u(work_->item(c.other).operand)] = unknown_winding;
+}
+
+void LeafCutting::settle(Part& part) {
+    const int above = formula_->bound_at(part.sides.above);
+    if (above < 0) return;
+    const int below = formula_->bound_at(part.sides.below);
+    if (below < 0) return;
+    part.state = above == below ? Part::State::Dropped : Part::State::Kept;
+    part.inside_above = above == 1;
+}
+
+LeafRemains LeafCutting::whole(LeafIndex i) {
+    item_ = i;
+    const LeafItem& item = work_->item(i);
+    const LeafAnchor anchor = anchors_->anchor_of(i);
+    const int key = 2 * item.operand + (item.orientation > 0 ? 1 : 0);
+    if (anchor.windings >= 0 && anchor.windings == last_anchor_ && key == last_key_)
+        return last_remains_;
+    if (anchor.windings >= 0) {
+        start_.windings = anchors_->windings(anchor.windings);
+    } else {
+        WorkPolygon clipped;
+        if (!item.contained) {
+            clipped =
+                work_->bench.clipped(work_->with_edges(i), item.ref.box(), work_->problem->cell);
+            if (clipped.is_empty()) return {};  // listed for its box, but not in the cell
+        }
+        set_start(item.contained ? work_->shape(i) : clipped);
+    }
+    count_ = 0;
+    Part& part = add_part();
+    part.sides.above = start_.windings;
+    part.sides.below = start_.windings;
+    set_own_sides(part.sides);
+    settle(part);
+    LeafRemains remains;
+    if (part.state == Part::State::Kept) remains = {LeafRemains::Kind::Uncut, part.inside_above};
+    last_anchor_ = anchor.windings;
+    last_key_ = key;
+    last_remains_ = remains;
+    return remains;
+}
+
+LeafRemains LeafCutting::cut(LeafIndex i) {
+    item_ = i;
+    count_ = 0;
+    kept_.clear();
+    const LeafItem& item = work_->item(i);
+    {
+        Part& part = add_part();
+        part.shape = work_->with_edges(i);
+        if (!item.contained)
+            part.shape =
+                work_->bench.clipped(std::move(part.shape), item.ref.box(), work_->problem->cell);
+        if (part.shape.is_empty()) return {};
+        set_start(part.shape);
+        part.sides.above = start_.windings;
+        const std::span<const LeafContact> contacts = work_->contacts(i);
+        for (const LeafContact& c : contacts)
+            if (c.cuts || c.covers)
+                part.sides.above[u(work_->item(c.other).operand)] = unknown_winding;
+        part.sides.below = part.sides.above;
+        set_own_sides(part.sides);
+        settle(part);
+    }
+    const std::span<const LeafContact> contacts = work_->contacts(i);
+    const auto operand_at = [&](std::size_t k) { return work_->item(contacts[k].other).operand; };
+    for (std::size_t begin = 0; begin < contacts.size();) {
+        std::size_t end = begin + 1;
+        while (end < contacts.size() && operand_at(end) == operand_at(begin)) ++end;
+        const auto group = contacts.subspan(begin, end - begin);
+        if (std::any_of(group.begin(), group.end(),
+                        [](const LeafContact& c) { return c.cuts || c.covers; }))
+            cut_by(operand_at(begin), group);
+        begin = end;
+    }
+    work_->stats->pieces += count_;
+    return remains();
+}
+
+LeafRemains LeafCutting::remains() {
+    std::size_t kept = 0;
+    bool uniform = true;
+    const Part* first = nullptr;
+    for (std::size_t k = 0; k < count_; ++k) {
+        const Part& p = parts_[k];
+        TRISECT_EXPECTS(p.state != Part::State::Open, "a part of a facet was not decided");
+        if (p.state == Part::State::Dropped) continue;
+        ++kept;
+        if (first == nullptr) first = &p;
+        uniform = uniform && p.inside_above == first->inside_above;
+    }
+    if (kept == 0) return {};
+    if (kept == count_ && uniform) return {LeafRemains::Kind::Uncut, first->inside_above};
+    for (std::size_t k = 0; k < count_; ++k)
+        if (parts_[k].state == Part::State::Kept)
+            kept_.push_back({std::move(parts_[k].shape), parts_[k].inside_above});
+    return {LeafRemains::Kind::Parts, false};
+}
+
+void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contacts) {
+    const std::size_t before = count_;
+    for (std::size_t k = 0; k < before; ++k) {
+        if (parts_[k].state != Part::State::Open) continue;
+        const bool above_matters = formula_->bound_at(parts_[k].sides.above) < 0;
+        const bool below_matters = formula_->bound_at(parts_[k].sides.below) < 0;
+        const std::size_t first = count_;
+        (void)add_part();
+        parts_[first].shape = parts_[k].shape;
+        parts_[first].sides = parts_[k].sides;
+        split(first, contacts);
+        bool unspoken = false;
+        for (std::size_t j = first; j < count_; ++j) {
+            find_sides(parts_[j], operand, contacts);
+            unspoken = unspoken || parts_[j].unspoken;
+        }
+        if (count_ == first + 1 ||
+            (!unspoken && same_sides(first, operand, above_matters, below_matters))) {
+            // Undone, if anything was cut.
+            Part& part = parts_[k];
+            part.unspoken = parts_[first].unspoken;
+            if (above_matters) part.sides.above[u(operand)] = parts_[first].sides.above[u(operand)];
+            if (below_matters) part.sides.below[u(operand)] = parts_[first].sides.below[u(operand)];
+            if (count_ > first + 1) ++work_->stats->cuts_undone;
+            count_ = first;
+            if (part.unspoken) {
+                part.state = Part::State::Dropped;
+            } else {
+                settle(part);
+            }
+            continue;
+        }
+        for (std::size_t j = first; j < count_; ++j) {
+            if (parts_[j].unspoken) {
+                parts_[j].state = Part::State::Dropped;
+            } else {
+                settle(parts_[j]);
+            }
+        }
+        // The first of the new parts takes the place of the old one, the last one its place.
+        std::swap(parts_[k], parts_[first]);
+        --count_;
+        if (first != count_) std::swap(parts_[first], parts_[count_]);
+    }
+}
+
+bool LeafCutting::same_sides(std::size_t first, LeafIndex operand, bool above_matters,
+                             bool below_matters) const {
+    for (std::size_t j = first + 1; j < count_; ++j) {
+        const Sides& a = parts_[first].sides;
+        const Sides& b = parts_[j].sides;
+        if (above_matters && a.above[u(operand)] != b.above[u(operand)]) return false;
+        if (below_matters && a.below[u(operand)] != b.below[u(operand)]) return false;
+    }
+    return true;
+}
+
+void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
+    const auto along = [&](PlaneId line, const WorkPolygon& cutter) {
+        const std::size_t end = count_;
+        for (std::size_t j = first; j < end; ++j) {
+            WorkPolygon above;
+            if (!split_along(work_->bench, parts_[j].shape, line, cutter, above)) continue;
+            Part& other = add_part();
+            other.shape = std::move(above);
+            other.sides = parts_[j].sides;
+        }
+    };
+    for (const LeafContact& c : contacts) {
+        if (!c.cuts) continue;
+        const WorkPolygon& cutter = work_->with_edges(c.other);
+        along(cutter.support, cutter);
+    }
+    for (const LeafContact& c : contacts) {
+        if (!c.covers) continue;
+        // The edges of the covering facet are lines in the plane of the item.
+        const WorkPolygon& cover = work_->with_edges(c.other);
+        for (const WorkEdge& e : cover.edges) along(e.plane, cover);
+    }
+}
+
+void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts) {
+    const LeafItem& item = work_->item(item_);
+    for (const LeafContact& c : contacts) {
+        if (!c.covers || !covered_by(work_->bench, part.shape, work_->with_edges(c.other)))
+            continue;
+        if (speaks_before(*work_, c.other, item_)) {
+            part.unspoken = true;
+            if (!item.contained)
+                work_->incomplete.push_back({item.ref.source->serial(), item.ref.facet});
+            return;
+        }
+        const LeafItem& other = work_->item(c.other);
+        const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
+                                           work_->bench.plane_at(other.shape.support));
+        const bool faces_up = (other.orientation > 0) == same;
+        part.sides.above[u(operand)] = faces_up ? 0 : 1;
+        part.sides.below[u(operand)] = faces_up ? 1 : 0;
+        return;
+    }
+    int winding = start_.windings[u(operand)];
+    if (winding != unknown_winding) {
+        const auto change = change_to(part.shape, contacts);
+        winding = change ? winding + *change : unknown_winding;
+    }
+    if (winding == unknown_winding) winding = traced_winding(part.shape, operand);
+    part.sides.above[u(operand)] = winding;
+    part.sides.below[u(operand)] = winding;
+}
+
+std::optional<int> LeafCutting::change_to(const WorkPolygon& part,
+                                          std::span<const LeafContact> cutters) {
+    ++work_->stats->traces_within;
+    const TraceTarget target = middle_of(work_->bench, part);
+    int change = 0;
+    for (const LeafContact& c : cutters) {
+        if (!c.cuts) continue;
+        const auto met = crossing(c.other, target.approximation());
+        if (!met) return std::nullopt;
+        change += *met;
+    }
+    return change;
+}
+
+std::optional<int> LeafCutting::crossing(LeafIndex cutter, const Approximation& end) {
+    const Workbench& bench = work_->bench;
+    const WorkPolygon& shape = work_->with_edges(cutter);
+    const Plane& support = bench.plane_at(shape.support);
+    const auto at_end = filtered_side(end, support);
+    if (!at_end) return std::nullopt;
+    int at_start = 0;
+    if (const auto s = filtered_side(start_.at, support)) {
+        at_start = sign_of(*s);
+    } else if (start_.vertex >= 0) {
+        at_start = bench.side(start_.vertex, shape.support);
+    } else {
+        return std::nullopt;
+    }
+    // The start is on no polygon; one in whose plane it lies is not met on the way out of that.
+    if (at_start == 0 || at_start == sign_of(*at_end)) return 0;
+    const int step = at_start * work_->item(cutter).orientation;
+    const auto x = approximate_crossing(start_.at, end, support);
+    if (!x) return std::nullopt;
+    bool doubtful = false;
+    for (const WorkEdge& e : shape.edges) {
+        const auto s = filtered_side(*x, bench.plane_at(e.plane));
+        if (!s) {
+            doubtful = true;
+        } else if ((*s == Side::Above) != e.above) {
+            return 0;
+        }
+    }
+    if (!doubtful) return step;
+    const PlaneId plane = work_->item(item_).shape.support;
+    Few<int> sides;
+    for (const PointId p : shape.points) sides.push_back(bench.side(p, plane));
+    const auto [lo, hi] = std::minmax_element(sides.begin(), sides.end());
+    if (*hi <= 0) return 0;
+    if (*lo < 0) return std::nullopt;
+    for (std::size_t k = 0; k < shape.edges.size(); ++k) {
+        if (sides[k] == 0 && sides[(k + 1) % sides.size()] == 0) continue;
+        if (!filtered_side(*x, bench.plane_at(shape.edges[k].plane))) return std::nullopt;
+    }
+    return step;
+}
+
+int LeafCutting::traced_winding(const WorkPolygon& part, LeafIndex operand) {
+    known_.assign(work_->problem->operands.size(), 1);
+    known_[u(operand)] = 0;
+    step_.assign(known_.size(), 0);
+    traced_.assign(known_.size(), 0);
+    (void)windings_->windings_above(item_, part, step_, known_, traced_);
+    return traced_[u(operand)];
+}
+
+}  // namespace trisect::detail
