@@ -5,7 +5,7 @@
 // of the result, and what the engine counted.
 //
 //     bench_ENGINE --scene b:82k --op union [--runs 5] [--threads 1] [--limit SECONDS] [--profile]
-//                  [--serve] [--write FILE]
+//                  [--clock wall|processor] [--serve] [--write FILE]
 //
 // Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
 // the tools' import is import, and all steps together are the evaluation. --limit ends a chain
@@ -17,9 +17,9 @@
 // turns (scripts/bench-scenes), which is the way to compare on a machine whose speed drifts.
 
 #include <malloc.h>
+#include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -46,7 +46,6 @@ using bench::Operation;
 using bench::Scene;
 using nlohmann::json;
 using trisect::PolygonMesh;
-using Clock = std::chrono::steady_clock;
 
 struct Options {
     std::string scene;
@@ -57,12 +56,25 @@ struct Options {
     double limit = 0;
     bool profile = false;
     bool serve = false;
+    clockid_t clock = CLOCK_MONOTONIC;
     std::string write;
 };
 
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+/// Milliseconds of wall time or of the processor, all threads together.
+class Stopwatch {
+public:
+    explicit Stopwatch(clockid_t clock) : clock_(clock), start_(now()) {}
+    [[nodiscard]] double milliseconds() const { return now() - start_; }
+
+private:
+    [[nodiscard]] double now() const {
+        timespec t{};
+        clock_gettime(clock_, &t);
+        return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+    }
+    clockid_t clock_;
+    double start_;
+};
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -128,9 +140,9 @@ public:
         else
             run_expression(t);
         counters_ = engine_.counters();
-        const auto start = Clock::now();
+        const Stopwatch watch(options_.clock);
         result_ = engine_.to_mesh(body_);
-        t.to_mesh = milliseconds_since(start);
+        t.to_mesh = watch.milliseconds();
         if (times_.empty()) peak_mb_ = peak_megabytes();
         times_.push_back(t);
         return t;
@@ -142,6 +154,7 @@ public:
 private:
     void run_expression(Times& t);
     void run_chain(Times& t);
+    Times run_step(std::size_t i);
     void check(json& out) const;
 
     const Options& options_;
@@ -157,45 +170,51 @@ private:
 };
 
 void Job::run_expression(Times& t) {
-    auto start = Clock::now();
+    const Stopwatch import(options_.clock);
     std::vector<Engine::Body> bodies;
     bodies.reserve(scene_.operands.size());
     for (const PolygonMesh& m : scene_.operands) bodies.push_back(engine_.import(m));
-    t.import = milliseconds_since(start);
-    start = Clock::now();
+    t.import = import.milliseconds();
+    const Stopwatch evaluate(options_.clock);
     const std::span<const Engine::Body> all(bodies);
     body_ = engine_.evaluate(all.first(scene_.first_group), all.subspan(scene_.first_group),
                              options_.operation);
-    t.evaluate = milliseconds_since(start);
+    t.evaluate = evaluate.milliseconds();
 }
 
 void Job::run_chain(Times& t) {
-    const auto begin = Clock::now();
+    const Stopwatch whole(CLOCK_MONOTONIC);
     chain_ = {};
     chain_.window = std::clamp<std::size_t>(scene_.steps / 10, 1, 1000);
-    auto start = Clock::now();
+    const Stopwatch import(options_.clock);
     body_ = engine_.import(scene_.operands[0]);
-    if (scene_.untimed == 0) t.import = milliseconds_since(start);
+    if (scene_.untimed == 0) t.import = import.milliseconds();
     double window_ms = 0;
     for (std::size_t i = 0; i < scene_.steps; ++i) {
-        if (options_.limit > 0 && milliseconds_since(begin) > 1000 * options_.limit) break;
-        const bench::Step step = scene_.step(i);
-        start = Clock::now();
-        const Engine::Body tool = engine_.import(step.tool);
-        const double import = milliseconds_since(start);
-        start = Clock::now();
-        body_ = engine_.evaluate({&body_, 1}, {&tool, 1}, step.operation);
-        const double evaluate = milliseconds_since(start);
+        if (options_.limit > 0 && whole.milliseconds() > 1000 * options_.limit) break;
+        const Times step = run_step(i);
         ++chain_.steps;
         if (i < scene_.untimed) continue;
-        t.import += import;
-        t.evaluate += evaluate;
-        window_ms += import + evaluate;
+        t.import += step.import;
+        t.evaluate += step.evaluate;
+        window_ms += step.total();
         if ((i + 1) % chain_.window != 0) continue;
         chain_.step_ms.push_back(window_ms / static_cast<double>(chain_.window));
         chain_.resident_mb.push_back(resident_megabytes());
         window_ms = 0;
     }
+}
+
+Times Job::run_step(std::size_t i) {
+    Times t;
+    const bench::Step step = scene_.step(i);
+    const Stopwatch import(options_.clock);
+    const Engine::Body tool = engine_.import(step.tool);
+    t.import = import.milliseconds();
+    const Stopwatch evaluate(options_.clock);
+    body_ = engine_.evaluate({&body_, 1}, {&tool, 1}, step.operation);
+    t.evaluate = evaluate.milliseconds();
+    return t;
 }
 
 void Job::check(json& out) const {
@@ -220,6 +239,7 @@ json Job::summary() {
              {"engine", engine_.name()},
              {"version", engine_.version()},
              {"threads", options_.threads},
+             {"clock", options_.clock == CLOCK_MONOTONIC ? "wall" : "processor"},
              {"runs", times_.size()},
              {"operands", scene_.operands.size()},
              {"triangles_in", triangles}};
@@ -240,8 +260,8 @@ json Job::summary() {
                         {"step_ms", chain_.step_ms}, {"resident_mb", chain_.resident_mb}};
     out["counters"] = counters_;
     if (options_.profile) {
-        const auto start = Clock::now();
-        if (engine_.assemble(body_)) out["assemble_ms"] = milliseconds_since(start);
+        const Stopwatch watch(options_.clock);
+        if (engine_.assemble(body_)) out["assemble_ms"] = watch.milliseconds();
     }
     check(out);
     if (!options_.write.empty()) trisect::write_mesh(options_.write, result_);
@@ -271,6 +291,9 @@ std::optional<Options> parse(int argc, char** argv) {
             out.threads = std::atoi(value.c_str());
         } else if (word == "--limit") {
             out.limit = std::atof(value.c_str());
+        } else if (word == "--clock") {
+            if (value != "wall" && value != "processor") return std::nullopt;
+            out.clock = value == "wall" ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID;
         } else if (word == "--write") {
             out.write = value;
         } else {
@@ -310,9 +333,10 @@ int run(Options options) {
 int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
-        std::cerr << "usage: " << argv[0]
-                  << " --scene NAME [--op union|intersection|difference] [--runs 5] [--threads 1] "
-                     "[--limit SECONDS] [--profile] [--serve] [--write FILE]\n";
+        std::cerr
+            << "usage: " << argv[0]
+            << " --scene NAME [--op union|intersection|difference] [--runs 5] [--threads 1] "
+               "[--limit SECONDS] [--profile] [--clock wall|processor] [--serve] [--write FILE]\n";
         return 2;
     }
     try {

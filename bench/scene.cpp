@@ -118,10 +118,11 @@ PolygonMesh small_sphere(double radius, const Point3d& centre) {
 Scene small_cut_scene(const std::string& scene, const std::vector<std::string>& words) {
     PolygonMesh part = shapes::icosphere(sphere_level(scene, words[1]));
     PolygonMesh tool = small_sphere(0.1, shapes::along_1_2_3(1));
-    if (words.size() > 2 && words[2] != "indexed") unknown(scene);
     if (words.size() > 2) {
-        Scene s = short_chain(std::move(part),
-                              {small_sphere(0.1, shapes::along_1_2_3(-1)), std::move(tool)});
+        if (words[2] != "near" && words[2] != "far") unknown(scene);
+        const Point3d before =
+            words[2] == "near" ? Point3d{0.48, 0.36, 0.8} : shapes::along_1_2_3(-1);
+        Scene s = short_chain(std::move(part), {small_sphere(0.1, before), std::move(tool)});
         s.untimed = 1;
         return s;
     }

@@ -47,8 +47,8 @@ struct Scene {
 ///                                   (1,2,3) and moved by a tenth of the box (TRISECT_MODELS)
 ///     b:5k b:82k b:328k b:1.3M      two icospheres, centres half a radius apart
 ///     c:82k c:1.3M                  an icosphere less one of 320 triangles and a tenth its size
-///     c:82k:indexed c:1.3M:indexed  the same after an untimed cut on the other side
-///     d:spheres d:cubes             the union of 1000 solids, turned and placed at random
+///     c:82k:near c:1.3M:near        the same after an untimed cut beside it; :far on the other
+///     side d:spheres d:cubes             the union of 1000 solids, turned and placed at random
 ///     d:tori                        the union of fifty tori (TRISECT_MODELS)
 ///     e:25k e:99k e:400k            milling: 1000 cuts by a sphere of 320 triangles in a block;
 ///                                   e:99k:10000 for another number of cuts, 1000 a layer
