@@ -142,6 +142,14 @@ void LeafAnchors::find_windings(LeafIndex r) {
 }
 
 LeafAnchor LeafAnchors::anchor_of(LeafIndex item) {
+    if (work_->contacts(item).empty()) {
+        // All its vertices hang together; which one it is does not matter.
+        const LeafIndex first = first_[LeafWork::u(item)];
+        if (first < 0) return {};
+        const LeafIndex r = root(first);
+        if (vertices_[LeafWork::u(r)].state == State::Unknown) find_windings(r);
+        return {vertices_[LeafWork::u(r)].windings, 0};
+    }
     const std::size_t n = corner_count(item);
     // First a vertex of which the windings are known.
     for (const bool ask : {false, true}) {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <trisect/bsp/detail/facet_in_cell.h>
 #include <trisect/bsp/detail/leaf_coincidence.h>
 #include <trisect/bsp/detail/leaf_pieces.h>
 #include <trisect/bsp/detail/trace.h>
@@ -90,6 +91,7 @@ LeafRemains LeafCutting::whole(LeafIndex i) {
     } else {
         WorkPolygon clipped;
         if (!item.contained) {
+            if (certainly_misses(item.ref, work_->problem->cell.lattice_box())) return {};
             clipped =
                 work_->bench.clipped(work_->with_edges(i), item.ref.box(), work_->problem->cell);
             if (clipped.is_empty()) return {};  // listed for its box, but not in the cell
@@ -225,26 +227,29 @@ bool LeafCutting::same_sides(std::size_t first, LeafIndex operand, bool above_ma
 }
 
 void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
-    const auto along = [&](PlaneId line, const WorkPolygon& cutter) {
+    const auto along = [&](PlaneId line, const WorkPolygon& cutter, bool sure) {
         const std::size_t end = count_;
         for (std::size_t j = first; j < end; ++j) {
             WorkPolygon above;
-            if (!split_along(work_->bench, parts_[j].shape, line, cutter, above)) continue;
+            if (!split_along(work_->bench, parts_[j].shape, line, cutter, sure, above)) continue;
             Part& other = add_part();
             other.shape = std::move(above);
             other.sides = parts_[j].sides;
         }
     };
+    // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+    bool sure = count_ == 2 && work_->item(item_).contained;
     for (const LeafContact& c : contacts) {
         if (!c.cuts) continue;
         const WorkPolygon& cutter = work_->with_edges(c.other);
-        along(cutter.support, cutter);
+        along(cutter.support, cutter, sure);
+        sure = false;
     }
     for (const LeafContact& c : contacts) {
         if (!c.covers) continue;
         // The edges of the covering facet are lines in the plane of the item.
         const WorkPolygon& cover = work_->with_edges(c.other);
-        for (const WorkEdge& e : cover.edges) along(e.plane, cover);
+        for (const WorkEdge& e : cover.edges) along(e.plane, cover, false);
     }
 }
 

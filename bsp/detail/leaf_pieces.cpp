@@ -55,7 +55,7 @@ void split_all(LeafWork& work, std::size_t first, PlaneId plane, const WorkPolyg
     const std::size_t end = work.pieces.size();
     for (std::size_t i = first; i < end; ++i) {
         WorkPolygon above;
-        if (!split_along(work.bench, work.pieces[i].shape, plane, cutter, above)) continue;
+        if (!split_along(work.bench, work.pieces[i].shape, plane, cutter, false, above)) continue;
         LeafPiece other;
         other.item = work.pieces[i].item;
         other.shape = std::move(above);
@@ -66,9 +66,9 @@ void split_all(LeafWork& work, std::size_t first, PlaneId plane, const WorkPolyg
 }  // namespace
 
 bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
-                 WorkPolygon& above) {
+                 bool sure, WorkPolygon& above) {
     const Workbench::Sides& sides = bench.sides_of(piece, line);
-    if (!meets_interior(bench, piece, sides, line, cutter)) return false;
+    if (!sure && !meets_interior(bench, piece, sides, line, cutter)) return false;
     WorkPolygon below;
     bench.split(piece, line, sides, below, above);
     piece = std::move(below);

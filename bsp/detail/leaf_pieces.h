@@ -20,9 +20,9 @@ namespace trisect::detail {
 }
 
 /// Splits a piece along a line if the cutter runs through its interior there: `piece` is then the
-/// part below and `above` the other one. False when nothing was split.
+/// part below and `above` the other one. False when nothing was split. `sure`: it does.
 bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
-                 WorkPolygon& above);
+                 bool sure, WorkPolygon& above);
 
 /// Clips an item to the cell and splits it along its cutters and the edges of what covers it. The
 /// pieces are appended to the work's list; each is on one side of everything else in the leaf.
