@@ -2,7 +2,7 @@
 //
 // Three ways to distribute a list, from fast to slow. A list that lies on one side of the wall is
 // handed on as it is. When the wall is between two rounded positions of the frame, comparing the
-// rounded boxes is exact: one pass without branches, each entry written to both sides and the ends
+// rounded boxes is exact: one pass without branches, each entry written to all ends, which are
 // advanced by the outcome of the comparisons. Otherwise (a wall that another evaluation chose in
 // another frame) the polygons' own boxes are looked up.
 
@@ -44,45 +44,42 @@ void set_box(CellOperand& operand, const CellTask& task, const Cell& cell) {
     operand.box = box_of(operand.entries, operand.count).intersected(packed_cell(task.frame, cell));
 }
 
-// Entries and the two ends of what is written.
+// Ends of what is written: entries on one side of the wall only, and those that cross it.
 struct Ends {
     PackedBox* below;
     PackedBox* above;
+    PackedBox* crossing;
 };
 
-Ends distribute_packed(std::span<const PackedBox> list, std::size_t axis, int first_above,
-                       Ends ends) {
+// The wall is below rounded position `first_above`.
+Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_above, Ends ends) {
     const auto q = static_cast<std::int16_t>(first_above);
     const auto minus_q = static_cast<std::int16_t>(-first_above);
     for (const PackedBox& e : list) {
-        const bool below = e.lo[axis] < q;
-        const bool above = e.minus_hi[axis] <= minus_q;
+        const unsigned below = e.lo[axis] < q ? 1 : 0;
+        const unsigned above = e.minus_hi[axis] <= minus_q ? 1 : 0;
         *ends.below = e;
         *ends.above = e;
-        ends.below += below ? 1 : 0;
-        ends.above += above ? 1 : 0;
+        *ends.crossing = e;
+        ends.below += 1 - above;
+        ends.above += 1 - below;
+        ends.crossing += below & above;
     }
     return ends;
 }
 
-// A long facet that crosses the wall may still miss one of the cells.
-struct Doubt {
-    int long_facet;
-    std::array<Box, 2> reach;
-};
-
-template <class Sides>
-Ends distribute_with_doubt(const CellOperand& operand, std::size_t axis, const Doubt& doubt,
-                           Ends ends, Sides&& sides) {
+// The same for a wall anywhere.
+Ends distribute_exactly(const CellOperand& operand, std::size_t axis, std::int64_t last_below,
+                        Ends ends) {
     for (const PackedBox& e : operand.list()) {
-        auto [below, above] = sides(e);
-        if (below && above && e.high(axis) - e.low(axis) > doubt.long_facet) {
-            const PolygonRef r = operand.polygon(e.id);
-            below = !certainly_misses(r, doubt.reach[0]);
-            above = !certainly_misses(r, doubt.reach[1]);
+        const Box b = operand.polygon(e.id).box();
+        if (b.hi[axis] <= last_below) {
+            *ends.below++ = e;
+        } else if (b.lo[axis] > last_below) {
+            *ends.above++ = e;
+        } else {
+            *ends.crossing++ = e;
         }
-        if (below) *ends.below++ = e;
-        if (above) *ends.above++ = e;
     }
     return ends;
 }
@@ -208,29 +205,27 @@ void partition(const CellOperand& operand, const CellTask& task, const Wall& wal
             return;
         }
     }
-    auto* below = arena.take<PackedBox>(2 * std::size_t{operand.count});
-    auto* above = below + operand.count;
-    Ends ends{below, above};
+    const std::size_t n = operand.count;
+    auto* below = arena.take<PackedBox>(3 * n + 3);
+    auto* above = below + n + 1;
+    auto* crossing = above + n + 1;
+    Ends ends{below, above, crossing};
+    ends = q ? distribute(operand.list(), k, *q, ends) : distribute_exactly(operand, k, last, ends);
+    // A facet that crosses the wall and is long for its cell may still miss one of the children.
     const bool small = task.size() < short_list;
-    if (q && !small) {
-        ends = distribute_packed(operand.list(), k, *q, ends);
-    } else {
-        PackedBox reach;
+    int long_facet = 4 * packed_limit;
+    std::array<Box, 2> reach;
+    if (small && ends.crossing != crossing) {
+        PackedBox all;
         for (const CellOperand& o : task.operands)
-            if (o.is_list && !o.unbounded && !o.box.is_empty()) reach.add(o.box);
-        const Doubt doubt{
-            small && !reach.is_empty() ? (reach.high(k) - reach.low(k)) / 4 : 4 * packed_limit,
-            {reach_in(task, cells[0]), reach_in(task, cells[1])}};
-        if (q) {
-            ends = distribute_with_doubt(operand, k, doubt, ends, [&](const PackedBox& e) {
-                return std::pair(e.low(k) < *q, e.high(k) >= *q);
-            });
-        } else {
-            ends = distribute_with_doubt(operand, k, doubt, ends, [&](const PackedBox& e) {
-                const Box b = operand.polygon(e.id).box();
-                return std::pair(b.lo[k] <= last, b.hi[k] > last);
-            });
-        }
+            if (o.is_list && !o.unbounded && !o.box.is_empty()) all.add(o.box);
+        if (!all.is_empty()) long_facet = (all.high(k) - all.low(k)) / 4;
+        reach = {reach_in(task, cells[0]), reach_in(task, cells[1])};
+    }
+    for (const PackedBox* e = crossing; e != ends.crossing; ++e) {
+        const bool doubtful = e->high(k) - e->low(k) > long_facet;
+        if (!doubtful || !certainly_misses(operand.polygon(e->id), reach[0])) *ends.below++ = *e;
+        if (!doubtful || !certainly_misses(operand.polygon(e->id), reach[1])) *ends.above++ = *e;
     }
     const auto n_below = static_cast<std::size_t>(ends.below - below);
     const auto n_above = static_cast<std::size_t>(ends.above - above);
