@@ -87,8 +87,9 @@ private:
 /// when something of another surface comes into contact with it, so that vertices may lie in its
 /// edges. Trivial type; whoever stores it keeps its fragment.
 ///
-/// A whole facet that reaches into several cells is whole in all of them or in none: an arrangement
-/// that meets a facet which anything cuts, be it outside its cell, lists the facet's clipped part.
+/// What cuts or touches a facet in one cell need not show in its other cells: it may be listed
+/// whole there. Where any cell lists a fragment of it, it counts in each cell for what is of it
+/// there.
 struct PolygonRef {
     const Source* source = nullptr;
     const Fragment* fragment = nullptr;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <trisect/bsp/detail/leaf_pieces.h>
 #include <trisect/bsp/detail/work_budget.h>
@@ -58,17 +59,40 @@ public:
         if (same_mesh_ && meets_in_common_corners_only(a_range, b_range)) return false;
         if (a_range.straddles() && b_range.straddles()) {
             // The common line of the planes runs through both interiors.
-            of_first.cuts = of_second.cuts =
-                cuts(bench_, work_.with_edges(s_), work_.with_edges(t_));
+            of_first.cuts = of_second.cuts = cuts(s_, t_);
         } else if (a_range.straddles()) {
-            of_first.cuts = cuts(bench_, work_.with_edges(s_), work_.with_edges(t_));
+            of_first.cuts = cuts(s_, t_);
         } else if (b_range.straddles()) {
-            of_second.cuts = cuts(bench_, work_.with_edges(t_), work_.with_edges(s_));
+            of_second.cuts = cuts(t_, s_);
         }
+        // They meet, but elsewhere: in this cell the two are as if they did not.
+        if ((of_first.cuts || of_second.cuts) && is_outside_cell(ends_)) return false;
         return true;
     }
 
 private:
+    // Does item t run through the interior of item s, by more than a point? Leaves `ends_`.
+    [[nodiscard]] bool cuts(LeafIndex s, LeafIndex t) {
+        (void)work_.with_edges(s);
+        const WorkPolygon& cutter = work_.with_edges(t);
+        return segment_meets_interior(bench_, work_.item(s).shape, cutter.support, cutter, ends_);
+    }
+    // Surely: a segment on a wall is not.
+    [[nodiscard]] bool is_outside_cell(const std::array<PointId, 2>& ends) const {
+        const Approximation& a = bench_.approximation(ends[0]);
+        const Approximation& b = bench_.approximation(ends[1]);
+        const Cell& cell = work_.problem->cell;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double slack =
+                2 * (a.error + b.error) + 0x1p-45 * (std::fabs(a.c[k]) + std::fabs(b.c[k]));
+            const auto scale = static_cast<double>(wall_scale);
+            const double lo = (std::min(a.c[k], b.c[k]) - slack) * scale;
+            const double hi = (std::max(a.c[k], b.c[k]) + slack) * scale;
+            if (hi < static_cast<double>(cell.lo[k]) || lo > static_cast<double>(cell.hi[k]))
+                return true;
+        }
+        return false;
+    }
     [[nodiscard]] static bool has_corner(const WorkPolygon& w, PointId p) {
         return std::find(w.points.begin(), w.points.end(), p) != w.points.end();
     }
@@ -110,6 +134,7 @@ private:
     const WorkPolygon& a_;
     const WorkPolygon& b_;
     bool same_mesh_;
+    std::array<PointId, 2> ends_{-1, -1};
 };
 
 }  // namespace

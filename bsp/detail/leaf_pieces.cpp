@@ -14,9 +14,9 @@ namespace {
 // The interval of the line within the piece is clipped by the edges of the cutter; at every step
 // its ends are exact points. `sides`: of the piece's corners with respect to `line`.
 bool meets_interior(Workbench& bench, const WorkPolygon& piece, const Workbench::Sides& sides,
-                    PlaneId line, const WorkPolygon& cutter) {
+                    PlaneId line, const WorkPolygon& cutter, std::array<PointId, 2>& ends) {
     const std::size_t n = piece.points.size();
-    std::array<PointId, 2> ends{-1, -1};
+    ends = {-1, -1};
     bool above = false;
     bool below = false;
     for (std::size_t i = 0; i < n; ++i) {
@@ -68,7 +68,8 @@ void split_all(LeafWork& work, std::size_t first, PlaneId plane, const WorkPolyg
 bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
                  bool sure, WorkPolygon& above) {
     const Workbench::Sides& sides = bench.sides_of(piece, line);
-    if (!sure && !meets_interior(bench, piece, sides, line, cutter)) return false;
+    std::array<PointId, 2> ends{};
+    if (!sure && !meets_interior(bench, piece, sides, line, cutter, ends)) return false;
     WorkPolygon below;
     bench.split(piece, line, sides, below, above);
     piece = std::move(below);
@@ -76,8 +77,8 @@ bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkP
 }
 
 bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
-                            const WorkPolygon& cutter) {
-    return meets_interior(bench, piece, bench.sides_of(piece, line), line, cutter);
+                            const WorkPolygon& cutter, std::array<PointId, 2>& ends) {
+    return meets_interior(bench, piece, bench.sides_of(piece, line), line, cutter, ends);
 }
 
 void make_pieces(LeafWork& work, LeafIndex i) {

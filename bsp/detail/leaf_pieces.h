@@ -3,6 +3,8 @@
 // Cutting a polygon of a leaf into convex pieces.
 #pragma once
 
+#include <array>
+
 #include <trisect/bsp/detail/leaf_work.h>
 
 namespace trisect::detail {
@@ -10,14 +12,9 @@ namespace trisect::detail {
 /// Does the line `line` ∩ support, restricted to the convex polygon `cutter`, run through the
 /// interior of the piece? A cutter that ends along that line counts as if it went on.
 /// \pre both polygons have their edges; `line` is not the piece's support.
+/// `ends`: of the common segment, or of part of the line that contains it.
 [[nodiscard]] bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
-                                          const WorkPolygon& cutter);
-
-/// Does `cutter` run through the interior of `piece`, by more than a point?
-[[nodiscard]] inline bool cuts(Workbench& bench, const WorkPolygon& piece,
-                               const WorkPolygon& cutter) {
-    return segment_meets_interior(bench, piece, cutter.support, cutter);
-}
+                                          const WorkPolygon& cutter, std::array<PointId, 2>& ends);
 
 /// Splits a piece along a line if the cutter runs through its interior there: `piece` is then the
 /// part below and `above` the other one. False when nothing was split. `sure`: it does.
