@@ -22,36 +22,45 @@
 namespace trisect {
 
 PlaneProjection::PlaneProjection(const Plane& plane, std::span<const Point> points)
-    : points_(points) {
+    : points_(points), axes_(axes_of(plane)) {}
+
+PlaneProjection::Axes PlaneProjection::axes_of(const Plane& plane, bool from_below) {
     const int k = plane.dominant_axis();
-    u_ = (k + 1) % 3;
-    v_ = (k + 2) % 3;
-    if (plane.normal(k) < 0) std::swap(u_, v_);
+    Axes axes{(k + 1) % 3, (k + 2) % 3};
+    if ((plane.normal(k) < 0) != from_below) std::swap(axes.u, axes.v);
+    return axes;
 }
 
 std::strong_ordering PlaneProjection::compare(std::uint32_t a, std::uint32_t b) const {
-    if (const auto c = compare_coordinate(points_[a], points_[b], u_); c != 0) return c;
-    return compare_coordinate(points_[a], points_[b], v_);
+    if (const auto c = compare_coordinate(points_[a], points_[b], axes_.u); c != 0) return c;
+    return compare_coordinate(points_[a], points_[b], axes_.v);
 }
 
 int PlaneProjection::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    if (const int s = filtered_orientation(a, b, c); s != 0) return s;
-    if (points_[a].is_lattice() && points_[b].is_lattice() && points_[c].is_lattice())
-        return lattice_orientation(a, b, c);
-    return exact_orientation(a, b, c);
+    const Point& p = points_[a];
+    const Point& q = points_[b];
+    const Point& r = points_[c];
+    if (const int s =
+            filtered_orientation(p.approximation(), q.approximation(), r.approximation(), axes_);
+        s != 0)
+        return s;
+    if (p.is_lattice() && q.is_lattice() && r.is_lattice()) return lattice_orientation(a, b, c);
+    return exact_orientation(p.homogeneous(), q.homogeneous(), r.homogeneous(), axes_);
 }
 
 // (a - c) × (b - c) in doubles, or 0 for unknown. A difference is off by the errors of its
 // terms and one rounding; each product by the errors of its factors and one rounding, the
 // difference of the products by one more. 2^-50 covers the roundings and those of the bound.
-int PlaneProjection::filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const double ec = points_[c].approximation().error;
-    const double ea = points_[a].approximation().error + ec;
-    const double eb = points_[b].approximation().error + ec;
-    const double au = u(a) - u(c);
-    const double av = v(a) - v(c);
-    const double bu = u(b) - u(c);
-    const double bv = v(b) - v(c);
+int PlaneProjection::filtered_orientation(const Approximation& a, const Approximation& b,
+                                          const Approximation& c, Axes axes) {
+    const auto u = static_cast<std::size_t>(axes.u);
+    const auto v = static_cast<std::size_t>(axes.v);
+    const double ea = a.error + c.error;
+    const double eb = b.error + c.error;
+    const double au = a.c[u] - c.c[u];
+    const double av = a.c[v] - c.c[v];
+    const double bu = b.c[u] - c.c[u];
+    const double bv = b.c[v] - c.c[v];
     const double s = au * bv;
     const double t = av * bu;
     const double bound = 0x1p-50 * (std::fabs(s) + std::fabs(t)) +
@@ -66,24 +75,22 @@ int PlaneProjection::filtered_orientation(std::uint32_t a, std::uint32_t b, std:
 int PlaneProjection::lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const LatticePoint p = points_[a].lattice() - points_[c].lattice();
     const LatticePoint q = points_[b].lattice() - points_[c].lattice();
-    const Int128 s = Int128{p[u_]} * q[v_];
-    const Int128 t = Int128{p[v_]} * q[u_];
+    const Int128 s = Int128{p[axes_.u]} * q[axes_.v];
+    const Int128 t = Int128{p[axes_.v]} * q[axes_.u];
     return s > t ? 1 : (s < t ? -1 : 0);
 }
 
 // The sign of the 3×3 determinant of homogeneous rows (u, v, w) with w > 0:
 // 2^384 · 2^384 · 2^330 · 6 < 2^1101, hence 18 limbs.
-int PlaneProjection::exact_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const HomogeneousPoint p = points_[a].homogeneous();
-    const HomogeneousPoint q = points_[b].homogeneous();
-    const HomogeneousPoint r = points_[c].homogeneous();
-    const auto minor = [this](const HomogeneousPoint& s, const HomogeneousPoint& t) {
-        const auto i = static_cast<std::size_t>(u_);
-        const auto j = static_cast<std::size_t>(v_);
+int PlaneProjection::exact_orientation(const HomogeneousPoint& a, const HomogeneousPoint& b,
+                                       const HomogeneousPoint& c, Axes axes) {
+    const auto i = static_cast<std::size_t>(axes.u);
+    const auto j = static_cast<std::size_t>(axes.v);
+    const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
         return multiply<13>(s.xyz[i], t.xyz[j]) - multiply<13>(s.xyz[j], t.xyz[i]);
     };
-    return (multiply<18>(minor(p, q), r.w) + multiply<18>(minor(q, r), p.w) +
-            multiply<18>(minor(r, p), q.w))
+    return (multiply<18>(minor(a, b), c.w) + multiply<18>(minor(b, c), a.w) +
+            multiply<18>(minor(c, a), b.w))
         .sign();
 }
 

@@ -25,24 +25,34 @@ public:
     PlaneProjection(const Plane& plane, std::span<const Point> points);
 
     /// Rounded coordinates of a point in the projection.
-    [[nodiscard]] double u(std::uint32_t i) const { return rounded(i, u_); }
-    [[nodiscard]] double v(std::uint32_t i) const { return rounded(i, v_); }
+    [[nodiscard]] double u(std::uint32_t i) const { return rounded(i, axes_.u); }
+    [[nodiscard]] double v(std::uint32_t i) const { return rounded(i, axes_.v); }
     /// Lexicographic order in the projection.
     [[nodiscard]] std::strong_ordering compare(std::uint32_t a, std::uint32_t b) const;
     /// 1 when a, b, c turn left, 0 when they lie on one line.
     [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
+    /// The axes that a figure above or below a plane is seen along: from above, `u` to `v` is a
+    /// quarter turn to the left.
+    struct Axes {
+        int u = 0;
+        int v = 1;
+    };
+    [[nodiscard]] static Axes axes_of(const Plane& plane, bool from_below = false);
+    /// Orientation by certified doubles, 0 for unknown.
+    [[nodiscard]] static int filtered_orientation(const Approximation& a, const Approximation& b,
+                                                  const Approximation& c, Axes axes);
+    [[nodiscard]] static int exact_orientation(const HomogeneousPoint& a, const HomogeneousPoint& b,
+                                               const HomogeneousPoint& c, Axes axes);
+
 private:
     [[nodiscard]] double rounded(std::uint32_t i, int axis) const {
         return points_[i].approximation().c[static_cast<std::size_t>(axis)];
     }
-    [[nodiscard]] int filtered_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     [[nodiscard]] int lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-    [[nodiscard]] int exact_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
     std::span<const Point> points_;
-    int u_ = 0;
-    int v_ = 1;
+    Axes axes_;
 };
 
 /// The corners of a face, linked to loops whose interior wedges are disjoint.

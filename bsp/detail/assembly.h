@@ -3,6 +3,7 @@
 // Assembly: from the polygons in the cells of a tree to a connected boundary.
 #pragma once
 
+#include <trisect/bsp/detail/assembly_stats.h>
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/solid.h>
 
@@ -10,9 +11,10 @@ namespace trisect::detail {
 
 /// The boundary as a B-rep. With maximal faces it is a function of the set alone: it does not
 /// depend on the tree, on the operands' triangulation or on how they were combined.
-[[nodiscard]] Brep assemble_brep(const SolidState& solid, const AssembleOptions& options);
+[[nodiscard]] Brep assemble_brep(const SolidState& solid, const AssembleOptions& options,
+                                 AssemblyStats* stats = nullptr);
 
 /// The boundary as triangles; facets that nothing touched are copied.
-[[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid);
+[[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr);
 
 }  // namespace trisect::detail

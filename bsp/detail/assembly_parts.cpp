@@ -2,11 +2,11 @@
 //
 // Which facets need work: fragments, and whole facets that something touches in a cell, because
 // vertices may lie in their edges. A facet without either is whole in every cell that it reaches
-// into (see PolygonRef) and passes through as it is. All others are turned into convex parts with
-// exact vertices, one for every cell.
+// into (see PolygonRef) and passes through as it is: one byte is all that is ever written for it.
+// The others are turned into convex parts with exact vertices, one for every cell.
 //
-// Vertices are identified by name as they are made (Workbench::meet), then by value: points
-// whose certified doubles are close (near_points.h) are compared exactly. A second stage is
+// Vertices are identified by name as they are made (Workbench::meet), then by value: points whose
+// certified doubles are close (near_points.h) are compared exactly. A second stage is
 // indispensable: where several planes run through one point its names differ.
 //
 // T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
@@ -18,9 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
+#include <tuple>
 
-#include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/kernel/contract.h>
 
@@ -30,168 +29,186 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-struct Part {
-    std::int32_t facet = -1;
-    bool flipped = false;
-    WorkPolygon shape;
-};
-
 struct Leaf {
     const CellNode* node = nullptr;
     bool complemented = false;
     Cell cell;
-    std::size_t first_part = 0;
-    std::size_t end_part = 0;
-};
-
-// What is known of the facets of one source: one entry for each facet and orientation.
-class FacetTable {
-public:
-    struct Entry {
-        bool listed = false;    // in some leaf
-        bool owned = false;     // in the leaf that holds its first corner
-        bool involved = false;  // cut, touched or incomplete
-        bool given = false;     // as edges, although not involved
-        std::int32_t index = -1;
-    };
-    explicit FacetTable(const Source* source)
-        : source_(source), entries_(2 * std::size_t{source->facet_count()}) {}
-    [[nodiscard]] const Source* source() const { return source_; }
-    [[nodiscard]] std::vector<Entry>& entries() { return entries_; }
-    [[nodiscard]] Entry& at(const PolygonRef& r) {
-        return entries_[2 * std::size_t{r.facet} + (r.flipped ? 1 : 0)];
-    }
-
-private:
-    const Source* source_;
-    std::vector<Entry> entries_;
+    std::size_t first_edge = 0;
+    std::size_t end_edge = 0;
 };
 
 class Gatherer {
 public:
-    Gatherer(bool all, BoundaryParts& out) : all_(all), out_(out) {}
+    Gatherer(const SolidState& solid, BoundaryParts& out)
+        : solid_(solid), out_(out), splitter_(out.bench, out.facets) {}
 
-    void run(const SolidState& solid) {
-        list_leaves(solid.root, Cell{});
-        mark_facets();
-        mark_incomplete(solid.incomplete);
+    void run() {
+        list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
+        for (const Leaf& leaf : leaves_) mark_facets(leaf);
         number_facets();
-        make_parts();
+        for (Leaf& leaf : leaves_) make_parts(leaf);
         merge_equal_points();
-        emit_edges();
+        conform_edges();
+        out_.stats.leaves = leaves_.size();
+        out_.stats.worked_facets = out_.facets.size();
+        out_.stats.edges = out_.edges.size();
     }
 
 private:
-    void list_leaves(const CellRef& ref, const Cell& cell);
-    void mark_facets();
-    void mark_incomplete(const std::vector<FacetName>& incomplete);
+    void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
+    void mark_facets(const Leaf& leaf);
+    void mark_list(const Leaf& leaf, FacetMarks& marks);
     void number_facets();
-    void make_parts();
+    void make_parts(Leaf& leaf);
+    void make_part(const PolygonRef& ref, const Cell& cell, std::int32_t facet);
     void add_corners_near(const WorkPolygon& shape, const PolygonRef& ref);
     void merge_equal_points();
-    void emit_edges();
-    [[nodiscard]] FacetTable& table(const Source* source);
-    PointId root(PointId p) {
-        while (same_[u(p)] != p) p = same_[u(p)] = same_[u(same_[u(p)])];
-        return p;
-    }
+    void conform_edges();
+    [[nodiscard]] std::size_t table(const Source* source);
+    void mark_incomplete(FacetMarks& marks) const;
 
-    bool all_;
+    const SolidState& solid_;
     BoundaryParts& out_;
-    std::vector<Part> parts_;
     std::vector<Leaf> leaves_;
-    std::vector<FacetTable> tables_;
     std::size_t last_table_ = 0;
+    std::vector<std::vector<std::int32_t>> facet_index_;  // by source: of 2 · facet + flipped
+    std::vector<BoundaryEdge> edges_;                     // of the parts, leaf by leaf
     std::vector<PointId> same_;
+    EdgeSplitter splitter_;
 };
 
-FacetTable& Gatherer::table(const Source* source) {
-    if (last_table_ < tables_.size() && tables_[last_table_].source() == source)
-        return tables_[last_table_];
-    const auto at = std::find_if(tables_.begin(), tables_.end(),
-                                 [&](const FacetTable& t) { return t.source() == source; });
-    last_table_ = static_cast<std::size_t>(at - tables_.begin());
-    if (at == tables_.end()) tables_.emplace_back(source);
-    return tables_[last_table_];
+std::size_t Gatherer::table(const Source* source) {
+    auto& tables = out_.sources;
+    if (last_table_ < tables.size() && tables[last_table_].source() == source) return last_table_;
+    const auto at = std::find_if(tables.begin(), tables.end(),
+                                 [&](const FacetMarks& t) { return t.source() == source; });
+    last_table_ = static_cast<std::size_t>(at - tables.begin());
+    if (at == tables.end()) mark_incomplete(tables.emplace_back(source));
+    return last_table_;
 }
 
-void Gatherer::list_leaves(const CellRef& ref, const Cell& cell) {
-    const CellNode& node = *ref.node;
-    if (!node.is_leaf()) {
-        for (int i = 0; i < 2; ++i) {
-            CellRef c = node.child(i);
-            c.complemented = c.complemented != ref.complemented;
-            list_leaves(c, i == 0 ? cell.below(node.axis(), node.wall())
-                                  : cell.above(node.axis(), node.wall()));
-        }
+void Gatherer::mark_incomplete(FacetMarks& marks) const {
+    const std::uint64_t serial = marks.source()->serial();
+    const auto& incomplete = solid_.incomplete;
+    auto at = std::lower_bound(incomplete.begin(), incomplete.end(), FacetName{serial, 0});
+    for (; at != incomplete.end() && at->serial == serial; ++at)
+        for (const bool flipped : {false, true}) marks.set_worked(at->facet, flipped);
+}
+
+void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& cell) {
+    if (node.is_leaf()) {
+        if (!node.polygons().empty()) leaves_.push_back({&node, complemented, cell});
         return;
     }
-    if (!node.polygons().empty()) leaves_.push_back({&node, ref.complemented, cell, 0, 0});
+    for (int i = 0; i < 2; ++i) {
+        const CellRef& c = node.child(i);
+        list_leaves(
+            *c.node, c.complemented != complemented,
+            i == 0 ? cell.below(node.axis(), node.wall()) : cell.above(node.axis(), node.wall()));
+    }
 }
 
-void Gatherer::mark_facets() {
-    for (const Leaf& leaf : leaves_) {
-        for (PolygonRef r : leaf.node->polygons()) {
-            r.flipped = r.flipped != leaf.complemented;
-            FacetTable::Entry& e = table(r.source).at(r);
-            e.listed = true;
-            if (r.fragment != nullptr || r.touched || r.source->is_half_space()) {
-                e.involved = true;
-            } else if (leaf.cell.contains(Box::of(r.source->corner(r.facet, 0)))) {
-                // A facet may be listed in cells that it passes by, but not in this one.
-                e.owned = true;
-            }
+// Whether a whole facet that a leaf lists bounds the result. It may be listed in cells that it
+// passes by; the one of its first corner counts. Of a facet that is worked on anyway every cell is
+// looked at.
+bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bool flipped) {
+    return marks.is_worked(facet, flipped) ||
+           cell.contains(Box::of(marks.source()->corner(facet, 0)));
+}
+
+void Gatherer::mark_facets(const Leaf& leaf) {
+    const PolygonList& polygons = leaf.node->polygons();
+    if (const Source* source = polygons.whole_source();
+        source != nullptr && !source->is_half_space()) {
+        mark_list(leaf, out_.sources[table(source)]);
+        return;
+    }
+    for (const PolygonRef r : polygons) {
+        FacetMarks& marks = out_.sources[table(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        const bool plain = r.fragment == nullptr && !r.touched && !r.source->is_half_space();
+        if (!plain) {
+            marks.set_present(r.facet, flipped);
+            marks.set_worked(r.facet, flipped);
+        } else if (is_owned(leaf.cell, marks, r.facet, flipped)) {
+            marks.set_present(r.facet, flipped);
         }
     }
 }
 
-void Gatherer::mark_incomplete(const std::vector<FacetName>& incomplete) {
-    for (FacetTable& t : tables_) {
-        const std::uint64_t serial = t.source()->serial();
-        auto at = std::lower_bound(incomplete.begin(), incomplete.end(), FacetName{serial, 0});
-        for (; at != incomplete.end() && at->serial == serial; ++at)
-            for (const std::size_t side : {0U, 1U})
-                t.entries()[2 * std::size_t{at->facet} + side].involved = true;
+// A list of nothing but whole facets of one source.
+void Gatherer::mark_list(const Leaf& leaf, FacetMarks& marks) {
+    const PolygonList& polygons = leaf.node->polygons();
+    const bool flipped = polygons.flipped() != leaf.complemented;
+    if (polygons.has_all_facets()) {
+        for (std::uint32_t f = 0; f < polygons.size(); ++f) marks.set_present(f, flipped);
+        return;
     }
+    const std::span<const std::uint32_t> facets = polygons.facets();
+    const std::size_t contained = polygons.contained();
+    for (const std::uint32_t f : facets.first(contained)) marks.set_present(f, flipped);
+    for (const std::uint32_t f : facets.subspan(contained))
+        if (is_owned(leaf.cell, marks, f, flipped)) marks.set_present(f, flipped);
 }
 
 void Gatherer::number_facets() {
-    std::sort(tables_.begin(), tables_.end(), [](const FacetTable& a, const FacetTable& b) {
+    std::sort(out_.sources.begin(), out_.sources.end(), [](const auto& a, const auto& b) {
         return a.source()->serial() < b.source()->serial();
     });
     last_table_ = 0;
-    for (FacetTable& t : tables_) {
-        for (std::size_t i = 0; i < t.entries().size(); ++i) {
-            FacetTable::Entry& e = t.entries()[i];
-            if (!(e.involved ? e.listed : e.owned)) continue;
-            e.index = static_cast<std::int32_t>(out_.facets.size());
-            out_.facets.push_back(
-                {t.source(), static_cast<std::uint32_t>(i / 2), (i & 1) != 0, -1});
-            if (!e.involved && !all_) out_.whole.push_back(e.index);
+    facet_index_.resize(out_.sources.size());
+    for (std::size_t t = 0; t < out_.sources.size(); ++t) {
+        const FacetMarks& marks = out_.sources[t];
+        const std::uint32_t count = marks.source()->facet_count();
+        for (std::uint32_t f = 0; f < count; ++f) {
+            for (const bool flipped : {false, true}) {
+                if (!marks.is_present(f, flipped)) continue;
+                if (!marks.is_worked(f, flipped)) {
+                    ++out_.stats.whole_facets;
+                    continue;
+                }
+                if (facet_index_[t].empty()) facet_index_[t].assign(2 * std::size_t{count}, -1);
+                facet_index_[t][2 * std::size_t{f} + (flipped ? 1 : 0)] =
+                    static_cast<std::int32_t>(out_.facets.size());
+                out_.facets.push_back({marks.source(), f, flipped, -1});
+            }
         }
     }
 }
 
-void Gatherer::make_parts() {
-    for (Leaf& leaf : leaves_) {
-        leaf.first_part = parts_.size();
-        for (PolygonRef r : leaf.node->polygons()) {
-            r.flipped = r.flipped != leaf.complemented;
-            FacetTable::Entry& e = table(r.source).at(r);
-            if (!e.involved && (!all_ || !e.owned || e.given)) continue;
-            WorkPolygon shape = out_.bench.polygon(r);
-            out_.bench.with_edges(shape, r);
-            out_.facets[u(e.index)].support = shape.support;
-            if (!e.involved) {
-                e.given = true;  // once is enough
-            } else if (!leaf.cell.contains(r.box()) || shape.is_empty()) {
-                shape = out_.bench.clipped(shape, r.box(), leaf.cell);
-            }
-            if (shape.is_empty()) continue;
-            if (r.fragment != nullptr) add_corners_near(shape, r);
-            parts_.push_back({e.index, r.flipped, std::move(shape)});
+void Gatherer::make_parts(Leaf& leaf) {
+    leaf.first_edge = edges_.size();
+    const PolygonList& polygons = leaf.node->polygons();
+    for (const PolygonRef r : polygons) {
+        const std::size_t t = table(r.source);
+        if (facet_index_[t].empty()) {
+            if (polygons.whole_source() != nullptr) break;
+            continue;
         }
-        leaf.end_part = parts_.size();
+        const bool flipped = r.flipped != leaf.complemented;
+        const std::int32_t facet = facet_index_[t][2 * std::size_t{r.facet} + (flipped ? 1 : 0)];
+        if (facet >= 0) make_part(r, leaf.cell, facet);
+    }
+    leaf.end_edge = edges_.size();
+}
+
+void Gatherer::make_part(const PolygonRef& ref, const Cell& cell, std::int32_t facet) {
+    Workbench& bench = out_.bench;
+    WorkPolygon shape = bench.polygon(ref);
+    bench.with_edges(shape, ref);
+    BoundaryFacet& f = out_.facets[u(facet)];
+    f.support = shape.support;
+    if (!cell.contains(ref.box()) || shape.is_empty())
+        shape = bench.clipped(shape, ref.box(), cell);
+    if (shape.is_empty()) return;
+    if (ref.fragment != nullptr) add_corners_near(shape, ref);
+    ++out_.stats.parts;
+    const std::size_t n = shape.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        PointId a = shape.points[i];
+        PointId b = shape.points[i + 1 == n ? 0 : i + 1];
+        if (f.flipped) std::swap(a, b);
+        edges_.push_back({a, b, facet, shape.edges[i]});
     }
 }
 
@@ -199,25 +216,25 @@ void Gatherer::make_parts() {
 // around the corner know it by the corner's name only, so that name must take part in merging.
 void Gatherer::add_corners_near(const WorkPolygon& shape, const PolygonRef& ref) {
     if (ref.source->is_half_space()) return;
-    for (std::size_t v = 0; v < shape.points.size(); ++v) {
-        if (out_.bench.is_corner(shape.points[v])) continue;
-        const Approximation a = out_.bench.approximation(shape.points[v]);
+    std::array<std::array<double, 3>, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(ref.source->corner(ref.facet, i)).c;
+    for (const PointId p : shape.points) {
+        if (out_.bench.is_corner(p)) continue;
+        const Approximation a = out_.bench.approximation(p);
         for (int i = 0; i < 3; ++i) {
-            const Approximation c = approximate(ref.source->corner(ref.facet, i));
             bool near = true;
             for (std::size_t k = 0; k < 3; ++k)
-                near = near && std::fabs(a.c[k] - c.c[k]) <= 1.0000001 * a.error;
+                near = near && std::fabs(a.c[k] - corners[u(i)][k]) <= 1.0000001 * a.error;
             if (near) (void)out_.bench.corner(ref.source, ref.facet, i);
         }
     }
 }
 
-// Union of points that are equal under different names; the representative is a corner of a source
+// Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
-    Workbench& bench = out_.bench;
-    const std::size_t n = bench.point_count();
-    same_.resize(n);
+    const Workbench& bench = out_.bench;
+    same_.resize(bench.point_count());
     std::iota(same_.begin(), same_.end(), 0);
     const auto better = [&](PointId a, PointId b) {
         return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
@@ -233,37 +250,73 @@ void Gatherer::merge_equal_points() {
                 break;
             }
     });
+    for (PointId& p : same_)
+        while (same_[u(p)] != p) p = same_[u(p)];
 }
 
-void append_edges(const WorkPolygon& shape, std::int32_t facet, bool flipped,
-                  std::vector<BoundaryEdge>& out) {
-    const std::size_t n = shape.points.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        PointId a = shape.points[i];
-        PointId b = shape.points[(i + 1) % n];
-        if (flipped) std::swap(a, b);
-        out.push_back({a, b, facet, shape.edges[i]});
+void Gatherer::conform_edges() {
+    for (BoundaryEdge& e : edges_) {
+        e.from = same_[u(e.from)];
+        e.to = same_[u(e.to)];
     }
-}
-
-void Gatherer::emit_edges() {
-    std::vector<BoundaryEdge> local;
-    std::vector<PointId> points;
+    out_.edges.reserve(edges_.size() + edges_.size() / 8);
     for (const Leaf& leaf : leaves_) {
-        local.clear();
-        for (std::size_t i = leaf.first_part; i < leaf.end_part; ++i) {
-            Part& p = parts_[i];
-            for (PointId& q : p.shape.points) q = root(q);
-            append_edges(p.shape, p.facet, p.flipped, local);
+        const auto edges =
+            std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
+        if (!leaf.node->is_mixed()) {
+            out_.edges.insert(out_.edges.end(), edges.begin(), edges.end());
+            continue;
         }
-        if (leaf.node->is_mixed()) {
-            points.clear();
-            for (const BoundaryEdge& e : local) points.push_back(e.from);
-            insert_points_on_edges(out_.bench, out_.facets, points, local);
-        }
-        out_.edges.insert(out_.edges.end(), local.begin(), local.end());
+        splitter_.clear();
+        for (const BoundaryEdge& e : edges) splitter_.add_candidate(e.from);
+        splitter_.split(edges, out_.edges);
     }
 }
+
+// The axis along which the ends of an edge are farthest apart.
+std::size_t longest_axis(const Approximation& a, const Approximation& b) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (std::fabs(a.c[k] - b.c[k]) > std::fabs(a.c[best] - b.c[best])) best = k;
+    return best;
+}
+
+// The certified doubles of an edge's ends, to tell points that are clearly not on it.
+class EdgeFilter {
+public:
+    EdgeFilter(const Approximation& a, const Approximation& b, double widest)
+        : a_(a), axis_(longest_axis(a, b)), error_(1.0000001 * (a.error + b.error + widest)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            d_[k] = b.c[k] - a.c[k];
+            lo_[k] = std::min(a.c[k], b.c[k]) - error_;
+            hi_[k] = std::max(a.c[k], b.c[k]) + error_;
+        }
+        // Of a point in the box: a component of (p - a) × d is two products, their factors below m
+        // and off by at most `error` each; the last term pays for all roundings.
+        const double m = std::fabs(d_[axis_]) + 2 * error_;
+        bound_ = 2 * (2 * m * error_ + error_ * error_ + 0x1p-50 * m * m);
+    }
+    [[nodiscard]] int axis() const { return static_cast<int>(axis_); }
+    [[nodiscard]] double lo(std::size_t k) const { return lo_[k]; }
+    [[nodiscard]] double hi(std::size_t k) const { return hi_[k]; }
+    [[nodiscard]] bool may_contain(const Approximation& p) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (p.c[k] < lo_[k] || p.c[k] > hi_[k]) return false;
+        const double along = p.c[axis_] - a_.c[axis_];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double cross = (p.c[k] - a_.c[k]) * d_[axis_] - along * d_[k];
+            if (k != axis_ && std::fabs(cross) > bound_) return false;
+        }
+        return true;
+    }
+
+private:
+    const Approximation& a_;
+    std::size_t axis_;
+    double error_;
+    double bound_;
+    std::array<double, 3> d_, lo_, hi_;
+};
 
 // Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
 bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support,
@@ -272,17 +325,6 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
     const int from = compare_along(bench, e.from, p, along);
     const int to = compare_along(bench, p, e.to, along);
     return from == to && from != 0;
-}
-
-// The axis along which the ends of an edge are farthest apart.
-int longest_axis(const Approximation& a, const Approximation& b) {
-    int best = 0;
-    for (int k = 1; k < 3; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        const auto j = static_cast<std::size_t>(best);
-        if (std::fabs(a.c[i] - b.c[i]) > std::fabs(a.c[j] - b.c[j])) best = k;
-    }
-    return best;
 }
 
 }  // namespace
@@ -297,61 +339,65 @@ int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
     return order < 0 ? -1 : (order > 0 ? 1 : 0);
 }
 
-void insert_points_on_edges(const Workbench& bench, const std::vector<BoundaryFacet>& facets,
-                            std::vector<PointId> points, std::vector<BoundaryEdge>& edges) {
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    double widest = 0;
-    for (const PointId p : points) widest = std::max(widest, bench.approximation(p).error);
-    const auto x_of = [&](PointId p) { return bench.approximation(p).c[0]; };
-    std::sort(points.begin(), points.end(),
-              [&](PointId a, PointId b) { return std::pair(x_of(a), a) < std::pair(x_of(b), b); });
-    std::vector<PointId> inside;
-    const std::size_t count = edges.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const BoundaryEdge e = edges[i];
-        const Approximation& a = bench.approximation(e.from);
-        const Approximation& b = bench.approximation(e.to);
-        const double slack = 1.0000001 * (a.error + b.error + widest);
-        const double x_lo = std::min(a.c[0], b.c[0]) - slack;
-        const double x_hi = std::max(a.c[0], b.c[0]) + slack;
-        const PlaneId support = facets[u(e.facet)].support;
-        const int along = longest_axis(a, b);
-        inside.clear();
-        auto it = std::lower_bound(points.begin(), points.end(), x_lo,
-                                   [&](PointId p, double x) { return x_of(p) < x; });
-        for (; it != points.end() && x_of(*it) <= x_hi; ++it) {
-            const PointId p = *it;
-            if (p == e.from || p == e.to) continue;
-            const Approximation& c = bench.approximation(p);
-            if (c.c[1] < std::min(a.c[1], b.c[1]) - slack ||
-                c.c[1] > std::max(a.c[1], b.c[1]) + slack ||
-                c.c[2] < std::min(a.c[2], b.c[2]) - slack ||
-                c.c[2] > std::max(a.c[2], b.c[2]) + slack)
-                continue;
-            if (lies_inside(bench, p, e, support, along)) inside.push_back(p);
+// Along the axis on which the candidates extend farthest; on another one all may be equal, and
+// every edge would look at all of them.
+void EdgeSplitter::sort_candidates() {
+    std::array<double, 3> lo;
+    std::array<double, 3> hi;
+    lo.fill(HUGE_VAL);
+    hi.fill(-HUGE_VAL);
+    widest_ = 0;
+    for (const Candidate& c : candidates_) {
+        const Approximation& a = bench_.approximation(c.point);
+        widest_ = std::max(widest_, a.error);
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], a.c[k]);
+            hi[k] = std::max(hi[k], a.c[k]);
         }
-        if (inside.empty()) continue;
-        const int direction = compare_along(bench, e.from, e.to, along);
-        std::sort(inside.begin(), inside.end(), [&](PointId p, PointId q) {
-            return compare_along(bench, p, q, along) == direction && p != q;
-        });
+    }
+    axis_ = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (hi[k] - lo[k] > hi[axis_] - lo[axis_]) axis_ = k;
+    for (Candidate& c : candidates_) c.at = bench_.approximation(c.point).c[axis_];
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return std::tie(a.at, a.point) < std::tie(b.at, b.point);
+    });
+    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(),
+                                  [](const auto& a, const auto& b) { return a.point == b.point; }),
+                      candidates_.end());
+}
+
+void EdgeSplitter::find_inside(const BoundaryEdge& e) {
+    const EdgeFilter filter(bench_.approximation(e.from), bench_.approximation(e.to), widest_);
+    const PlaneId support = facets_[u(e.facet)].support;
+    inside_.clear();
+    auto it = std::lower_bound(candidates_.begin(), candidates_.end(), filter.lo(axis_),
+                               [](const Candidate& c, double at) { return c.at < at; });
+    for (; it != candidates_.end() && it->at <= filter.hi(axis_); ++it) {
+        const PointId p = it->point;
+        if (p == e.from || p == e.to || !filter.may_contain(bench_.approximation(p))) continue;
+        if (lies_inside(bench_, p, e, support, filter.axis())) inside_.push_back(p);
+    }
+    if (inside_.size() < 2) return;
+    const int direction = compare_along(bench_, e.from, e.to, filter.axis());
+    std::sort(inside_.begin(), inside_.end(), [&](PointId p, PointId q) {
+        return p != q && compare_along(bench_, p, q, filter.axis()) == direction;
+    });
+}
+
+void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
+    sort_candidates();
+    for (const BoundaryEdge& e : edges) {
+        find_inside(e);
         PointId from = e.from;
-        for (std::size_t k = 0; k <= inside.size(); ++k) {
-            const PointId to = k < inside.size() ? inside[k] : e.to;
-            const BoundaryEdge part{from, to, e.facet, e.line};
-            if (k == 0) {
-                edges[i] = part;
-            } else {
-                edges.push_back(part);
-            }
-            from = to;
+        for (const PointId p : inside_) {
+            out.push_back({from, p, e.facet, e.line});
+            from = p;
         }
+        out.push_back({from, e.to, e.facet, e.line});
     }
 }
 
-void gather_parts(const SolidState& solid, bool all, BoundaryParts& parts) {
-    Gatherer(all, parts).run(solid);
-}
+void gather_parts(const SolidState& solid, BoundaryParts& parts) { Gatherer(solid, parts).run(); }
 
 }  // namespace trisect::detail

@@ -3,16 +3,19 @@
 // First half of assembly: from the polygons of the cells to directed edges between exact vertices.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include <trisect/bsp/detail/assembly_stats.h>
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/workbench.h>
 
 namespace trisect::detail {
 
-/// A facet of a source as it appears in the result; `flipped` facets face the other way. `order` is
-/// the rank by (source, facet, flipped), so that output does not depend on the tree's shape.
+/// A facet of a source as it appears in the result; `flipped` facets face the other way. Facets are
+/// ordered by source, number and orientation, so that output does not depend on the tree's shape.
 struct BoundaryFacet {
     const Source* source = nullptr;
     std::uint32_t facet = 0;
@@ -28,22 +31,87 @@ struct BoundaryEdge {
     WorkEdge line;            ///< the edge's line is support ∩ line.plane; the part's side of it
 };
 
+/// What the result has of the facets of one source: a byte for each facet.
+class FacetMarks {
+public:
+    explicit FacetMarks(const Source* source) : source_(source), marks_(source->facet_count()) {}
+    [[nodiscard]] const Source* source() const { return source_; }
+
+    /// The facet bounds the result somewhere.
+    void set_present(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(present, flipped); }
+    /// The facet is cut or touched somewhere: it does not pass through as it is.
+    void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
+    [[nodiscard]] bool is_present(std::uint32_t facet, bool flipped) const {
+        return (marks_[facet] & bit(present, flipped)) != 0;
+    }
+    [[nodiscard]] bool is_worked(std::uint32_t facet, bool flipped) const {
+        return (marks_[facet] & bit(worked, flipped)) != 0;
+    }
+    [[nodiscard]] bool is_whole(std::uint32_t facet, bool flipped) const {
+        return is_present(facet, flipped) && !is_worked(facet, flipped);
+    }
+
+    /// Calls visit(facet, flipped) for the facets that pass through, in order.
+    template <class Visit>
+    void for_each_whole(Visit&& visit) const {
+        for (std::uint32_t f = 0; f < marks_.size(); ++f) {
+            if (marks_[f] == 0) continue;
+            if (is_whole(f, false)) visit(f, false);
+            if (is_whole(f, true)) visit(f, true);
+        }
+    }
+
+private:
+    static constexpr unsigned present = 1;
+    static constexpr unsigned worked = 4;
+    static constexpr std::uint8_t bit(unsigned what, bool flipped) {
+        return static_cast<std::uint8_t>(what << (flipped ? 1 : 0));
+    }
+
+    const Source* source_;
+    std::vector<std::uint8_t> marks_;
+};
+
 /// The boundary in pieces, conforming within each facet's cells but not yet joined.
 struct BoundaryParts {
     Workbench bench;
-    std::vector<BoundaryFacet> facets;  ///< sorted by source, facet, flipped
-    std::vector<BoundaryEdge> edges;    ///< of facets that are cut, touched or span several cells
-    std::vector<std::int32_t> whole;    ///< facets that no one touched, indices into `facets`
+    std::vector<FacetMarks> sources;    ///< by serial
+    std::vector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
+    std::vector<BoundaryEdge> edges;    ///< of these facets
+    AssemblyStats stats;
 };
 
-/// With `all`, untouched facets too are given as edges.
-void gather_parts(const SolidState& solid, bool all, BoundaryParts& parts);
+/// Facets that nothing cuts or touches are marked whole in `sources` and have no edges.
+void gather_parts(const SolidState& solid, BoundaryParts& parts);
 
-/// Splits every edge at the vertices that lie inside it. `points` are candidate vertices.
-/// Edges and candidates must belong to one leaf or one facet: the cost is near linear in the
-/// candidates whose x-range meets an edge's.
-void insert_points_on_edges(const Workbench& bench, const std::vector<BoundaryFacet>& facets,
-                            std::vector<PointId> points, std::vector<BoundaryEdge>& edges);
+/// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
+///
+/// Edges and candidates should belong to one leaf or one facet: the cost is near linear in the
+/// candidates whose range along the longest axis meets an edge's.
+class EdgeSplitter {
+public:
+    EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
+        : bench_(bench), facets_(facets) {}
+    void clear() { candidates_.clear(); }
+    void add_candidate(PointId p) { candidates_.push_back({0, p}); }
+    /// Appends the parts of the edges to `out`, each edge's parts in order.
+    void split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out);
+
+private:
+    struct Candidate {
+        double at = 0;  // along axis_
+        PointId point = -1;
+    };
+    void sort_candidates();
+    void find_inside(const BoundaryEdge& e);
+
+    const Workbench& bench_;
+    const std::vector<BoundaryFacet>& facets_;
+    std::vector<Candidate> candidates_;
+    std::size_t axis_ = 0;
+    double widest_ = 0;  // error of a candidate
+    std::vector<PointId> inside_;
+};
 
 /// Order of two points along an axis: filtered, then exact.
 [[nodiscard]] int compare_along(const Workbench& bench, PointId a, PointId b, int axis);

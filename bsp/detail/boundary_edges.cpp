@@ -5,6 +5,8 @@
 // geometry but the order of points on a line. A vertex matters only if some region turns there or
 // touches itself; walls of cells, lines of local cuts and the operands' own triangulation leave
 // vertices that no region turns at, and those go.
+//
+// Most regions have a handful of edges: everything works on runs of one flat array.
 
 #include <trisect/bsp/detail/boundary_edges.h>
 
@@ -13,6 +15,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -21,36 +24,46 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-// Cancels opposite pairs within one region; keeps the order of what is left by (min, max, from).
-void cancel_opposites(std::vector<BoundaryEdge>& edges) {
-    const auto key = [](const BoundaryEdge& e) {
-        return std::tuple(std::min(e.from, e.to), std::max(e.from, e.to), e.from);
-    };
-    std::sort(edges.begin(), edges.end(),
-              [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    std::vector<BoundaryEdge> left;
-    for (std::size_t i = 0; i < edges.size();) {
-        const PointId lo = std::min(edges[i].from, edges[i].to);
-        const PointId hi = std::max(edges[i].from, edges[i].to);
-        std::size_t j = i;
-        std::size_t up = 0;
-        while (j < edges.size() && std::min(edges[j].from, edges[j].to) == lo &&
-               std::max(edges[j].from, edges[j].to) == hi) {
-            if (edges[j].from == lo) ++up;
-            ++j;
-        }
-        const std::size_t down = (j - i) - up;
-        // `up` edges come first.
-        for (std::size_t k = 0; up > down && k < up - down; ++k) left.push_back(edges[i + k]);
-        for (std::size_t k = 0; down > up && k < down - up; ++k) left.push_back(edges[i + up + k]);
-        i = j;
-    }
-    edges.swap(left);
+// The same for both directions.
+std::uint64_t ends_of(const BoundaryEdge& e) {
+    const auto [lo, hi] = std::minmax(e.from, e.to);
+    return (static_cast<std::uint64_t>(lo) << 32) | static_cast<std::uint32_t>(hi);
 }
 
-void sort_by_facet(std::vector<BoundaryEdge>& edges) {
-    std::stable_sort(edges.begin(), edges.end(),
-                     [](const auto& a, const auto& b) { return a.facet < b.facet; });
+// Cancels opposite pairs within one region, in place; keeps the order of what is left by (min, max,
+// from). Returns how many edges are left.
+std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
+    std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& a, const BoundaryEdge& b) {
+        const std::uint64_t ka = ends_of(a);
+        const std::uint64_t kb = ends_of(b);
+        return ka != kb ? ka < kb : a.from < b.from;
+    });
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::uint64_t key = ends_of(edges[i]);
+        const PointId lo = std::min(edges[i].from, edges[i].to);
+        std::size_t j = i;
+        std::size_t up = 0;
+        for (; j < edges.size() && ends_of(edges[j]) == key; ++j)
+            if (edges[j].from == lo) ++up;
+        const std::size_t down = (j - i) - up;
+        // `up` edges come first.
+        for (std::size_t k = 0; up > down && k < up - down; ++k) edges[left++] = edges[i + k];
+        for (std::size_t k = 0; down > up && k < down - up; ++k) edges[left++] = edges[i + up + k];
+        i = j;
+    }
+    return left;
+}
+
+void sort_by_facet(std::size_t facet_count, std::vector<BoundaryEdge>& edges) {
+    const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
+    if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
+    std::vector<std::size_t> fill(facet_count + 1, 0);
+    for (const BoundaryEdge& e : edges) ++fill[u(e.facet) + 1];
+    std::partial_sum(fill.begin(), fill.end(), fill.begin());
+    std::vector<BoundaryEdge> sorted(edges.size());
+    for (const BoundaryEdge& e : edges) sorted[fill[u(e.facet)]++] = e;
+    edges.swap(sorted);
 }
 
 // Where coincident facets of two operands meet at a wall because one of them dropped out of the
@@ -63,50 +76,50 @@ void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
     std::vector<BoundaryEdge> walls;
     std::copy_if(edges.begin(), edges.end(), std::back_inserter(walls), on_wall);
     std::erase_if(edges, on_wall);
-    std::vector<PointId> points;
+    EdgeSplitter splitter(parts.bench, parts.facets);
     for (const BoundaryEdge& e : walls) {
-        points.push_back(e.from);
-        points.push_back(e.to);
+        splitter.add_candidate(e.from);
+        splitter.add_candidate(e.to);
     }
-    insert_points_on_edges(parts.bench, parts.facets, points, walls);
-    edges.insert(edges.end(), walls.begin(), walls.end());
-    sort_by_facet(edges);
+    splitter.split(walls, edges);
+    sort_by_facet(parts.facets.size(), edges);
 }
 
 }  // namespace
 
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
-    sort_by_facet(edges);
+    sort_by_facet(parts.facets.size(), edges);
     std::vector<BoundaryEdge> out;
     out.reserve(edges.size());
-    std::vector<BoundaryEdge> group;
-    std::vector<PointId> points;
+    EdgeSplitter splitter(parts.bench, parts.facets);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
         while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-        group.assign(edges.begin() + static_cast<std::ptrdiff_t>(i),
-                     edges.begin() + static_cast<std::ptrdiff_t>(j));
+        const std::span<BoundaryEdge> group = std::span(edges).subspan(i, j - i);
         i = j;
-        const bool whole = group.size() == 3;  // one triangle, nothing to join
-        if (!whole) {
-            cancel_opposites(group);
-            points.clear();
-            for (const BoundaryEdge& e : group) points.push_back(e.from);
-            for (const BoundaryEdge& e : group) points.push_back(e.to);
-            insert_points_on_edges(parts.bench, parts.facets, points, group);
-            cancel_opposites(group);
+        const std::size_t first = out.size();
+        if (group.size() == 3) {  // one triangle, nothing to join
+            out.insert(out.end(), group.begin(), group.end());
+        } else {
+            const auto left = group.first(cancel_opposites(group));
+            splitter.clear();
+            for (const BoundaryEdge& e : left) {
+                splitter.add_candidate(e.from);
+                splitter.add_candidate(e.to);
+            }
+            splitter.split(left, out);
+            if (out.size() - first > left.size())
+                out.resize(first + cancel_opposites(std::span(out).subspan(first)));
         }
-        for (const BoundaryEdge& e : group) {
+        for (const BoundaryEdge& e : std::span(out).subspan(first)) {
             const PlaneName& n = parts.bench.name(e.line.plane);
             if (n.is_wall() && std::abs(n.position()) >= universe_limit)
                 throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
         }
-        out.insert(out.end(), group.begin(), group.end());
     }
     edges.swap(out);
     conform_walls(parts, edges);
 }
-
 void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
                           std::vector<BoundaryEdge>& edges) {
     std::vector<std::int32_t> cluster(parts.facets.size());
@@ -115,40 +128,28 @@ void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         while (cluster[u(f)] != f) f = cluster[u(f)] = cluster[u(cluster[u(f)])];
         return f;
     };
-    const auto face_of = [](const BoundaryFacet& f) {
-        return f.source->is_half_space() ? 0 : f.source->mesh().face_of(f.facet);
-    };
     const auto belong_together = [&](std::int32_t f, std::int32_t g) {
         const BoundaryFacet& a = parts.facets[u(f)];
         const BoundaryFacet& b = parts.facets[u(g)];
-        if (within_faces && (a.source != b.source || face_of(a) != face_of(b))) return false;
+        if (!may_join(a, b, within_faces)) return false;
         const Plane& p = parts.bench.plane_at(a.support);
         const Plane& q = parts.bench.plane_at(b.support);
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
     };
-    std::vector<std::size_t> order(edges.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key = [&](std::size_t i) {
-        const BoundaryEdge& e = edges[i];
-        return std::tuple(std::min(e.from, e.to), std::max(e.from, e.to), i);
-    };
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+    std::vector<std::pair<std::uint64_t, std::size_t>> order(edges.size());  // (ends, edge)
+    for (std::size_t i = 0; i < edges.size(); ++i) order[i] = {ends_of(edges[i]), i};
+    std::sort(order.begin(), order.end());
     std::vector<bool> gone(edges.size(), false);
     for (std::size_t i = 0; i < order.size();) {
         std::size_t j = i + 1;
-        const auto same_ends = [&](std::size_t a, std::size_t b) {
-            return std::minmax(edges[a].from, edges[a].to) ==
-                   std::minmax(edges[b].from, edges[b].to);
-        };
-        while (j < order.size() && same_ends(order[i], order[j])) ++j;
+        while (j < order.size() && order[j].first == order[i].first) ++j;
         for (std::size_t a = i; a < j; ++a) {
-            for (std::size_t b = a + 1; b < j && !gone[order[a]]; ++b) {
-                const BoundaryEdge& e = edges[order[a]];
-                const BoundaryEdge& f = edges[order[b]];
-                if (gone[order[b]] || e.from == f.from) continue;
+            for (std::size_t b = a + 1; b < j && !gone[order[a].second]; ++b) {
+                const BoundaryEdge& e = edges[order[a].second];
+                const BoundaryEdge& f = edges[order[b].second];
+                if (gone[order[b].second] || e.from == f.from) continue;
                 if (!belong_together(e.facet, f.facet)) continue;
-                gone[order[a]] = gone[order[b]] = true;
+                gone[order[a].second] = gone[order[b].second] = true;
                 const std::int32_t x = root(e.facet);
                 const std::int32_t y = root(f.facet);
                 cluster[u(std::max(x, y))] = std::min(x, y);
@@ -164,59 +165,96 @@ void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         left.back().facet = root(edges[i].facet);
     }
     edges.swap(left);
-    sort_by_facet(edges);
+    sort_by_facet(parts.facets.size(), edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
         TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
                             "an edge on a cell wall survived joining");
 }
 
+namespace {
+
+// Finds the vertices at which a region only runs straight on.
+class StraightRuns {
+public:
+    StraightRuns(const BoundaryParts& parts, bool keep_corners, std::span<const PointId> keep,
+                 const std::vector<BoundaryEdge>& edges)
+        : bench_(parts.bench),
+          keep_corners_(keep_corners),
+          edges_(edges),
+          keep_(bench_.point_count(), false),
+          next_(edges.size(), none) {
+        for (const PointId p : keep) keep_[u(p)] = true;
+    }
+
+    void look_at(std::size_t first, std::size_t end) {
+        by_from_.clear();
+        by_to_.clear();
+        for (std::size_t i = first; i < end; ++i) {
+            by_from_.emplace_back(edges_[i].from, i);
+            by_to_.emplace_back(edges_[i].to, i);
+        }
+        std::sort(by_from_.begin(), by_from_.end());
+        std::sort(by_to_.begin(), by_to_.end());
+        const std::size_t n = by_from_.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto [p, out] = by_from_[k];
+            const auto [q, in] = by_to_[k];
+            TRISECT_EXPECTS(p == q, "boundary of a face is not closed");
+            const bool single = (k == 0 || by_from_[k - 1].first != p) &&
+                                (k + 1 == n || by_from_[k + 1].first != p);
+            if (single && runs_straight(edges_[in], edges_[out])) {
+                next_[in] = out;
+            } else {
+                keep_[u(p)] = true;
+            }
+            if (keep_corners_ && bench_.is_corner(p)) keep_[u(p)] = true;
+        }
+    }
+
+    [[nodiscard]] std::vector<BoundaryEdge> joined() const {
+        std::vector<BoundaryEdge> out;
+        out.reserve(edges_.size());
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            if (!keep_[u(edges_[i].from)]) continue;
+            BoundaryEdge run = edges_[i];
+            for (std::size_t at = i; !keep_[u(run.to)];) {
+                at = next_[at];
+                run.to = edges_[at].to;
+            }
+            out.push_back(run);
+        }
+        return out;
+    }
+
+private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    using Ends = std::vector<std::pair<PointId, std::size_t>>;
+
+    [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
+        return in.line.plane == out.line.plane || bench_.side(out.to, in.line.plane) == 0;
+    }
+
+    const Workbench& bench_;
+    bool keep_corners_;
+    const std::vector<BoundaryEdge>& edges_;
+    std::vector<bool> keep_;
+    std::vector<std::size_t> next_;
+    Ends by_from_;
+    Ends by_to_;
+};
+
+}  // namespace
+
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::vector<BoundaryEdge>& edges) {
-    const Workbench& bench = parts.bench;
-    std::vector<bool> keep(bench.point_count(), false);
-    std::vector<std::int64_t> next(edges.size(), -1);
-    std::vector<std::size_t> by_from;
-    std::vector<std::size_t> by_to;
+                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges) {
+    StraightRuns runs(parts, keep_corners, keep, edges);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
-        by_from.clear();
-        for (; j < edges.size() && edges[j].facet == edges[i].facet; ++j) by_from.push_back(j);
-        by_to = by_from;
-        std::sort(by_from.begin(), by_from.end(),
-                  [&](std::size_t a, std::size_t b) { return edges[a].from < edges[b].from; });
-        std::sort(by_to.begin(), by_to.end(),
-                  [&](std::size_t a, std::size_t b) { return edges[a].to < edges[b].to; });
-        const std::size_t n = by_from.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            const BoundaryEdge& out = edges[by_from[k]];
-            const BoundaryEdge& in = edges[by_to[k]];
-            TRISECT_EXPECTS(out.from == in.to, "boundary of a face is not closed");
-            const bool single = (k == 0 || edges[by_from[k - 1]].from != out.from) &&
-                                (k + 1 == n || edges[by_from[k + 1]].from != out.from);
-            const bool straight = single && (in.line.plane == out.line.plane ||
-                                             bench.side(out.to, in.line.plane) == 0);
-            if (straight) {
-                next[by_to[k]] = static_cast<std::int64_t>(by_from[k]);
-            } else {
-                keep[u(out.from)] = true;
-            }
-            if (keep_corners && bench.is_corner(out.from)) keep[u(out.from)] = true;
-        }
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        runs.look_at(i, j);
         i = j;
     }
-    std::vector<BoundaryEdge> left;
-    left.reserve(edges.size());
-    for (const BoundaryEdge& e : edges) {
-        if (!keep[u(e.from)]) continue;
-        BoundaryEdge run = e;
-        auto at = static_cast<std::size_t>(&e - edges.data());
-        while (!keep[u(run.to)]) {
-            at = static_cast<std::size_t>(next[at]);
-            run.to = edges[at].to;
-        }
-        left.push_back(run);
-    }
-    edges.swap(left);
+    edges = runs.joined();
 }
 
 }  // namespace trisect::detail

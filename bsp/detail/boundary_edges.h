@@ -3,6 +3,7 @@
 // Joining: cancel what is inside a region, and drop the vertices that mean nothing.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/detail/assembly_parts.h>
@@ -22,8 +23,9 @@ void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
                           std::vector<BoundaryEdge>& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
-/// corners of the operands stay. \pre edges sorted by facet.
+/// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by
+/// facet.
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::vector<BoundaryEdge>& edges);
+                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges);
 
 }  // namespace trisect::detail

@@ -6,188 +6,229 @@
 // touch but never cross. All turns are decided by which side of an edge's line a point lies on,
 // never by angles.
 //
-// Holes: the region lies immediately to the low-u side of a hole's smallest vertex (u, v: the two
-// axes across the dominant one). That point, moved by an infinitesimal amount, lies on no edge, and
-// its parity with respect to an outer loop is exact without special cases.
+// Holes: the region lies immediately to the low side of a hole's smallest vertex, so the edge
+// straight below that vertex, with the region above it, belongs to the same face: to its outer
+// loop, or to a hole that starts earlier and whose face is known. One sweep finds these edges; to
+// test every hole against every loop is quadratic, and engraved plates have thousands of both.
 
 #include <trisect/bsp/detail/face_loops.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include <trisect/brep/detail/sweep_line.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
 
-namespace {
+// 1 when p lies on the region's side of the line of the edge, which is the left, -1 right, 0 on.
+int FaceLoops::left_of(std::size_t edge, PointId p) const {
+    const WorkEdge& line = edges_[edge].line;
+    const int s = bench_.side(p, line.plane);
+    return line.above ? s : -s;
+}
 
-class LoopMaker {
-public:
-    LoopMaker(const Workbench& bench, PlaneId support, bool flipped,
-              std::span<const BoundaryEdge> edges)
-        : bench_(bench), edges_(edges) {
-        const Plane& p = bench.plane_at(support);
-        const int k = p.dominant_axis();
-        u_ = (k + 1) % 3;
-        v_ = (k + 2) % 3;
-        right_handed_ = (p.normal(k) > 0) != flipped;
+int FaceLoops::compare(PointId a, PointId b) const {
+    if (a == b) return 0;
+    const int c = compare_along(bench_, a, b, u_);
+    return c != 0 ? c : compare_along(bench_, a, b, v_);
+}
+
+std::span<const std::pair<PointId, std::uint32_t>> FaceLoops::leaving(PointId p) const {
+    auto lo = by_start_.begin();
+    if (by_start_.size() > 16) {
+        lo = std::lower_bound(lo, by_start_.end(), std::pair{p, std::uint32_t{0}});
+    } else {
+        while (lo != by_start_.end() && lo->first < p) ++lo;
     }
-
-    std::vector<FaceLoops> run();
-
-private:
-    struct Loop {
-        std::vector<std::size_t> edges;
-        bool outer = false;
-        std::size_t smallest = 0;  // position of the smallest vertex: start of edges[smallest]
-    };
-
-    // 1 when p lies on the region's side of the line of the edge, which is the left, -1 right, 0
-    // on.
-    [[nodiscard]] int left_of(std::size_t edge, PointId p) const {
-        const WorkEdge& line = edges_[edge].line;
-        const int s = bench_.side(p, line.plane);
-        return line.above ? s : -s;
-    }
-    [[nodiscard]] int compare(PointId a, PointId b) const {
-        if (a == b) return 0;
-        const int c = compare_along(bench_, a, b, u_);
-        return c != 0 ? c : compare_along(bench_, a, b, v_);
-    }
-    void chain();
-    [[nodiscard]] std::size_t continuation(std::size_t arriving,
-                                           std::span<const std::size_t> leaving) const;
-    void orient(Loop& loop) const;
-    [[nodiscard]] bool contains(const Loop& outer, PointId p) const;
-    [[nodiscard]] std::size_t owner_of(const Loop& hole) const;
-
-    const Workbench& bench_;
-    std::span<const BoundaryEdge> edges_;
-    int u_ = 0;
-    int v_ = 1;
-    bool right_handed_ = true;
-    std::vector<Loop> loops_;
-};
+    auto hi = lo;
+    while (hi != by_start_.end() && hi->first == p) ++hi;
+    return {lo, hi};
+}
 
 // Clockwise from the way back: first what lies to the left of the arriving edge, then straight on,
 // then what lies to the right; of two on the same side the one that has the other on its right.
-std::size_t LoopMaker::continuation(std::size_t arriving,
-                                    std::span<const std::size_t> leaving) const {
+std::size_t FaceLoops::continuation(std::size_t arriving, PointId at) const {
+    const auto choices = leaving(at);
+    TRISECT_EXPECTS(!choices.empty(), "boundary of a face is not closed");
     const auto comes_first = [&](std::size_t a, std::size_t b) {
         const int sa = left_of(arriving, edges_[a].to);
         const int sb = left_of(arriving, edges_[b].to);
         if (sa != sb) return sa > sb;
         return left_of(b, edges_[a].to) > 0;
     };
-    std::size_t best = leaving[0];
-    for (const std::size_t e : leaving.subspan(1))
+    std::size_t best = choices[0].second;
+    for (const auto& [p, e] : choices.subspan(1))
         if (comes_first(e, best)) best = e;
     return best;
 }
 
-void LoopMaker::chain() {
-    std::vector<std::size_t> by_start(edges_.size());
-    std::iota(by_start.begin(), by_start.end(), std::size_t{0});
-    std::stable_sort(by_start.begin(), by_start.end(),
-                     [&](std::size_t a, std::size_t b) { return edges_[a].from < edges_[b].from; });
-    const auto leaving = [&](PointId p) {
-        const auto lo =
-            std::lower_bound(by_start.begin(), by_start.end(), p,
-                             [&](std::size_t e, PointId q) { return edges_[e].from < q; });
-        auto hi = lo;
-        while (hi != by_start.end() && edges_[*hi].from == p) ++hi;
-        return std::span<const std::size_t>(lo, hi);
-    };
-    std::vector<bool> used(edges_.size(), false);
-    for (std::size_t start = 0; start < edges_.size(); ++start) {
-        if (used[start]) continue;
-        Loop loop;
-        std::size_t e = start;
-        do {
-            TRISECT_EXPECTS(!used[e], "boundary edges of a face cross");
-            used[e] = true;
-            loop.edges.push_back(e);
-            const auto next = leaving(edges_[e].to);
-            TRISECT_EXPECTS(!next.empty(), "boundary of a face is not closed");
-            e = next.size() == 1 ? next[0] : continuation(e, next);
-        } while (e != start);
-        orient(loop);
-        loops_.push_back(std::move(loop));
-    }
+void FaceLoops::chain_from(std::size_t start) {
+    chain_.clear();
+    std::size_t e = start;
+    do {
+        TRISECT_EXPECTS(!used_[e], "boundary edges of a face cross");
+        used_[e] = true;
+        chain_.push_back(static_cast<std::uint32_t>(e));
+        e = continuation(e, edges_[e].to);
+    } while (e != start);
 }
 
 // At the smallest vertex an outer loop only turns left; a hole turns right there at least once.
-void LoopMaker::orient(Loop& loop) const {
-    const std::size_t n = loop.edges.size();
-    for (std::size_t i = 1; i < n; ++i)
-        if (compare(edges_[loop.edges[i]].from, edges_[loop.edges[loop.smallest]].from) < 0)
-            loop.smallest = i;
-    const PointId p = edges_[loop.edges[loop.smallest]].from;
-    loop.outer = true;
+bool FaceLoops::is_outer(std::size_t smallest) const {
+    const std::size_t n = chain_.size();
+    const PointId p = edges_[chain_[smallest]].from;
     for (std::size_t i = 0; i < n; ++i) {
-        if (edges_[loop.edges[i]].from != p) continue;
-        const std::size_t before = loop.edges[(i + n - 1) % n];
-        if (left_of(before, edges_[loop.edges[i]].to) < 0) loop.outer = false;
+        if (edges_[chain_[i]].from != p) continue;
+        if (left_of(chain_[i == 0 ? n - 1 : i - 1], edges_[chain_[i]].to) < 0) return false;
+    }
+    return true;
+}
+
+void FaceLoops::add_loop() {
+    const std::size_t n = chain_.size();
+    std::size_t smallest = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+        const int c = compare(edges_[chain_[i]].from, edges_[chain_[smallest]].from);
+        // A loop may pass its smallest vertex several times: the rightmost edge is the first.
+        if (c < 0 || (c == 0 && left_of(chain_[smallest], edges_[chain_[i]].to) < 0)) smallest = i;
+    }
+    loops_.push_back({points_.size(), n, true});
+    if (n < edges_.size()) loops_.back().outer = is_outer(smallest);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t e = chain_[(smallest + i) % n];
+        points_.push_back(edges_[e].from);
+        edge_at_.push_back(e);
     }
 }
 
-// Parity of p, moved by an infinitesimal amount towards low u and less than that towards low v.
-bool LoopMaker::contains(const Loop& outer, PointId p) const {
-    bool inside = false;
-    for (const std::size_t e : outer.edges) {
-        const bool from_below = compare_along(bench_, edges_[e].from, p, v_) < 0;
-        const bool to_below = compare_along(bench_, edges_[e].to, p, v_) < 0;
-        if (from_below == to_below) continue;
-        // Left of an upward edge is low u in a right-handed view.
-        const bool left_is_low = from_below == right_handed_;
-        const int left = left_of(e, p);
-        const bool edge_at_lower_u = left_is_low ? left < 0 : left > 0;
-        if (edge_at_lower_u) inside = !inside;
-    }
-    return inside;
+// By their smallest vertices; of two that share it the right one first.
+void FaceLoops::order_loops() {
+    if (loops_.size() < 2) return;
+    std::sort(loops_.begin(), loops_.end(), [&](const Loop& a, const Loop& b) {
+        const int c = compare(points_[a.begin], points_[b.begin]);
+        if (c != 0) return c < 0;
+        return left_of(edge_at_[a.begin], edges_[edge_at_[b.begin]].to) > 0;
+    });
 }
 
-// The innermost outer loop around a hole: of several, which are nested, the one that starts last.
-std::size_t LoopMaker::owner_of(const Loop& hole) const {
-    const PointId p = edges_[hole.edges[hole.smallest]].from;
-    std::size_t best = loops_.size();
-    for (std::size_t i = 0; i < loops_.size(); ++i) {
-        if (!loops_[i].outer || !contains(loops_[i], p)) continue;
-        const auto start = [&](std::size_t l) {
-            return edges_[loops_[l].edges[loops_[l].smallest]].from;
-        };
-        if (best == loops_.size() || compare(start(i), start(best)) > 0) best = i;
+void FaceLoops::set_region(PlaneId support, bool flipped, std::span<const BoundaryEdge> edges) {
+    edges_ = edges;
+    const Plane& p = bench_.plane_at(support);
+    const int k = p.dominant_axis();
+    u_ = (k + 1) % 3;
+    v_ = (k + 2) % 3;
+    right_handed_ = (p.normal(k) > 0) != flipped;
+    by_start_.clear();
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        by_start_.emplace_back(edges[i].from, static_cast<std::uint32_t>(i));
+    std::sort(by_start_.begin(), by_start_.end());
+    used_.assign(edges.size(), false);
+    points_.clear();
+    edge_at_.clear();
+    loops_.clear();
+    for (std::size_t start = 0; start < edges.size(); ++start) {
+        if (used_[start]) continue;
+        chain_from(start);
+        add_loop();
     }
-    TRISECT_EXPECTS(best < loops_.size(), "a hole lies in no face");
-    return best;
+    order_loops();
 }
 
-std::vector<FaceLoops> LoopMaker::run() {
-    chain();
-    std::vector<FaceLoops> out;
-    std::vector<std::size_t> face_of(loops_.size());
-    const auto points_of = [&](const Loop& loop) {
-        std::vector<PointId> points;
-        const std::size_t n = loop.edges.size();
-        for (std::size_t i = 0; i < n; ++i)
-            points.push_back(edges_[loop.edges[(loop.smallest + i) % n]].from);
-        return points;
-    };
-    for (std::size_t i = 0; i < loops_.size(); ++i) {
-        if (!loops_[i].outer) continue;
-        face_of[i] = out.size();
-        out.push_back({{points_of(loops_[i])}});
+// The corners of all loops; edge i runs from corner i to the next one of its loop.
+class FaceLoops::Figure {
+public:
+    explicit Figure(const FaceLoops& loops)
+        : loops_(loops), rank_(loops.points_.size()), order_(rank_.size()), next_(rank_.size()) {
+        for (const Loop& l : loops.loops_)
+            for (std::size_t i = 0; i < l.size; ++i)
+                next_[l.begin + i] =
+                    static_cast<std::uint32_t>(l.begin + (i + 1 == l.size ? 0 : i + 1));
+        std::iota(order_.begin(), order_.end(), 0U);
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            const int c = loops.compare(loops.points_[a], loops.points_[b]);
+            return c != 0 ? c < 0 : a < b;
+        });
+        for (const std::uint32_t c : order_) {
+            if (points_.empty() || points_.back() != loops.points_[c])
+                points_.push_back(loops.points_[c]);
+            rank_[c] = static_cast<std::uint32_t>(points_.size() - 1);
+        }
     }
-    for (const Loop& loop : loops_)
-        if (!loop.outer) out[face_of[owner_of(loop)]].loops.push_back(points_of(loop));
-    return out;
+    [[nodiscard]] std::span<const std::uint32_t> corners_in_order() const { return order_; }
+    [[nodiscard]] std::uint32_t next(std::uint32_t corner) const { return next_[corner]; }
+    [[nodiscard]] std::uint32_t from(std::uint32_t edge) const { return rank_[edge]; }
+    [[nodiscard]] std::uint32_t to(std::uint32_t edge) const { return rank_[next_[edge]]; }
+    [[nodiscard]] int above(std::uint32_t edge, std::uint32_t vertex) const {
+        return loops_.left_of(loops_.edge_at_[edge], points_[vertex]);
+    }
+
+private:
+    const FaceLoops& loops_;
+    std::vector<std::uint32_t> rank_;   // by corner
+    std::vector<std::uint32_t> order_;  // corners by rank
+    std::vector<std::uint32_t> next_;
+    std::vector<PointId> points_;  // by rank
+};
+
+// For each loop one that has an edge straight below its first corner.
+std::vector<std::uint32_t> FaceLoops::loops_below() const {
+    using Index = std::uint32_t;
+    const Figure figure(*this);
+    SweepLine line(figure);
+    std::vector<Index> region(points_.size());  // by corner: above the edge that leaves it
+    std::vector<Index> before(points_.size());
+    std::vector<Index> loop_of(points_.size());
+    for (Index l = 0; l < loops_.size(); ++l)
+        for (std::size_t i = 0; i < loops_[l].size; ++i) loop_of[loops_[l].begin + i] = l;
+    for (Index c = 0; c < points_.size(); ++c) before[figure.next(c)] = c;
+    const auto runs_with_sweep = [&](Index c) { return figure.from(c) < figure.to(c); };
+
+    std::vector<Index> below(loops_.size(), SweepLine<Figure>::none);
+    const auto order = figure.corners_in_order();
+    for (std::size_t i = 0; i < order.size();) {
+        std::size_t j = i;
+        for (; j < order.size() && figure.from(order[j]) == figure.from(order[i]); ++j) {
+            const Index c = order[j];
+            if (loops_[loop_of[c]].begin == c)
+                if (const Index r = line.below(figure.from(c)); r != line.none)
+                    below[loop_of[c]] = loop_of[line.edge(r)];
+            if (!runs_with_sweep(before[c])) continue;
+            region[c] = region[before[c]];
+            if (runs_with_sweep(c)) {
+                line.advance(region[c], c);
+            } else {
+                line.close(region[c]);
+            }
+        }
+        for (; i < j; ++i)
+            if (runs_with_sweep(order[i]) && !runs_with_sweep(before[order[i]]))
+                region[order[i]] = line.open(order[i]);
+    }
+    return below;
 }
 
-}  // namespace
-
-std::vector<FaceLoops> make_face_loops(const Workbench& bench, PlaneId support, bool flipped,
-                                       std::span<const BoundaryEdge> edges) {
-    return LoopMaker(bench, support, flipped, edges).run();
+std::span<const std::vector<std::uint32_t>> FaceLoops::faces() {
+    faces_.clear();
+    std::vector<std::uint32_t> face_of(loops_.size());
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+        if (!loops_[l].outer) continue;
+        face_of[l] = static_cast<std::uint32_t>(faces_.size());
+        faces_.push_back({l});
+    }
+    TRISECT_EXPECTS(!faces_.empty(), "a hole lies in no face");
+    if (faces_.size() == loops_.size()) return faces_;
+    std::vector<std::uint32_t> below;
+    if (faces_.size() > 1) below = loops_below();
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+        if (loops_[l].outer) continue;
+        if (!below.empty()) {
+            TRISECT_EXPECTS(below[l] < l, "a hole lies in no face");
+            face_of[l] = face_of[below[l]];
+        }
+        faces_[face_of[l]].push_back(l);
+    }
+    return faces_;
 }
 
 }  // namespace trisect::detail

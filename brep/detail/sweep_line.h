@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SweepLine: the regions that a vertical line meets while it moves over a planar figure, from
+// bottom to top.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace trisect::detail {
+
+/// A figure's edges do not cross; a region of it lies to the left of each. Only edges that run with
+/// the sweep are kept: the region is above them, and they stand for it.
+///
+/// Vertices are given by their rank in the order of the sweep. `Figure` answers
+/// `from(edge)` and `to(edge)`, ranks with from < to, and `above(edge, vertex)`, 1 when the vertex
+/// lies above the edge's line, exactly. All operations take O(log n) such signs. Before an edge is
+/// opened or advanced to, the edges that end at its first vertex must be gone; the order in which
+/// edges at one vertex come and go is free otherwise.
+template <class Figure>
+class SweepLine {
+public:
+    using Index = std::uint32_t;
+    static constexpr Index none = std::numeric_limits<Index>::max();
+
+    explicit SweepLine(const Figure& figure) : figure_(figure), line_(Below{this}) {}
+    SweepLine(const SweepLine&) = delete;
+    SweepLine& operator=(const SweepLine&) = delete;
+
+    /// A new region, by a number that grows.
+    Index open(Index edge) {
+        const auto region = static_cast<Index>(edge_.size());
+        edge_.push_back(edge);
+        where_.push_back(line_.insert(region).first);
+        return region;
+    }
+    /// The region's lower edge ends and `edge` goes on.
+    void advance(Index region, Index edge) { edge_[region] = edge; }
+    void close(Index region) { line_.erase(where_[region]); }
+    [[nodiscard]] Index edge(Index region) const { return edge_[region]; }
+
+    /// The region of the highest edge that is strictly below a vertex, or none.
+    [[nodiscard]] Index below(Index vertex) const {
+        const auto it = line_.lower_bound(Vertex{vertex});
+        return it == line_.begin() ? none : *std::prev(it);
+    }
+
+private:
+    struct Vertex {
+        Index rank;
+    };
+    struct Below {
+        using is_transparent = void;
+        const SweepLine* line;
+        bool operator()(Index a, Index b) const {
+            const Figure& f = line->figure_;
+            const Index e = line->edge_[a];
+            const Index g = line->edge_[b];
+            if (f.from(e) == f.from(g)) return f.above(e, f.to(g)) > 0;
+            return f.from(e) < f.from(g) ? f.above(e, f.from(g)) > 0 : f.above(g, f.from(e)) < 0;
+        }
+        bool operator()(Index a, Vertex v) const {
+            return line->figure_.above(line->edge_[a], v.rank) > 0;
+        }
+        bool operator()(Vertex v, Index a) const {
+            return line->figure_.above(line->edge_[a], v.rank) < 0;
+        }
+    };
+    using Line = std::set<Index, Below>;
+
+    const Figure& figure_;
+    Line line_;
+    std::vector<Index> edge_;  // by region
+    std::vector<typename Line::iterator> where_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// To triangles. Nearly all facets of a large result pass through: their corners get numbers and
+// coordinates as they are met, source by source, in one pass over the marks. The others follow,
+// facet by facet. Vertices keep their places in tables of their own, one for each source and one
+// for the points of the workbench; a hash map from vertices to numbers costs more than everything
+// else here together.
+
+#include <algorithm>
+#include <bit>
+
+#include <trisect/brep/detail/small_polygon.h>
+#include <trisect/brep/triangulate.h>
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/assembly_parts.h>
+#include <trisect/bsp/detail/boundary_edges.h>
+#include <trisect/bsp/detail/face_loops.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+class MeshWriter {
+public:
+    MeshWriter(const SolidState& solid, const BoundaryParts& parts)
+        : lattice_(solid.lattice), parts_(parts), bench_(parts.bench), loops_(parts.bench) {}
+
+    PolygonMesh write(std::span<const BoundaryEdge> edges) {
+        reserve(edges.size());
+        tables_.resize(parts_.sources.size());
+        for (std::size_t t = 0; t < tables_.size(); ++t) copy_whole_facets(t);
+        number_.assign(bench_.point_count(), none);
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t j = i;
+            while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+            write_facet(parts_.facets[u(edges[i].facet)], edges.subspan(i, j - i));
+            i = j;
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    // Of k edges come at most k - 2 triangles, and two more for each hole.
+    void reserve(std::size_t edges) {
+        const std::size_t whole = parts_.stats.whole_facets;
+        mesh_.face_begin.reserve(whole + edges + 1);
+        mesh_.corners.reserve(3 * (whole + edges));
+        std::size_t corners = edges;
+        for (const FacetMarks& marks : parts_.sources)
+            corners += marks.source()->mesh().points.size();
+        mesh_.points.reserve(std::min(corners, 3 * whole + edges));
+    }
+
+    std::uint32_t add_point(const std::array<double, 3>& p) {
+        mesh_.points.push_back(
+            {lattice_.to_double(p[0]), lattice_.to_double(p[1]), lattice_.to_double(p[2])});
+        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+    }
+
+    std::uint32_t add_point(const LatticePoint& p) {
+        return add_point(std::array{static_cast<double>(p.x), static_cast<double>(p.y),
+                                    static_cast<double>(p.z)});
+    }
+
+    // The table of a source: by vertex, its number in the mesh.
+    std::uint32_t corner(std::size_t table, std::uint32_t vertex) {
+        std::uint32_t& at = tables_[table][vertex];
+        if (at == none) at = add_point(parts_.sources[table].source()->mesh().points[vertex]);
+        return at;
+    }
+
+    void copy_whole_facets(std::size_t t) {
+        const Source& source = *parts_.sources[t].source();
+        tables_[t].assign(source.mesh().points.size(), none);
+        parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool flipped) {
+            const auto& corners = source.mesh().triangles[facet];
+            const std::uint32_t a = corner(t, corners[0]);
+            const std::uint32_t b = corner(t, corners[flipped ? 2 : 1]);
+            const std::uint32_t c = corner(t, corners[flipped ? 1 : 2]);
+            mesh_.add_triangle(a, b, c);
+        });
+    }
+
+    std::uint32_t vertex(PointId p) {
+        std::uint32_t& at = number_[u(p)];
+        if (at != none) return at;
+        if (bench_.is_corner(p)) {
+            const auto [source, v] = bench_.corner_name(p);
+            at = corner(table_of(source), v);
+        } else {
+            at = add_point(nearest_doubles(bench_.homogeneous(p)));
+        }
+        return at;
+    }
+
+    std::size_t table_of(const Source* source) {
+        const auto is_it = [&](const FacetMarks& m) { return m.source() == source; };
+        if (!is_it(parts_.sources[last_table_]))
+            last_table_ = static_cast<std::size_t>(
+                std::find_if(parts_.sources.begin(), parts_.sources.end(), is_it) -
+                parts_.sources.begin());
+        return last_table_;
+    }
+
+    void write_facet(const BoundaryFacet& f, std::span<const BoundaryEdge> edges) {
+        loops_.set_region(f.support, f.flipped, edges);
+        const auto loop = loops_.loop(0);
+        if (loops_.loop_count() == 1 && loop.size() <= small_polygon_limit && is_simple(loop)) {
+            write_small(f, loop);
+        } else {
+            write_large(f);
+        }
+    }
+
+    // In a loop of one region all passages of a vertex have one name.
+    static bool is_simple(std::span<const PointId> loop) {
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (loop[i] == loop[j]) return false;
+        return true;
+    }
+
+    void write_small(const BoundaryFacet& f, std::span<const PointId> loop) {
+        const auto axes = PlaneProjection::axes_of(bench_.plane_at(f.support), f.flipped);
+        const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            const int s = PlaneProjection::filtered_orientation(
+                bench_.approximation(loop[a]), bench_.approximation(loop[b]),
+                bench_.approximation(loop[c]), axes);
+            if (s != 0) return s;
+            return PlaneProjection::exact_orientation(bench_.homogeneous(loop[a]),
+                                                      bench_.homogeneous(loop[b]),
+                                                      bench_.homogeneous(loop[c]), axes);
+        };
+        const auto first_corner = [&] {
+            std::uint32_t first = 0;
+            for (std::uint32_t i = 1; i < loop.size(); ++i) {
+                const int c = compare_along(bench_, loop[i], loop[first], axes.u);
+                if (c < 0 || (c == 0 && compare_along(bench_, loop[i], loop[first], axes.v) < 0))
+                    first = i;
+            }
+            return first;
+        };
+        const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
+                                            [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                                mesh_.add_triangle(vertex(loop[a]), vertex(loop[b]),
+                                                                   vertex(loop[c]));
+                                            });
+        TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
+    }
+
+    void write_large(const BoundaryFacet& f) {
+        points_.clear();
+        ids_.clear();
+        outline_.clear();
+        local_.resize(bench_.point_count(), none);
+        for (std::size_t l = 0; l < loops_.loop_count(); ++l) {
+            auto& loop = outline_.emplace_back();
+            for (const PointId p : loops_.loop(l)) {
+                if (local_[u(p)] == none) {
+                    local_[u(p)] = static_cast<std::uint32_t>(ids_.size());
+                    ids_.push_back(p);
+                    points_.push_back(bench_.point(p));
+                }
+                loop.push_back(local_[u(p)]);
+            }
+        }
+        for (const PointId p : ids_) local_[u(p)] = none;
+        const Plane& support = bench_.plane_at(f.support);
+        for (const IndexTriangle& t :
+             triangulate(f.flipped ? support.flipped() : support, points_, outline_))
+            mesh_.add_triangle(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
+    }
+
+    Lattice lattice_;
+    const BoundaryParts& parts_;
+    const Workbench& bench_;
+    PolygonMesh mesh_;
+    std::vector<std::vector<std::uint32_t>> tables_;  // by source
+    std::size_t last_table_ = 0;
+    std::vector<std::uint32_t> number_;  // by PointId
+    FaceLoops loops_;
+    std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
+    std::vector<PointId> ids_;
+    std::vector<Point> points_;
+    std::vector<IndexLoop> outline_;
+};
+
+}  // namespace
+
+PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats) {
+    BoundaryParts parts;
+    gather_parts(solid, parts);
+    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    join_facets(parts, edges);
+    remove_straight_vertices(parts, true, {}, edges);
+    if (stats != nullptr) *stats = parts.stats;
+    return MeshWriter(solid, parts).write(edges);
+}
+
+}  // namespace trisect::detail

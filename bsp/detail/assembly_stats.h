@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// AssemblyStats: what one assembly had to do.
+#pragma once
+
+#include <cstdint>
+
+namespace trisect::detail {
+
+struct AssemblyStats {
+    std::uint64_t leaves = 0;         ///< with polygons
+    std::uint64_t whole_facets = 0;   ///< passed through as they are
+    std::uint64_t worked_facets = 0;  ///< cut, touched or incomplete
+    std::uint64_t parts = 0;          ///< convex parts of these, one or more for each cell
+    std::uint64_t edges = 0;          ///< of these parts, after vertices were inserted
+    std::uint64_t joined_facets = 0;  ///< whole ones that became part of a larger face (to_brep)
+};
+
+}  // namespace trisect::detail
