@@ -31,7 +31,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
-#include "scenes.h"
+#include "shapes.h"
 
 namespace {
 
@@ -110,15 +110,15 @@ Solid box(const trisect::Point3d& low, const trisect::Point3d& high) {
 
 Solid with_turned(const PolygonMesh& mesh, char operation) {
     const Solid a = Solid::from_mesh(mesh);
-    const Solid b = Solid::from_mesh(scenes::turned(mesh));
+    const Solid b = Solid::from_mesh(shapes::turned(mesh));
     if (operation == '|') return trisect::evaluate(a | b);
     return trisect::evaluate(operation == '&' ? a & b : a - b);
 }
 
 Solid spheres(int level) {
-    const PolygonMesh sphere = scenes::icosphere(level);
+    const PolygonMesh sphere = shapes::icosphere(level);
     return trisect::evaluate(Solid::from_mesh(sphere) |
-                             Solid::from_mesh(scenes::moved(sphere, scenes::along_1_2_3(0.5))));
+                             Solid::from_mesh(shapes::moved(sphere, shapes::along_1_2_3(0.5))));
 }
 
 Solid touching_cubes(int n) {
@@ -168,10 +168,10 @@ Solid turned_cubes(int n) {
 Solid milled_block(int cuts) {
     Solid block = box({0, 0, 0}, {1, 1, 1});
     const PolygonMesh tool =
-        trisect::transformed(scenes::icosphere(2), trisect::AffineMap::scaling({0.05, 0.05, 0.05}));
+        trisect::transformed(shapes::icosphere(2), trisect::AffineMap::scaling({0.05, 0.05, 0.05}));
     for (int i = 0; i < cuts; ++i)
         block = trisect::evaluate(
-            block - Solid::from_mesh(scenes::moved(
+            block - Solid::from_mesh(shapes::moved(
                         tool, {0.1 + 0.0123 * (i % 20), 0.1 + 0.0311 * (i / 20), 1.0})));
     return block;
 }

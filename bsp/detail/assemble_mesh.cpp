@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// To triangles. Nearly all facets of a large result pass through: their corners get numbers and
-// coordinates as they are met, source by source, in one pass over the marks. The others follow,
-// facet by facet. Vertices keep their places in tables of their own, one for each source and one
-// for the points of the workbench; a hash map from vertices to numbers costs more than everything
-// else here together.
+// To triangles, facet by facet. Nearly all facets of a large result pass through: their corners get
+// numbers and coordinates as they are met, in one pass over the marks. Vertices keep their places
+// in tables of their own, one for each source and one for the points of the workbench; a hash map
+// from vertices to numbers costs more than everything else here together.
 
 #include <algorithm>
 #include <bit>
@@ -33,14 +32,11 @@ public:
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         reserve(edges.size());
         tables_.resize(parts_.sources.size());
-        for (std::size_t t = 0; t < tables_.size(); ++t) copy_whole_facets(t);
         number_.assign(bench_.point_count(), none);
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t j = i;
-            while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-            write_facet(parts_.facets[u(edges[i].facet)], edges.subspan(i, j - i));
-            i = j;
-        }
+        for (std::size_t t = 0; t < tables_.size(); ++t)
+            tables_[t].assign(parts_.sources[t].source()->mesh().points.size(), none);
+        rest_ = edges;
+        for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         return std::move(mesh_);
     }
 
@@ -74,16 +70,59 @@ private:
         return at;
     }
 
-    void copy_whole_facets(std::size_t t) {
-        const Source& source = *parts_.sources[t].source();
-        tables_[t].assign(source.mesh().points.size(), none);
+    // Facets in their order, whether they pass through or have edges.
+    void write_source(std::size_t t) {
+        const Source* source = parts_.sources[t].source();
+        const auto next_worked = [&]() -> const BoundaryFacet* {
+            if (rest_.empty()) return nullptr;
+            const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
+            return f.source == source ? &f : nullptr;
+        };
+        const BoundaryFacet* worked = next_worked();
         parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool flipped) {
-            const auto& corners = source.mesh().triangles[facet];
-            const std::uint32_t a = corner(t, corners[0]);
-            const std::uint32_t b = corner(t, corners[flipped ? 2 : 1]);
-            const std::uint32_t c = corner(t, corners[flipped ? 1 : 2]);
-            mesh_.add_triangle(a, b, c);
+            while (worked != nullptr &&
+                   std::pair(worked->facet, worked->flipped) < std::pair(facet, flipped)) {
+                write_worked(*worked);
+                worked = next_worked();
+            }
+            copy(t, facet, flipped);
         });
+        for (; worked != nullptr; worked = next_worked()) write_worked(*worked);
+    }
+
+    void copy(std::size_t t, std::uint32_t facet, bool flipped) {
+        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
+        const std::uint32_t a = corner(t, corners[0]);
+        const std::uint32_t b = corner(t, corners[flipped ? 2 : 1]);
+        const std::uint32_t c = corner(t, corners[flipped ? 1 : 2]);
+        mesh_.add_triangle(a, b, c);
+    }
+
+    // The facet whose edges come next.
+    void write_worked(const BoundaryFacet& f) {
+        std::size_t n = 1;
+        while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
+        loops_.set_region(f.support, f.flipped, rest_.first(n));
+        rest_ = rest_.subspan(n);
+        const auto loop = loops_.loop(0);
+        if (loops_.loop_count() > 1 || loop.size() > small_polygon_limit || !is_simple(loop)) {
+            write_large(f);
+        } else if (is_all_of(f, loop)) {
+            copy(table_of(f.source), f.facet, f.flipped);
+        } else {
+            write_small(f, loop);
+        }
+    }
+
+    // A facet may have been touched in vain; then nothing may tell it from one that was not.
+    bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
+        return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
+                   if (!bench_.is_corner(p)) return false;
+                   const auto [source, v] = bench_.corner_name(p);
+                   if (source != f.source) return false;
+                   const auto& corners = source->mesh().triangles[f.facet];
+                   return std::ranges::find(corners, v) != corners.end();
+               });
     }
 
     std::uint32_t vertex(PointId p) {
@@ -105,16 +144,6 @@ private:
                 std::find_if(parts_.sources.begin(), parts_.sources.end(), is_it) -
                 parts_.sources.begin());
         return last_table_;
-    }
-
-    void write_facet(const BoundaryFacet& f, std::span<const BoundaryEdge> edges) {
-        loops_.set_region(f.support, f.flipped, edges);
-        const auto loop = loops_.loop(0);
-        if (loops_.loop_count() == 1 && loop.size() <= small_polygon_limit && is_simple(loop)) {
-            write_small(f, loop);
-        } else {
-            write_large(f);
-        }
     }
 
     // In a loop of one region all passages of a vertex have one name.
@@ -180,6 +209,7 @@ private:
     const BoundaryParts& parts_;
     const Workbench& bench_;
     PolygonMesh mesh_;
+    std::span<const BoundaryEdge> rest_;              // of facets not yet written
     std::vector<std::vector<std::uint32_t>> tables_;  // by source
     std::size_t last_table_ = 0;
     std::vector<std::uint32_t> number_;  // by PointId
