@@ -171,7 +171,11 @@ Point3d mill_position(std::size_t cut) {
 
 Scene milling_scene(const std::string& scene, const std::vector<std::string>& words) {
     Scene s;
-    const int n = words[1] == "25k" ? 46 : words[1] == "99k" ? 91 : words[1] == "400k" ? 183 : 0;
+    const int n = words[1] == "1k"     ? 10
+                  : words[1] == "25k"  ? 46
+                  : words[1] == "99k"  ? 91
+                  : words[1] == "400k" ? 183
+                                       : 0;
     if (n == 0) unknown(scene);
     s.steps = words.size() > 2 ? std::strtoul(words[2].c_str(), nullptr, 10) : 1000;
     if (s.steps == 0 || s.steps > 100'000) unknown(scene);
