@@ -12,6 +12,8 @@
 #include <cmath>
 
 #include <trisect/bsp/detail/leaf_pieces.h>
+#include <trisect/bsp/detail/trace.h>
+#include <trisect/bsp/detail/triangle_pair.h>
 #include <trisect/bsp/detail/work_budget.h>
 
 namespace trisect::detail {
@@ -23,6 +25,7 @@ struct SideRange {
     int lo = 2;
     int hi = -2;
     int zeros = 0;
+    Few<std::int8_t> sides;
     [[nodiscard]] bool is_off() const { return lo > 0 || hi < 0; }
     [[nodiscard]] bool is_on() const { return lo == 0 && hi == 0; }
     [[nodiscard]] bool straddles() const { return lo < 0 && hi > 0; }
@@ -57,6 +60,17 @@ public:
         const SideRange a_range = range(a_, b_);
         if (a_range.is_off()) return false;
         if (same_mesh_ && meets_in_common_corners_only(a_range, b_range)) return false;
+        if (a_range.straddles() && b_range.straddles() && a_range.zeros + b_range.zeros == 0) {
+            const TrianglePair pair = as_triangles(a_range, b_range);
+            if (pair == TrianglePair::Disjoint) return false;
+            if (pair == TrianglePair::Crossing) {
+                if (meets_plane_outside_cell(a_, a_range, b_.support) ||
+                    meets_plane_outside_cell(b_, b_range, a_.support))
+                    return false;
+                of_first.cuts = of_second.cuts = true;
+                return true;
+            }
+        }
         if (a_range.straddles() && b_range.straddles()) {
             // The common line of the planes runs through both interiors.
             of_first.cuts = of_second.cuts = cuts(s_, t_);
@@ -66,7 +80,9 @@ public:
             of_second.cuts = cuts(t_, s_);
         }
         // They meet, but elsewhere: in this cell the two are as if they did not.
-        if ((of_first.cuts || of_second.cuts) && is_outside_cell(ends_)) return false;
+        if ((of_first.cuts || of_second.cuts) &&
+            is_outside_cell(bench_.approximation(ends_[0]), bench_.approximation(ends_[1])))
+            return false;
         return true;
     }
 
@@ -77,10 +93,40 @@ private:
         const WorkPolygon& cutter = work_.with_edges(t);
         return segment_meets_interior(bench_, work_.item(s).shape, cutter.support, cutter, ends_);
     }
+    // Two whole facets, by their corners alone.
+    [[nodiscard]] TrianglePair as_triangles(const SideRange& a, const SideRange& b) const {
+        const auto sided = [&](const WorkPolygon& w, const SideRange& r, SidedTriangle& out) {
+            if (w.points.size() != 3) return false;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!bench_.is_corner(w.points[k])) return false;
+                out.corners[k] = bench_.lattice(w.points[k]);
+                out.sides[k] = r.sides[k];
+            }
+            return true;
+        };
+        SidedTriangle s;
+        SidedTriangle t;
+        if (!sided(a_, a, s) || !sided(b_, b, t)) return TrianglePair::Unknown;
+        return relate_triangles(s, t);
+    }
+    // Where a triangle crosses a plane: surely not in the cell?
+    [[nodiscard]] bool meets_plane_outside_cell(const WorkPolygon& w, const SideRange& r,
+                                                PlaneId plane) const {
+        std::array<Approximation, 2> ends;
+        std::size_t found = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (r.sides[k] == r.sides[next]) continue;
+            const auto x =
+                approximate_crossing(bench_.approximation(w.points[k]),
+                                     bench_.approximation(w.points[next]), bench_.plane_at(plane));
+            if (!x) return false;
+            ends[found++] = *x;
+        }
+        return is_outside_cell(ends[0], ends[1]);
+    }
     // Surely: a segment on a wall is not.
-    [[nodiscard]] bool is_outside_cell(const std::array<PointId, 2>& ends) const {
-        const Approximation& a = bench_.approximation(ends[0]);
-        const Approximation& b = bench_.approximation(ends[1]);
+    [[nodiscard]] bool is_outside_cell(const Approximation& a, const Approximation& b) const {
         const Cell& cell = work_.problem->cell;
         for (std::size_t k = 0; k < 3; ++k) {
             const double slack =
@@ -104,6 +150,7 @@ private:
             r.lo = std::min(r.lo, x);
             r.hi = std::max(r.hi, x);
             if (x == 0) ++r.zeros;
+            r.sides.push_back(static_cast<std::int8_t>(x));
         }
         return r;
     }
