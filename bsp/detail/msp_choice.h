@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The choice of the next cut, the same for polygons in a cell and for segments in a plane.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <trisect/bsp/detail/msp_groups.h>
+#include <trisect/bsp/msp_tree.h>
+
+namespace trisect::detail::msp {
+
+/// On which sides of a plane something has parts.
+struct Parts {
+    bool below = false;
+    bool above = false;
+    [[nodiscard]] bool is_cut() const { return below && above; }
+};
+
+/// What a cut does to a list. Stops early where the penalty cannot come below `limit`.
+template <class Items>
+[[nodiscard]] std::uint64_t penalty(const Groups& list, const Items& items, std::uint32_t plane,
+                                    const MspOptions& options, std::uint64_t limit) {
+    const std::uint64_t weight =
+        options.split_heuristic == MspHeuristic::LeastSplits ? 1 : options.split_weight;
+    std::uint64_t splits = 0;
+    std::uint64_t below = 0;
+    std::uint64_t above = 0;
+    for (const Group& group : list.groups()) {
+        const Side side = group.extent.side(items.plane(plane));
+        if (side != Side::On) {
+            (side == Side::Below ? below : above) += group.items.size();
+            continue;
+        }
+        for (const ItemIndex i : group.items) {
+            const Parts parts = items.parts(i, plane);
+            if (parts.below) ++below;
+            if (parts.above) ++above;
+            if (parts.is_cut() && ++splits * weight >= limit) return limit;
+        }
+    }
+    if (options.split_heuristic == MspHeuristic::LeastSplits) return splits;
+    return splits * weight + (below > above ? below - above : above - below);
+}
+
+/// The item whose plane is to cut. `Items` knows for each item its cutting plane (`cut_of`), its
+/// parts (`parts`) and its size (`size`), and for a number its plane (`plane`).
+/// \pre the list is not empty, options.candidates >= 1
+template <class Items>
+[[nodiscard]] ItemIndex choose(const Groups& list, const Items& items, const MspOptions& options) {
+    const std::size_t n = list.size();
+    const std::size_t tried = std::clamp<std::size_t>(options.candidates, 1, n);
+    if (options.split_heuristic == MspHeuristic::AsGiven || n == 1) return list.first();
+    ItemIndex best = list.item(0);
+    std::uint64_t least = ~std::uint64_t{0};
+    double largest = -1;
+    for (std::size_t k = 0; k < tried; ++k) {
+        const ItemIndex candidate = list.item(k * n / tried);
+        if (options.split_heuristic == MspHeuristic::LargestFirst) {
+            const double size = items.size(candidate);
+            if (size > largest) best = candidate;
+            largest = std::max(size, largest);
+            continue;
+        }
+        const std::uint64_t p = penalty(list, items, items.cut_of(candidate), options, least);
+        if (p < least) best = candidate;
+        least = std::min(p, least);
+        if (least == 0) break;
+    }
+    return best;
+}
+
+}  // namespace trisect::detail::msp
