@@ -154,6 +154,7 @@ private:
     PlaneContents on_plane_;
     std::vector<Side> sides_;
     std::size_t placed_ = 0;
+    std::size_t turn_ = 0;  // counts cuts
 };
 
 class SpaceTreeBuilder::Items {
@@ -162,6 +163,11 @@ public:
     [[nodiscard]] const Plane& plane(PlaneIndex p) const { return b_.geometry_.plane(p); }
     [[nodiscard]] PlaneIndex cut_of(ItemIndex i) const { return b_.fragments_[i].support; }
     [[nodiscard]] double size(ItemIndex i) const { return b_.extent(b_.fragments_[i]).size(); }
+    template <class F>
+    void points(ItemIndex i, F&& f) const {
+        for (const Corner& c : b_.geometry_.corners(b_.fragments_[i]))
+            f(b_.geometry_.approximation(c.point));
+    }
     [[nodiscard]] Parts parts(ItemIndex i, PlaneIndex plane) const {
         Parts parts;
         const MspGeometry& geometry = b_.geometry_;
@@ -186,10 +192,11 @@ void SpaceTreeBuilder::refine(Cell&& cell) {
     Cell below{{}, {&Node::below, id}};
     Cell above{{}, {&Node::above, id}};
     on_plane_ = {{}, {}, chosen.face};
-    for (Group& group : cell.fragments.groups()) {
-        const Side side = group.extent.side(geometry_.plane(plane));
+    ++turn_;
+    for (Groups::Pointer& group : cell.fragments.groups()) {
+        const Side side = cell.fragments.side(*group, Items(*this), geometry_.plane(plane), turn_);
         if (side == Side::On) {
-            for (const ItemIndex i : group.items) send(i, plane, below, above);
+            for (const ItemIndex i : group->items) send(i, plane, below, above);
         } else {
             (side == Side::Below ? below : above).fragments.add(std::move(group));
         }

@@ -28,13 +28,13 @@ template <class Items>
     std::uint64_t splits = 0;
     std::uint64_t below = 0;
     std::uint64_t above = 0;
-    for (const Group& group : list.groups()) {
-        const Side side = group.extent.side(items.plane(plane));
+    for (const Groups::Pointer& group : list.groups()) {
+        const Side side = list.side(*group, items, items.plane(plane), 1);
         if (side != Side::On) {
-            (side == Side::Below ? below : above) += group.items.size();
+            (side == Side::Below ? below : above) += group->items.size();
             continue;
         }
-        for (const ItemIndex i : group.items) {
+        for (const ItemIndex i : group->items) {
             const Parts parts = items.parts(i, plane);
             if (parts.below) ++below;
             if (parts.above) ++above;
@@ -46,7 +46,7 @@ template <class Items>
 }
 
 /// The item whose plane is to cut. `Items` knows for each item its cutting plane (`cut_of`), its
-/// parts (`parts`) and its size (`size`), and for a number its plane (`plane`).
+/// parts (`parts`), points and size (`size`), and for a number its plane (`plane`).
 /// \pre the list is not empty, options.candidates >= 1
 template <class Items>
 [[nodiscard]] ItemIndex choose(const Groups& list, const Items& items, const MspOptions& options) {

@@ -10,8 +10,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/msp_oriented_box.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
@@ -69,74 +73,104 @@ struct Group {
     static constexpr std::size_t capacity = 64;
 
     Extent extent;
+    std::optional<OrientedBox> oriented;  ///< when somebody needed it
     std::uint32_t first_key = ~std::uint32_t{0};
     ItemIndex first_item = 0;  ///< that has the smallest key
     std::vector<ItemIndex> items;
+
+    void add(ItemIndex item, const Extent& e, std::uint32_t key) {
+        extent.add(e);
+        oriented.reset();
+        items.push_back(item);
+        if (key < first_key) {
+            first_key = key;
+            first_item = item;
+        }
+    }
+    void add(const Group& other) {
+        extent.add(other.extent);
+        oriented.reset();
+        items.insert(items.end(), other.items.begin(), other.items.end());
+        if (other.first_key < first_key) {
+            first_key = other.first_key;
+            first_item = other.first_item;
+        }
+    }
 };
 
 class Groups {
 public:
+    using Pointer = std::unique_ptr<Group>;
+
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
     [[nodiscard]] std::size_t size() const { return count_; }
-    [[nodiscard]] std::vector<Group>& groups() { return groups_; }
-    [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
+    [[nodiscard]] std::vector<Pointer>& groups() { return groups_; }
+    [[nodiscard]] const std::vector<Pointer>& groups() const { return groups_; }
 
     /// Into a group of its own or that of the items added just before.
     void add(ItemIndex item, const Extent& extent, std::uint32_t key) {
-        if (open_ == closed || groups_[open_].items.size() == Group::capacity) {
+        if (open_ == closed || groups_[open_]->items.size() == Group::capacity) {
             open_ = groups_.size();
-            groups_.emplace_back();
+            groups_.push_back(std::make_unique<Group>());
         }
-        put(groups_[open_], item, extent, key);
+        groups_[open_]->add(item, extent, key);
         ++count_;
     }
-    void add(Group&& group) {
-        count_ += group.items.size();
+    void add(Pointer group) {
+        const std::size_t size = group->items.size();
+        count_ += size;
         // A small one joins the others, or lists would end as groups of one item each.
-        if (open_ != closed && group.items.size() + groups_[open_].items.size() <= join_limit) {
-            Group& g = groups_[open_];
-            g.items.insert(g.items.end(), group.items.begin(), group.items.end());
-            g.extent.add(group.extent);
-            if (group.first_key < g.first_key) {
-                g.first_key = group.first_key;
-                g.first_item = group.first_item;
-            }
+        if (open_ != closed && size + groups_[open_]->items.size() <= join_limit) {
+            groups_[open_]->add(*group);
             return;
         }
-        if (group.items.size() < join_limit / 2) open_ = groups_.size();
+        if (size < join_limit / 2) open_ = groups_.size();
         groups_.push_back(std::move(group));
     }
 
     /// The i-th item in the order of groups.
     [[nodiscard]] ItemIndex item(std::size_t i) const {
-        for (const Group& g : groups_) {
-            if (i < g.items.size()) return g.items[i];
-            i -= g.items.size();
+        for (const Pointer& g : groups_) {
+            if (i < g->items.size()) return g->items[i];
+            i -= g->items.size();
         }
         return 0;
     }
     /// The item of the smallest key. \pre !is_empty()
     [[nodiscard]] ItemIndex first() const {
-        return std::min_element(
-                   groups_.begin(), groups_.end(),
-                   [](const Group& a, const Group& b) { return a.first_key < b.first_key; })
+        return (*std::min_element(
+                    groups_.begin(), groups_.end(),
+                    [](const Pointer& a, const Pointer& b) { return a->first_key < b->first_key; }))
             ->first_item;
+    }
+
+    /// On which strict side of the plane a group of this list lies, or On when it has to be looked
+    /// at. `items.points(i)` calls back with the points of an item.
+    ///
+    /// A long list may take the trouble of a tighter box. It does so now and then (`turn` counts
+    /// cuts): a group near the cuts is made anew at each of them, and would be measured in vain.
+    template <class Items>
+    [[nodiscard]] Side side(Group& g, const Items& items, const Plane& plane,
+                            std::size_t turn) const {
+        const Side s = g.extent.side(plane);
+        if (s != Side::On || count_ < long_list) return s;
+        if (!g.oriented && turn % turns_between != 0) return s;
+        if (!g.oriented) {
+            std::vector<Approximation> points;
+            for (const ItemIndex i : g.items)
+                items.points(i, [&points](const Approximation& p) { points.push_back(p); });
+            g.oriented.emplace(points);
+        }
+        return g.oriented->side(plane);
     }
 
 private:
     static constexpr std::size_t closed = ~std::size_t{0};
     static constexpr std::size_t join_limit = Group::capacity / 2;
+    static constexpr std::size_t long_list = 4096;  // from here on the tighter box pays
+    static constexpr std::size_t turns_between = 8;
 
-    static void put(Group& g, ItemIndex item, const Extent& extent, std::uint32_t key) {
-        g.extent.add(extent);
-        g.items.push_back(item);
-        if (key < g.first_key) {
-            g.first_key = key;
-            g.first_item = item;
-        }
-    }
-
-    std::vector<Group> groups_;
+    std::vector<Pointer> groups_;
     std::size_t open_ = closed;  // the group that takes single items
     std::size_t count_ = 0;
 };

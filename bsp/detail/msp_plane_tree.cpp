@@ -38,6 +38,11 @@ public:
         e.add(b_.geometry_.approximation(b_.segments_[i].b.point));
         return e.size();
     }
+    template <class F>
+    void points(ItemIndex i, F&& f) const {
+        f(b_.geometry_.approximation(b_.segments_[i].a.point));
+        f(b_.geometry_.approximation(b_.segments_[i].b.point));
+    }
     [[nodiscard]] Parts parts(ItemIndex i, PlaneIndex plane) const {
         const Segment& s = b_.segments_[i];
         const Side a = b_.geometry_.side(s.a.point, plane);
@@ -88,10 +93,10 @@ PlaneIndex PlaneTreeBuilder::choose_line(const Region& region) const {
 
 void PlaneTreeBuilder::part(Groups& list, Groups Region::*kind, const LineFrame& line,
                             Region& below, Region& above) {
-    for (Group& group : list.groups()) {
-        const Side side = group.extent.side(geometry_.plane(line.cut));
+    for (Groups::Pointer& group : list.groups()) {
+        const Side side = list.side(*group, Items(*this), geometry_.plane(line.cut), turn_);
         if (side == Side::On) {
-            for (const ItemIndex i : group.items) send(i, line, below, above);
+            for (const ItemIndex i : group->items) send(i, line, below, above);
         } else {
             ((side == Side::Below ? below : above).*kind).add(std::move(group));
         }
@@ -107,6 +112,7 @@ void PlaneTreeBuilder::refine(Region&& region) {
     const bool is_settled = !region.segments.is_empty();
     const bool is_covered = region.around.kind() == MspTree::Leaf::OnFace;
     on_line_.clear();
+    ++turn_;
     part(region.segments, &Region::segments, line, below, above);
     part(region.touching, &Region::touching, line, below, above);
     for (const LonePoint& p : region.points) {

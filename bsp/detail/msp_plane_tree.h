@@ -59,6 +59,7 @@ private:
     std::vector<Segment> segments_;
     std::vector<Region> pending_;
     LineContents on_line_;
+    std::size_t turn_ = 0;  // counts cuts
 };
 
 }  // namespace trisect::detail::msp
