@@ -19,16 +19,18 @@ struct LeafAnchor {
     std::size_t corner = 0;   ///< of the polygon
 };
 
-/// Winding numbers of the other operands are the same at all vertices of a polygon that nothing
-/// touches. So vertices hang together by untouched polygons, and one trace to any vertex serves all
-/// that hang together with it; also the cut polygons around them. For leaves of embedded operands:
-/// at a vertex of a surface that may meet itself its own winding number would not be known. Scratch
-/// memory that is kept from leaf to leaf.
+/// Winding numbers of the other operands are the same all over a polygon that nothing touches. So
+/// vertices in the cell, and edges that run through it, hang together by untouched polygons, and
+/// one trace to any vertex serves all that hang together with it; also the cut polygons around
+/// them. For leaves of embedded operands: at a vertex of a surface that may meet itself its own
+/// winding number would not be known. Scratch memory that is kept from leaf to leaf.
 class LeafAnchors {
 public:
     /// \pre contacts are known. `windings` was started.
     void build(LeafWork& work, LeafWindings& windings);
     [[nodiscard]] LeafAnchor anchor_of(LeafIndex item);
+    /// Takes what was found out about an untouched polygon without an anchor, for its neighbours.
+    void remember(LeafIndex item, const std::vector<int>& windings);
     /// By operand; the entry of the polygon's own is meaningless.
     [[nodiscard]] const std::vector<int>& windings(LeafIndex i) const {
         return known_[LeafWork::u(i)];
@@ -37,8 +39,8 @@ public:
 private:
     enum class State : std::uint8_t { Unknown, Known, Useless };
     struct Vertex {
-        LeafIndex item = -1;  // where it was seen first, and which corner it is there
-        std::int32_t corner = 0;
+        LeafIndex item = -1;      // where it was seen first, and which corner it is there
+        std::int32_t corner = 0;  // -1: an edge
         LeafIndex parent = 0;     // of the union-find forest
         LeafIndex example = -1;   // another vertex of the same tree; of a root
         LeafIndex windings = -1;  // of a root that is known
@@ -46,7 +48,9 @@ private:
     };
     // Vertices of an item by corner: -1 not looked up, -2 not in the cell.
     [[nodiscard]] LeafIndex vertex_of(LeafIndex item, std::size_t corner);
+    [[nodiscard]] LeafIndex edge_of(LeafIndex item, int edge);
     [[nodiscard]] bool is_in_cell(LeafIndex item, std::size_t corner);
+    void join_item(LeafIndex item, LeafIndex vertex);
     [[nodiscard]] std::size_t corner_count(LeafIndex item);
     LeafIndex root(LeafIndex v);
     void join(LeafIndex a, LeafIndex b);

@@ -97,6 +97,7 @@ LeafRemains LeafCutting::whole(LeafIndex i) {
             if (clipped.is_empty()) return {};  // listed for its box, but not in the cell
         }
         set_start(item.contained ? work_->shape(i) : clipped);
+        anchors_->remember(i, start_.windings);
     }
     count_ = 0;
     Part& part = add_part();

@@ -49,7 +49,7 @@ bool LeafWindings::trace(const TraceTarget& target, PlaneId own_class,
     const Box segment = box_of_segment(reference_approximation_, target.approximation());
     for (LeafIndex i = 0; i < work_->item_count(); ++i) {
         LeafItem& item = work_->item(i);
-        if (known[LeafWork::u(item.operand)] != 0 || !item.ref.box().overlaps(segment)) continue;
+        if (known[LeafWork::u(item.operand)] != 0 || !item.box.overlaps(segment)) continue;
         const PlaneId support_id = work_->shape(i).support;
         const Plane& support = work_->bench.plane_at(support_id);
         if (own_class >= 0 && work_->bench.plane_class(support_id) == own_class) continue;
