@@ -4,7 +4,7 @@
 // to solid (Solid::from_mesh), and files of every format beside a plain read or write of the same
 // bytes and CGAL's readers.
 //
-//     import_speed [--runs 9] [--mesh NAME]... [--no-files 1] [--no-peer 1]
+//     import_speed [--runs 9] [--mesh NAME]... [--format NAME]... [--no-files 1] [--no-peer 1]
 //
 // Meshes: bunny, armadillo, cow (100k triangles; in the folder large/ of TRISECT_MODELS),
 // bunny_turned (the same with coordinates that the lattice must round), bunny_soup (every triangle
@@ -53,6 +53,7 @@ struct Options {
     bool files = true;
     bool peer = true;
     std::vector<std::string> meshes;
+    std::vector<std::string> formats;  ///< none: all
 };
 
 /// Resident memory in megabytes: what `field` of /proc/self/status says.
@@ -167,6 +168,9 @@ void measure_files(const std::string& name, const PolygonMesh& mesh, const Optio
         fs::temp_directory_path() / ("import_speed_" + std::to_string(::getpid()));
     fs::create_directories(folder);
     for (const FileKind& kind : file_kinds) {
+        if (!options.formats.empty() &&
+            std::ranges::find(options.formats, kind.name) == options.formats.end())
+            continue;
         const fs::path file = folder / (name + kind.extension);
         const fs::path other = folder / ("plain_" + name + kind.extension);
         trisect::WriteOptions as;
@@ -242,6 +246,8 @@ std::optional<Options> parse(int argc, char** argv) {
             out.runs = std::atoi(argv[i + 1]);
         else if (word == "--mesh")
             out.meshes.emplace_back(argv[i + 1]);
+        else if (word == "--format")
+            out.formats.emplace_back(argv[i + 1]);
         else if (word == "--no-files")
             out.files = std::atoi(argv[i + 1]) == 0;
         else if (word == "--no-peer")
@@ -269,7 +275,9 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
-        std::fprintf(stderr, "usage: %s [--runs N] [--mesh NAME]... [--no-files 1] [--no-peer 1]\n",
+        std::fprintf(stderr,
+                     "usage: %s [--runs N] [--mesh NAME]... [--format NAME]... [--no-files 1] "
+                     "[--no-peer 1]\n",
                      argv[0]);
         return 2;
     }

@@ -19,6 +19,8 @@
 #include <trisect/brep/io/detail/formats.h>
 #include <trisect/brep/io/detail/mesh_builder.h>
 #include <trisect/brep/io/detail/number_text.h>
+#include <trisect/brep/io/detail/quick_items.h>
+#include <trisect/brep/io/detail/quick_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 
 #include <algorithm>
@@ -36,6 +38,7 @@ public:
     explicit ObjReader(const Source& source)
         : source_(source),
           text_(source, TextRules{.hash_comments = true, .continuation = true}),
+          quick_(source),
           mesh_(source, 1) {
         // A face line of a closed triangle mesh takes about as many bytes as its vertex lines.
         const std::uint64_t hint = source.bytes().size() / 64;
@@ -43,7 +46,8 @@ public:
     }
 
     PolygonMesh read() {
-        while (text_.next_line()) statement();
+        do quick_lines();
+        while (text_.next_line() && statement());
         PolygonMesh mesh = mesh_.finish();
         if (mesh.points.empty() && mesh.corners.empty() && unknown_ != nullptr) {
             source_.fail(unknown_, "no vertices, no faces and a statement that OBJ does not have");
@@ -52,15 +56,76 @@ public:
     }
 
 private:
-    void statement() {
+    /// Vertices and faces without anything unusual; stops at the first other line.
+    void quick_lines() {
+        const char* const first = text_.after_line();
+        const char* line = first;
+        while (line < quick_.end() && (*line == 'v' ? quick_vertex(line) : quick_face(line)))
+            line = quick_.here(), ++quick_items;
+        if (line == first) return;
+        skipped_continues_ = false;
+        text_.resume_at(line);
+    }
+
+    bool quick_vertex(const char* line) {
+        Point3d p;
+        quick_.begin(line);
+        if (!quick_.keyword("v") || !quick_.number(p[0]) || !quick_.number(p[1]) ||
+            !quick_.number(p[2]) || !quick_.line_end())
+            return false;
+        mesh_.add_point(p, line);
+        return true;
+    }
+
+    bool quick_face(const char* line) {
+        std::array<QuickCorner, 8> corners;
+        std::size_t n = 0;
+        quick_.begin(line);
+        if (!quick_.keyword("f")) return false;
+        while (!quick_.at_line_end()) {
+            if (n == corners.size() || !quick_corner(corners[n++])) return false;
+        }
+        if (!quick_.line_end()) return false;
+        for (std::size_t i = 0; i < n; ++i)
+            mesh_.add_corner(std::uint64_t{corners[i].number} - 1, corners[i].at);
+        mesh_.end_face(line);
+        return true;
+    }
+
+    struct QuickCorner {
+        const char* at = nullptr;
+        std::uint32_t number = 0;
+    };
+
+    /// `1`, `1/2`, `1//3` or `1/2/3`.
+    bool quick_corner(QuickCorner& corner) {
+        corner.at = quick_.here();
+        std::uint32_t ignored = 0;
+        if (!quick_.integer(corner.number) || corner.number == 0) return false;
+        if (quick_.take('/')) {
+            if (!quick_.take('/')) {
+                if (!quick_.integer(ignored)) return false;
+                if (quick_.take('/') && !quick_.integer(ignored)) return false;
+            } else if (!quick_.integer(ignored)) {
+                return false;
+            }
+        }
+        return quick_.blanks_or_line_end();
+    }
+
+    /// Always true, for the loop over statements.
+    bool statement() {
         const bool after_skipped = skipped_continues_;
         skipped_continues_ = false;
         const char* line = text_.here();
         const std::string_view keyword = text_.word();
-        if (keyword.empty()) return;
-        if (keyword == "v") return vertex(line);
-        if (keyword == "f" || keyword == "fo") return face(line);
-        skip(keyword, after_skipped);
+        if (keyword == "v")
+            vertex(line);
+        else if (keyword == "f" || keyword == "fo")
+            face(line);
+        else if (!keyword.empty())
+            skip(keyword, after_skipped);
+        return true;
     }
 
     void vertex(const char* line) {
@@ -133,6 +198,7 @@ private:
 
     const Source& source_;
     TextCursor text_;
+    QuickText quick_;
     MeshBuilder mesh_;
     const char* unknown_ = nullptr;   ///< the first statement that OBJ does not have
     bool skipped_continues_ = false;  ///< the last line was skipped and ended in a backslash

@@ -18,6 +18,9 @@
 #include <trisect/brep/io/detail/formats.h>
 #include <trisect/brep/io/detail/mesh_builder.h>
 #include <trisect/brep/io/detail/number_text.h>
+#include <trisect/brep/io/detail/quick_items.h>
+#include <trisect/brep/io/detail/quick_loop.h>
+#include <trisect/brep/io/detail/quick_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 
 #include <algorithm>
@@ -31,13 +34,15 @@ public:
     explicit OffReader(const Source& source)
         : source_(source),
           text_(source, TextRules{.hash_comments = true, .continuation = false}),
+          quick_(source),
           mesh_(source, 0) {}
 
     PolygonMesh read() {
         header();
         counts();
-        for (std::uint64_t i = 0; i < vertices_; ++i) vertex(i);
-        for (std::uint64_t i = 0; i < faces_; ++i) face(i);
+        for (std::uint64_t i = quick_vertices(0); i < vertices_; i = quick_vertices(i + 1))
+            vertex(i);
+        for (std::uint64_t i = quick_faces(0); i < faces_; i = quick_faces(i + 1)) face(i);
         if (text_.seek_word()) {
             const std::string_view extra = text_.word();
             source_.fail(extra.data(), shown_word(extra) + " after the last of the " +
@@ -99,6 +104,35 @@ private:
         }
     }
 
+    /// Lines of three numbers, from vertex i on; the number of the first vertex on another line.
+    std::uint64_t quick_vertices(std::uint64_t i) {
+        if (i != 0 && extra_ != 0) return i;
+        const char* line = text_.after_line();
+        Point3d p;
+        for (; i < vertices_ && line < quick_.end(); ++i, line = quick_.here()) {
+            quick_.begin(line);
+            if (!quick_.number(p[0]) || !quick_.number(p[1]) || !quick_.number(p[2]) ||
+                !quick_.line_end())
+                break;
+            mesh_.add_point(p, line);
+            ++quick_items;
+        }
+        text_.resume_at(line);
+        return i;
+    }
+
+    /// Lines of nothing but a count and its indices, from face i on.
+    std::uint64_t quick_faces(std::uint64_t i) {
+        const char* line = text_.after_line();
+        for (; i < faces_ && line < quick_.end(); ++i, line = quick_.here()) {
+            quick_.begin(line);
+            if (!quick_loop(quick_, mesh_)) break;
+            ++quick_items;
+        }
+        text_.resume_at(line);
+        return i;
+    }
+
     void item(const char* what, std::uint64_t i, std::uint64_t n) {
         if (text_.seek_word()) return;
         source_.fail(text_.here(), "the file ends before " + std::string(what) + " " +
@@ -136,6 +170,7 @@ private:
 
     const Source& source_;
     TextCursor text_;
+    QuickText quick_;
     MeshBuilder mesh_;
     std::uint64_t vertices_ = 0;
     std::uint64_t faces_ = 0;

@@ -19,21 +19,51 @@
 #include <trisect/brep/io/detail/formats.h>
 #include <trisect/brep/io/detail/mesh_builder.h>
 #include <trisect/brep/io/detail/ply_header.h>
+#include <trisect/brep/io/detail/quick_items.h>
+#include <trisect/brep/io/detail/quick_loop.h>
+#include <trisect/brep/io/detail/quick_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/io/detail/trailing.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace trisect::detail {
 namespace {
+
+/// What a property means for the mesh.
+enum class Role : std::uint8_t { X = 0, Y = 1, Z = 2, Indices, Other };
 
 /// Values written as words; an entry is a line.
 class TextValues {
 public:
     TextValues(const Source& source, const char* body)
-        : source_(source), text_(source, TextRules{}, body) {}
+        : source_(source), text_(source, TextRules{}, body), quick_(source) {}
+
+    /// Adds plain entries from number i on and returns the number of the first other one.
+    std::uint64_t quick_entries(const PlyElement& element, const std::vector<Role>& roles,
+                                std::uint64_t i, MeshBuilder& mesh) {
+        const bool faces = roles.size() == 1 && roles[0] == Role::Indices;
+        const bool vertices = element.name == "vertex" &&
+                              std::none_of(element.properties.begin(), element.properties.end(),
+                                           [](const PlyProperty& p) { return p.is_list; });
+        if (!faces && !vertices) return i;
+        const char* line = text_.after_line();
+        for (; i < element.count && line < quick_.end(); ++i, line = quick_.here()) {
+            quick_.begin(line);
+            if (faces ? !quick_loop(quick_, mesh) : !quick_vertex(roles, line, mesh)) break;
+            ++quick_items;
+        }
+        text_.resume_at(line);
+        return i;
+    }
 
     static std::uint64_t least_size(PlyType) noexcept { return 2; }  // a digit and a separator
     [[nodiscard]] const char* here() const noexcept { return text_.here(); }
@@ -53,8 +83,20 @@ public:
     }
 
 private:
+    bool quick_vertex(const std::vector<Role>& roles, const char* line, MeshBuilder& mesh) {
+        std::array<double, 4> values;  // x, y, z and what is ignored
+        for (const Role role : roles) {
+            const std::size_t place = std::min<std::size_t>(static_cast<std::size_t>(role), 3);
+            if (!quick_.number(values[place])) return false;
+        }
+        if (!quick_.line_end()) return false;
+        mesh.add_point({values[0], values[1], values[2]}, line);
+        return true;
+    }
+
     const Source& source_;
     TextCursor text_;
+    QuickText quick_;
 };
 
 /// Values as bytes.
@@ -63,6 +105,10 @@ class ByteValues {
 public:
     ByteValues(const Source& source, const char* body) : source_(source), here_(body) {}
 
+    static std::uint64_t quick_entries(const PlyElement&, const std::vector<Role>&, std::uint64_t i,
+                                       MeshBuilder&) noexcept {
+        return i;
+    }
     static std::uint64_t least_size(PlyType type) noexcept { return size_of(type); }
     [[nodiscard]] const char* here() const noexcept { return here_; }
     [[nodiscard]] const char* last() const noexcept { return last_; }
@@ -143,9 +189,6 @@ private:
     const char* last_ = nullptr;
 };
 
-/// What a property means for the mesh.
-enum class Role : std::uint8_t { X = 0, Y = 1, Z = 2, Indices, Other };
-
 Role role_of(const PlyElement& element, const PlyProperty& p) {
     if (element.name == "vertex") {
         if (p.name == "x") return Role::X;
@@ -198,7 +241,10 @@ private:
     void element(const PlyElement& element, const std::vector<Role>& roles) {
         if (element.properties.empty()) return;  // its entries take no room
         check_count(element);
-        for (std::uint64_t i = 0; i < element.count; ++i) entry(element, roles);
+        const auto quick = [&](std::uint64_t i) {
+            return values_.quick_entries(element, roles, i, mesh_);
+        };
+        for (std::uint64_t i = quick(0); i < element.count; i = quick(i + 1)) entry(element, roles);
     }
 
     /// Refuses a count that the rest of the file cannot hold, and makes room for a possible one.
@@ -266,19 +312,157 @@ std::vector<std::vector<Role>> checked_roles(const Source& source, const PlyHead
     return roles;
 }
 
+/// What nearly all binary files hold: vertices of scalars, x, y, z of one type among them, then
+/// faces of nothing but a list of indices with a byte for the count.
+struct CommonLayout {
+    PlyType coordinate{};
+    std::array<std::size_t, 3> offset{};
+    std::size_t stride = 0;
+    std::size_t vertices = 0;
+    std::size_t faces = 0;
+};
+
+std::optional<CommonLayout> common_layout(const PlyHeader& header,
+                                          const std::vector<std::vector<Role>>& roles) {
+    if (header.elements.size() != 2) return std::nullopt;
+    const PlyElement& vertex = header.elements[0];
+    const PlyElement& face = header.elements[1];
+    if (vertex.name != "vertex" || face.name != "face") return std::nullopt;
+    CommonLayout out;
+    bool known = false;
+    for (std::size_t k = 0; k < vertex.properties.size(); ++k) {
+        const PlyProperty& p = vertex.properties[k];
+        if (p.is_list) return std::nullopt;
+        if (roles[0][k] < Role::Indices) {
+            if (is_integer(p.type) || (known && p.type != out.coordinate)) return std::nullopt;
+            known = true;
+            out.coordinate = p.type;
+            out.offset[static_cast<std::size_t>(roles[0][k])] = out.stride;
+        }
+        out.stride += size_of(p.type);
+    }
+    if (face.properties.size() != 1 || roles[1][0] != Role::Indices) return std::nullopt;
+    const PlyProperty& list = face.properties[0];
+    const bool four_bytes = list.type == PlyType::Int32 || list.type == PlyType::UInt32;
+    if (list.count_type != PlyType::UInt8 || !four_bytes) return std::nullopt;
+    if (vertex.count > 0x7FFF'FFFFU || face.count > 0x4000'0000U) return std::nullopt;
+    out.vertices = static_cast<std::size_t>(vertex.count);
+    out.faces = static_cast<std::size_t>(face.count);
+    return out;
+}
+
+/// Reads the common layout where nothing is wrong and all limits are far; gives up otherwise, and
+/// BodyReader says what it is.
+template <bool Big>
+class QuickBody {
+public:
+    QuickBody(const Source& source, const CommonLayout& layout, const char* body)
+        : source_(source), layout_(layout), here_(body) {}
+
+    std::optional<PolygonMesh> read() {
+        const ReadLimits& limits = source_.limits();
+        if (layout_.vertices > limits.vertices || layout_.faces > limits.faces) return std::nullopt;
+        if (limits.loop_corners < 255 || layout_.stride == 0) return std::nullopt;
+        if (layout_.vertices > left() / layout_.stride) return std::nullopt;
+        const bool finite = layout_.coordinate == PlyType::Float64 ? points<double, std::uint64_t>()
+                                                                   : points<float, std::uint32_t>();
+        if (!finite || layout_.faces > left() / 13 || !faces()) return std::nullopt;
+        refuse_trailing_bytes(source_, here_, "the last entry");
+        quick_items += layout_.vertices + layout_.faces;
+        return std::move(mesh_);
+    }
+
+private:
+    [[nodiscard]] std::size_t left() const {
+        return static_cast<std::size_t>(source_.end() - here_);
+    }
+
+    template <class Real, class Bits>
+    bool points() {
+        constexpr Bits infinity = std::bit_cast<Bits>(std::numeric_limits<Real>::infinity());
+        Bits largest = 0;
+        mesh_.points.resize(layout_.vertices);
+        for (Point3d& p : mesh_.points) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto bits = load<Bits, Big>(here_ + layout_.offset[k]);
+                largest = std::max(largest, static_cast<Bits>(bits << 1));
+                p[k] = static_cast<double>(std::bit_cast<Real>(bits));
+            }
+            here_ += layout_.stride;
+        }
+        return largest < static_cast<Bits>(infinity << 1);
+    }
+
+    bool faces() {
+        mesh_.face_begin.resize(layout_.faces + 1);
+        mesh_.corners.resize(3 * layout_.faces);
+        std::uint32_t largest = 0;
+        const std::size_t done = triangles(largest);
+        mesh_.corners.resize(3 * done);
+        if (!polygons(done + 1, largest)) return false;
+        return largest < mesh_.points.size() || mesh_.corners.empty();
+    }
+
+    /// The leading triangles, which mostly are all there is.
+    std::size_t triangles(std::uint32_t& largest) {
+        std::uint32_t* corner = mesh_.corners.data();
+        for (std::size_t f = 0; f < layout_.faces; ++f, here_ += 13) {
+            if (left() < 13 || *here_ != 3) return f;
+            for (std::size_t i = 0; i < 3; ++i, ++corner) {
+                *corner = load<std::uint32_t, Big>(here_ + 1 + 4 * i);
+                largest = std::max(largest, *corner);
+            }
+            mesh_.face_begin[f + 1] = static_cast<std::uint32_t>(3 * (f + 1));
+        }
+        return layout_.faces;
+    }
+
+    bool polygons(std::size_t first, std::uint32_t& largest) {
+        for (std::size_t f = first; f <= layout_.faces; ++f) {
+            if (left() == 0) return false;
+            const auto n = load<std::uint8_t, Big>(here_);
+            if (n < 3 || left() < 1 + 4 * std::size_t{n}) return false;
+            ++here_;
+            for (std::size_t i = 0; i < n; ++i, here_ += 4) {
+                const auto index = load<std::uint32_t, Big>(here_);
+                largest = std::max(largest, index);
+                mesh_.corners.push_back(index);
+            }
+            if (mesh_.corners.size() > 0xFFFF'FFFFU) return false;
+            mesh_.face_begin[f] = static_cast<std::uint32_t>(mesh_.corners.size());
+        }
+        return true;
+    }
+
+    const Source& source_;
+    const CommonLayout& layout_;
+    const char* here_;
+    PolygonMesh mesh_;
+};
+
+template <bool Big>
+PolygonMesh read_bytes(const Source& source, const PlyHeader& header,
+                       const std::vector<std::vector<Role>>& roles) {
+    if (const auto layout = common_layout(header, roles); layout && source.allows_quick())
+        if (auto mesh = QuickBody<Big>(source, *layout, header.body).read())
+            return *std::move(mesh);
+    return BodyReader<ByteValues<Big>>(source, header).read(roles);
+}
+
 }  // namespace
 
 PolygonMesh read_ply(const Source& source) {
     const PlyHeader header = read_ply_header(source);
     const auto roles = checked_roles(source, header);
-    if (header.encoding == PlyEncoding::Ascii) {
-        return BodyReader<TextValues>(source, header).read(roles);
+    switch (header.encoding) {
+        case PlyEncoding::Ascii:
+            return BodyReader<TextValues>(source, header).read(roles);
+        case PlyEncoding::BinaryLittleEndian:
+            return read_bytes<false>(source.as_binary(), header, roles);
+        case PlyEncoding::BinaryBigEndian:
+            break;
     }
-    const Source bytes = source.as_binary();
-    if (header.encoding == PlyEncoding::BinaryLittleEndian) {
-        return BodyReader<ByteValues<false>>(bytes, header).read(roles);
-    }
-    return BodyReader<ByteValues<true>>(bytes, header).read(roles);
+    return read_bytes<true>(source.as_binary(), header, roles);
 }
 
 }  // namespace trisect::detail

@@ -14,13 +14,18 @@
 #include <trisect/brep/io/detail/binary.h>
 #include <trisect/brep/io/detail/formats.h>
 #include <trisect/brep/io/detail/mesh_builder.h>
+#include <trisect/brep/io/detail/quick_items.h>
+#include <trisect/brep/io/detail/quick_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/io/detail/trailing.h>
 #include <trisect/brep/io/detail/vertex_welder.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace trisect::detail {
 namespace {
@@ -54,6 +59,7 @@ public:
     explicit AsciiReader(const Source& source)
         : source_(source),
           text_(source, TextRules{}),
+          quick_(source),
           // A facet takes about 200 bytes; a terse one a third of it.
           soup_(source, source.bytes().size() / 200) {}
 
@@ -68,6 +74,7 @@ private:
         expect("solid");
         (void)text_.next_line();  // the rest of the line is the name
         for (;;) {
+            if (text_.at_line_end()) quick_facets();
             const std::string_view keyword = next("'facet' or 'endsolid'");
             if (is(keyword, "endsolid")) break;
             if (!is(keyword, "facet")) {
@@ -77,6 +84,46 @@ private:
             facet(keyword.data());
         }
         (void)text_.next_line();
+    }
+
+    /// Facets of seven lines, each with its words in lower case and nothing else.
+    void quick_facets() {
+        const char* line = text_.after_line();
+        for (; line < quick_.end() && quick_facet(line); ++quick_items) line = quick_.here();
+        text_.resume_at(line);
+    }
+
+    bool quick_facet(const char* line) {
+        std::array<Point3d, 3> p;
+        std::array<const char*, 3> at{};
+        quick_.begin(line);
+        (void)quick_.blanks();
+        const char* const facet = quick_.here();
+        if (!quick_.keyword("facet") || !quick_.keyword("normal")) return false;
+        for (int i = 0; i < 3; ++i)
+            if (!quick_.word()) return false;
+        if (!next_quick_line() || !quick_.keyword("outer") || !quick_.last_word("loop"))
+            return false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!next_quick_line()) return false;
+            at[i] = quick_.here() + std::string_view("vertex").size();
+            if (!quick_.keyword("vertex")) return false;
+            for (double& c : p[i])
+                if (!quick_.number(c)) return false;
+        }
+        if (!next_quick_line() || !quick_.last_word("endloop")) return false;
+        if (!next_quick_line() || !quick_.last_word("endfacet")) return false;
+        if (!quick_.line_end()) return false;
+        for (std::size_t i = 0; i < 3; ++i) soup_.add_corner(p[i], at[i]);
+        soup_.end_face(facet);
+        return true;
+    }
+
+    /// Goes on to the first word of the next line; no scan may leave the text.
+    bool next_quick_line() {
+        if (!quick_.line_end() || quick_.here() >= quick_.end()) return false;
+        (void)quick_.blanks();
+        return true;
     }
 
     void facet(const char* at) {
@@ -130,6 +177,7 @@ private:
 
     const Source& source_;
     TextCursor text_;
+    QuickText quick_;
     SoupBuilder soup_;
 };
 
@@ -169,12 +217,8 @@ Point3d load_corner(const Source& source, const char* at) {
     return p;
 }
 
-}  // namespace
-
-PolygonMesh read_stl_ascii(const Source& source) { return AsciiReader(source).read(); }
-
-PolygonMesh read_stl_binary(const Source& source) {
-    const std::uint64_t count = checked_count(source);
+/// Any file: every corner is checked for every error and limit.
+PolygonMesh read_records(const Source& source, std::uint64_t count) {
     SoupBuilder soup(source, count);
     const char* record = source.begin() + stl_header_size;
     for (std::uint64_t i = 0; i < count; ++i, record += stl_record_size) {
@@ -184,8 +228,57 @@ PolygonMesh read_stl_binary(const Source& source) {
         }
         soup.end_face(record);
     }
-    refuse_trailing_bytes(source, record, "the last triangle");
     return soup.finish();
+}
+
+/// Loads the corners of some records; false when a coordinate is not finite.
+bool load_corners(const char* record, std::size_t count, Point3d* out) {
+    std::uint32_t largest = 0;
+    for (std::size_t i = 0; i < count; ++i, record += stl_record_size)
+        for (std::size_t corner = 0; corner < 3; ++corner, ++out)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const char* at = record + 12 * (corner + 1) + 4 * k;
+                largest = std::max(largest, load<std::uint32_t, false>(at) & 0x7FFF'FFFFU);
+                (*out)[k] = static_cast<double>(load<float, false>(at));
+            }
+    return largest < 0x7F80'0000U;
+}
+
+/// Files without errors that are far from all limits, in blocks; nothing for others.
+std::optional<PolygonMesh> read_records_quickly(const Source& source, std::uint64_t count) {
+    constexpr std::size_t block = VertexWelder::block / 3;
+    if (!source.allows_quick() || count > 0x4000'0000U) return std::nullopt;
+    if (source.limits().loop_corners < 3) return std::nullopt;
+    PolygonMesh mesh;
+    VertexWelder welder(mesh.points, count / 2);
+    mesh.points.reserve(count / 2 + 2);
+    mesh.corners.resize(3 * count);
+    std::array<Point3d, VertexWelder::block> points;
+    const char* record = source.begin() + stl_header_size;
+    for (std::size_t i = 0; i < count; i += block) {
+        const std::size_t n = std::min(block, static_cast<std::size_t>(count) - i);
+        if (!load_corners(record, n, points.data())) return std::nullopt;
+        welder.vertices({points.data(), 3 * n}, &mesh.corners[3 * i]);
+        record += n * stl_record_size;
+    }
+    if (mesh.points.size() > source.limits().vertices) return std::nullopt;
+    quick_items += count;
+    mesh.face_begin.resize(count + 1);
+    for (std::size_t i = 0; i <= count; ++i) mesh.face_begin[i] = static_cast<std::uint32_t>(3 * i);
+    return mesh;
+}
+
+}  // namespace
+
+PolygonMesh read_stl_ascii(const Source& source) { return AsciiReader(source).read(); }
+
+PolygonMesh read_stl_binary(const Source& source) {
+    const std::uint64_t count = checked_count(source);
+    auto quick = read_records_quickly(source, count);
+    PolygonMesh mesh = quick ? *std::move(quick) : read_records(source, count);
+    refuse_trailing_bytes(source, source.begin() + stl_header_size + count * stl_record_size,
+                          "the last triangle");
+    return mesh;
 }
 
 }  // namespace trisect::detail

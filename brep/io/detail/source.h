@@ -32,6 +32,13 @@ public:
     [[nodiscard]] std::string_view bytes() const noexcept { return bytes_; }
     [[nodiscard]] const ReadLimits& limits() const noexcept { return limits_; }
     [[nodiscard]] char line_end() const noexcept { return line_end_; }
+    /// Whether readers may take their quick ways. The result is the same; tests compare.
+    [[nodiscard]] bool allows_quick() const noexcept { return quick_; }
+    [[nodiscard]] Source carefully() const {
+        Source copy = *this;
+        copy.quick_ = false;
+        return copy;
+    }
     /// The same bytes with places given as byte offsets: the body of a binary PLY.
     [[nodiscard]] Source as_binary() const {
         Source copy = *this;
@@ -62,6 +69,7 @@ private:
     std::string name_;
     ReadLimits limits_;
     bool binary_;
+    bool quick_ = true;
     char line_end_ = '\n';
 };
 

@@ -142,6 +142,12 @@ public:
         return value;
     }
 
+    /// Goes on at the start of a line, which the next call of next_line() takes.
+    void resume_at(const char* line) noexcept {
+        here_ = line_end_ = next_line_ = line;
+        continues_ = false;
+    }
+
     /// Goes back to a place in the current line.
     void go_back_to(const char* place) noexcept { here_ = place; }
 
