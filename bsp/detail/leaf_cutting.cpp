@@ -39,7 +39,6 @@ LeafCutting::Part& LeafCutting::add_part() {
     if (count_ == parts_.size()) parts_.emplace_back();
     Part& p = parts_[count_++];
     p.state = Part::State::Open;
-    p.unspoken = false;
     return p;
 }
 
@@ -68,6 +67,41 @@ void LeafCutting::set_start(const WorkPolygon& part) {
     // In the plane of another facet it is not clear whether the point lies on that.
     for (const LeafContact& c : work_->contacts(item_))
         if (c.covers) start_.windings[u(work_->item(c.other).operand)] = unknown_winding;
+}
+
+bool LeafCutting::may_bound(const Part& part) {
+    const int above = formula_->bound_at(part.sides.above);
+    return above < 0 || above != formula_->bound_at(part.sides.below);
+}
+
+// Drops what lies in a coincident facet that speaks for both. That comes first: a part may be known
+// to bound the result long before all is known about the operand of that facet.
+void LeafCutting::leave_to_speakers() {
+    const LeafItem& item = work_->item(item_);
+    if (!item.covered) return;
+    for (const LeafContact& c : work_->contacts(item_)) {
+        if (!c.covers || !speaks_before(*work_, c.other, item_)) continue;
+        const WorkPolygon& cover = work_->with_edges(c.other);
+        const std::size_t before = count_;
+        for (std::size_t k = 0; k < before; ++k) {
+            if (parts_[k].state != Part::State::Open) continue;
+            // Moved to the end and split there; its place is taken by the first of the new parts.
+            const std::size_t first = count_;
+            (void)add_part();
+            parts_[first].shape = parts_[k].shape;
+            parts_[first].sides = parts_[k].sides;
+            split_along_edges(first, cover);
+            for (std::size_t j = first; j < count_; ++j) {
+                if (!covered_by(work_->bench, parts_[j].shape, cover)) continue;
+                parts_[j].state = Part::State::Dropped;
+                if (!item.contained)
+                    work_->incomplete.push_back({item.ref.source->serial(), item.ref.facet});
+            }
+            std::swap(parts_[k], parts_[first]);
+            --count_;
+            if (first != count_) std::swap(parts_[first], parts_[count_]);
+        }
+    }
 }
 
 void LeafCutting::settle(Part& part) {
@@ -133,8 +167,11 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
                 part.sides.above[u(work_->item(c.other).operand)] = unknown_winding;
         part.sides.below = part.sides.above;
         set_own_sides(part.sides);
-        settle(part);
+        if (!may_bound(part)) return {};
     }
+    leave_to_speakers();
+    for (std::size_t k = 0; k < count_; ++k)
+        if (parts_[k].state == Part::State::Open) settle(parts_[k]);
     const std::span<const LeafContact> contacts = work_->contacts(i);
     const auto operand_at = [&](std::size_t k) { return work_->item(contacts[k].other).operand; };
     for (std::size_t begin = 0; begin < contacts.size();) {
@@ -181,34 +218,18 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
         parts_[first].shape = parts_[k].shape;
         parts_[first].sides = parts_[k].sides;
         split(first, contacts);
-        bool unspoken = false;
-        for (std::size_t j = first; j < count_; ++j) {
-            find_sides(parts_[j], operand, contacts);
-            unspoken = unspoken || parts_[j].unspoken;
-        }
-        if (count_ == first + 1 ||
-            (!unspoken && same_sides(first, operand, above_matters, below_matters))) {
+        for (std::size_t j = first; j < count_; ++j) find_sides(parts_[j], operand, contacts);
+        if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
             // Undone, if anything was cut.
             Part& part = parts_[k];
-            part.unspoken = parts_[first].unspoken;
             if (above_matters) part.sides.above[u(operand)] = parts_[first].sides.above[u(operand)];
             if (below_matters) part.sides.below[u(operand)] = parts_[first].sides.below[u(operand)];
             if (count_ > first + 1) ++work_->stats->cuts_undone;
             count_ = first;
-            if (part.unspoken) {
-                part.state = Part::State::Dropped;
-            } else {
-                settle(part);
-            }
+            settle(part);
             continue;
         }
-        for (std::size_t j = first; j < count_; ++j) {
-            if (parts_[j].unspoken) {
-                parts_[j].state = Part::State::Dropped;
-            } else {
-                settle(parts_[j]);
-            }
-        }
+        for (std::size_t j = first; j < count_; ++j) settle(parts_[j]);
         // The first of the new parts takes the place of the old one, the last one its place.
         std::swap(parts_[k], parts_[first]);
         --count_;
@@ -227,44 +248,40 @@ bool LeafCutting::same_sides(std::size_t first, LeafIndex operand, bool above_ma
     return true;
 }
 
-void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
-    const auto along = [&](PlaneId line, const WorkPolygon& cutter, bool sure) {
-        const std::size_t end = count_;
-        for (std::size_t j = first; j < end; ++j) {
-            WorkPolygon above;
-            if (!split_along(work_->bench, parts_[j].shape, line, cutter, sure, above)) continue;
-            Part& other = add_part();
-            other.shape = std::move(above);
-            other.sides = parts_[j].sides;
-        }
-    };
-    // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
-    bool sure = count_ == 2 && work_->item(item_).contained;
-    for (const LeafContact& c : contacts) {
-        if (!c.cuts) continue;
-        const WorkPolygon& cutter = work_->with_edges(c.other);
-        along(cutter.support, cutter, sure);
-        sure = false;
-    }
-    for (const LeafContact& c : contacts) {
-        if (!c.covers) continue;
-        // The edges of the covering facet are lines in the plane of the item.
-        const WorkPolygon& cover = work_->with_edges(c.other);
-        for (const WorkEdge& e : cover.edges) along(e.plane, cover, false);
+void LeafCutting::split_along_line(std::size_t first, PlaneId line, const WorkPolygon& cutter,
+                                   bool sure) {
+    const std::size_t end = count_;
+    for (std::size_t j = first; j < end; ++j) {
+        WorkPolygon above;
+        if (!split_along(work_->bench, parts_[j].shape, line, cutter, sure, above)) continue;
+        Part& other = add_part();
+        other.shape = std::move(above);
+        other.sides = parts_[j].sides;
     }
 }
 
+// The edges of a covering facet are lines in the plane of the item.
+void LeafCutting::split_along_edges(std::size_t first, const WorkPolygon& cover) {
+    for (const WorkEdge& e : cover.edges) split_along_line(first, e.plane, cover, false);
+}
+
+void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
+    // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+    bool sure = first == 1 && !work_->item(item_).covered && work_->item(item_).contained;
+    for (const LeafContact& c : contacts) {
+        if (!c.cuts) continue;
+        const WorkPolygon& cutter = work_->with_edges(c.other);
+        split_along_line(first, cutter.support, cutter, sure);
+        sure = false;
+    }
+    for (const LeafContact& c : contacts)
+        if (c.covers) split_along_edges(first, work_->with_edges(c.other));
+}
+
 void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts) {
-    const LeafItem& item = work_->item(item_);
     for (const LeafContact& c : contacts) {
         if (!c.covers || !covered_by(work_->bench, part.shape, work_->with_edges(c.other)))
             continue;
-        if (speaks_before(*work_, c.other, item_)) {
-            part.unspoken = true;
-            if (!item.contained)
-                work_->incomplete.push_back({item.ref.source->serial(), item.ref.facet});
-            return;
-        }
         const LeafItem& other = work_->item(c.other);
         const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
                                            work_->bench.plane_at(other.shape.support));

@@ -58,7 +58,6 @@ private:
         Sides sides;
         enum class State : std::uint8_t { Open, Kept, Dropped } state = State::Open;
         bool inside_above = false;
-        bool unspoken = false;  // dropped because a coincident facet speaks for it
     };
     // Where an item's windings are known.
     struct Start {
@@ -69,9 +68,13 @@ private:
 
     void set_start(const WorkPolygon& part);
     void set_own_sides(Sides& sides) const;
+    [[nodiscard]] bool may_bound(const Part& part);
     void settle(Part& part);
+    void leave_to_speakers();
     void cut_by(LeafIndex operand, std::span<const LeafContact> contacts);
     void split(std::size_t first, std::span<const LeafContact> contacts);
+    void split_along_edges(std::size_t first, const WorkPolygon& cover);
+    void split_along_line(std::size_t first, PlaneId line, const WorkPolygon& cutter, bool sure);
     void find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts);
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;

@@ -108,15 +108,32 @@ TEST(EngineAgreement, RandomFormulas) {
     }
 }
 
+// Several solids, some of them copies of each other: facets coincide, and a facet may bound the
+// result whatever the operand of its copy does.
+TEST(EngineAgreement, EmbeddedFormulasOverCopies) {
+    for (std::uint64_t seed = 1; seed <= 160; ++seed) {
+        reference::Random random(seed + 88000);
+        const auto operands = reference::random_family(random, 3 + seed % 3, true);
+        const auto expression = reference::random_expression(random, operands.size(),
+                                                             operands.size() + seed % 5, false);
+        trisect::EvaluateOptions options;
+        if (seed % 2 == 0) options.leaf_polygons = 6;
+        EXPECT_EQ(disagreement(operands, expression, options, trisect::Embedding::Assume), "")
+            << "seed " << seed << " " << reference::to_string(expression);
+    }
+}
+
 // A chain evaluates every step on the tree of the step before.
 TEST(EngineAgreement, ChainsStepByStep) {
-    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         reference::Random random(seed + 99000);
-        const auto operands = reference::random_family(random, 4);
+        const auto operands = reference::random_family(random, 5, seed % 2 == 0);
         std::vector<trisect::Solid> solids;
-        for (const auto& o : operands) solids.push_back(engines::solid(o));
+        const auto embedding =
+            seed % 2 == 0 ? trisect::Embedding::Assume : trisect::Embedding::Resolve;
+        for (const auto& o : operands) solids.push_back(engines::solid(o, embedding));
         trisect::EvaluateOptions options;
-        options.leaf_polygons = 6;
+        options.leaf_polygons = seed % 3 == 0 ? 3 : 6;
         trisect::Solid chain = solids[0];
         auto expression = reference::Expression::leaf(0);
         for (std::size_t i = 1; i < operands.size(); ++i) {
