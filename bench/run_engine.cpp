@@ -5,7 +5,7 @@
 // of the result, and what the engine counted.
 //
 //     bench_ENGINE --scene b:82k --op union [--runs 5] [--threads 1] [--limit SECONDS] [--profile]
-//                  [--clock wall|processor] [--serve] [--write FILE]
+//                  [--clock wall|processor] [--serve] [--write FILE] [--dump FILE]
 //
 // Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
 // the tools' import is import, and all steps together are the evaluation. --limit ends a chain
@@ -27,6 +27,8 @@
 #include <fstream>
 #include <iostream>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +60,7 @@ struct Options {
     bool serve = false;
     clockid_t clock = CLOCK_MONOTONIC;
     std::string write;
+    std::string dump;
 };
 
 /// Milliseconds of wall time or of the processor, all threads together.
@@ -105,12 +108,14 @@ struct Times {
     double import = 0;
     double evaluate = 0;
     double to_mesh = 0;
+    std::size_t steps = 1;  ///< that were timed
     [[nodiscard]] double total() const { return import + evaluate + to_mesh; }
     [[nodiscard]] json to_json() const {
         return {{"import_ms", import},
                 {"evaluate_ms", evaluate},
                 {"export_ms", to_mesh},
-                {"total_ms", total()}};
+                {"total_ms", total()},
+                {"steps", steps}};
     }
 };
 
@@ -184,6 +189,7 @@ void Job::run_expression(Times& t) {
 
 void Job::run_chain(Times& t) {
     const Stopwatch whole(CLOCK_MONOTONIC);
+    t.steps = 0;
     chain_ = {};
     chain_.window = std::clamp<std::size_t>(scene_.steps / 10, 1, 1000);
     const Stopwatch import(options_.clock);
@@ -195,6 +201,7 @@ void Job::run_chain(Times& t) {
         const Times step = run_step(i);
         ++chain_.steps;
         if (i < scene_.untimed) continue;
+        ++t.steps;
         t.import += step.import;
         t.evaluate += step.evaluate;
         window_ms += step.total();
@@ -296,12 +303,46 @@ std::optional<Options> parse(int argc, char** argv) {
             out.clock = value == "wall" ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID;
         } else if (word == "--write") {
             out.write = value;
+        } else if (word == "--dump") {
+            out.dump = value;
         } else {
             return std::nullopt;
         }
     }
     if (out.scene.empty() || out.runs <= 0 || out.threads <= 0) return std::nullopt;
     return out;
+}
+
+/// For engines in other languages: a line of JSON, then the points (doubles) and corners (32 bits)
+/// of every operand and of every tool.
+void dump(const Scene& scene, Operation operation, const std::string& file) {
+    std::vector<PolygonMesh> meshes = scene.operands;
+    json steps = json::array();
+    for (std::size_t i = 0; i < scene.steps; ++i) {
+        bench::Step step = scene.step(i);
+        steps.push_back(bench::name_of(step.operation));
+        meshes.push_back(std::move(step.tool));
+    }
+    json sizes = json::array();
+    for (const PolygonMesh& m : meshes) sizes.push_back({m.points.size(), m.face_count()});
+    std::ofstream out(file, std::ios::binary);
+    out << json{{"scene", scene.name},
+                {"operation", bench::name_of(operation)},
+                {"first_group", scene.first_group},
+                {"steps", steps},
+                {"untimed", scene.untimed},
+                {"sizes", sizes}}
+        << "\n";
+    const auto put = [&](const auto& values) {
+        const auto bytes = std::as_bytes(std::span(values));
+        out.write(reinterpret_cast<const char*>(bytes.data()),
+                  static_cast<std::streamsize>(bytes.size()));
+    };
+    for (const PolygonMesh& m : meshes) {
+        put(m.points);
+        put(m.corners);
+    }
+    if (!out.flush()) throw std::runtime_error("cannot write " + file);
 }
 
 void serve(Job& job) {
@@ -318,6 +359,10 @@ int run(Options options) {
         std::cerr << options.scene << " has no " << bench::name_of(options.operation) << "\n";
         return 2;
     }
+    if (!options.dump.empty()) {
+        dump(scene, options.operation, options.dump);
+        return 0;
+    }
     const auto engine = bench::make_engine(options.threads);
     Job job(options, *engine, std::move(scene));
     if (options.serve)
@@ -333,10 +378,10 @@ int run(Options options) {
 int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
-        std::cerr
-            << "usage: " << argv[0]
-            << " --scene NAME [--op union|intersection|difference] [--runs 5] [--threads 1] "
-               "[--limit SECONDS] [--profile] [--clock wall|processor] [--serve] [--write FILE]\n";
+        std::cerr << "usage: " << argv[0]
+                  << " --scene NAME [--op union|intersection|difference] [--runs 5] [--threads 1] "
+                     "[--limit SECONDS] [--profile] [--clock wall|processor] [--serve] [--write "
+                     "FILE] [--dump FILE]\n";
         return 2;
     }
     try {
