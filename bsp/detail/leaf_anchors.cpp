@@ -184,15 +184,15 @@ bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
     return windings_->at_point(target, item.operand, w);
 }
 
-// One trace, to another vertex or from another reference when the first is degenerate.
+// One trace, to another vertex when the first is degenerate. On a grid where vertices lie on other
+// surfaces all the time, more attempts cost more than the traces that they might spare.
 void LeafAnchors::find_windings(LeafIndex r) {
     vertices_[LeafWork::u(r)].state = State::Useless;
     if (known_count_ == known_.size()) known_.emplace_back();
     if (vertices_[LeafWork::u(r)].corner < 0) return;  // edges only: see remember()
-    for (int attempt = 0; attempt < 4; ++attempt) {
-        if (attempt == 2) windings_->next_reference();
+    for (int attempt = 0; attempt < 2; ++attempt) {
         const LeafIndex example = vertices_[LeafWork::u(r)].example;
-        const LeafIndex at = attempt % 2 == 0 ? r : example;
+        const LeafIndex at = attempt == 0 ? r : example;
         if (at < 0 || vertices_[LeafWork::u(at)].corner < 0 ||
             !trace_to(vertices_[LeafWork::u(at)], known_[known_count_]))
             continue;
