@@ -2,7 +2,7 @@
 //
 // Trees may be deep, so they are walked with a stack of our own. The path from the root decides
 // what a leaf means: every complemented reference on it turns inside and outside around.
-#include "cell_tree_view.h"
+#include <trisect/bsp/cell_tree_view.h>
 
 #include <algorithm>
 #include <cmath>
