@@ -43,7 +43,12 @@ public:
     [[nodiscard]] virtual nlohmann::json counters() const { return nlohmann::json::object(); }
 };
 
-/// With the number of threads that it may use.
-[[nodiscard]] std::unique_ptr<Engine> make_engine(int threads);
+struct EngineOptions {
+    int threads = 1;        ///< that it may use
+    int leaf_polygons = 0;  ///< Trisect's EvaluateOptions::leaf_polygons, 0 for the default
+};
+
+/// \throw std::exception when the engine cannot do that.
+[[nodiscard]] std::unique_ptr<Engine> make_engine(const EngineOptions& options);
 
 }  // namespace bench

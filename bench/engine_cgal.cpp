@@ -52,8 +52,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine(int threads) {
-    if (threads != 1) throw std::runtime_error("corefinement runs on one thread");
+std::unique_ptr<Engine> make_engine(const EngineOptions& options) {
+    if (options.threads != 1) throw std::runtime_error("corefinement runs on one thread");
     return std::make_unique<CgalEngine>();
 }
 

@@ -113,8 +113,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine(int threads) {
-    return std::make_unique<ManifoldEngine>(threads);
+std::unique_ptr<Engine> make_engine(const EngineOptions& options) {
+    return std::make_unique<ManifoldEngine>(options.threads);
 }
 
 }  // namespace bench

@@ -17,9 +17,12 @@ using trisect::Solid;
 
 class TrisectEngine final : public Engine {
 public:
-    explicit TrisectEngine(int threads)
+    explicit TrisectEngine(const EngineOptions& options)
         : threads_(oneapi::tbb::global_control::max_allowed_parallelism,
-                   static_cast<std::size_t>(threads)) {}
+                   static_cast<std::size_t>(options.threads)) {
+        if (options.leaf_polygons > 0)
+            options_.leaf_polygons = static_cast<std::uint32_t>(options.leaf_polygons);
+    }
 
     std::string name() const override { return "trisect"; }
     std::string version() const override { return TRISECT_BENCH_VERSION; }
@@ -29,7 +32,7 @@ public:
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
         stats_ = {};
-        return trisect::evaluate(expression(first, second, operation), {}, &stats_);
+        return trisect::evaluate(expression(first, second, operation), options_, &stats_);
     }
 
     trisect::PolygonMesh to_mesh(const Body& body) override { return solid(body).to_mesh(); }
@@ -75,13 +78,14 @@ private:
     }
 
     oneapi::tbb::global_control threads_;
+    trisect::EvaluateOptions options_;
     trisect::EvaluateStats stats_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine(int threads) {
-    return std::make_unique<TrisectEngine>(threads);
+std::unique_ptr<Engine> make_engine(const EngineOptions& options) {
+    return std::make_unique<TrisectEngine>(options);
 }
 
 }  // namespace bench

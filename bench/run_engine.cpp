@@ -6,6 +6,7 @@
 //
 //     bench_ENGINE --scene b:82k --op union [--runs 5] [--threads 1] [--limit SECONDS] [--profile]
 //                  [--clock wall|processor] [--serve] [--write FILE] [--dump FILE]
+//                  [--leaf-polygons N]
 //
 // Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
 // the tools' import is import, and all steps together are the evaluation. --limit ends a chain
@@ -54,7 +55,7 @@ struct Options {
     Operation operation = Operation::Union;
     bool operation_given = false;
     int runs = 5;
-    int threads = 1;
+    bench::EngineOptions engine;
     double limit = 0;
     bool profile = false;
     bool serve = false;
@@ -245,7 +246,7 @@ json Job::summary() {
              {"operation", bench::name_of(options_.operation)},
              {"engine", engine_.name()},
              {"version", engine_.version()},
-             {"threads", options_.threads},
+             {"threads", options_.engine.threads},
              {"clock", options_.clock == CLOCK_MONOTONIC ? "wall" : "processor"},
              {"runs", times_.size()},
              {"operands", scene_.operands.size()},
@@ -295,7 +296,9 @@ std::optional<Options> parse(int argc, char** argv) {
         } else if (word == "--runs") {
             out.runs = std::atoi(value.c_str());
         } else if (word == "--threads") {
-            out.threads = std::atoi(value.c_str());
+            out.engine.threads = std::atoi(value.c_str());
+        } else if (word == "--leaf-polygons") {
+            out.engine.leaf_polygons = std::atoi(value.c_str());
         } else if (word == "--limit") {
             out.limit = std::atof(value.c_str());
         } else if (word == "--clock") {
@@ -309,7 +312,7 @@ std::optional<Options> parse(int argc, char** argv) {
             return std::nullopt;
         }
     }
-    if (out.scene.empty() || out.runs <= 0 || out.threads <= 0) return std::nullopt;
+    if (out.scene.empty() || out.runs <= 0 || out.engine.threads <= 0) return std::nullopt;
     return out;
 }
 
@@ -363,7 +366,7 @@ int run(Options options) {
         dump(scene, options.operation, options.dump);
         return 0;
     }
-    const auto engine = bench::make_engine(options.threads);
+    const auto engine = bench::make_engine(options.engine);
     Job job(options, *engine, std::move(scene));
     if (options.serve)
         serve(job);
