@@ -46,11 +46,24 @@ Plane Plane::through(const LatticePoint& a, const LatticePoint& b, const Lattice
     return {n[0], n[1], n[2], offset_through(n, a)};
 }
 
+// (b - a) × e_axis has two components of 54 bits, so that the offset fits into 128 bits.
 Plane Plane::along_axis(const LatticePoint& a, const LatticePoint& b, int axis) {
-    const LatticePoint e{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0};
-    const auto n = cross(b - a, e);
-    TRISECT_EXPECTS(n[0] != 0 || n[1] != 0 || n[2] != 0, "edge parallel to the axis of its plane");
-    return {n[0], n[1], n[2], offset_through(n, a)};
+    const int j = (axis + 1) % 3;
+    const int l = (axis + 2) % 3;
+    const std::int64_t nj = b[l] - a[l];
+    const std::int64_t nl = a[j] - b[j];
+    TRISECT_EXPECTS(nj != 0 || nl != 0, "edge parallel to the axis of its plane");
+    Plane p;
+    const auto set = [&](int i, std::int64_t v) {
+        p.n_[static_cast<std::size_t>(i)] = v;
+        p.fn_[static_cast<std::size_t>(i)] = static_cast<double>(v);
+    };
+    set(j, nj);
+    set(l, nl);
+    p.d_ = Offset(-(Int128{nj} * a[j] + Int128{nl} * a[l]));
+    p.fd_ = p.d_.to_double();
+    p.narrow_ = p.d_.bit_length() <= narrow_offset_bits;
+    return p;
 }
 
 Plane Plane::axis_aligned(int axis, std::int64_t scale, std::int64_t position) {

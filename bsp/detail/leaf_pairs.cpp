@@ -189,14 +189,16 @@ private:
 void LeafPairs::relate_all(LeafWork& work) {
     contacts_.clear();
     list_candidates(work);
-    sweep(work, best_axis(work));
+    sort_along(work, best_axis(work));
+    list_facets(work);
+    sweep(work);
     work.set_contacts(contacts_);
 }
 
 // Items that may meet one of another operand, or of their own if that is not embedded.
 void LeafPairs::list_candidates(const LeafWork& work) {
     const std::size_t n = work.problem->operands.size();
-    spans_.clear();
+    candidates_.clear();
     // With many operands the boxes of the others overlap nearly everything.
     const bool compare = n <= 8;
     operand_boxes_.assign(n, Box{});
@@ -209,7 +211,7 @@ void LeafPairs::list_candidates(const LeafWork& work) {
         bool candidate = !compare || !embedded;
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate = o != LeafWork::u(item.operand) && operand_boxes_[o].overlaps(item.box);
-        if (candidate) spans_.push_back({0, 0, i, embedded});
+        if (candidate) candidates_.push_back({{}, {}, i, item.operand, embedded});
     }
 }
 
@@ -218,8 +220,8 @@ void LeafPairs::list_candidates(const LeafWork& work) {
 int LeafPairs::best_axis(const LeafWork& work) const {
     Box all;
     std::array<double, 3> lengths{};
-    for (const Span& s : spans_) {
-        const Box& b = work.item(s.item).box;
+    for (const Candidate& c : candidates_) {
+        const Box& b = work.item(c.item).box;
         all.add(b);
         for (std::size_t k = 0; k < 3; ++k) lengths[k] += static_cast<double>(b.hi[k] - b.lo[k]);
     }
@@ -235,42 +237,112 @@ int LeafPairs::best_axis(const LeafWork& work) const {
     return best;
 }
 
-void LeafPairs::sweep(LeafWork& work, int axis) {
-    const auto k = static_cast<std::size_t>(axis);
-    for (Span& s : spans_) {
-        const Box& b = work.item(s.item).box;
-        s.lo = b.lo[k];
-        s.hi = b.hi[k];
-    }
-    std::sort(spans_.begin(), spans_.end(), [](const Span& a, const Span& b) {
-        return a.lo != b.lo ? a.lo < b.lo : a.item < b.item;
-    });
-    for (std::size_t i = 0; i < spans_.size(); ++i) {
-        check_budget(*work.problem->options, *work.stats);
-        const Span& a = spans_[i];
-        const LeafItem& item = work.item(a.item);
-        for (std::size_t j = i + 1; j < spans_.size() && spans_[j].lo <= a.hi; ++j) {
-            const Span& b = spans_[j];
-            const LeafItem& other = work.item(b.item);
-            if (a.skips_own && item.operand == other.operand) continue;
-            if (!item.box.overlaps(other.box)) continue;
-            ++work.stats->pairs_boxes;
-            const auto [s, t] = std::minmax(a.item, b.item);
-            LeafContact first;
-            LeafContact second;
-            if (!Relation(work, s, t).find(first, second)) continue;
-            ++work.stats->pairs_touching;
-            if (first.cuts || second.cuts) ++work.stats->pairs_cutting;
-            contacts_.emplace_back(s, first);
-            contacts_.emplace_back(t, second);
+void LeafPairs::sort_along(const LeafWork& work, int axis) {
+    for (Candidate& c : candidates_) {
+        const Box& b = work.item(c.item).box;
+        for (std::size_t k = 0; k < 3; ++k) {
+            c.lo[k] = b.lo[(k + static_cast<std::size_t>(axis)) % 3];
+            c.hi[k] = b.hi[(k + static_cast<std::size_t>(axis)) % 3];
         }
     }
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.lo[0] != b.lo[0] ? a.lo[0] < b.lo[0] : a.item < b.item;
+    });
+}
+
+void LeafPairs::list_facets(const LeafWork& work) {
+    facets_.assign(candidates_.size(), Facet{});
+    largest_ = {};
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const LeafItem& item = work.item(candidates_[i].item);
+        if (item.ref.fragment != nullptr || item.ref.source->is_half_space()) continue;
+        Facet& f = facets_[i];
+        f.sheet = item.sheet;
+        for (int v = 0; v < 3; ++v) {
+            const auto c = static_cast<std::size_t>(v);
+            f.corners[c] = approximate(item.ref.source->corner(item.ref.facet, v)).c;
+            f.vertices[c] = item.ref.source->corner_index(item.ref.facet, v);
+            for (std::size_t k = 0; k < 3; ++k)
+                largest_[k] = std::max(largest_[k], std::fabs(f.corners[c][k]));
+        }
+    }
+}
+
+// The bound is that of filtered_side() for the largest coordinates of the leaf.
+void LeafPairs::make_plane(LeafWork& work, std::size_t i) {
+    Facet& f = facets_[i];
+    const Plane& p = work.bench.plane_at(work.shape(candidates_[i].item).support);
+    f.offset = p.approx_offset();
+    double terms = std::fabs(f.offset);
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.normal[k] = p.approx_normal(static_cast<int>(k));
+        terms += std::fabs(f.normal[k]) * largest_[k];
+    }
+    f.bound = 0x1p-50 * terms;
+}
+
+// Whether the second facet is strictly on one side of the first one's plane, corners apart that
+// the two share. Then they meet in those corners only, or in the edge between them.
+bool LeafPairs::separates(LeafWork& work, std::size_t i, std::size_t j) {
+    if (facets_[i].bound < 0) make_plane(work, i);
+    const Facet& f = facets_[i];
+    const Facet& g = facets_[j];
+    const bool same_mesh = f.sheet == g.sheet;
+    bool above = true;
+    bool below = true;
+    int shared = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = g.vertices[c];
+        if (same_mesh && (v == f.vertices[0] || v == f.vertices[1] || v == f.vertices[2])) {
+            ++shared;
+            continue;
+        }
+        const auto& p = g.corners[c];
+        const double s =
+            ((f.normal[0] * p[0] + f.normal[1] * p[1]) + f.normal[2] * p[2]) + f.offset;
+        above = above && s > f.bound;
+        below = below && s < -f.bound;
+    }
+    return (above || below) && shared < 3;
+}
+
+void LeafPairs::sweep(LeafWork& work) {
+    std::uint64_t separated = 0;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        check_budget(*work.problem->options, *work.stats);
+        const Candidate& a = candidates_[i];
+        for (std::size_t j = i + 1; j < candidates_.size(); ++j) {
+            const Candidate& b = candidates_[j];
+            if (b.lo[0] > a.hi[0]) break;
+            if (a.skips_own && a.operand == b.operand) continue;
+            if (a.lo[1] > b.hi[1] || b.lo[1] > a.hi[1] || a.lo[2] > b.hi[2] || b.lo[2] > a.hi[2])
+                continue;
+            ++work.stats->pairs_boxes;
+            if (facets_[i].sheet >= 0 && facets_[j].sheet >= 0 &&
+                (separates(work, i, j) || separates(work, j, i))) {
+                ++separated;
+                continue;
+            }
+            relate(work, std::min(a.item, b.item), std::max(a.item, b.item));
+        }
+    }
+    predicate_counters().filtered += 3 * separated;
     for (const auto& [i, contact] : contacts_) {
         LeafItem& item = work.item(i);
         item.ref.touched = true;
         item.cut = item.cut || contact.cuts;
         item.covered = item.covered || contact.covers;
     }
+}
+
+void LeafPairs::relate(LeafWork& work, LeafIndex s, LeafIndex t) {
+    LeafContact first;
+    LeafContact second;
+    if (!Relation(work, s, t).find(first, second)) return;
+    ++work.stats->pairs_touching;
+    if (first.cuts || second.cuts) ++work.stats->pairs_cutting;
+    contacts_.emplace_back(s, first);
+    contacts_.emplace_back(t, second);
 }
 
 }  // namespace trisect::detail

@@ -22,28 +22,31 @@ void Workbench::clear() {
     line_of_.clear();
 }
 
-PlaneId Workbench::plane(const PlaneName& name) {
-    const Key128 key{name.owner, (std::uint64_t{name.kind} << 32) | name.facet};
-    const auto next = static_cast<PlaneId>(planes_.size());
-    const auto [id, inserted] = plane_ids_.insert(key, next);
-    if (inserted) {
-        if (name.is_edge()) {
-            // The support is needed anyway; look it up first, since it may be inserted by that.
-            names_.push_back(name);
-            class_.push_back(next);
-            line_of_.push_back(-1);
-            planes_.emplace_back();
-            const PlaneId support = plane(PlaneName::support(name.source(), name.facet));
-            planes_[u(next)] = name.source()->edge_plane(name.facet, static_cast<int>(name.kind),
-                                                         planes_[u(support)]);
-            return id;
-        }
-        planes_.push_back(name.plane());
-        names_.push_back(name);
-        class_.push_back(next);
-        line_of_.push_back(-1);
-    }
+PlaneId Workbench::add_plane(const PlaneName& name, const Plane& plane) {
+    const auto id = static_cast<PlaneId>(planes_.size());
+    planes_.push_back(plane);
+    names_.push_back(name);
+    class_.push_back(id);
+    line_of_.push_back(-1);
     return id;
+}
+
+// Whoever needs one edge plane of a facet nearly always needs all: they are found by one key and
+// have ids in a row.
+PlaneId Workbench::plane(const PlaneName& name) {
+    const std::uint32_t kind = name.is_edge() ? PlaneName::Edge0 : name.kind;
+    const PlaneId offset = name.is_edge() ? static_cast<PlaneId>(name.kind) : 0;
+    const Key128 key{name.owner, (std::uint64_t{kind} << 32) | name.facet};
+    const auto [id, inserted] = plane_ids_.insert(key, static_cast<PlaneId>(planes_.size()));
+    if (!inserted) return id + offset;
+    if (!name.is_edge()) return add_plane(name, name.plane());
+    const Source* source = name.source();
+    for (int k = 0; k < 3; ++k) add_plane(PlaneName::edge(source, name.facet, k), Plane());
+    // The support may be new as well: its id comes after theirs.
+    const PlaneId support = plane(PlaneName::support(source, name.facet));
+    for (int k = 0; k < 3; ++k)
+        planes_[u(id + k)] = source->edge_plane(name.facet, k, planes_[u(support)]);
+    return id + offset;
 }
 
 void Workbench::declare_same(PlaneId a, PlaneId b) {
@@ -64,6 +67,31 @@ PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
     return id;
 }
 
+// Facets of one source that share an edge: its vertices.
+std::optional<std::array<std::uint32_t, 2>> Workbench::common_edge(const PlaneName& a,
+                                                                   const PlaneName& b) {
+    if (a.owner != b.owner || a.kind != PlaneName::Support || b.kind != PlaneName::Support)
+        return std::nullopt;
+    const Source* source = a.source();
+    if (source->is_half_space()) return std::nullopt;
+    std::array<std::uint32_t, 2> ends{};
+    std::size_t found = 0;
+    for (int i = 0; i < 3 && found < 2; ++i) {
+        const std::uint32_t v = source->corner_index(a.facet, i);
+        if (v == source->corner_index(b.facet, 0) || v == source->corner_index(b.facet, 1) ||
+            v == source->corner_index(b.facet, 2))
+            ends[found++] = v;
+    }
+    if (found < 2) return std::nullopt;
+    return ends;
+}
+
+std::uint64_t Workbench::line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w) {
+    const Key128 key{owner, (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
+    const auto line = line_ids_.insert(key, static_cast<std::int32_t>(line_ids_.size())).first;
+    return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(line);
+}
+
 // What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
 // source, which both of its facets know.
 std::uint64_t Workbench::line_item(PlaneId p) {
@@ -72,8 +100,7 @@ std::uint64_t Workbench::line_item(PlaneId p) {
     if (line_of_[u(p)] < 0) {
         const auto v = n.source()->corner_index(n.facet, static_cast<int>(n.kind));
         const auto w = n.source()->corner_index(n.facet, static_cast<int>((n.kind + 1) % 3));
-        const Key128 key{n.owner, (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
-        line_of_[u(p)] = line_ids_.insert(key, static_cast<std::int32_t>(line_ids_.size())).first;
+        line_of_[u(p)] = static_cast<std::int32_t>(line_of_edge(n.owner, v, w) & 0xffffffffU);
     }
     return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(line_of_[u(p)]);
 }
@@ -85,7 +112,18 @@ Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
     // A line and one more item name the point; the plane that carries the line adds nothing, and it
     // is the smallest item when the other one is a line too. With one line the two planes are the
     // facet that the line belongs to and what meets it: only the latter may stay.
-    if (!has_line) return {items[0] | (items[1] << 33), items[2] | (std::uint64_t{1} << 63)};
+    if (!has_line) {
+        // The planes of two facets that share an edge name that edge: the point where it meets the
+        // third plane is the same from whichever of them it is reached.
+        const std::array<PlaneId, 3> planes{p, q, r};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const PlaneName& a = names_[u(planes[i])];
+            if (const auto ends = common_edge(a, names_[u(planes[(i + 1) % 3])]))
+                return {line_item(planes[(i + 2) % 3]),
+                        line_of_edge(a.owner, (*ends)[0], (*ends)[1])};
+        }
+        return {items[0] | (items[1] << 33), items[2] | (std::uint64_t{1} << 63)};
+    }
     if (items[1] >> 32 != 0) return {items[1], items[2]};
     const PlaneId line_plane = line_item(p) == items[2] ? p : (line_item(q) == items[2] ? q : r);
     const PlaneName& line = names_[u(line_plane)];
@@ -122,14 +160,34 @@ Point Workbench::point(PointId id) const {
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
-// Whether the name of a plane says that it passes through a corner of a source.
-bool Workbench::passes_by_name(const PlaneName& plane, const PointRecord& corner) const {
-    if (plane.is_wall() || plane.source() != corner.source) return false;
+// Whether the name of a plane says that it passes through a vertex of a source.
+bool Workbench::has_vertex(const PlaneName& plane, const Source* source, std::uint32_t vertex) {
+    if (plane.is_wall() || plane.source() != source || source->is_half_space()) return false;
     const auto is_corner = [&](std::uint32_t i) {
-        return corner.source->corner_index(plane.facet, static_cast<int>(i % 3)) == corner.vertex;
+        return source->corner_index(plane.facet, static_cast<int>(i % 3)) == vertex;
     };
     if (plane.is_edge()) return is_corner(plane.kind) || is_corner(plane.kind + 1);
-    return !corner.source->is_half_space() && (is_corner(0) || is_corner(1) || is_corner(2));
+    return is_corner(0) || is_corner(1) || is_corner(2);
+}
+
+// Whether the name of a plane says that it passes through the line of an edge of a source.
+bool Workbench::contains_edge(const PlaneName& plane, const PlaneName& edge) {
+    if (!edge.is_edge() || plane.owner != edge.owner) return false;
+    const Source* source = edge.source();
+    const auto end = [&](std::uint32_t i) {
+        return source->corner_index(edge.facet, static_cast<int>(i % 3));
+    };
+    return has_vertex(plane, source, end(edge.kind)) &&
+           has_vertex(plane, source, end(edge.kind + 1));
+}
+
+// The same for the common edge of two facets.
+bool Workbench::contains_common_edge(const PlaneName& plane, const PlaneName& a,
+                                     const PlaneName& b) {
+    if (plane.owner != a.owner || plane.is_wall()) return false;
+    const auto ends = common_edge(a, b);
+    return ends && has_vertex(plane, a.source(), (*ends)[0]) &&
+           has_vertex(plane, a.source(), (*ends)[1]);
 }
 
 int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
@@ -137,15 +195,17 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
     const Plane& p = plane_at(plane);
     auto& counters = predicate_counters();
     if (r.planes[0] < 0) {
-        if (passes_by_name(name(plane), r)) {
+        if (has_vertex(name(plane), r.source, r.vertex)) {
             ++counters.symbolic;
             return 0;
         }
         return sign_of(side_of(r.lattice, p));
     }
     const PlaneId c = plane_class(plane);
-    for (const PlaneId q : r.planes) {
-        if (q == plane || plane_class(q) == c) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const PlaneId q = r.planes[i];
+        if (q == plane || plane_class(q) == c || contains_edge(name(plane), name(q)) ||
+            contains_common_edge(name(plane), name(q), name(r.planes[(i + 1) % 3]))) {
             ++counters.symbolic;
             return 0;
         }
@@ -198,8 +258,8 @@ WorkPolygon Workbench::polygon(const PolygonRef& ref) {
 
 void Workbench::with_edges(WorkPolygon& polygon, const PolygonRef& ref) {
     if (!polygon.edges.empty() || ref.source->is_half_space()) return;
-    for (int i = 0; i < 3; ++i)
-        polygon.edges.push_back({plane(PlaneName::edge(ref.source, ref.facet, i)), false});
+    const PlaneId first = plane(PlaneName::edge(ref.source, ref.facet, 0));
+    for (PlaneId i = 0; i < 3; ++i) polygon.edges.push_back({first + i, false});
 }
 
 const Workbench::Sides& Workbench::sides_of(const WorkPolygon& polygon, PlaneId plane) {

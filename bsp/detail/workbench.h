@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -55,7 +56,8 @@ public:
 
     PointId corner(const Source* source, std::uint32_t facet, int i);
     /// The common point of three planes. Found by name when it was made before: from the same three
-    /// planes, or as the point where the same edge of a source meets the same plane. Equal points
+    /// planes, or as the point where the same edge of a source meets the same plane, an edge being
+    /// named by its own plane or by both of its facets. Equal points
     /// may still have several names (see same_point). \pre the planes meet in one point.
     PointId meet(PlaneId p, PlaneId q, PlaneId r);
     [[nodiscard]] std::size_t point_count() const { return points_.size(); }
@@ -115,7 +117,15 @@ private:
     };
     static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
     [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
-    [[nodiscard]] bool passes_by_name(const PlaneName& plane, const PointRecord& corner) const;
+    [[nodiscard]] static bool has_vertex(const PlaneName& plane, const Source* source,
+                                         std::uint32_t vertex);
+    [[nodiscard]] static bool contains_edge(const PlaneName& plane, const PlaneName& edge);
+    [[nodiscard]] static bool contains_common_edge(const PlaneName& plane, const PlaneName& a,
+                                                   const PlaneName& b);
+    [[nodiscard]] static std::optional<std::array<std::uint32_t, 2>> common_edge(
+        const PlaneName& a, const PlaneName& b);
+    PlaneId add_plane(const PlaneName& name, const Plane& plane);
+    [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
     [[nodiscard]] std::uint64_t line_item(PlaneId p);
     [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
