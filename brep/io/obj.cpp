@@ -209,20 +209,16 @@ private:
 PolygonMesh read_obj(const Source& source) { return ObjReader(source).read(); }
 
 void write_obj(std::string& out, const PolygonMesh& mesh) {
-    out += "# Trisect\n";
-    for (const Point3d& p : mesh.points) {
-        out += "v ";
-        append_point(out, p);
-        out += '\n';
-    }
+    reserve_text(out, mesh);
+    TextWriter text(out);
+    text << "# Trisect\n";
+    for (const Point3d& p : mesh.points) text << "v " << p << '\n';
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        out += 'f';
-        for (const std::uint32_t corner : mesh.face(f)) {
-            out += ' ';
-            append_integer(out, std::uint64_t{corner} + 1);
-        }
-        out += '\n';
+        text << 'f';
+        for (const std::uint32_t corner : mesh.face(f)) text << ' ' << std::uint64_t{corner} + 1;
+        text << '\n';
     }
+    text.finish();
 }
 
 }  // namespace trisect::detail

@@ -182,23 +182,13 @@ private:
 PolygonMesh read_off(const Source& source) { return OffReader(source).read(); }
 
 void write_off(std::string& out, const PolygonMesh& mesh) {
-    out += "OFF\n";
-    append_integer(out, mesh.points.size());
-    out += ' ';
-    append_integer(out, mesh.face_count());
-    out += " 0\n";
-    for (const Point3d& p : mesh.points) {
-        append_point(out, p);
-        out += '\n';
-    }
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        append_integer(out, mesh.face(f).size());
-        for (const std::uint32_t corner : mesh.face(f)) {
-            out += ' ';
-            append_integer(out, corner);
-        }
-        out += '\n';
-    }
+    reserve_text(out, mesh);
+    TextWriter text(out);
+    text << "OFF\n"
+         << std::uint64_t{mesh.points.size()} << ' ' << std::uint64_t{mesh.face_count()} << " 0\n";
+    for (const Point3d& p : mesh.points) text << p << '\n';
+    append_loops(text, mesh);
+    text.finish();
 }
 
 }  // namespace trisect::detail

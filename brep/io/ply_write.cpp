@@ -20,67 +20,71 @@ bool small_faces(const PolygonMesh& mesh) noexcept {
 }
 
 void write_header(std::string& out, const PolygonMesh& mesh, PlyEncoding encoding) {
-    out += "ply\nformat ";
+    TextWriter text(out);
+    text << "ply\nformat ";
     switch (encoding) {
         case PlyEncoding::Ascii:
-            out += "ascii";
+            text << "ascii";
             break;
         case PlyEncoding::BinaryLittleEndian:
-            out += "binary_little_endian";
+            text << "binary_little_endian";
             break;
         case PlyEncoding::BinaryBigEndian:
-            out += "binary_big_endian";
+            text << "binary_big_endian";
             break;
     }
-    out += " 1.0\ncomment Trisect\nelement vertex ";
-    append_integer(out, mesh.points.size());
-    out += "\nproperty double x\nproperty double y\nproperty double z\nelement face ";
-    append_integer(out, mesh.face_count());
-    out += small_faces(mesh) ? "\nproperty list uchar " : "\nproperty list uint ";
-    out += mesh.points.size() <= 0x8000'0000U ? "int" : "uint";
-    out += " vertex_indices\nend_header\n";
+    text << " 1.0\ncomment Trisect\nelement vertex " << std::uint64_t{mesh.points.size()}
+         << "\nproperty double x\nproperty double y\nproperty double z\n"
+         << "element face " << std::uint64_t{mesh.face_count()}
+         << (small_faces(mesh) ? "\nproperty list uchar " : "\nproperty list uint ")
+         << (mesh.points.size() <= 0x8000'0000U ? "int" : "uint")
+         << " vertex_indices\nend_header\n";
+    text.finish();
 }
 
 void write_text(std::string& out, const PolygonMesh& mesh) {
-    for (const Point3d& p : mesh.points) {
-        append_point(out, p);
-        out += '\n';
-    }
+    reserve_text(out, mesh);
+    TextWriter text(out);
+    for (const Point3d& p : mesh.points) text << p << '\n';
+    append_loops(text, mesh);
+    text.finish();
+}
+
+template <bool Big, class Count>
+void write_bytes(std::string& out, const PolygonMesh& mesh) {
+    const std::size_t header = out.size();
+    out.resize(header + 24 * mesh.points.size() + 4 * mesh.corners.size() +
+               sizeof(Count) * mesh.face_count());
+    char* to = out.data() + header;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) put<Big>(to, c);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        append_integer(out, mesh.face(f).size());
-        for (const std::uint32_t corner : mesh.face(f)) {
-            out += ' ';
-            append_integer(out, corner);
-        }
-        out += '\n';
+        const auto loop = mesh.face(f);
+        put<Big>(to, static_cast<Count>(loop.size()));
+        for (const std::uint32_t corner : loop) put<Big>(to, corner);
     }
 }
 
-void write_bytes(std::string& out, const PolygonMesh& mesh, bool big) {
-    const bool small = small_faces(mesh);
-    out.reserve(out.size() + 24 * mesh.points.size() + 4 * mesh.corners.size() +
-                (small ? 1 : 4) * mesh.face_count());
-    for (const Point3d& p : mesh.points) {
-        for (const double c : p) store(out, c, big);
-    }
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const auto loop = mesh.face(f);
-        if (small)
-            store(out, static_cast<std::uint8_t>(loop.size()), big);
-        else
-            store(out, static_cast<std::uint32_t>(loop.size()), big);
-        for (const std::uint32_t corner : loop) store(out, corner, big);
-    }
+template <bool Big>
+void write_bytes(std::string& out, const PolygonMesh& mesh) {
+    if (small_faces(mesh))
+        write_bytes<Big, std::uint8_t>(out, mesh);
+    else
+        write_bytes<Big, std::uint32_t>(out, mesh);
 }
 
 }  // namespace
 
 void write_ply(std::string& out, const PolygonMesh& mesh, PlyEncoding encoding) {
     write_header(out, mesh, encoding);
-    if (encoding == PlyEncoding::Ascii)
-        write_text(out, mesh);
-    else
-        write_bytes(out, mesh, encoding == PlyEncoding::BinaryBigEndian);
+    switch (encoding) {
+        case PlyEncoding::Ascii:
+            return write_text(out, mesh);
+        case PlyEncoding::BinaryLittleEndian:
+            return write_bytes<false>(out, mesh);
+        case PlyEncoding::BinaryBigEndian:
+            return write_bytes<true>(out, mesh);
+    }
 }
 
 }  // namespace trisect::detail

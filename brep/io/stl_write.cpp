@@ -50,57 +50,72 @@ std::array<float, 3> face_normal(const PolygonMesh& mesh, std::size_t f) noexcep
     return unit_normal(mesh.points[loop[0]], mesh.points[loop[1]], mesh.points[loop[2]]);
 }
 
-/// Number of distinct points.
-std::size_t distinct(const std::vector<Point3d>& points) {
+/// Number of distinct points; `point(i)` is the i-th of n.
+template <class PointAt>
+std::size_t distinct(std::size_t n, const PointAt& point) {
     std::vector<Point3d> seen;
-    VertexWelder welder(seen, points.size());
-    for (const Point3d& p : points) (void)welder.vertex(p);
+    seen.reserve(n);
+    VertexWelder welder(seen, n);
+    std::array<Point3d, VertexWelder::block> points;
+    std::array<std::uint32_t, VertexWelder::block> numbers;
+    for (std::size_t begin = 0; begin < n; begin += points.size()) {
+        const std::size_t count = std::min(points.size(), n - begin);
+        for (std::size_t i = 0; i < count; ++i) points[i] = point(begin + i);
+        welder.vertices({points.data(), count}, numbers.data());
+    }
     return seen.size();
 }
 
-/// Rounds all points to float, which are returned as doubles.
-std::vector<Point3d> rounded(const PolygonMesh& mesh, const std::string& name,
+using Point3f = std::array<float, 3>;
+
+Point3d as_doubles(const Point3f& p) noexcept {
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+/// Rounds all points to float.
+std::vector<Point3f> rounded(const PolygonMesh& mesh, const std::string& name,
                              WriteReport& report) {
-    std::vector<Point3d> points = mesh.points;
+    std::vector<Point3f> points(mesh.points.size());
     for (std::size_t v = 0; v < points.size(); ++v) {
         double move = 0;
-        for (double& c : points[v]) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double c = mesh.points[v][k];
             // A double that rounds beyond the largest float must not be converted at all.
             if (std::fabs(c) > static_cast<double>(std::numeric_limits<float>::max())) {
                 throw LimitError(name + ": cannot write: vertex " + std::to_string(v) +
                                  " has a coordinate beyond the range of binary STL (floats)");
             }
-            const double value = static_cast<double>(static_cast<float>(c));
-            move = std::max(move, std::fabs(value - c));
-            c = value;
+            points[v][k] = static_cast<float>(c);
+            move = std::max(move, std::fabs(static_cast<double>(points[v][k]) - c));
         }
         if (move > 0) ++report.rounded_vertices;
         report.largest_move = std::max(report.largest_move, move);
     }
     report.lossless = report.rounded_vertices == 0;
-    if (!report.lossless) report.merged_vertices = distinct(mesh.points) - distinct(points);
+    if (!report.lossless) {
+        const std::size_t n = points.size();
+        report.merged_vertices = distinct(n, [&](std::size_t v) { return mesh.points[v]; }) -
+                                 distinct(n, [&](std::size_t v) { return as_doubles(points[v]); });
+    }
     return points;
 }
 
 }  // namespace
 
 void write_stl_ascii(std::string& out, const PolygonMesh& mesh) {
-    out += "solid trisect\n";
+    out.reserve(420 * mesh.face_count() + 64);  // what is not used is never touched
+    TextWriter text(out);
+    text << "solid trisect\n";
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        out += "facet normal";
-        for (const float c : face_normal(mesh, f)) {
-            out += ' ';
-            append_real(out, c);
-        }
-        out += "\n  outer loop\n";
-        for (const std::uint32_t corner : mesh.face(f)) {
-            out += "    vertex ";
-            append_point(out, mesh.points[corner]);
-            out += '\n';
-        }
-        out += "  endloop\nendfacet\n";
+        text << "facet normal";
+        for (const float c : face_normal(mesh, f)) text << ' ' << c;
+        text << "\n  outer loop\n";
+        for (const std::uint32_t corner : mesh.face(f))
+            text << "    vertex " << mesh.points[corner] << '\n';
+        text << "  endloop\nendfacet\n";
     }
-    out += "endsolid trisect\n";
+    text << "endsolid trisect\n";
+    text.finish();
 }
 
 WriteReport write_stl_binary(std::string& out, const PolygonMesh& mesh, const std::string& name) {
@@ -108,17 +123,18 @@ WriteReport write_stl_binary(std::string& out, const PolygonMesh& mesh, const st
         throw LimitError(name + ": cannot write: more faces than binary STL can count");
     }
     WriteReport report;
-    const std::vector<Point3d> points = rounded(mesh, name, report);
+    const std::vector<Point3f> points = rounded(mesh, name, report);
     out.reserve(stl_header_size + mesh.face_count() * stl_record_size);
     out += "binary STL by Trisect";  // must not begin with "solid"
     out.resize(80, '\0');
     store(out, static_cast<std::uint32_t>(mesh.face_count()), false);
+    out.resize(stl_header_size + mesh.face_count() * stl_record_size);
+    char* to = out.data() + stl_header_size;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        for (const float c : face_normal(mesh, f)) store(out, c, false);
-        for (const std::uint32_t corner : mesh.face(f)) {
-            for (const double c : points[corner]) store(out, static_cast<float>(c), false);
-        }
-        store(out, std::uint16_t{0}, false);
+        for (const float c : face_normal(mesh, f)) put<false>(to, c);
+        for (const std::uint32_t corner : mesh.face(f))
+            for (const float c : points[corner]) put<false>(to, c);
+        put<false>(to, std::uint16_t{0});
     }
     return report;
 }

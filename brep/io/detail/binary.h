@@ -49,4 +49,12 @@ inline void store(std::string& out, T value, bool big) {
     out.append(b, sizeof(T));
 }
 
+/// Writes the bytes of `value` at `to` and moves it behind them.
+template <bool Big, class T>
+inline void put(char*& to, T value) {
+    if constexpr (sizeof(T) > 1 && Big != host_is_big) value = reversed(value);
+    std::memcpy(to, &value, sizeof(T));
+    to += sizeof(T);
+}
+
 }  // namespace trisect::detail
