@@ -16,6 +16,7 @@
 #include <numeric>
 #include <utility>
 
+#include <trisect/brep/detail/loops_below.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/predicates.h>
 
@@ -104,32 +105,34 @@ PlanarLoops::PlanarLoops(const Plane& plane, std::span<const Point> points,
             corners_.push_back({loop[i], 0, first + (i + n - 1) % n, first + (i + 1) % n});
     }
     number_places();
-    for (std::uint32_t p = 0; p < corners_at_.size(); ++p)
-        if (corners_at_[p].size() > 1) join_edges_at(p);
+    for (std::size_t i = 0; i < order_.size();) {
+        std::size_t j = i + 1;
+        while (j < order_.size() && place_of(order_[j]) == place_of(order_[i])) ++j;
+        if (j - i > 1) join_edges_at(std::span(order_).subspan(i, j - i));
+        i = j;
+    }
     find_loops();
 }
 
 void PlanarLoops::number_places() {
-    std::vector<std::uint32_t> order(corners_.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [this](std::uint32_t a, std::uint32_t b) {
+    order_.resize(corners_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
         const auto c = projection_.compare(corners_[a].point, corners_[b].point);
         return c != 0 ? c < 0 : a < b;
     });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const std::uint32_t point = corners_[order[i]].point;
-        if (i == 0 || projection_.compare(point_at_.back(), point) != 0) {
+    for (const std::uint32_t c : order_) {
+        const std::uint32_t point = corners_[c].point;
+        if (point_at_.empty() || projection_.compare(point_at_.back(), point) != 0)
             point_at_.push_back(point);
-            corners_at_.emplace_back();
-        }
-        corners_[order[i]].place = static_cast<std::uint32_t>(point_at_.size() - 1);
-        corners_at_.back().push_back(order[i]);
+        corners_[c].place = static_cast<std::uint32_t>(point_at_.size() - 1);
     }
 }
 
 // Each outgoing edge keeps its corner; the incoming edge that ends its wedge is led there. Where
 // both run along one line (a slit), the wedge before it ends before the wedge after it begins.
-void PlanarLoops::join_edges_at(std::uint32_t p) {
+void PlanarLoops::join_edges_at(std::span<const std::uint32_t> corners) {
+    const std::uint32_t p = place_of(corners[0]);
     // Half planes of the lexicographic order are half-open: within one the orientation sorts.
     struct Direction {
         std::uint32_t place;
@@ -137,7 +140,7 @@ void PlanarLoops::join_edges_at(std::uint32_t p) {
         bool leaves;  // an outgoing edge, opens the interior
     };
     std::vector<Direction> around;
-    for (const std::uint32_t c : corners_at_[p]) {
+    for (const std::uint32_t c : corners) {
         around.push_back({place_of(next(c)), c, true});
         around.push_back({place_of(prev(c)), prev(c), false});
     }
@@ -161,50 +164,18 @@ void PlanarLoops::join_edges_at(std::uint32_t p) {
 
 void PlanarLoops::find_loops() {
     std::vector<bool> seen(corners_.size(), false);
-    for (const auto& at_place : corners_at_) {  // by rank: the first corner met is the least
-        for (const std::uint32_t first : at_place) {
-            if (seen[first]) continue;
-            bool is_hole = false;
-            std::uint32_t c = first;
-            do {
-                seen[c] = true;
-                // The corners at the loop's first place are all convex in an outline.
-                if (place_of(c) == place_of(first) && turn(c) <= 0) is_hole = true;
-                c = next(c);
-            } while (c != first);
-            (is_hole ? holes_ : outlines_).push_back(first);
-        }
+    for (const std::uint32_t first : order_) {  // by place: the first corner met is the least
+        if (seen[first]) continue;
+        bool is_hole = false;
+        std::uint32_t c = first;
+        do {
+            seen[c] = true;
+            // The corners at the loop's first place are all convex in an outline.
+            if (place_of(c) == place_of(first) && turn(c) <= 0) is_hole = true;
+            c = next(c);
+        } while (c != first);
+        (is_hole ? holes_ : outlines_).push_back(first);
     }
-}
-
-bool PlanarLoops::is_inside(std::uint32_t place, std::uint32_t outline) const {
-    // Edges below the place along v; the ranks stand for a line that passes beside every corner.
-    bool inside = false;
-    std::uint32_t c = outline;
-    do {
-        const std::uint32_t a = std::min(place_of(c), place_of(next(c)));
-        const std::uint32_t b = std::max(place_of(c), place_of(next(c)));
-        if (a < place && place < b && orientation(a, b, place) > 0) inside = !inside;
-        c = next(c);
-    } while (c != outline);
-    return inside;
-}
-
-void PlanarLoops::splice(std::uint32_t a, std::uint32_t b) {
-    const auto a2 = static_cast<std::uint32_t>(corners_.size());
-    const std::uint32_t b2 = a2 + 1;
-    const std::uint32_t after_a = next(a);
-    const std::uint32_t before_b = prev(b);
-    const Corner copy_of_a = corners_[a];
-    const Corner copy_of_b = corners_[b];
-    corners_.push_back(copy_of_a);
-    corners_.push_back(copy_of_b);
-    corners_at_[place_of(a)].push_back(a2);
-    corners_at_[place_of(b)].push_back(b2);
-    connect(before_b, b2);
-    connect(b2, a2);
-    connect(a2, after_a);
-    connect(a, b);
 }
 
 std::vector<std::vector<IndexLoop>> connected_regions(const Plane& plane,
@@ -222,13 +193,22 @@ std::vector<std::vector<IndexLoop>> connected_regions(const Plane& plane,
     };
     std::vector<std::vector<IndexLoop>> regions;
     for (const std::uint32_t outline : figure.outlines()) regions.push_back({loop_from(outline)});
-    for (const std::uint32_t hole : figure.holes()) {
-        // Outlines of a region lie side by side: at most one contains the hole.
-        std::size_t r = 0;
-        while (r < regions.size() && !figure.is_inside(figure.place_of(hole), figure.outlines()[r]))
-            ++r;
-        TRISECT_EXPECTS(r < regions.size(), "a hole inside an outline");
-        regions[r].push_back(loop_from(hole));
+    TRISECT_EXPECTS(!regions.empty(), "a region has an outline");
+    if (figure.holes().empty()) return regions;
+    if (regions.size() == 1) {
+        for (const std::uint32_t hole : figure.holes()) regions[0].push_back(loop_from(hole));
+        return regions;
+    }
+    std::vector<std::uint32_t> first(figure.outlines().begin(), figure.outlines().end());
+    first.insert(first.end(), figure.holes().begin(), figure.holes().end());
+    const std::vector<std::uint32_t> below = detail::loops_below(figure, first);
+    std::vector<std::uint32_t> region_of(first.size());
+    std::iota(region_of.begin(), region_of.end(), 0U);
+    for (std::size_t i = regions.size(); i < first.size(); ++i) {
+        // Holes are ordered by their first places, so that of the loop below is known.
+        TRISECT_EXPECTS(below[i] < i, "a hole inside an outline");
+        region_of[i] = region_of[below[i]];
+        regions[region_of[i]].push_back(loop_from(first[i]));
     }
     return regions;
 }

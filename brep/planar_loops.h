@@ -84,16 +84,13 @@ public:
     [[nodiscard]] std::uint32_t place_of(std::uint32_t c) const { return corners_[c].place; }
     [[nodiscard]] std::uint32_t prev(std::uint32_t c) const { return corners_[c].prev; }
     [[nodiscard]] std::uint32_t next(std::uint32_t c) const { return corners_[c].next; }
-    [[nodiscard]] std::span<const std::uint32_t> corners_at(std::uint32_t place) const {
-        return corners_at_[place];
-    }
+    [[nodiscard]] std::size_t place_count() const { return point_at_.size(); }
+    /// All corners, by place.
+    [[nodiscard]] std::span<const std::uint32_t> corners_in_order() const { return order_; }
     /// A corner of each outline, or hole, at its first place; ordered by these places.
     [[nodiscard]] std::span<const std::uint32_t> outlines() const { return outlines_; }
     [[nodiscard]] std::span<const std::uint32_t> holes() const { return holes_; }
 
-    /// Rounded coordinates of a place.
-    [[nodiscard]] double u(std::uint32_t place) const { return projection_.u(point_at_[place]); }
-    [[nodiscard]] double v(std::uint32_t place) const { return projection_.v(point_at_[place]); }
     /// Of three places.
     [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return projection_.orientation(point_at_[a], point_at_[b], point_at_[c]);
@@ -102,25 +99,26 @@ public:
     [[nodiscard]] int turn(std::uint32_t c) const {
         return orientation(place_of(prev(c)), place_of(c), place_of(next(c)));
     }
-    /// Whether a place that is on no edge of an outline lies inside it.
-    [[nodiscard]] bool is_inside(std::uint32_t place, std::uint32_t outline) const;
+    // Edge c leaves corner c. What detail::SweepLine asks:
+    [[nodiscard]] std::uint32_t from(std::uint32_t edge) const { return place_of(edge); }
+    [[nodiscard]] std::uint32_t to(std::uint32_t edge) const { return place_of(next(edge)); }
+    [[nodiscard]] int above(std::uint32_t edge, std::uint32_t place) const {
+        return orientation(from(edge), to(edge), place);
+    }
 
+private:
+    void number_places();
+    void join_edges_at(std::span<const std::uint32_t> corners);
+    void find_loops();
     void connect(std::uint32_t a, std::uint32_t b) {
         corners_[a].next = b;
         corners_[b].prev = a;
     }
-    /// Ties two loops, or two parts of one, by a pair of opposite edges between two corners.
-    void splice(std::uint32_t a, std::uint32_t b);
-
-private:
-    void number_places();
-    void join_edges_at(std::uint32_t place);
-    void find_loops();
 
     PlaneProjection projection_;
     std::vector<Corner> corners_;
-    std::vector<std::uint32_t> point_at_;                 // by place
-    std::vector<std::vector<std::uint32_t>> corners_at_;  // by place
+    std::vector<std::uint32_t> point_at_;  // by place
+    std::vector<std::uint32_t> order_;     // corners by place
     std::vector<std::uint32_t> outlines_;
     std::vector<std::uint32_t> holes_;
 };

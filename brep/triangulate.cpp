@@ -1,36 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ear clipping made safe for faces that touch themselves.
+// One sweep, safe for faces that touch themselves.
 //
-// The textbook algorithm assumes a simple outline. Faces of booleans are not: holes touch the
-// outline or each other in vertices, outlines touch themselves, and straight runs carry vertices of
-// the neighbours. Rounded arithmetic turns each of these into a wrong ear sooner or later. Here
-// all tests are exact, and the topology is brought into a form in which the textbook is right:
+// Textbooks assume a simple outline. Faces of booleans are not: holes touch the outline or each
+// other in vertices, outlines touch themselves, and straight runs carry vertices of the neighbours.
+// Cutting ears is quadratic on combs and spirals, and tying holes to outlines by bridges that see
+// each other costs a pass over the face for each of ten thousand holes. Here all tests are exact,
+// the topology is brought into a form in which the textbook is right, and no bridge is ever built:
 //
 //  1. The plane is projected along its dominant axis; corners are sorted lexicographically in
 //     the projection. Equal points get one *place*, whose number is also its rank.
 //  2. Where several corners share a place, edges are linked anew so that the interior wedges of
-//     its corners are disjoint (planar_loops.cpp). Now no wedge contains an edge.
-//  3. The remaining holes touch nothing. In the order of their first corners each is tied to a
-//     corner before it that sees it. One exists: the left end of the trapezoid that ends at the
-//     hole's first corner; and it is already tied, because its own loop starts even earlier.
-//  4. Ears: a strictly convex corner whose triangle contains no other place, not even on the cut.
-//     A blocking corner that matters is never strictly convex, so only the others are kept in
-//     a grid. With the disjoint wedges of step 2 a corner at the same place as one of the
-//     triangle's cannot interfere, which is what goes wrong in ear cutters that compare
-//     coordinates. Every polygon with positive area has such an ear, also one with straight
-//     corners (Meisters 1975 on the triangulations that use all corners).
+//     its corners are disjoint (planar_loops.cpp). Now no wedge contains an edge, so every corner
+//     can be treated as if it were alone.
+//  3. A line sweeps over the places and meets the interior in regions, each between two edges
+//     (sweep_line.h). A region carries the part of a polygon monotone along the sweep that has no
+//     triangles yet: a chain of corners along one side that turns away from the inside, or runs
+//     straight (Garey, Johnson, Preparata, Tarjan 1978). A corner that parts a region in two hangs
+//     on to the region's last corner, which sees it; one that ends what lay between two regions
+//     leaves a region with two such parts, and the next corner there, which it sees, closes one of
+//     them. These are the diagonals of the decomposition into monotone polygons, drawn as they are
+//     found: triangles come out at once and no polygon is stored.
 //
-// The number of triangles, n + 2·holes - 2·outlines, is checked at the end.
+// No triangle is flat: the chain turns away from the inside or runs straight, and what it is joined
+// with is strictly inside of its first edge; a straight run is joined with a corner off its line.
+// That holds for vertical runs too, since the order is that of a slightly slanted line. All corners
+// are used, so no corner lies on a side. The number of triangles, n + 2·holes - 2·outlines, is
+// checked at the end.
+//
+// Faces with a handful of corners, nearly all of them, go by small_polygon.h.
 
 #include <trisect/brep/triangulate.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
+#include <optional>
 #include <utility>
 
+#include <trisect/brep/detail/small_polygon.h>
+#include <trisect/brep/detail/sweep_line.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect {
@@ -39,213 +46,236 @@ namespace {
 
 using Index = std::uint32_t;
 
-// The reflex and straight corners by cells of a uniform grid. Rounding is monotone, so a place
-// inside the exact box of a triangle is inside the box of the rounded corners too.
-class CornerGrid {
+class SweepTriangulator {
 public:
-    CornerGrid(std::span<const std::array<double, 2>> where) : lo_(where[0]) {
-        std::array<double, 2> hi = where[0];
-        for (const auto& p : where) {
-            for (std::size_t i = 0; i < 2; ++i) {
-                lo_[i] = std::min(lo_[i], p[i]);
-                hi[i] = std::max(hi[i], p[i]);
-            }
-        }
-        side_ = std::clamp<std::size_t>(
-            static_cast<std::size_t>(std::sqrt(static_cast<double>(where.size()))), 1, 512);
-        for (std::size_t i = 0; i < 2; ++i)
-            if (hi[i] > lo_[i]) scale_[i] = static_cast<double>(side_) / (hi[i] - lo_[i]);
-        begin_.assign(side_ * side_ + 1, 0);
-        for (const auto& p : where) ++begin_[cell(0, p[0]) * side_ + cell(1, p[1]) + 1];
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        members_.resize(where.size());
-        std::vector<Index> fill(begin_.begin(), begin_.end() - 1);
-        for (Index k = 0; k < where.size(); ++k)
-            members_[fill[cell(0, where[k][0]) * side_ + cell(1, where[k][1])]++] = k;
-    }
-
-    // Whether `found` accepts a member whose cell meets the box.
-    template <class Predicate>
-    bool any_in(const std::array<double, 2>& lo, const std::array<double, 2>& hi,
-                const Predicate& found) const {
-        const std::size_t last_v = cell(1, hi[1]);
-        for (std::size_t i = cell(0, lo[0]); i <= cell(0, hi[0]); ++i)
-            for (Index k = begin_[i * side_ + cell(1, lo[1])]; k < begin_[i * side_ + last_v + 1];
-                 ++k)
-                if (found(members_[k])) return true;
-        return false;
-    }
-
-private:
-    std::size_t cell(std::size_t axis, double at) const {
-        const double c = std::max(0.0, (at - lo_[axis]) * scale_[axis]);
-        return std::min(static_cast<std::size_t>(std::min(c, 1e6)), side_ - 1);
-    }
-
-    std::array<double, 2> lo_;
-    std::array<double, 2> scale_{};
-    std::size_t side_ = 1;
-    std::vector<Index> begin_;
-    std::vector<Index> members_;
-};
-
-class Triangulator {
-public:
-    Triangulator(const Plane& plane, std::span<const Point> points,
-                 std::span<const IndexLoop> loops)
-        : figure_(plane, points, loops) {}
+    SweepTriangulator(const Plane& plane, std::span<const Point> points,
+                      std::span<const IndexLoop> loops)
+        : figure_(plane, points, loops), line_(figure_), region_of_(figure_.corner_count()) {}
 
     std::vector<IndexTriangle> run() {
-        const std::size_t corner_count = figure_.corner_count();
-        for (const Index hole : figure_.holes()) tie(hole);
-        for (const Index outline : figure_.outlines()) cut_ears(outline);
-        TRISECT_EXPECTS(triangles_.size() + 2 * figure_.outlines().size() ==
-                            corner_count + 2 * figure_.holes().size(),
+        const std::size_t wanted =
+            figure_.corner_count() + 2 * figure_.holes().size() - 2 * figure_.outlines().size();
+        triangles_.reserve(wanted);
+        const auto order = figure_.corners_in_order();
+        for (std::size_t i = 0; i < order.size();) {
+            std::size_t j = i + 1;
+            while (j < order.size() && place_of(order[j]) == place_of(order[i])) ++j;
+            pass(order.subspan(i, j - i));
+            i = j;
+        }
+        TRISECT_EXPECTS(triangles_.size() == wanted,
                         "a triangulation with one triangle for each corner but two");
         return std::move(triangles_);
     }
 
 private:
-    Index place_of(Index c) const { return figure_.place_of(c); }
-    Index prev(Index c) const { return figure_.prev(c); }
-    Index next(Index c) const { return figure_.next(c); }
-    int turn(Index c) const { return figure_.turn(c); }
-    int orientation(Index a, Index b, Index c) const { return figure_.orientation(a, b, c); }
+    enum class Side : std::uint8_t { Lower, Upper };
+    enum class Kind : std::uint8_t { Start, Split, End, Merge, Lower, Upper };
 
-    // Whether the direction to a place lies strictly inside the corner's interior wedge.
-    bool wedge_contains(Index c, Index target) const {
-        const Index p = place_of(c);
-        const Index out = place_of(next(c));
-        const Index in = place_of(prev(c));
-        const int wedge = orientation(p, out, in);
-        const int from_out = orientation(p, out, target);
-        const int to_in = orientation(p, target, in);
-        if (wedge > 0) return from_out > 0 && to_in > 0;
-        if (wedge < 0) return from_out > 0 || to_in > 0;
-        const bool straight = (out < p) != (in < p);
-        if (straight) return from_out > 0;
-        return from_out != 0 || (target < p) != (out < p);  // all around the tip of a slit
+    // The part of a monotone polygon without triangles. All corners but the first are on `side`;
+    // the edge from the first one to what comes next is on the other.
+    struct Part {
+        std::vector<Index> chain;
+        Side side = Side::Lower;
+    };
+    // Two parts after a merge, until the next corner: then the merge is the last corner of both,
+    // at the upper end of the low one and at the lower end of the high one.
+    struct Region {
+        Index low = 0;
+        Index high = 0;
+    };
+
+    [[nodiscard]] Index place_of(Index c) const { return figure_.place_of(c); }
+
+    [[nodiscard]] Kind kind_of(Index c) const {
+        const bool from_left = place_of(figure_.prev(c)) < place_of(c);
+        const bool to_left = place_of(figure_.next(c)) < place_of(c);
+        if (from_left != to_left) return from_left ? Kind::Lower : Kind::Upper;
+        // Both ways along one line: the tip of a slit, with the interior all around.
+        const bool convex = figure_.turn(c) > 0;
+        if (from_left) return convex ? Kind::End : Kind::Merge;
+        return convex ? Kind::Start : Kind::Split;
     }
 
-    // Whether the open segment between two places, a before b, meets no edge and no place.
-    bool sees(Index a, Index b) const {
-        for (const PlanarLoops::Corner& corner : figure_.corners()) {
-            const Index c = corner.place;
-            const Index d = place_of(corner.next);
-            if (std::max(c, d) <= a || std::min(c, d) >= b) continue;
-            const int side_c = orientation(a, b, c);
-            if (side_c == 0 && a < c && c < b) return false;
-            if (c == a || c == b || d == a || d == b) continue;
-            const int side_d = orientation(a, b, d);
-            if (side_c * side_d >= 0) continue;
-            if (orientation(c, d, a) * orientation(c, d, b) < 0) return false;
+    // All corners at a place. Edges that end there go first, then come those that begin.
+    void pass(std::span<const Index> corners) {
+        for (const Index c : corners) {
+            const Kind kind = kind_of(c);
+            if (kind == Kind::Lower) run_on(c);
+            if (kind == Kind::End) end(c);
+            if (kind == Kind::Merge) merge(c);
         }
-        return true;
+        for (const Index c : corners) {
+            const Kind kind = kind_of(c);
+            if (kind == Kind::Upper) (void)reach(region_below(c), c, Side::Upper);
+            if (kind == Kind::Split) split(c);
+            if (kind == Kind::Start) start(c);
+        }
     }
 
-    // Ties a hole to an earlier corner by a pair of opposite edges.
-    void tie(Index hole) {
-        const Index b = place_of(hole);
-        using Candidate = std::pair<double, Index>;
-        std::vector<Candidate> candidates;
-        for (Index a = 0; a < b; ++a) {
-            const double u = figure_.u(a) - figure_.u(b);
-            const double v = figure_.v(a) - figure_.v(b);
-            candidates.emplace_back(u * u + v * v, a);
-        }
-        const auto farther = std::greater<>();
-        std::make_heap(candidates.begin(), candidates.end(), farther);
-        while (!candidates.empty()) {
-            std::pop_heap(candidates.begin(), candidates.end(), farther);
-            const Index a = candidates.back().second;
-            candidates.pop_back();
-            const Index from = corner_facing(a, b);
-            const Index to = corner_facing(b, a);
-            if (from == PlanarLoops::none || to == PlanarLoops::none || !sees(a, b)) continue;
-            figure_.splice(from, to);
+    Region& region_below(Index c) {
+        const Index r = line_.below(place_of(c));
+        TRISECT_EXPECTS(r != decltype(line_)::none, "a corner of a face has an edge below");
+        return regions_[r];
+    }
+    [[nodiscard]] Index region_above_edge_to(Index c) const { return region_of_[figure_.prev(c)]; }
+
+    void run_on(Index c) {
+        const Index r = region_above_edge_to(c);
+        (void)reach(regions_[r], c, Side::Lower);
+        region_of_[c] = r;
+        line_.advance(r, c);
+    }
+
+    void end(Index c) {
+        const Index r = region_above_edge_to(c);
+        const Region region = regions_[r];
+        close(region.low, c);
+        if (region.high != region.low) close(region.high, c);
+        line_.close(r);
+    }
+
+    void merge(Index c) {
+        const Index above = region_above_edge_to(c);
+        const Index high = reach(regions_[above], c, Side::Lower);
+        line_.close(above);
+        Region& below = region_below(c);
+        below = {reach(below, c, Side::Upper), high};
+    }
+
+    void start(Index c) { open({new_part(c), 0}, c, true); }
+
+    void split(Index c) {
+        Region& region = region_below(c);
+        if (region.low != region.high) {
+            const Region both = region;
+            extend(both.low, c, Side::Upper);
+            extend(both.high, c, Side::Lower);
+            region = {both.low, both.low};
+            open({both.high, both.high}, c, false);
             return;
         }
-        TRISECT_EXPECTS(false, "a hole inside an outline");
+        // The chain stays on its side of the diagonal to its last corner.
+        const Index old = region.low;
+        const Index last = parts_[old].chain.back();
+        const Side side = parts_[old].side;
+        const Index other = new_part(last);
+        extend(old, c, side);
+        extend(other, c, side == Side::Lower ? Side::Upper : Side::Lower);
+        const Index low = side == Side::Lower ? other : old;
+        const Index high = side == Side::Lower ? old : other;
+        region = {low, low};
+        open({high, high}, c, false);
     }
 
-    Index corner_facing(Index place, Index target) const {
-        for (const Index c : figure_.corners_at(place))
-            if (wedge_contains(c, target)) return c;
-        return PlanarLoops::none;
+    void open(Region region, Index c, bool single) {
+        if (single) region.high = region.low;
+        region_of_[c] = line_.open(c);
+        regions_.push_back(region);
     }
 
-    std::array<double, 2> where(Index c) const {
-        return {figure_.u(place_of(c)), figure_.v(place_of(c))};
+    // The region gets a corner on one side. Returns its part, one from now on.
+    Index reach(Region& region, Index c, Side side) {
+        if (region.low != region.high) {
+            close(side == Side::Upper ? region.high : region.low, c);
+            if (side == Side::Upper) {
+                region.high = region.low;
+            } else {
+                region.low = region.high;
+            }
+        }
+        extend(region.low, c, side);
+        return region.low;
     }
 
-    void emit(Index a, Index b, Index c) {
+    Index new_part(Index first) {
+        Index p = 0;
+        if (free_.empty()) {
+            p = static_cast<Index>(parts_.size());
+            parts_.emplace_back();
+        } else {
+            p = free_.back();
+            free_.pop_back();
+        }
+        parts_[p].chain.assign(1, first);
+        parts_[p].side = Side::Lower;
+        return p;
+    }
+
+    void extend(Index part, Index c, Side side) {
+        auto& chain = parts_[part].chain;
+        if (chain.size() > 1 && parts_[part].side != side) {
+            const Index last = chain.back();
+            join_all(part, c);
+            chain.assign(1, last);
+        }
+        parts_[part].side = side;
+        while (chain.size() > 1) {
+            const Index a = chain[chain.size() - 2];
+            const Index b = chain.back();
+            const int turn = figure_.orientation(place_of(a), place_of(b), place_of(c));
+            if (side == Side::Lower ? turn <= 0 : turn >= 0) break;
+            emit(a, b, c, side);
+            chain.pop_back();
+        }
+        chain.push_back(c);
+    }
+
+    void close(Index part, Index c) {
+        join_all(part, c);
+        free_.push_back(part);
+    }
+
+    void join_all(Index part, Index c) {
+        const auto& chain = parts_[part].chain;
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+            emit(chain[i], chain[i + 1], c, parts_[part].side);
+    }
+
+    // a and b in the order of the sweep along one side.
+    void emit(Index a, Index b, Index c, Side side) {
+        if (side == Side::Upper) std::swap(a, b);
         triangles_.push_back(
             {figure_.corner(a).point, figure_.corner(b).point, figure_.corner(c).point});
     }
 
-    void cut_ears(Index first) {
-        std::vector<Index> blocking;
-        std::vector<std::array<double, 2>> places;
-        std::size_t left = 0;
-        is_blocking_.resize(figure_.corner_count(), false);
-        Index c = first;
-        do {
-            ++left;
-            if (turn(c) <= 0) {
-                is_blocking_[c] = true;
-                blocking.push_back(c);
-                places.push_back(where(c));
-            }
-            c = next(c);
-        } while (c != first);
-        const CornerGrid grid(places.empty() ? std::vector{where(first)} : places);
-        for (std::size_t failures = 0; left > 3;) {
-            if (!is_ear(c, grid, blocking)) {
-                TRISECT_EXPECTS(++failures <= left, "an outline that has an ear");
-                c = next(c);
-                continue;
-            }
-            emit(prev(c), c, next(c));
-            const Index before = prev(c);
-            const Index after = next(c);
-            figure_.connect(before, after);
-            // Cutting only narrows wedges: a convex corner stays convex.
-            for (const Index neighbour : {before, after})
-                if (is_blocking_[neighbour]) is_blocking_[neighbour] = turn(neighbour) <= 0;
-            --left;
-            failures = 0;
-            c = next(after);  // skipping one spreads the triangles
-        }
-        TRISECT_EXPECTS(turn(c) > 0, "a last triangle with area");
-        emit(prev(c), c, next(c));
-    }
-
-    bool is_ear(Index c, const CornerGrid& grid, std::span<const Index> blocking) const {
-        if (is_blocking_[c]) return false;
-        if (blocking.empty()) return true;
-        const Index a = place_of(prev(c));
-        const Index b = place_of(c);
-        const Index d = place_of(next(c));
-        const auto wa = where(prev(c));
-        const auto wb = where(c);
-        const auto wd = where(next(c));
-        const std::array<double, 2> lo{std::min({wa[0], wb[0], wd[0]}),
-                                       std::min({wa[1], wb[1], wd[1]})};
-        const std::array<double, 2> hi{std::max({wa[0], wb[0], wd[0]}),
-                                       std::max({wa[1], wb[1], wd[1]})};
-        return !grid.any_in(lo, hi, [&](Index k) {
-            if (!is_blocking_[blocking[k]]) return false;
-            const Index p = place_of(blocking[k]);
-            if (p == a || p == b || p == d) return false;
-            return orientation(a, b, p) >= 0 && orientation(b, d, p) >= 0 &&
-                   orientation(d, a, p) >= 0;
-        });
-    }
-
     PlanarLoops figure_;
-    std::vector<bool> is_blocking_;
+    detail::SweepLine<PlanarLoops> line_;
+    std::vector<Region> regions_;   // by number on the line
+    std::vector<Index> region_of_;  // by corner: above the edge that leaves it
+    std::vector<Part> parts_;
+    std::vector<Index> free_;
     std::vector<IndexTriangle> triangles_;
 };
+
+// A single loop with few corners, all at different places: ears. Nothing when it is not one.
+std::optional<std::vector<IndexTriangle>> cut_small(const Plane& plane,
+                                                    std::span<const Point> points,
+                                                    std::span<const Index> loop) {
+    const std::size_t n = loop.size();
+    if (n > detail::small_polygon_limit) return {};
+    const PlaneProjection projection(plane, points);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (projection.compare(loop[i], loop[j]) == 0) return {};
+    std::vector<IndexTriangle> triangles;
+    const bool done = detail::cut_small_polygon(
+        n,
+        [&](Index a, Index b, Index c) {
+            return projection.orientation(loop[a], loop[b], loop[c]);
+        },
+        [&] {
+            Index first = 0;
+            for (Index i = 1; i < n; ++i)
+                if (projection.compare(loop[i], loop[first]) < 0) first = i;
+            return first;
+        },
+        [&](Index a, Index b, Index c) {
+            triangles.push_back({loop[a], loop[b], loop[c]});
+        });
+    TRISECT_EXPECTS(done, "a simple outline has an ear");
+    return triangles;
+}
 
 // A simple loop that turns left at every corner is convex. (A loop that touches itself has a
 // corner that does not.)
@@ -274,9 +304,13 @@ std::vector<IndexTriangle> triangulate(const Plane& plane, std::span<const Point
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
     for (const auto& loop : loops)
         TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
-    if (loops.size() == 1 && (loops[0].size() == 3 || is_strictly_convex(plane, points, loops[0])))
-        return fan(loops[0]);
-    return Triangulator(plane, points, loops).run();
+    if (loops.size() == 1) {
+        const IndexLoop& loop = loops[0];
+        if (loop.size() == 3) return fan(loop);
+        if (auto triangles = cut_small(plane, points, loop)) return *std::move(triangles);
+        if (is_strictly_convex(plane, points, loop)) return fan(loop);
+    }
+    return SweepTriangulator(plane, points, loops).run();
 }
 
 std::vector<IndexTriangle> triangulate(const Brep& brep, FaceId face) {

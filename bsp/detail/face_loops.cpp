@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include <trisect/brep/detail/sweep_line.h>
+#include <trisect/brep/detail/loops_below.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -135,7 +135,7 @@ void FaceLoops::set_region(PlaneId support, bool flipped, std::span<const Bounda
     order_loops();
 }
 
-// The corners of all loops; edge i runs from corner i to the next one of its loop.
+// The corners of all loops for loops_below; edge i runs from corner i to the next one of its loop.
 class FaceLoops::Figure {
 public:
     explicit Figure(const FaceLoops& loops)
@@ -155,6 +155,7 @@ public:
             rank_[c] = static_cast<std::uint32_t>(points_.size() - 1);
         }
     }
+    [[nodiscard]] std::size_t corner_count() const { return rank_.size(); }
     [[nodiscard]] std::span<const std::uint32_t> corners_in_order() const { return order_; }
     [[nodiscard]] std::uint32_t next(std::uint32_t corner) const { return next_[corner]; }
     [[nodiscard]] std::uint32_t from(std::uint32_t edge) const { return rank_[edge]; }
@@ -171,43 +172,6 @@ private:
     std::vector<PointId> points_;  // by rank
 };
 
-// For each loop one that has an edge straight below its first corner.
-std::vector<std::uint32_t> FaceLoops::loops_below() const {
-    using Index = std::uint32_t;
-    const Figure figure(*this);
-    SweepLine line(figure);
-    std::vector<Index> region(points_.size());  // by corner: above the edge that leaves it
-    std::vector<Index> before(points_.size());
-    std::vector<Index> loop_of(points_.size());
-    for (Index l = 0; l < loops_.size(); ++l)
-        for (std::size_t i = 0; i < loops_[l].size; ++i) loop_of[loops_[l].begin + i] = l;
-    for (Index c = 0; c < points_.size(); ++c) before[figure.next(c)] = c;
-    const auto runs_with_sweep = [&](Index c) { return figure.from(c) < figure.to(c); };
-
-    std::vector<Index> below(loops_.size(), SweepLine<Figure>::none);
-    const auto order = figure.corners_in_order();
-    for (std::size_t i = 0; i < order.size();) {
-        std::size_t j = i;
-        for (; j < order.size() && figure.from(order[j]) == figure.from(order[i]); ++j) {
-            const Index c = order[j];
-            if (loops_[loop_of[c]].begin == c)
-                if (const Index r = line.below(figure.from(c)); r != line.none)
-                    below[loop_of[c]] = loop_of[line.edge(r)];
-            if (!runs_with_sweep(before[c])) continue;
-            region[c] = region[before[c]];
-            if (runs_with_sweep(c)) {
-                line.advance(region[c], c);
-            } else {
-                line.close(region[c]);
-            }
-        }
-        for (; i < j; ++i)
-            if (runs_with_sweep(order[i]) && !runs_with_sweep(before[order[i]]))
-                region[order[i]] = line.open(order[i]);
-    }
-    return below;
-}
-
 std::span<const std::vector<std::uint32_t>> FaceLoops::faces() {
     faces_.clear();
     std::vector<std::uint32_t> face_of(loops_.size());
@@ -219,7 +183,11 @@ std::span<const std::vector<std::uint32_t>> FaceLoops::faces() {
     TRISECT_EXPECTS(!faces_.empty(), "a hole lies in no face");
     if (faces_.size() == loops_.size()) return faces_;
     std::vector<std::uint32_t> below;
-    if (faces_.size() > 1) below = loops_below();
+    if (faces_.size() > 1) {
+        std::vector<std::uint32_t> first;
+        for (const Loop& l : loops_) first.push_back(static_cast<std::uint32_t>(l.begin));
+        below = detail::loops_below(Figure(*this), first);
+    }
     for (std::uint32_t l = 0; l < loops_.size(); ++l) {
         if (loops_[l].outer) continue;
         if (!below.empty()) {

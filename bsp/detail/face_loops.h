@@ -53,7 +53,6 @@ private:
     void add_loop();
     [[nodiscard]] bool is_outer(std::size_t smallest) const;
     void order_loops();
-    [[nodiscard]] std::vector<std::uint32_t> loops_below() const;
 
     const Workbench& bench_;
     std::span<const BoundaryEdge> edges_;

@@ -259,12 +259,13 @@ TEST(Triangulate, RandomFiguresOfUnitSquares) {
     // Unions of unit squares on a small board, traced along their boundary: plenty of holes, shared
     // vertices and straight runs.
     std::mt19937 random(11);
-    for (int round = 0; round < 300; ++round) {
-        constexpr int n = 6;
+    for (int round = 0; round < 400; ++round) {
+        constexpr int n = 9;
+        const int squares = round % 2 == 0 ? 22 : 60;
         std::array<std::array<bool, n + 2>, n + 2> board{};
         std::vector<std::array<int, 2>> stack{{3, 3}};
         board[3][3] = true;
-        for (int k = 0; k < 22; ++k) {  // grow one connected patch
+        for (int k = 0; k < squares; ++k) {  // grow one connected patch
             const auto at = stack[random() % stack.size()];
             const int dir = static_cast<int>(random() % 4);
             const int x = std::clamp(at[0] + (dir == 0) - (dir == 1), 1, n);
@@ -302,6 +303,118 @@ TEST(Triangulate, RandomFiguresOfUnitSquares) {
         }
         expect_triangulable(loops);
     }
+}
+
+// Large figures of the kinds that are quadratic for ears, bridges or sweeps along one axis.
+void expect_large(const Loops& loops) {
+    for (const Placement how : {Placement::Flat, Placement::Upright, Placement::Sheared}) {
+        const Figure f = figure(loops, how, false);
+        expect_triangulation(f, triangulate(plane_of(how), f.points, f.loops));
+    }
+}
+
+Loop turned_left(Loop loop) {
+    for (auto& p : loop) p = {-p[1], p[0]};
+    return loop;
+}
+
+TEST(Triangulate, CombOfManyTeeth) {
+    Loop comb;
+    constexpr std::int64_t n = 5000;
+    comb.push_back({2 * n, -7});
+    for (std::int64_t i = n; i > 0; --i) {
+        comb.push_back({2 * i, 100 + i % 3});
+        comb.push_back({2 * i - 1, i % 2});
+    }
+    comb.push_back({0, -7});
+    expect_large({comb});
+    expect_large({turned_left(comb)});
+    expect_large({turned_left(turned_left(comb))});
+}
+
+TEST(Triangulate, SpiralOfManyTurns) {
+    Loop outside;
+    Loop inside;
+    constexpr std::array<std::array<std::int64_t, 2>, 4> corner{
+        {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
+    std::int64_t reach = 1;
+    for (std::size_t i = 0; i < 8000; ++i) {
+        const auto [x, y] = corner[i % 4];
+        outside.push_back({x * (reach + 1), y * (reach + 1)});
+        inside.push_back({x * reach, y * reach});
+        if (i % 4 == 3) reach += 2;
+        if (i % 4 == 3) outside.back()[1] -= 2, inside.back()[1] -= 2;
+    }
+    outside.insert(outside.end(), inside.rbegin(), inside.rend());
+    expect_large({outside});
+}
+
+TEST(Triangulate, StarOfManyPoints) {
+    Loop star;
+    constexpr int n = 10000;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n;
+        const double r = i % 2 == 0 ? 1e9 : 1e6;
+        star.push_back({std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))});
+    }
+    expect_large({star});
+}
+
+// Corners on lattice points next to the circle: nearly straight everywhere, reflex here and there.
+TEST(Triangulate, CircleOfAHundredThousandCornersWithAThousandHoles) {
+    Loop circle;
+    constexpr int n = 100000;
+    constexpr double r = 1e8;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n;
+        circle.push_back({std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))});
+    }
+    Loops loops{circle};
+    for (std::int64_t i = 0; i < 32; ++i)
+        for (std::int64_t j = 0; j < 32; ++j)
+            loops.push_back(hole(square(4000000 * (i - 16) + 5, 4000000 * (j - 16) + 7 * i, 9999)));
+    const Figure f = figure(loops, Placement::Sheared, false);
+    const auto triangles = triangulate(plane_of(Placement::Sheared), f.points, f.loops);
+    EXPECT_EQ(triangles.size(), f.points.size() - 2 + 2 * 1024);
+    expect_triangulation(f, triangles);
+}
+
+TEST(Triangulate, TenThousandHolesInRowsAndColumns) {
+    Loops loops{square(0, 0, 2000)};
+    for (std::int64_t i = 0; i < 100; ++i)
+        for (std::int64_t j = 0; j < 100; ++j)
+            loops.push_back(hole(square(20 * i + 5, 20 * j + 5, 9)));
+    expect_large(loops);
+}
+
+TEST(Triangulate, RowsOfHolesThatTouch) {
+    // Every hole touches its neighbours in corners, the first and the last one touch the outline.
+    Loop outline{{0, 0}};
+    Loops holes;
+    for (std::int64_t row = 1; row <= 40; ++row) {
+        outline.push_back({800, 20 * row});
+        for (std::int64_t i = 0; i < 40; ++i)
+            holes.push_back(hole({{20 * i, 20 * row},
+                                  {20 * i + 10, 20 * row - 5},
+                                  {20 * i + 20, 20 * row},
+                                  {20 * i + 10, 20 * row + 5}}));
+    }
+    outline.push_back({800, 900});
+    outline.push_back({0, 900});
+    for (std::int64_t row = 40; row >= 1; --row) outline.push_back({0, 20 * row});
+    outline.insert(outline.begin() + 1, {800, 0});
+    Loops loops{outline};
+    loops.insert(loops.end(), holes.begin(), holes.end());
+    expect_large(loops);
+}
+
+TEST(Triangulate, ManyOutlinesInHolesOfEachOther) {
+    Loops loops;
+    for (std::int64_t i = 0; i < 200; ++i) {
+        loops.push_back(square(4 * i, 4 * i, 4000 - 8 * i));
+        loops.push_back(hole(square(4 * i + 2, 4 * i + 2, 4000 - 8 * i - 4)));
+    }
+    expect_large(loops);
 }
 
 }  // namespace
