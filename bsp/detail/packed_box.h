@@ -105,6 +105,16 @@ struct alignas(16) PackedBox {
 };
 static_assert(sizeof(PackedBox) == 16);
 
+/// One load and one store; compilers copy the members one by one.
+inline void copy(const PackedBox& from, PackedBox* to) {
+#if defined(__SSE2__)
+    _mm_store_si128(reinterpret_cast<__m128i*>(to),
+                    _mm_load_si128(reinterpret_cast<const __m128i*>(&from)));
+#else
+    *to = from;
+#endif
+}
+
 /// The reach of a box, prepared for many intersection tests.
 class PackedReach {
 public:

@@ -56,11 +56,11 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
     const auto q = static_cast<std::int16_t>(first_above);
     const auto minus_q = static_cast<std::int16_t>(-first_above);
     for (const PackedBox& e : list) {
-        const unsigned below = e.lo[axis] < q ? 1 : 0;
-        const unsigned above = e.minus_hi[axis] <= minus_q ? 1 : 0;
-        *ends.below = e;
-        *ends.above = e;
-        *ends.crossing = e;
+        const std::size_t below = e.lo[axis] < q ? 1 : 0;
+        const std::size_t above = e.minus_hi[axis] <= minus_q ? 1 : 0;
+        copy(e, ends.below);
+        copy(e, ends.above);
+        copy(e, ends.crossing);
         ends.below += 1 - above;
         ends.above += 1 - below;
         ends.crossing += below & above;
