@@ -60,7 +60,7 @@ private:
 /// How evaluate() works; the set that results never depends on it.
 struct EvaluateOptions {
     /// A cell with at most this many polygons is resolved instead of refined.
-    std::uint32_t leaf_polygons = 60;
+    std::uint32_t leaf_polygons = 100;
     /// Offset of walls from lattice positions in 1/256 units; odd. For tests of vertices on walls.
     std::uint32_t wall_offset = 83;
     /// What counts as inside an operand that covers itself several times.
