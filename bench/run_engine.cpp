@@ -120,6 +120,10 @@ struct Times {
     }
 };
 
+/// Steps of a chain that may end early: those of shorter ones are too different to be compared by
+/// their mean.
+constexpr std::size_t long_chain = 100;
+
 /// How a chain went: the mean time of a step, import of its tool included, and the memory at the
 /// end, for each window of steps.
 struct Chain {
@@ -198,7 +202,9 @@ void Job::run_chain(Times& t) {
     if (scene_.untimed == 0) t.import = import.milliseconds();
     double window_ms = 0;
     for (std::size_t i = 0; i < scene_.steps; ++i) {
-        if (options_.limit > 0 && whole.milliseconds() > 1000 * options_.limit) break;
+        if (scene_.steps >= long_chain && options_.limit > 0 &&
+            whole.milliseconds() > 1000 * options_.limit)
+            break;
         const Times step = run_step(i);
         ++chain_.steps;
         if (i < scene_.untimed) continue;
