@@ -117,8 +117,8 @@ void measure_whole(const std::string& name, const Brep& brep) {
         std::printf("| %s | %s | %zu | %.2f | %zu | %zu | %zu | %zu | %.0f | %.1f | %.0f |\n",
                     name.c_str(), label, s.faces, s.fragments_per_polygon(), s.nodes[3], s.nodes[2],
                     s.nodes[1], s.space_depth, s.bytes_per_face(), build * 1e3, ns);
+        std::fflush(stdout);
     }
-    std::fflush(stdout);
 }
 
 /// A k-d tree of walls with an MspTree in each cell.
@@ -244,7 +244,7 @@ void measure_cells(const std::string& name, const LatticeMesh& mesh) {
     const double index_near = time_of(near, by_index);
     std::printf("| %s | BrepIndex | %zu | | | %.0f | | %.0f | %.0f |\n", name.c_str(),
                 mesh.triangles.size(), index_seconds * 1e3, index_ns, index_near);
-    for (const std::size_t limit : {8U, 25U, 60U}) {
+    for (const std::size_t limit : {25U, 60U}) {
         for (const auto& [heuristic, label] : heuristics) {
             MspOptions options;
             options.split_heuristic = heuristic;
