@@ -19,8 +19,8 @@ struct Parts {
     [[nodiscard]] bool is_cut() const { return below && above; }
 };
 
-/// Groups of a list that a candidate is tried on, at most: four thousand items. More change the choice
-/// little and cost as much as the cut itself, times the candidates.
+/// Groups of a list that a candidate is tried on, at most: four thousand items. More change the
+/// choice little and cost as much as the cut itself, times the candidates.
 inline constexpr std::size_t groups_tried = 64;
 
 /// What a cut does to a list. Stops early where the penalty cannot come below `limit`.
