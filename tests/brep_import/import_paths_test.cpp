@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -409,6 +410,32 @@ TEST(WeldInPlace, NumbersLikeWeldPointsForEveryHint) {
         EXPECT_EQ(in_place.empty(), distinct.size() == points.size());
         EXPECT_TRUE(in_place.empty() || in_place == ids);
     }
+}
+
+/// Points that differ and have one hash: z undoes what x and y did.
+std::vector<LatticePoint> colliding_points(std::size_t n) {
+    // The inverse of the factor of z modulo 2^64, by Newton's iteration.
+    constexpr std::uint64_t factor = 0x165667b19e3779f9U;
+    std::uint64_t inverse = factor;
+    for (int i = 0; i < 6; ++i) inverse *= 2 - factor * inverse;
+    std::vector<LatticePoint> points;
+    for (std::size_t i = 0; i < n; ++i) {
+        auto h = static_cast<std::uint64_t>(i / 2) * 0x9e3779b97f4a7c15U;
+        h = std::rotl(std::rotl(h, 29), 31);
+        points.push_back({static_cast<std::int64_t>(i / 2), 0,
+                          static_cast<std::int64_t>((h ^ 12345U) * inverse)});
+    }
+    return points;
+}
+
+TEST(WeldInPlace, PointsMadeToCollideAreSortedInstead) {
+    // Each twice. Hashing would take n^2 / 4 steps: a minute and more.
+    const auto points = colliding_points(400000);
+    auto kept = points;
+    const auto ids = detail::weld_in_place(kept, kept.size());
+    ASSERT_EQ(kept.size(), points.size() / 2);
+    ASSERT_EQ(ids.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) ASSERT_EQ(ids[i], i / 2);
 }
 
 }  // namespace

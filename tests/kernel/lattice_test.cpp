@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -34,6 +35,88 @@ LatticeReport import(const Coordinates& points, Lattice lattice) {
 TEST(Lattice, NothingAndZeroGetUnitOne) {
     EXPECT_EQ(choose_lattice({}).exponent, 0);
     EXPECT_EQ(choose_lattice(Coordinates{{0, -0.0, 0}}).exponent, 0);
+}
+
+// The definitions, one coordinate at a time, with the functions of the C library.
+int lowest_bit(double v) {
+    int e = 0;
+    double m = std::frexp(v, &e);
+    while (m != std::nearbyint(m)) {
+        m *= 2;
+        --e;
+    }
+    while (std::fmod(m, 2) == 0) {
+        m /= 2;
+        ++e;
+    }
+    return e;
+}
+
+int expected_exponent(const Coordinates& points) {
+    int lowest = std::numeric_limits<int>::max();
+    double largest = 0;
+    for (const auto& p : points)
+        for (const double c : p) {
+            if (c == 0 || !std::isfinite(c)) continue;
+            lowest = std::min(lowest, lowest_bit(c));
+            largest = std::max(largest, std::fabs(c));
+        }
+    if (largest == 0) return 0;
+    int top = 0;
+    std::frexp(largest, &top);
+    const double room = top - (trisect::coordinate_bits - trisect::growth_bits);
+    return static_cast<int>(std::max(8 * std::floor(lowest / 8.0), 8 * std::ceil(room / 8)));
+}
+
+TEST(Lattice, EveryCoordinateAsIfAlone) {
+    oracle::Source random(7);
+    for (int round = 0; round < 20000; ++round) {
+        const int middle = static_cast<int>(random.between(-1100, 1000));
+        const int spread = static_cast<int>(random.between(0, 60));
+        Coordinates points(3);
+        for (auto& p : points)
+            for (double& c : p)
+                c = std::ldexp(
+                    static_cast<double>(random.coordinate(static_cast<int>(random.between(1, 53)))),
+                    middle - static_cast<int>(random.between(0, spread)));
+        Lattice lattice = choose_lattice(points);
+        ASSERT_EQ(lattice.exponent, expected_exponent(points));
+        lattice.exponent += 8 * static_cast<int>(random.between(-1, 2));
+        LatticeReport report;
+        std::vector<LatticePoint> found;
+        bool refused = false;
+        try {
+            found = to_lattice(points, lattice, report);
+        } catch (const trisect::LimitError&) {
+            refused = true;
+        }
+        double largest_move = 0;
+        std::size_t moved = 0;
+        bool outside = false;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            bool any = false;
+            for (int k = 0; k < 3; ++k) {
+                const double c = points[i][static_cast<std::size_t>(k)];
+                const double units = std::ldexp(c, -lattice.exponent);
+                outside =
+                    outside || !(std::fabs(units) < static_cast<double>(trisect::coordinate_limit));
+                if (outside) break;
+                const double r = std::nearbyint(units);
+                ASSERT_TRUE(refused || static_cast<double>(found[i][k]) == r);
+                if (r == units && (r != 0 || c == 0)) continue;
+                any = true;
+                largest_move = std::max(
+                    largest_move,
+                    r == 0 ? std::fabs(c) : std::ldexp(std::fabs(r - units), lattice.exponent));
+            }
+            moved += any ? 1 : 0;
+        }
+        ASSERT_EQ(refused, outside);
+        if (refused) continue;
+        EXPECT_EQ(report.moved, moved);
+        EXPECT_EQ(report.max_move, largest_move);
+        EXPECT_EQ(report.lossless, moved == 0);
+    }
 }
 
 TEST(Lattice, CoarsestWithoutLoss) {
