@@ -9,7 +9,8 @@
 // Meshes: bunny, armadillo, cow (100k triangles; in the folder large/ of TRISECT_MODELS),
 // bunny_turned (the same with coordinates that the lattice must round), bunny_soup (every triangle
 // with points of its own), sphere7 and sphere8 (icospheres of 328k and 1.3M triangles). One JSON
-// line a row: seconds are medians, peak_mb is how much the resident memory grew above what it was
+// line a row: cpu and seconds are medians of processor and wall time, which differ much on a busy
+// machine, peak_mb is how much the resident memory grew above what it was
 // before the call. Ways of one row take turns, so that a change of the machine's speed hits all.
 
 #include <algorithm>
@@ -28,6 +29,7 @@
 
 #include <fcntl.h>
 #include <malloc.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -74,6 +76,13 @@ double peak_mb(const std::function<void()>& work) {
     return status_mb("VmHWM:") - before;
 }
 
+/// Of this process, user and system.
+double cpu_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 double median(std::vector<double> values) {
     std::ranges::sort(values);
     const std::size_t n = values.size();
@@ -89,6 +98,7 @@ struct Way {
 
 json compare(json row, const std::vector<Way>& ways, int runs) {
     std::vector<std::vector<double>> seconds(ways.size());
+    std::vector<std::vector<double>> cpu(ways.size());
     for (std::size_t i = 0; i < ways.size(); ++i) {
         std::size_t count = 0;
         row[ways[i].name]["peak_mb"] = peak_mb([&] { count = ways[i].work(); });
@@ -97,12 +107,15 @@ json compare(json row, const std::vector<Way>& ways, int runs) {
     for (int r = 0; r < runs; ++r)
         for (std::size_t i = 0; i < ways.size(); ++i) {
             const auto start = std::chrono::steady_clock::now();
+            const double cpu_start = cpu_seconds();
             static_cast<void>(ways[i].work());
+            cpu[i].push_back(cpu_seconds() - cpu_start);
             const std::chrono::duration<double> d = std::chrono::steady_clock::now() - start;
             seconds[i].push_back(d.count());
         }
     for (std::size_t i = 0; i < ways.size(); ++i) {
         row[ways[i].name]["seconds"] = median(seconds[i]);
+        row[ways[i].name]["cpu"] = median(cpu[i]);
         row[ways[i].name]["least"] = std::ranges::min(seconds[i]);
     }
     return row;
