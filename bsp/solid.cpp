@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/refine_leaf.h>
 #include <trisect/bsp/detail/solid_state.h>
 
 namespace trisect {
@@ -105,6 +106,8 @@ Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
                    false};
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }
+
+void Solid::refine(std::uint32_t threads) const { detail::refine_all(state_->root, threads); }
 
 Lattice Solid::lattice() const { return state_->lattice; }
 bool Solid::is_empty() const { return is_constant(*state_, false); }

@@ -70,6 +70,13 @@ public:
     /// True for sets that contain everything far away.
     [[nodiscard]] bool is_whole_space() const;
 
+    /// Divides large cells of the boundary now, once for all solids that share them; the set stays
+    /// what it is. Without it the first small cut in a part reads all of the part, and each cut in
+    /// a new place what is around that; after it a cut costs what is near it. O(n log n), about a
+    /// tenth of a second for a million triangles. Safe to call from several threads. `threads`: how
+    /// many may take part, 0 means one for every processor.
+    void refine(std::uint32_t threads = 0) const;
+
     /// The boundary. Assembled anew at every call; costs O(n log n) in the faces.
     /// \throw UnsupportedError when the boundary is unbounded (a half-space).
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;

@@ -7,6 +7,9 @@
 #include <mutex>
 #include <optional>
 
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
 #include <trisect/bsp/detail/axis_trace.h>
 
 namespace trisect::detail {
@@ -111,6 +114,40 @@ const CellNode* refined(const CellNode& leaf, const Cell& cell) {
     if (polygons.whole_source() == nullptr || polygons.whole_source()->is_half_space())
         return nullptr;
     return leaf.refine([&] { return halved(leaf, cell); });
+}
+
+namespace {
+
+// Both halves of a large leaf are independent.
+void refine_below(const CellNode& node, const Cell& cell, bool parallel) {
+    const CellNode* at = &node;
+    if (at->is_leaf()) {
+        if (at->size() < refinable_leaf) return;
+        at = refined(*at, cell);
+        if (at == nullptr) return;
+    }
+    const auto below = [&](int i) {
+        const Cell c =
+            i == 0 ? cell.below(at->axis(), at->wall()) : cell.above(at->axis(), at->wall());
+        refine_below(*at->child(i).node, c, parallel);
+    };
+    if (parallel && at->size() > 64 * refinable_leaf) {
+        tbb::parallel_invoke([&] { below(0); }, [&] { below(1); });
+    } else {
+        below(0);
+        below(1);
+    }
+}
+
+}  // namespace
+
+void refine_all(const CellRef& root, std::uint32_t threads) {
+    if (threads == 1) {
+        refine_below(*root.node, Cell{}, false);
+        return;
+    }
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    arena.execute([&] { refine_below(*root.node, Cell{}, true); });
 }
 
 }  // namespace trisect::detail

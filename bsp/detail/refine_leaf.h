@@ -3,6 +3,9 @@
 // Refinement of large leaves that belong to a solid, once and for all who use it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include <trisect/bsp/cell_tree.h>
 
 namespace trisect::detail {
@@ -15,5 +18,9 @@ inline constexpr std::size_t refinable_leaf = 512;
 /// The wall depends on the leaf and its cell only. Nothing when halving does not part the polygons.
 /// Safe to call from several threads at once.
 [[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell);
+
+/// Refines all large leaves below a node, those of refinements too. `threads` as in
+/// EvaluateOptions.
+void refine_all(const CellRef& root, std::uint32_t threads);
 
 }  // namespace trisect::detail

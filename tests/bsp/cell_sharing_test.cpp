@@ -77,6 +77,17 @@ TEST(CellSharing, ATreeSharesItsNodesWithWhatIsLeftOfIt) {
     EXPECT_GE(shared_nodes(a, b) * 10, all * 9);
 }
 
+TEST(CellSharing, ACutInARefinedPartReadsWhatIsNearIt) {
+    const Solid part = ball();
+    const Solid plain = evaluate(ball() - small_box(98, 0, 0));
+    part.refine();
+    EvaluateStats stats;
+    const Solid cut = evaluate(part - small_box(98, 0, 0), {}, &stats);
+    EXPECT_LT(stats.listed_polygons, 2000U);
+    EXPECT_EQ(trisect::exact_volume(cut.to_brep()), trisect::exact_volume(plain.to_brep()));
+    EXPECT_EQ(cut.to_brep().counts().faces, plain.to_brep().counts().faces);
+}
+
 TEST(CellSharing, ASmallCutCopiesOnlyThePathToIt) {
     const Solid a = refined_ball();
     const std::size_t all = nodes_of(a).size();
