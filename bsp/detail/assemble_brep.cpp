@@ -48,7 +48,7 @@ public:
         std::size_t i = 0;
         for (const WholeFacet& w : whole) {
             if (w.joins) continue;
-            const BoundaryFacet f{parts_.sources[w.table].source(), w.facet, w.flipped, -1};
+            const BoundaryFacet f{parts_.sources[w.table].source(), w.facet, w.flipped};
             while (i < edges.size() && precedes(parts_.facets[u(edges[i].facet)], f))
                 i = write_cut(edges, i);
             write_whole(f, w);

@@ -37,6 +37,10 @@ public:
             tables_[t].assign(parts_.sources[t].source()->mesh().points.size(), none);
         rest_ = edges;
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
+        const std::size_t triangles = mesh_.corners.size() / 3;
+        mesh_.face_begin.resize(triangles + 1);
+        for (std::size_t i = 0; i <= triangles; ++i)
+            mesh_.face_begin[i] = static_cast<std::uint32_t>(3 * i);
         return std::move(mesh_);
     }
 
@@ -44,12 +48,16 @@ private:
     // Of k edges come at most k - 2 triangles, and two more for each hole.
     void reserve(std::size_t edges) {
         const std::size_t whole = parts_.stats.whole_facets;
-        mesh_.face_begin.reserve(whole + edges + 1);
         mesh_.corners.reserve(3 * (whole + edges));
         std::size_t corners = edges;
         for (const FacetMarks& marks : parts_.sources)
             corners += marks.source()->mesh().points.size();
         mesh_.points.reserve(std::min(corners, 3 * whole + edges));
+    }
+
+    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const std::array t{a, b, c};
+        mesh_.corners.insert(mesh_.corners.end(), t.begin(), t.end());
     }
 
     std::uint32_t add_point(const std::array<double, 3>& p) {
@@ -95,7 +103,7 @@ private:
         const std::uint32_t a = corner(t, corners[0]);
         const std::uint32_t b = corner(t, corners[flipped ? 2 : 1]);
         const std::uint32_t c = corner(t, corners[flipped ? 1 : 2]);
-        mesh_.add_triangle(a, b, c);
+        add_triangle(a, b, c);
     }
 
     // The facet whose edges come next.
@@ -108,7 +116,7 @@ private:
         if (loops_.loop_count() > 1 || loop.size() > small_polygon_limit || !is_simple(loop)) {
             write_large(f);
         } else if (is_all_of(f, loop)) {
-            copy(table_of(f.source), f.facet, f.flipped);
+            copy(parts_.table_of(f.source), f.facet, f.flipped);
         } else {
             write_small(f, loop);
         }
@@ -130,20 +138,11 @@ private:
         if (at != none) return at;
         if (bench_.is_corner(p)) {
             const auto [source, v] = bench_.corner_name(p);
-            at = corner(table_of(source), v);
+            at = corner(parts_.table_of(source), v);
         } else {
             at = add_point(nearest_doubles(bench_.homogeneous(p)));
         }
         return at;
-    }
-
-    std::size_t table_of(const Source* source) {
-        const auto is_it = [&](const FacetMarks& m) { return m.source() == source; };
-        if (!is_it(parts_.sources[last_table_]))
-            last_table_ = static_cast<std::size_t>(
-                std::find_if(parts_.sources.begin(), parts_.sources.end(), is_it) -
-                parts_.sources.begin());
-        return last_table_;
     }
 
     // In a loop of one region all passages of a vertex have one name.
@@ -174,11 +173,11 @@ private:
             }
             return first;
         };
-        const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
-                                            [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                                                mesh_.add_triangle(vertex(loop[a]), vertex(loop[b]),
-                                                                   vertex(loop[c]));
-                                            });
+        const bool done =
+            cut_small_polygon(loop.size(), orientation, first_corner,
+                              [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                  add_triangle(vertex(loop[a]), vertex(loop[b]), vertex(loop[c]));
+                              });
         TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
     }
 
@@ -202,7 +201,7 @@ private:
         const Plane& support = bench_.plane_at(f.support);
         for (const IndexTriangle& t :
              triangulate(f.flipped ? support.flipped() : support, points_, outline_))
-            mesh_.add_triangle(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
+            add_triangle(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
     }
 
     Lattice lattice_;
@@ -211,8 +210,7 @@ private:
     PolygonMesh mesh_;
     std::span<const BoundaryEdge> rest_;              // of facets not yet written
     std::vector<std::vector<std::uint32_t>> tables_;  // by source
-    std::size_t last_table_ = 0;
-    std::vector<std::uint32_t> number_;  // by PointId
+    std::vector<std::uint32_t> number_;               // by PointId
     FaceLoops loops_;
     std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
     std::vector<PointId> ids_;

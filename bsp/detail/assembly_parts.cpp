@@ -60,7 +60,7 @@ private:
     void mark_list(const Leaf& leaf, FacetMarks& marks);
     void number_facets();
     void make_parts(Leaf& leaf);
-    void make_part(const PolygonRef& ref, const Cell& cell, std::int32_t facet);
+    void make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet);
     void add_corners_near(const WorkPolygon& shape, const PolygonRef& ref);
     void merge_equal_points();
     void conform_edges();
@@ -80,11 +80,10 @@ private:
 std::size_t Gatherer::table(const Source* source) {
     auto& tables = out_.sources;
     if (last_table_ < tables.size() && tables[last_table_].source() == source) return last_table_;
-    const auto at = std::find_if(tables.begin(), tables.end(),
-                                 [&](const FacetMarks& t) { return t.source() == source; });
-    last_table_ = static_cast<std::size_t>(at - tables.begin());
-    if (at == tables.end()) mark_incomplete(tables.emplace_back(source));
-    return last_table_;
+    const auto next = static_cast<std::int32_t>(tables.size());
+    const auto [id, inserted] = out_.table_ids.insert(BoundaryParts::key_of(source), next);
+    if (inserted) mark_incomplete(tables.emplace_back(source));
+    return last_table_ = u(id);
 }
 
 void Gatherer::mark_incomplete(FacetMarks& marks) const {
@@ -152,55 +151,59 @@ void Gatherer::mark_list(const Leaf& leaf, FacetMarks& marks) {
 }
 
 void Gatherer::number_facets() {
-    std::sort(out_.sources.begin(), out_.sources.end(), [](const auto& a, const auto& b) {
+    auto& tables = out_.sources;
+    std::stable_sort(tables.begin(), tables.end(), [](const auto& a, const auto& b) {
         return a.source()->serial() < b.source()->serial();
     });
     last_table_ = 0;
-    facet_index_.resize(out_.sources.size());
-    for (std::size_t t = 0; t < out_.sources.size(); ++t) {
-        const FacetMarks& marks = out_.sources[t];
-        const std::uint32_t count = marks.source()->facet_count();
-        for (std::uint32_t f = 0; f < count; ++f) {
-            for (const bool flipped : {false, true}) {
-                if (!marks.is_present(f, flipped)) continue;
-                if (!marks.is_worked(f, flipped)) {
-                    ++out_.stats.whole_facets;
-                    continue;
-                }
-                if (facet_index_[t].empty()) facet_index_[t].assign(2 * std::size_t{count}, -1);
-                facet_index_[t][2 * std::size_t{f} + (flipped ? 1 : 0)] =
-                    static_cast<std::int32_t>(out_.facets.size());
-                out_.facets.push_back({marks.source(), f, flipped, -1});
-            }
-        }
+    facet_index_.resize(tables.size());
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+        const Source* source = tables[t].source();
+        out_.table_ids.assign(BoundaryParts::key_of(source), static_cast<std::int32_t>(t));
+        tables[t].for_each_whole([&](std::uint32_t, bool) { ++out_.stats.whole_facets; });
+        tables[t].for_each_worked([&](std::uint32_t f, bool flipped) {
+            auto& index = facet_index_[t];
+            if (index.empty()) index.assign(2 * std::size_t{source->facet_count()}, -1);
+            index[2 * std::size_t{f} + (flipped ? 1 : 0)] =
+                static_cast<std::int32_t>(out_.facets.size());
+            out_.facets.push_back({source, f, flipped});
+        });
     }
 }
 
 void Gatherer::make_parts(Leaf& leaf) {
     leaf.first_edge = edges_.size();
     const PolygonList& polygons = leaf.node->polygons();
-    for (const PolygonRef r : polygons) {
-        const std::size_t t = table(r.source);
-        if (facet_index_[t].empty()) {
-            if (polygons.whole_source() != nullptr) break;
-            continue;
-        }
+    const auto make = [&](const PolygonRef& r, const std::vector<std::int32_t>& index) {
         const bool flipped = r.flipped != leaf.complemented;
-        const std::int32_t facet = facet_index_[t][2 * std::size_t{r.facet} + (flipped ? 1 : 0)];
-        if (facet >= 0) make_part(r, leaf.cell, facet);
+        const std::int32_t facet = index[2 * std::size_t{r.facet} + (flipped ? 1 : 0)];
+        if (facet >= 0) make_part(r, leaf, facet);
+    };
+    if (const Source* source = polygons.whole_source()) {
+        const auto& index = facet_index_[table(source)];
+        for (std::size_t i = 0; !index.empty() && i < polygons.size(); ++i)
+            make(polygons[i], index);
+    } else {
+        for (const PolygonRef r : polygons) {
+            const auto& index = facet_index_[table(r.source)];
+            if (!index.empty()) make(r, index);
+        }
     }
     leaf.end_edge = edges_.size();
 }
 
-void Gatherer::make_part(const PolygonRef& ref, const Cell& cell, std::int32_t facet) {
+void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet) {
     Workbench& bench = out_.bench;
     WorkPolygon shape = bench.polygon(ref);
     bench.with_edges(shape, ref);
     BoundaryFacet& f = out_.facets[u(facet)];
     f.support = shape.support;
-    if (!cell.contains(ref.box()) || shape.is_empty())
-        shape = bench.clipped(shape, ref.box(), cell);
+    if (!leaf.cell.contains(ref.box()) || shape.is_empty())
+        shape = bench.clipped(shape, ref.box(), leaf.cell);
     if (shape.is_empty()) return;
+    const auto number = static_cast<std::int32_t>(&leaf - leaves_.data());
+    if (!leaf.node->is_mixed() || (f.leaf >= 0 && f.leaf != number)) f.in_several_cells = true;
+    f.leaf = number;
     if (ref.fragment != nullptr) add_corners_near(shape, ref);
     ++out_.stats.parts;
     const std::size_t n = shape.points.size();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/assembly_stats.h>
+#include <trisect/bsp/detail/flat_map.h>
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/workbench.h>
 
@@ -21,6 +22,8 @@ struct BoundaryFacet {
     std::uint32_t facet = 0;
     bool flipped = false;
     PlaneId support = -1;
+    std::int32_t leaf = -1;         ///< where parts of it were found
+    bool in_several_cells = false;  ///< its parts were not all conformed in one leaf
 };
 
 /// An edge of a part of a facet, directed so that the part lies to its left seen from outside.
@@ -41,27 +44,31 @@ public:
     void set_present(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(present, flipped); }
     /// The facet is cut or touched somewhere: it does not pass through as it is.
     void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
-    [[nodiscard]] bool is_present(std::uint32_t facet, bool flipped) const {
-        return (marks_[facet] & bit(present, flipped)) != 0;
-    }
     [[nodiscard]] bool is_worked(std::uint32_t facet, bool flipped) const {
         return (marks_[facet] & bit(worked, flipped)) != 0;
-    }
-    [[nodiscard]] bool is_whole(std::uint32_t facet, bool flipped) const {
-        return is_present(facet, flipped) && !is_worked(facet, flipped);
     }
 
     /// Calls visit(facet, flipped) for the facets that pass through, in order.
     template <class Visit>
     void for_each_whole(Visit&& visit) const {
-        for (std::uint32_t f = 0; f < marks_.size(); ++f) {
-            if (marks_[f] == 0) continue;
-            if (is_whole(f, false)) visit(f, false);
-            if (is_whole(f, true)) visit(f, true);
-        }
+        for_each([](unsigned m) { return m & ~(m >> 2) & 3U; }, visit);
+    }
+    /// The same for those that are present and do not.
+    template <class Visit>
+    void for_each_worked(Visit&& visit) const {
+        for_each([](unsigned m) { return m & (m >> 2) & 3U; }, visit);
     }
 
 private:
+    // `select` makes two bits, one for each orientation, out of a facet's marks.
+    template <class Select, class Visit>
+    void for_each(Select select, Visit&& visit) const {
+        for (std::uint32_t f = 0; f < marks_.size(); ++f) {
+            const unsigned which = select(marks_[f]);
+            if ((which & 1U) != 0) visit(f, false);
+            if ((which & 2U) != 0) visit(f, true);
+        }
+    }
     static constexpr unsigned present = 1;
     static constexpr unsigned worked = 4;
     static constexpr std::uint8_t bit(unsigned what, bool flipped) {
@@ -75,7 +82,15 @@ private:
 /// The boundary in pieces, conforming within each facet's cells but not yet joined.
 struct BoundaryParts {
     Workbench bench;
-    std::vector<FacetMarks> sources;    ///< by serial
+    std::vector<FacetMarks> sources;  ///< by serial
+    /// Number of a source, whose facets must be among the parts.
+    [[nodiscard]] std::size_t table_of(const Source* source) const {
+        return static_cast<std::size_t>(table_ids.find(key_of(source)));
+    }
+    static Key128 key_of(const Source* source) {
+        return {reinterpret_cast<std::uintptr_t>(source), 0};
+    }
+    FlatMap table_ids;
     std::vector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
     std::vector<BoundaryEdge> edges;    ///< of these facets
     AssemblyStats stats;

@@ -98,10 +98,12 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         const std::span<BoundaryEdge> group = std::span(edges).subspan(i, j - i);
         i = j;
         const std::size_t first = out.size();
+        const bool conforms = !parts.facets[u(group[0].facet)].in_several_cells;
         if (group.size() == 3) {  // one triangle, nothing to join
             out.insert(out.end(), group.begin(), group.end());
+        } else if (const auto left = group.first(cancel_opposites(group)); conforms) {
+            out.insert(out.end(), left.begin(), left.end());
         } else {
-            const auto left = group.first(cancel_opposites(group));
             splitter.clear();
             for (const BoundaryEdge& e : left) {
                 splitter.add_candidate(e.from);

@@ -135,7 +135,7 @@ private:
         return *parts_.sources[f.table].source();
     }
     [[nodiscard]] BoundaryFacet named(const WholeFacet& f) const {
-        return {&source(f), f.facet, f.flipped, -1};
+        return {&source(f), f.facet, f.flipped};
     }
     [[nodiscard]] Plane plane(const WholeFacet& f) const { return source(f).support(f.facet); }
 
@@ -207,7 +207,7 @@ void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& ver
             points[i] = vertices.point(v);
         }
         const auto facet = static_cast<std::int32_t>(parts.facets.size());
-        parts.facets.push_back({source, w.facet, w.flipped, shape.support});
+        parts.facets.push_back({source, w.facet, w.flipped, shape.support, -1, false});
         for (std::size_t i = 0; i < 3; ++i) {
             PointId a = points[i];
             PointId b = points[(i + 1) % 3];
