@@ -165,10 +165,10 @@ public:
 
     /// The index of a whole boundary; leaves name its faces, edges and vertices.
     /// O(candidates · n) predicates a level of the tree. Deterministic.
-    /// \pre the boundary is embedded: faces share no area and cross nowhere.
-    /// \throw UnsupportedError, naming the edge, when two coplanar faces meet in an edge for which
-    /// no bounded plane is known; assemble with maximal faces then. LimitError for more than 2^29
-    /// entities or nodes.
+    /// \pre the boundary is embedded: faces share no area and cross nowhere. Otherwise the tree
+    /// means nothing, or an Error (Internal) says what did not fit. \throw UnsupportedError, naming
+    /// the edge, when two coplanar faces meet in an edge for which no bounded plane is known;
+    /// assemble with maximal faces then. LimitError for more than 2^29 entities or nodes.
     [[nodiscard]] static MspTree from_brep(const Brep& brep, const MspOptions& options = {});
 
     /// The index of the part of a boundary within a convex cell, the common part of the half-spaces

@@ -248,6 +248,24 @@ TEST(MspTree, PolygonsWhoseEdgesDoNotMatch) {
     EXPECT_EQ(tree.stats().faces, 6U);
 }
 
+TEST(MspTree, BoundariesThatMeetThemselves) {
+    // Against the precondition; there is an end to it all the same, and no crash.
+    reference::Random random(5);
+    std::size_t trees = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Brep brep =
+            brep_from_lattice_mesh(engines::lattice_mesh(reference::random_operand(random)));
+        try {
+            const MspTree tree = MspTree::from_brep(brep);
+            EXPECT_NO_THROW((void)tree.locate(LatticePoint{5, 5, 5}));
+            ++trees;
+        } catch (const Error& e) {
+            EXPECT_TRUE(e.code() == ErrorCode::Internal || e.code() == ErrorCode::Unsupported);
+        }
+    }
+    EXPECT_GT(trees, 50U);
+}
+
 TEST(MspTree, OrderOfFacesDoesNotMatter) {
     const Brep plate = test::prism({rectangle(0, 0, 20, 12), reversed(rectangle(2, 2, 6, 6))}, 3);
     const auto probes = test::answered_probes(plate, 500, 1);
