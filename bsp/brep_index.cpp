@@ -155,8 +155,7 @@ IndexStats BrepIndex::stats() const {
     s.polygons = core_->polygons().size();
     s.nodes = tree.nodes().size();
     s.mixed_leaves = tree.leaves().size();
-    for (const auto& n : tree.nodes())
-        if (n.is_leaf() && !n.is_mixed()) ++s.empty_leaves;
+    s.empty_leaves = tree.empty_leaves();
     for (const auto& l : tree.leaves()) s.listed += l.count;
     s.depth = tree.depth();
     s.bytes = tree.bytes() + core_->polygons().bytes();
@@ -187,10 +186,12 @@ std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> poin
                                      unsigned threads) const {
     std::vector<Place> places(points.size());
     const Lattice lattice = solid().lattice();
+    const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
         std::vector<PolygonId> on;
         for (std::size_t i = begin; i < end; ++i)
-            places[i] = located(*core_, IndexPoint::from_user(points[i], lattice), on);
+            places[order[i]] =
+                located(*core_, IndexPoint::from_user(points[order[i]], lattice), on);
     });
     return places;
 }
@@ -199,13 +200,14 @@ void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::spa
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
     const Lattice lattice = solid().lattice();
+    const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
         std::vector<PolygonId> on;
         for (std::size_t i = begin; i < end; ++i) {
-            const IndexPoint p = IndexPoint::from_user(points[i], lattice);
-            results[i] = detail::locate_polygons(*core_->base, p, on);
-            if (results[i] == Location::OnFace)
-                results[i] = detail::place_on(core_->polygons(), on).location;
+            const IndexPoint p = IndexPoint::from_user(points[order[i]], lattice);
+            Location l = detail::locate_polygons(*core_->base, p, on);
+            if (l == Location::OnFace) l = detail::place_on(core_->polygons(), on).location;
+            results[order[i]] = l;
         }
     });
 }

@@ -38,16 +38,37 @@ DoubleBox child_cell(const DoubleBox& cell, const IndexTree::Node& n, bool above
     return c;
 }
 
+DoubleBox grid_cell(const DoubleBox& cell, const IndexGrid& g, std::uint32_t x, std::uint32_t y,
+                    std::uint32_t z) {
+    const std::array<std::uint32_t, 3> at{x, y, z};
+    DoubleBox c = cell;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (at[k] != 0) c.lo[k] = g.wall(k, at[k]);
+        if (at[k] + 1 != g.n[k]) c.hi[k] = g.wall(k, at[k] + 1);
+    }
+    return c;
+}
+
 IndexCell cell_at(const IndexBase& index, const IndexPoint& point) {
+    const IndexTree& tree = index.tree;
     DoubleBox box = root_cell();
-    const IndexTree::Node* n = &index.tree.node(0);
+    const IndexTree::Node* n = &tree.node(0);
     while (!n->is_leaf()) {
+        if (n->is_grid()) {
+            const IndexGrid& g = tree.grid(*n);
+            const std::array at{g.index(0, point), g.index(1, point), g.index(2, point)};
+            box = grid_cell(box, g, at[0], at[1], at[2]);
+            const std::uint32_t next = tree.cell(g, g.number(at[0], at[1], at[2]));
+            n = next < IndexGrid::outside ? &tree.node(next)
+                                          : &IndexTree::empty_leaf(next == IndexGrid::inside);
+            continue;
+        }
         const bool above = IndexTree::side_of_wall(*n, point) > 0;
         box = child_cell(box, *n, above);
-        n = &index.tree.node(n->next + (above ? 1U : 0U));
+        n = &tree.node(n->next + (above ? 1U : 0U));
     }
     IndexCell cell{box.lo, box.hi, 0, n->is_inside()};
-    if (n->is_mixed()) cell.polygons = index.tree.leaf(n->next).count;
+    if (n->is_mixed()) cell.polygons = tree.leaf(n->next).count;
     return cell;
 }
 

@@ -45,6 +45,11 @@ using PolygonId = IndexPolygons::Id;
 [[nodiscard]] Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                                        std::vector<PolygonId>& on);
 
+/// An order of points in which neighbours come after each other: along the cells of a grid over the
+/// solid's box. Points are in the user's units; fewer than 2^32.
+[[nodiscard]] std::vector<std::uint32_t> query_order(const IndexBase& index,
+                                                     std::span<const std::array<double, 3>> points);
+
 /// Location and names of a point from the polygons that contain it, in any order, not none.
 /// Handles are not set.
 [[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on,

@@ -224,6 +224,21 @@ void IndexHandles::list_edges(const IndexBase& base) {
             Pending p = pending.back();
             pending.pop_back();
             const IndexTree::Node& n = tree.node(p.node);
+            if (n.is_grid()) {
+                const IndexGrid& g = tree.grid(n);
+                ApproximateLine line{a.c, {}, a.error, 2 * (a.error + b.error)};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    line.direction[k] = b.c[k] - a.c[k];
+                    line.direction_error += std::fabs(line.direction[k]) * 0x1p-52;
+                }
+                for_cells_along(
+                    g, line, p.lo, p.hi, [](double) { return true; },
+                    [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, double lo, double hi) {
+                        const std::uint32_t next = tree.cell(g, g.number(x, y, z));
+                        if (next < IndexGrid::outside) pending.push_back({next, lo, hi});
+                    });
+                continue;
+            }
             if (n.is_leaf()) {
                 if (n.is_mixed()) found.emplace_back(n.next, e);
                 continue;
@@ -255,6 +270,7 @@ void IndexHandles::list_edges(const IndexBase& base) {
         }
     }
     std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     edges_begin_.assign(tree.leaves().size() + 1, 0);
     edges_.reserve(found.size());
     for (const auto& [leaf, e] : found) {

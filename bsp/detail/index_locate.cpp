@@ -9,10 +9,12 @@
 // polygons, so this is a property of the set.
 
 #include <algorithm>
-#include <tuple>
+#include <cmath>
+#include <numeric>
 
 #include <trisect/bsp/detail/index_core.h>
 #include <trisect/bsp/detail/index_signs.h>
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -23,10 +25,11 @@ namespace {
 int winding_in_leaf(const IndexPolygons& polygons, const IndexTree& tree, const IndexTree::Leaf& l,
                     const IndexPoint& p, std::vector<PolygonId>& on) {
     int winding = l.winding;
+    const Reference reference(l.reference);
     if (const Source* source = polygons.only_source()) {
         for (const PolygonId id : tree.listed(l)) {
             const Passing s = passing(source->corner(id, 0), source->corner(id, 1),
-                                      source->corner(id, 2), p, l.reference);
+                                      source->corner(id, 2), p, reference);
             if (s == Passing::On) {
                 on.push_back(id);
             } else {
@@ -36,7 +39,7 @@ int winding_in_leaf(const IndexPolygons& polygons, const IndexTree& tree, const 
         return winding;
     }
     for (const PolygonId id : tree.listed(l)) {
-        const Passing s = passing(polygons, id, p, l.reference);
+        const Passing s = passing(polygons, id, p, reference);
         if (s == Passing::On) {
             on.push_back(id);
         } else {
@@ -85,6 +88,46 @@ Location locate_polygons(const IndexBase& index, const IndexPoint& point,
         on.erase(std::unique(on.begin(), on.end()), on.end());
     }
     return Location::OnFace;
+}
+
+std::vector<std::uint32_t> query_order(const IndexBase& index,
+                                       std::span<const std::array<double, 3>> points) {
+    if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    constexpr std::size_t worth_it = 2000;  // fewer points are not many to a cell
+    if (points.size() < worth_it) return order;
+    // Five bits of each coordinate in the box, interleaved: a Morton curve.
+    const double unit = std::ldexp(1.0, index.solid.lattice().exponent);
+    std::array<double, 3> origin{};
+    std::array<double, 3> scale{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        origin[k] = index.tree.lo()[k] * unit;
+        const double extent = index.tree.hi()[k] * unit - origin[k];
+        scale[k] = 32 / extent;
+    }
+    const auto spread = [](std::uint32_t v) {  // abcde to a00b00c00d00e
+        v = (v | (v << 8)) & 0x300fU;
+        v = (v | (v << 4)) & 0x30c3U;
+        return (v | (v << 2)) & 0x9249U;
+    };
+    std::vector<std::uint32_t> keys(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        std::uint32_t key = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double t = (points[i][k] - origin[k]) * scale[k];
+            const std::uint32_t v =
+                t > 0 ? (t < 32 ? static_cast<std::uint32_t>(t) : 31U) : 0U;  // also for no number
+            key |= spread(v) << k;
+        }
+        keys[i] = key;
+    }
+    // A counting sort.
+    std::vector<std::uint32_t> begin((1U << 15U) + 1, 0);
+    for (const std::uint32_t key : keys) ++begin[key + 1];
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    for (std::uint32_t i = 0; i < keys.size(); ++i) order[begin[keys[i]]++] = i;
+    return order;
 }
 
 Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {

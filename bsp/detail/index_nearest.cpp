@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <span>
 #include <utility>
@@ -123,7 +124,7 @@ public:
         : core_(core), polygons_(core.polygons()), p_(point), kind_(kind) {}
 
     [[nodiscard]] std::optional<Nearest> run() {
-        walk();
+        walk(0, root_cell());
         std::sort(features_.begin(), features_.end(),
                   [](const Feature& a, const Feature& b) { return a.bounds.lo < b.bounds.lo; });
         for (const Feature& f : features_) {
@@ -154,14 +155,18 @@ private:
         return d > 0 ? d : 0;  // also for what is no number
     }
 
-    void walk() {
+    void walk(std::uint32_t node, const DoubleBox& cell) {
         const IndexTree& tree = core_.tree();
-        std::vector<Pending> pending{{0, root_cell(), 0}};
+        std::vector<Pending> pending{{node, cell, 0}};
         while (!pending.empty()) {
             const Pending at = pending.back();
             pending.pop_back();
             if (at.distance > limit_) continue;
             const IndexTree::Node& n = tree.node(at.node);
+            if (n.is_grid()) {
+                walk_grid(tree.grid(n), at.cell);
+                continue;
+            }
             if (n.is_leaf()) {
                 if (n.is_mixed())
                     for (const PolygonId id : tree.listed(tree.leaf(n.next))) visit(id);
@@ -176,6 +181,48 @@ private:
                 std::swap(near, far);
             pending.push_back(far);
             pending.push_back(near);
+        }
+    }
+
+    // Shell by shell around the cell that the point is in or next to. A shell of number r is at
+    // least r - 2 cells away (one for rounding).
+    void walk_grid(const IndexGrid& g, const DoubleBox& whole) {
+        std::array<std::int64_t, 3> middle{};
+        std::int64_t last = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = g.clamped(k, p_[k]);
+            last = std::max<std::int64_t>(
+                {last, middle[k], static_cast<std::int64_t>(g.n[k]) - 1 - middle[k]});
+        }
+        const auto range = [&](std::size_t k, std::int64_t r) {
+            return std::pair{std::max<std::int64_t>(0, middle[k] - r),
+                             std::min<std::int64_t>(g.n[k] - 1, middle[k] + r)};
+        };
+        const auto try_cell = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+            const auto i = static_cast<std::uint32_t>(x);
+            const auto j = static_cast<std::uint32_t>(y);
+            const auto l = static_cast<std::uint32_t>(z);
+            const std::uint32_t node = core_.tree().cell(g, g.number(i, j, l));
+            if (node >= IndexGrid::outside) return;
+            const DoubleBox box = grid_cell(whole, g, i, j, l);
+            if (!(distance_to(box) > limit_)) walk(node, box);
+        };
+        for (std::int64_t r = 0; r <= last; ++r) {
+            if (static_cast<double>(r - 2) * g.size > limit_) return;
+            const auto [z0, z1] = range(2, r);
+            const auto [y0, y1] = range(1, r);
+            const auto [x0, x1] = range(0, r);
+            for (std::int64_t z = z0; z <= z1; ++z)
+                for (std::int64_t y = y0; y <= y1; ++y) {
+                    const bool face = std::abs(z - middle[2]) == r || std::abs(y - middle[1]) == r;
+                    if (face) {
+                        for (std::int64_t x = x0; x <= x1; ++x) try_cell(x, y, z);
+                        continue;
+                    }
+                    if (middle[0] - r >= 0) try_cell(middle[0] - r, y, z);
+                    if (r != 0 && middle[0] + r < static_cast<std::int64_t>(g.n[0]))
+                        try_cell(middle[0] + r, y, z);
+                }
         }
     }
 

@@ -97,18 +97,9 @@ IndexPoint::IndexPoint(Rational p) : fits_(false) {
     rational_ = std::move(p);
 }
 
-IndexPoint IndexPoint::from_user(const Vector& p, Lattice lattice) {
+IndexPoint IndexPoint::from_user_slowly(const Vector& p, Lattice lattice) {
     for (const double x : p)
         if (!std::isfinite(x)) throw UsageError("a point with a coordinate that is not finite");
-    Vector c = p;
-    bool lost = false;
-    if (lattice.exponent != 0) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = std::ldexp(p[k], -lattice.exponent);
-            lost = lost || !std::isfinite(c[k]) || std::ldexp(c[k], lattice.exponent) != p[k];
-        }
-    }
-    if (!lost) return IndexPoint(c);
     Rational r;
     for (std::size_t k = 0; k < 3; ++k)
         r[k] = ExactRational::from_double(p[k]).scaled(-lattice.exponent);
@@ -162,10 +153,8 @@ int IndexPoint::side_of(const Plane& plane) const {
     return value_at(rational(), plane).sign();
 }
 
-int IndexPoint::compare(std::size_t k, double position) const {
-    const double d = c_[k] - position;
-    // The difference of two doubles has the right sign; an error needs room for its rounding.
-    if (error_ == 0) return d > 0 ? 1 : (d < 0 ? -1 : 0);
+int IndexPoint::compare_slowly(std::size_t k, double position) const {
+    const double d = c_[k] - position;  // its rounding is below the error
     if (d > 2 * error_) return 1;
     if (d < -2 * error_) return -1;
     return (rational()[k] - ExactRational::from_double(position)).sign();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -34,7 +35,21 @@ public:
     explicit IndexPoint(const FinePoint& p);
     explicit IndexPoint(Rational p);
     /// Doubles in the user's units. \throw UsageError when they are not finite.
-    [[nodiscard]] static IndexPoint from_user(const Vector& p, Lattice lattice);
+    [[nodiscard]] static IndexPoint from_user(const Vector& p, Lattice lattice) {
+        // Multiplying by a power of two is exact within the range of normal doubles.
+        if (lattice.exponent > -900 && lattice.exponent < 900) {
+            const double scale =
+                std::bit_cast<double>(static_cast<std::uint64_t>(1023 - lattice.exponent) << 52U);
+            const Vector c{p[0] * scale, p[1] * scale, p[2] * scale};
+            bool exact = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double m = c[k] < 0 ? -c[k] : c[k];
+                exact = exact && (m < 0x1p600) && (m > 0x1p-900 || p[k] == 0);
+            }
+            if (exact) return IndexPoint(c);
+        }
+        return from_user_slowly(p, lattice);
+    }
 
     [[nodiscard]] double operator[](std::size_t k) const { return c_[k]; }
     [[nodiscard]] const Vector& approximate() const { return c_; }
@@ -60,10 +75,15 @@ public:
     /// -1, 0 or 1: below, on or above.
     [[nodiscard]] int side_of(const Plane& plane) const;
     /// The sign of coordinate k minus position / scale, scale a power of two: exact.
-    [[nodiscard]] int compare(std::size_t k, double position) const;
+    [[nodiscard]] int compare(std::size_t k, double position) const {
+        if (error_ != 0) return compare_slowly(k, position);
+        return c_[k] > position ? 1 : (c_[k] < position ? -1 : 0);
+    }
     [[nodiscard]] int compare_fine(std::size_t k, std::int64_t position) const;
 
 private:
+    [[nodiscard]] static IndexPoint from_user_slowly(const Vector& p, Lattice lattice);
+    [[nodiscard]] int compare_slowly(std::size_t k, double position) const;
     void set_huge();
     void find_small() const;
 

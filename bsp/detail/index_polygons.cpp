@@ -98,7 +98,7 @@ IndexPolygons::Id IndexPolygons::add_convex(const PolygonRef& ref, bool flipped,
 
 void IndexPolygons::note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete) {
     Facet& f = facet_at(slot_of(ref.source), ref.facet, ref.flipped != turned);
-    if (incomplete || ref.fragment != nullptr) {
+    if (incomplete || ref.touched || ref.fragment != nullptr) {
         f.cut = true;
     } else if (ref.source->is_half_space() ||
                cell.contains(Box::of(ref.source->corner(ref.facet, 0)))) {
@@ -119,8 +119,9 @@ IndexPolygons::Id IndexPolygons::add(const PolygonRef& ref, bool turned, const C
         return add_convex(ref, flipped, slot, edges, ref.fragment->box());
     }
     Facet& f = facet_at(slot, ref.facet, flipped);
-    if (f.cut) return add_clipped(ref, flipped, slot, cell);
-    if (!f.owned) return none;
+    const bool is_split = f.cut && !(cell.contains(ref.box()) && !ref.source->is_half_space());
+    if (is_split) return add_clipped(ref, flipped, slot, cell);
+    if (!f.cut && !f.owned) return none;
     if (f.id != none) return f.id;
     if (ref.source->is_half_space())
         return f.id = add_convex(ref, flipped, slot, {}, ref.source->box());

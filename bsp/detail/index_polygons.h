@@ -115,7 +115,7 @@ private:
     struct Facet {
         Id id = none;
         bool owned = false;  // listed whole where its first corner is
-        bool cut = false;    // or incomplete
+        bool cut = false;    // or touched or incomplete: not the same in all cells
     };
 
     std::uint32_t slot_of(const Source* source);

@@ -51,7 +51,7 @@ public:
     // Every polygon that the line meets, once; for a first hit, those that may be it.
     [[nodiscard]] std::vector<Contact> contacts() {
         Range whole{0, line_.limit()};
-        if (clipped_to_bounds(whole)) walk(whole);
+        if (clipped_to_bounds(whole)) walk(0, whole);
         if (first_only_)
             std::erase_if(found_, [&](const Contact& c) { return c.contact.lo > nearest_; });
         std::sort(found_.begin(), found_.end(),
@@ -88,19 +88,42 @@ private:
         return true;
     }
 
-    void walk(const Range& whole) {
-        pending_.push_back({0, whole});
-        while (!pending_.empty()) {
+    // From a node on, front to back.
+    void walk(std::uint32_t node, const Range& whole) {
+        const std::size_t base = pending_.size();
+        pending_.push_back({node, whole});
+        while (pending_.size() > base) {
             Pending at = pending_.back();
             pending_.pop_back();
             if (first_only_ && at.range.lo > nearest_) continue;
             const IndexTree::Node* n = &index_.tree.node(at.node);
-            while (!n->is_leaf()) {
+            while (n->has_wall()) {
                 step(*n, at);
                 n = &index_.tree.node(at.node);
             }
-            if (n->is_mixed()) visit(index_.tree.leaf(n->next));
+            if (n->is_grid()) {
+                walk_grid(index_.tree.grid(*n), at.range);
+            } else if (n->is_mixed()) {
+                visit(index_.tree.leaf(n->next));
+            }
         }
+    }
+
+    void walk_grid(const IndexGrid& g, const Range& range) {
+        const ApproximateLine line{line_.origin().approximate(), line_.direction(),
+                                   line_.origin().error(), line_.direction_error()};
+        for_cells_along(
+            g, line, range.lo, range.hi, [&](double t) { return !first_only_ || !(t > nearest_); },
+            [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, double lo, double hi) {
+                const std::uint32_t cell = index_.tree.cell(g, g.number(x, y, z));
+                if (cell >= IndexGrid::outside) return;
+                const IndexTree::Node& n = index_.tree.node(cell);
+                if (n.is_leaf()) {
+                    if (n.is_mixed()) visit(index_.tree.leaf(n.next));
+                } else {
+                    walk(cell, {lo, hi});
+                }
+            });
     }
 
     // Goes to the child that the line is in first; the other one waits, if the line gets there.
@@ -138,6 +161,10 @@ private:
 
     void visit(const IndexTree::Leaf& leaf) {
         for (const PolygonId id : index_.tree.listed(leaf)) {
+            // Neighbouring cells list the same polygons; most repetitions are recent ones.
+            PolygonId& recent = recent_[id % recent_.size()];
+            if (recent == id) continue;
+            recent = id;
             const LineContact c = meet(index_.polygons, id, line_);
             if (c.kind == LineContact::Kind::None) continue;
             if (first_only_) {
@@ -158,6 +185,11 @@ private:
     double nearest_ = HUGE_VAL;
     std::vector<Contact> found_;
     std::vector<Pending> pending_;
+    std::array<PolygonId, 64> recent_ = [] {
+        std::array<PolygonId, 64> none{};
+        none.fill(IndexPolygons::none);
+        return none;
+    }();
 };
 
 // A contact with its ends.

@@ -8,9 +8,9 @@
 // The segment from r to p meets the triangle's interior when s(r) and s(p) differ in sign and the
 // three e agree. Signs come from doubles first. Differences of doubles carry one rounding; with L
 // the largest component of the edges, D of the third vector, a minor is within 8u L^2 of its exact
-// value, u = 2^-53, and the sum of three products within 48u L^2 D (three terms, each at most 2 L^2
-// D in magnitude: 8u L^2 D from the minor, 4u L^2 D · ... from its product and the sums). 2^-47
-// leaves a third of it for second-order terms and the rounding of the bound itself. An error of the
+// value, u = 2^-53, and the sum of three products, each at most 2 L^2 D, within 48u L^2 D (8u L^2 D
+// a term from the minor, as much again from the vector, the product and the sums). 2^-47 leaves a
+// quarter of it for second-order terms and the rounding of the bound itself. An error of the
 // point itself moves a component of a difference by that much, hence the determinant by at most
 // 6 L^2 error.
 //
@@ -246,12 +246,10 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
 
 }  // namespace
 
-Reference::Reference(const FinePoint& p) : fine(p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
-        if (static_cast<std::int64_t>(c[k] * static_cast<double>(wall_scale)) != p.c[k])
+void Reference::set_error() {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (static_cast<std::int64_t>(c[k] * static_cast<double>(wall_scale)) != fine.c[k])
             error = std::max(error, std::fabs(c[k]) * 0x1p-52);
-    }
 }
 
 Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,

@@ -13,14 +13,22 @@
 
 namespace trisect::detail {
 
-/// A point off the boundary whose membership is known; in 1/256 lattice units. References that an
-/// index makes are doubles exactly.
+/// A point off the boundary whose membership is known. References that an index makes are doubles
+/// exactly.
 struct Reference {
-    explicit Reference(const FinePoint& p);
+    explicit Reference(const FinePoint& p) : fine(p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+            if (!(c[k] < 0x1p45 && c[k] > -0x1p45)) set_error();
+        }
+    }
 
     FinePoint fine;
-    std::array<double, 3> c{};
+    std::array<double, 3> c{};  // lattice units
     double error = 0;
+
+private:
+    void set_error();
 };
 
 /// What a segment from a reference to a point does at a polygon.

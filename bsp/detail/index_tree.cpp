@@ -33,6 +33,7 @@
 #include <limits>
 #include <utility>
 
+#include <trisect/bsp/detail/index_signs.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -46,7 +47,21 @@ double IndexTree::Node::rounded_wall() const {
 
 std::size_t IndexTree::bytes() const {
     return sizeof(*this) + nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf) +
-           listed_.capacity() * sizeof(Id);
+           listed_.capacity() * sizeof(Id) + cells_.capacity() * sizeof(std::uint32_t) +
+           grids_.capacity() * sizeof(IndexGrid);
+}
+
+std::size_t IndexTree::empty_leaves() const {
+    const auto is_empty = [](const Node& n) { return n.is_leaf() && !n.is_mixed(); };
+    const auto is_empty_cell = [](std::uint32_t c) { return c >= IndexGrid::outside; };
+    return static_cast<std::size_t>(std::count_if(nodes_.begin(), nodes_.end(), is_empty) +
+                                    std::count_if(cells_.begin(), cells_.end(), is_empty_cell));
+}
+
+const IndexTree::Node& IndexTree::empty_leaf(bool inside) {
+    static const Node out{0, Node::none, Node::leaf};
+    static const Node in{0, Node::none, Node::leaf | Node::inside};
+    return inside ? in : out;
 }
 
 namespace {
@@ -56,6 +71,7 @@ using Node = IndexTree::Node;
 
 constexpr int max_depth = 96;
 constexpr std::size_t bin_count = 16;
+constexpr std::size_t grid_items = 24;  // from so many polygons on
 
 // A part of a polygon: its box relative to the model's middle.
 struct Item {
@@ -118,6 +134,7 @@ private:
                    int depth);
     void add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell, std::uint32_t node,
                        int depth);
+    [[nodiscard]] bool make_grid(const State& s);
     void subdivide(State s);
     [[nodiscard]] Split best_split(const State& s, std::size_t count) const;
     void bin_axis(const State& s, std::size_t axis, const FloatBox& bounds, Split& best) const;
@@ -270,7 +287,7 @@ void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, con
         items_.clear();
         return;
     }
-    subdivide(s);
+    if (items_.size() < grid_items || !make_grid(s)) subdivide(s);
 }
 
 float IndexTreeBuilder::quantised(float wall) const {
@@ -307,17 +324,11 @@ void IndexTreeBuilder::bin_axis(const State& s, std::size_t axis, const FloatBox
         if (!(wall > s.cell.lo[axis] && wall < s.cell.hi[axis])) return;
         const float area_below = cap + ring * (wall - s.cell.lo[axis]);
         const float area_above = cap + ring * (s.cell.hi[axis] - wall);
-        float cost = 1.5F + (area_below * static_cast<float>(below) +
-                             area_above * static_cast<float>(above)) /
-                                whole;
-        if (below == 0 || above == 0) cost *= 0.8F;
+        const float cost = 2.5F + (area_below * static_cast<float>(below) +
+                                   area_above * static_cast<float>(above)) /
+                                      whole;
         if (best.axis < 0 || cost < best.cost) best = {static_cast<int>(axis), wall, cost};
     };
-    // Just off the ends of the content, when there is room.
-    const float margin = extent * 0.002F;
-    if (lo - s.cell.lo[axis] > 0.1F * s.cell.extent(axis)) consider(lo - margin, 0, count);
-    if (s.cell.hi[axis] - bounds.hi[axis] > 0.1F * s.cell.extent(axis))
-        consider(bounds.hi[axis] + margin, count, 0);
     std::uint32_t below = 0;
     std::uint32_t above = count;
     for (std::size_t b = 1; b < bin_count; ++b) {
@@ -510,7 +521,7 @@ void IndexTreeBuilder::make_leaf(const State& s) {
     }
     TRISECT_EXPECTS(t_.listed_.size() + count < Node::none, "too many polygons for an index");
     n.next = static_cast<std::uint32_t>(t_.leaves_.size());
-    t_.leaves_.push_back({Reference(s.reference), static_cast<std::uint32_t>(t_.listed_.size()),
+    t_.leaves_.push_back({s.reference, static_cast<std::uint32_t>(t_.listed_.size()),
                           static_cast<std::uint32_t>(count), s.winding});
     for (std::size_t i = s.first; i < items_.size(); ++i) t_.listed_.push_back(items_[i].id);
 }
@@ -520,7 +531,7 @@ void IndexTreeBuilder::subdivide(State s) {
     const std::size_t end = items_.size();
     const std::size_t count = end - s.first;
     Split split;
-    if (count > 3 && s.depth < max_depth) split = best_split(s, count);
+    if (count > 8 && s.depth < max_depth) split = best_split(s, count);
     const bool worth = split.axis >= 0 && split.cost < static_cast<float>(count);
     if (!worth) {
         make_leaf(s);
@@ -552,6 +563,357 @@ void IndexTreeBuilder::subdivide(State s) {
     subdivide(above);
     items_.resize(below_end);
     subdivide(below);
+}
+
+// Grids ------------------------------------------------------------------------------------------
+
+namespace {
+
+// May a triangle meet boxes? By its plane and its edges seen along the axes (Akenine-Möller 2001),
+// with margins; coordinates relative to the model's middle, below 2^54. Made once for a triangle,
+// asked for many boxes.
+class TriangleInBoxes {
+public:
+    explicit TriangleInBoxes(const std::array<std::array<double, 3>, 3>& c) {
+        std::array<double, 3> u{};
+        std::array<double, 3> v{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            u[k] = c[1][k] - c[0][k];
+            v[k] = c[2][k] - c[0][k];
+        }
+        axes_[0] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                    u[0] * v[1] - u[1] * v[0]};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t j = (k + 1) % 3;
+                const std::size_t l = (k + 2) % 3;
+                auto& axis = axes_[1 + 3 * i + k];
+                axis[k] = 0;
+                axis[j] = -(c[(i + 1) % 3][l] - c[i][l]);
+                axis[l] = c[(i + 1) % 3][j] - c[i][j];
+            }
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            lo_[a] = HUGE_VAL;
+            hi_[a] = -HUGE_VAL;
+            double terms = 0;
+            for (const auto& p : c) {
+                double at = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    at += axes_[a][k] * p[k];
+                    terms += std::fabs(axes_[a][k] * p[k]);
+                }
+                lo_[a] = std::min(lo_[a], at);
+                hi_[a] = std::max(hi_[a], at);
+            }
+            // Axes carry two roundings and a cancellation of products of edges; edges are sums of
+            // coordinates. All of it is below 2^-40 of the terms plus what follows from 8 units.
+            const double margin = 0x1p-40 * terms;
+            lo_[a] -= margin;
+            hi_[a] += margin;
+        }
+    }
+
+    [[nodiscard]] bool may_meet(const std::array<double, 3>& middle, double half) const {
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            const auto& x = axes_[a];
+            const double reach = (std::fabs(x[0]) + std::fabs(x[1]) + std::fabs(x[2])) * half;
+            const double at = x[0] * middle[0] + x[1] * middle[1] + x[2] * middle[2];
+            const double margin =
+                0x1p-40 * (std::fabs(x[0] * middle[0]) + std::fabs(x[1] * middle[1]) +
+                           std::fabs(x[2] * middle[2]) + reach);
+            if (at - reach - margin > hi_[a] || at + reach + margin < lo_[a]) return false;
+        }
+        return true;
+    }
+
+private:
+    std::array<std::array<double, 3>, 10> axes_{};
+    std::array<double, 10> lo_{};
+    std::array<double, 10> hi_{};
+};
+
+}  // namespace
+
+// A grid over the items, with a k-d tree in every cell that has some. About as many cells as items:
+// most cells are then empty and most others hold a handful.
+class IndexGridBuilder {
+public:
+    IndexGridBuilder(const std::array<double, 3>& middle, const FloatBox& box,
+                     const std::vector<Item>& items, const IndexPolygons& polygons, float finest)
+        : middle_(middle), whole_(box), items_(items), polygons_(polygons) {
+        float largest = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
+        // Walls are floats: origin an odd multiple of the last bit that the largest one has.
+        float bit = finest;
+        while (bit * 0x1p23F < 2 * largest) bit *= 2;
+        // The last cell takes the rest of the box: half a cell to one and a half.
+        size_ = bit * 4;
+        const auto count = [&](std::size_t k) {
+            return std::max(
+                1.0, std::round(static_cast<double>(box.extent(k)) / static_cast<double>(size_)));
+        };
+        const double wanted = 2.5 * static_cast<double>(items.size());
+        while (count(0) * count(1) * count(2) > wanted) size_ *= 2;
+        for (std::size_t k = 0; k < 3; ++k) {
+            float steps = std::floor(box.lo[k] / bit);
+            if (std::fmod(steps, 2.0F) == 0) steps -= 1;
+            origin_[k] = steps * bit;
+            n_[k] = static_cast<std::uint32_t>(count(k));
+        }
+    }
+
+    [[nodiscard]] const std::array<std::uint32_t, 3>& n() const { return n_; }
+    [[nodiscard]] float size() const { return size_; }
+    [[nodiscard]] const std::array<float, 3>& origin() const { return origin_; }
+    [[nodiscard]] std::size_t cell_count() const { return std::size_t{n_[0]} * n_[1] * n_[2]; }
+    [[nodiscard]] std::span<const std::uint32_t> items_in(std::size_t cell) const {
+        return std::span(listed_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
+    }
+    [[nodiscard]] FloatBox box_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        const std::array<std::uint32_t, 3> at{x, y, z};
+        FloatBox b;
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.lo[k] = at[k] == 0 ? whole_.lo[k] : origin_[k] + size_ * static_cast<float>(at[k]);
+            b.hi[k] = at[k] + 1 == n_[k] ? whole_.hi[k]
+                                         : origin_[k] + size_ * static_cast<float>(at[k] + 1);
+        }
+        return b;
+    }
+
+    // Counts, then fills. Small polygons go to all cells that their box meets.
+    void list() {
+        begin_.assign(cell_count() + 1, 0);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> large;  // cell, item
+        for (std::uint32_t i = 0; i < items_.size(); ++i) {
+            const Range r = range_of(items_[i]);
+            if (is_large(r)) {
+                list_large(i, r, large);
+                continue;
+            }
+            for_range(r, [&](std::size_t cell) { ++begin_[cell + 1]; });
+        }
+        for (const auto& [cell, item] : large) ++begin_[cell + 1];
+        for (std::size_t c = 0; c + 1 < begin_.size(); ++c) begin_[c + 1] += begin_[c];
+        listed_.resize(begin_.back());
+        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+        for (std::uint32_t i = 0; i < items_.size(); ++i) {
+            const Range r = range_of(items_[i]);
+            if (!is_large(r)) for_range(r, [&](std::size_t cell) { listed_[next[cell]++] = i; });
+        }
+        for (const auto& [cell, item] : large) listed_[next[cell]++] = item;
+    }
+
+private:
+    struct Range {
+        std::array<std::uint32_t, 3> lo{};
+        std::array<std::uint32_t, 3> hi{};
+    };
+
+    [[nodiscard]] std::size_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+        return (std::size_t{z} * n_[1] + y) * n_[0] + x;
+    }
+    // Floats of at most 24 bits and differences of them in doubles: exact.
+    [[nodiscard]] Range range_of(const Item& item) const {
+        Range r;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double scale = 1.0 / static_cast<double>(size_);
+            const auto at = [&](float v) {
+                const double t = (static_cast<double>(v) - static_cast<double>(origin_[k])) * scale;
+                if (!(t > 0)) return std::uint32_t{0};
+                return std::min(static_cast<std::uint32_t>(t), n_[k] - 1);
+            };
+            r.lo[k] = at(item.lo[k]);
+            r.hi[k] = at(item.hi[k]);
+        }
+        return r;
+    }
+    [[nodiscard]] static bool is_large(const Range& r) {
+        return std::size_t{r.hi[0] - r.lo[0] + 1} * (r.hi[1] - r.lo[1] + 1) *
+                   (r.hi[2] - r.lo[2] + 1) >
+               8;
+    }
+    template <class F>
+    void for_range(const Range& r, const F& f) const {
+        for (std::uint32_t z = r.lo[2]; z <= r.hi[2]; ++z)
+            for (std::uint32_t y = r.lo[1]; y <= r.hi[1]; ++y)
+                for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x) f(number(x, y, z));
+    }
+    void list_large(std::uint32_t i, const Range& r,
+                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const {
+        const Id id = items_[i].id;
+        if (!polygons_.is_triangle(id)) {
+            for_range(r,
+                      [&](std::size_t c) { out.emplace_back(static_cast<std::uint32_t>(c), i); });
+            return;
+        }
+        std::array<std::array<double, 3>, 3> corners{};
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t k = 0; k < 3; ++k)
+                corners[static_cast<std::size_t>(c)][k] =
+                    static_cast<double>(polygons_.corner(id, c)[static_cast<int>(k)]) - middle_[k];
+        const TriangleInBoxes triangle(corners);
+        const double half = 0.5 * static_cast<double>(size_);
+        std::array<double, 3> at{};
+        for (std::uint32_t z = r.lo[2]; z <= r.hi[2]; ++z) {
+            at[2] = static_cast<double>(origin_[2]) + static_cast<double>(size_) * (z + 0.5);
+            for (std::uint32_t y = r.lo[1]; y <= r.hi[1]; ++y) {
+                at[1] = static_cast<double>(origin_[1]) + static_cast<double>(size_) * (y + 0.5);
+                for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x) {
+                    at[0] =
+                        static_cast<double>(origin_[0]) + static_cast<double>(size_) * (x + 0.5);
+                    const bool is_last = x + 1 == n_[0] || y + 1 == n_[1] || z + 1 == n_[2];
+                    if (is_last || triangle.may_meet(at, half))
+                        out.emplace_back(static_cast<std::uint32_t>(number(x, y, z)), i);
+                }
+            }
+        }
+    }
+
+    const std::array<double, 3>& middle_;
+    FloatBox whole_;
+    const std::vector<Item>& items_;
+    const IndexPolygons& polygons_;
+    float size_ = 1;
+    std::array<float, 3> origin_{};
+    std::array<std::uint32_t, 3> n_{};
+    std::vector<std::uint32_t> begin_;
+    std::vector<std::uint32_t> listed_;
+};
+
+// References of cells lie at the same place in every cell. They are swept: along x through every
+// row, from row to row along y at the start of rows, from layer to layer along z. A segment between
+// the references of neighbours stays in the two cells, so their lists decide.
+bool IndexTreeBuilder::make_grid(const State& s) {
+    const std::array<double, 3> middle{this->middle(0), this->middle(1), this->middle(2)};
+    const std::vector<Item> all = std::move(items_);
+    items_ = {};
+    IndexGridBuilder grid(middle, s.cell, all, polygons_, grid_);
+    const auto give_up = [&] {
+        items_ = all;
+        return false;
+    };
+    if (grid.cell_count() < 8) return give_up();
+    grid.list();
+
+    const auto [nx, ny, nz] = grid.n();
+    struct Known {
+        FinePoint at;
+        std::int32_t winding = 0;
+        std::size_t cell = 0;
+        bool valid = false;
+    };
+    const auto number = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        return (std::size_t{z} * ny + y) * nx + x;
+    };
+    // The reference of a cell, from the one of its neighbour.
+    const auto step = [&](const Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        Known to;
+        to.cell = number(x, y, z);
+        const FloatBox box = grid.box_of(x, y, z);
+        const auto mine = grid.items_in(to.cell);
+        const auto theirs = grid.items_in(from.cell);
+        items_.clear();
+        for (const std::uint32_t i : theirs) items_.push_back(all[i]);
+        for (const std::uint32_t i : mine)
+            if (std::find(theirs.begin(), theirs.end(), i) == theirs.end())
+                items_.push_back(all[i]);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                to.at.c[k] = position(k, box.lo[k], box.hi[k], parts[(i + 2 * k) % parts.size()]);
+            to.winding = from.winding;
+            if (is_in(to.at, box) && trace(0, from.at, to.at, to.winding)) {
+                to.valid = true;
+                break;
+            }
+        }
+        return to;
+    };
+
+    // The first cell from the node's reference, over everything.
+    Known corner;
+    {
+        items_ = all;
+        const FloatBox box = grid.box_of(0, 0, 0);
+        for (std::size_t i = 0; i < parts.size() && !corner.valid; ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                corner.at.c[k] =
+                    position(k, box.lo[k], box.hi[k], parts[(i + 2 * k) % parts.size()]);
+            corner.winding = s.winding;
+            corner.valid =
+                is_in(corner.at, box) && trace(0, s.reference, corner.at, corner.winding);
+        }
+        if (!corner.valid) return give_up();
+    }
+    // Along empty cells nothing changes: the last reference serves for all of them.
+    const auto first = static_cast<std::uint32_t>(t_.cells_.size());
+    std::vector<Known> mixed;
+    const auto advance = [&](Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        const std::size_t cell = number(x, y, z);
+        const bool in_row = x != 0;  // the start of a row is the reference of the next one
+        if (in_row && grid.items_in(cell).empty() && grid.items_in(from.cell).empty()) return true;
+        from = step(from, x, y, z);
+        return from.valid;
+    };
+    t_.cells_.resize(t_.cells_.size() + grid.cell_count());
+    Known layer = corner;
+    for (std::uint32_t z = 0; z < nz; ++z) {
+        bool valid = z == 0 || advance(layer, 0, 0, z);
+        Known row = layer;
+        for (std::uint32_t y = 0; y < ny; ++y) {
+            valid = valid && (y == 0 || advance(row, 0, y, z));
+            Known at = row;
+            for (std::uint32_t x = 0; x < nx; ++x) {
+                valid = valid && (x == 0 || advance(at, x, y, z));
+                if (!valid) {
+                    t_.cells_.resize(first);
+                    return give_up();
+                }
+                const std::size_t c = number(x, y, z);
+                if (grid.items_in(c).empty()) {
+                    t_.cells_[first + c] = at.winding > 0 ? IndexGrid::inside : IndexGrid::outside;
+                } else {
+                    mixed.push_back(at);
+                }
+            }
+        }
+    }
+
+    IndexGrid out;
+    for (std::size_t k = 0; k < 3; ++k)
+        out.origin[k] = middle[k] + static_cast<double>(grid.origin()[k]);
+    out.size = static_cast<double>(grid.size());
+    out.scale = 1 / out.size;
+    out.n = grid.n();
+    out.first = first;
+    t_.nodes_[s.node].next = static_cast<std::uint32_t>(t_.grids_.size());
+    t_.nodes_[s.node].flags = Node::leaf | Node::grid_flag;
+    t_.grids_.push_back(out);
+    for (const Known& known : mixed) {
+        const auto x = static_cast<std::uint32_t>(known.cell % nx);
+        const auto y = static_cast<std::uint32_t>(known.cell / nx % ny);
+        const auto z = static_cast<std::uint32_t>(known.cell / nx / ny);
+        State cell;
+        cell.cell = grid.box_of(x, y, z);
+        cell.depth = s.depth + 1;
+        cell.node = static_cast<std::uint32_t>(t_.nodes_.size());
+        cell.reference = known.at;
+        cell.winding = known.winding;
+        t_.nodes_.emplace_back();
+        t_.cells_[first + known.cell] = cell.node;
+        items_.clear();
+        for (const std::uint32_t i : grid.items_in(known.cell)) {
+            Item item = all[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                item.lo[k] = std::max(item.lo[k], cell.cell.lo[k]);
+                item.hi[k] = std::min(item.hi[k], cell.cell.hi[k]);
+            }
+            items_.push_back(item);
+        }
+        subdivide(cell);
+    }
+    items_.clear();
+    return true;
 }
 
 IndexTree::IndexTree(const SolidState& state, IndexPolygons& polygons) : nodes_(1) {

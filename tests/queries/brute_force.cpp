@@ -152,8 +152,12 @@ Answer Boundary::answer_on(std::vector<const Polygon*> on) const {
 Answer Boundary::locate(const Point3& p) const {
     std::vector<const Polygon*> on;
     const double x = p[0].get_d();
+    const double y = p[1].get_d();
     for (const Polygon& g : polygons_) {
-        if (x < below(Rational(g.lo[0])) || x > above(Rational(g.hi[0]))) continue;
+        if (x < std::nextafter(g.lo[0], -HUGE_VAL) || x > std::nextafter(g.hi[0], HUGE_VAL))
+            continue;
+        if (y < std::nextafter(g.lo[1], -HUGE_VAL) || y > std::nextafter(g.hi[1], HUGE_VAL))
+            continue;
         if (contains(g, p)) on.push_back(&g);
     }
     if (!on.empty()) return answer_on(std::move(on));
@@ -168,8 +172,8 @@ bool Boundary::is_inside(const Point3& p) const {
     int winding = unbounded_ ? 1 : 0;
     const std::array<double, 3> d{p[0].get_d(), p[1].get_d(), p[2].get_d()};
     for (const Polygon& g : polygons_) {
-        if (d[0] > above(Rational(g.hi[0])) || d[1] < g.lo[1] || d[1] > g.hi[1] || d[2] < g.lo[2] ||
-            d[2] > g.hi[2])
+        if (d[0] > std::nextafter(g.hi[0], HUGE_VAL) || d[1] < g.lo[1] || d[1] > g.hi[1] ||
+            d[2] < g.lo[2] || d[2] > g.hi[2])
             continue;
         int turns = 0;
         for (std::size_t i = 0; i < g.corners.size(); ++i) {
