@@ -17,14 +17,14 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/io/detail/binary.h>
 #include <trisect/brep/io/detail/formats.h>
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/polygon_mesh.h>
 
 namespace trisect {
 namespace {
 
-using detail::Source;
+using detail::InputText;
 using detail::TextCursor;
 using detail::TextRules;
 
@@ -35,7 +35,7 @@ public:
     void add(const char* at) {
         if (count_++ == 0) first_ = at;
     }
-    void append_to(std::vector<FileRemark>& out, const Source& source, std::uint64_t of,
+    void append_to(std::vector<FileRemark>& out, const InputText& source, std::uint64_t of,
                    const std::string& sentence) const {
         if (count_ == 0) return;
         FileRemark remark;
@@ -98,7 +98,7 @@ public:
         if (!normal || !has_direction(*normal)) return missing_.add(at);
         if (side_of_normal(corners, *normal) < 0) opposed_.add(at);
     }
-    [[nodiscard]] std::vector<FileRemark> finish(const Source& source) const {
+    [[nodiscard]] std::vector<FileRemark> finish(const InputText& source) const {
         std::vector<FileRemark> out;
         missing_.append_to(out, source, facets_, "facets state no normal");
         opposed_.append_to(out, source, facets_,
@@ -124,7 +124,7 @@ Point3d load_floats(const char* at) {
     return p;
 }
 
-std::vector<FileRemark> remarks_on_binary_stl(const Source& source) {
+std::vector<FileRemark> remarks_on_binary_stl(const InputText& source) {
     NormalRemarks remarks;
     const std::uint64_t count = detail::load<std::uint32_t, false>(source.begin() + 80);
     const char* record = source.begin() + detail::stl_header_size;
@@ -137,7 +137,8 @@ std::vector<FileRemark> remarks_on_binary_stl(const Source& source) {
 
 class AsciiStlRemarks {
 public:
-    explicit AsciiStlRemarks(const Source& source) : source_(source), text_(source, TextRules{}) {}
+    explicit AsciiStlRemarks(const InputText& source)
+        : source_(source), text_(source, TextRules{}) {}
 
     std::vector<FileRemark> collect() {
         while (text_.seek_word()) {
@@ -187,12 +188,12 @@ private:
             [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     NormalRemarks remarks_;
 };
 
-std::vector<FileRemark> remarks_on_obj(const Source& source) {
+std::vector<FileRemark> remarks_on_obj(const InputText& source) {
     TextCursor text(source, TextRules{.hash_comments = true, .continuation = true});
     Finding empty(RemarkKind::EmptyIndexField);
     std::uint64_t corners = 0;
@@ -227,7 +228,7 @@ std::string_view name_of(RemarkKind kind) {
 std::vector<FileRemark> file_remarks(std::string_view data, MeshFormat format,
                                      const std::string& name) {
     if (format == MeshFormat::Stl) format = detect_stl_kind(data);
-    const Source source(data, name, ReadLimits{}, format == MeshFormat::StlBinary);
+    const InputText source(data, name, ReadLimits{}, format == MeshFormat::StlBinary);
     switch (format) {
         case MeshFormat::Obj:
             return remarks_on_obj(source);

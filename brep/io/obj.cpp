@@ -35,7 +35,7 @@ constexpr std::array<std::string_view, 14> ignored_keywords{
 
 class ObjReader {
 public:
-    explicit ObjReader(const Source& source)
+    explicit ObjReader(const InputText& source)
         : source_(source),
           text_(source, TextRules{.hash_comments = true, .continuation = true}),
           quick_(source),
@@ -196,7 +196,7 @@ private:
         skipped_continues_ = text_.line_continues();
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     QuickText quick_;
     MeshBuilder mesh_;
@@ -206,7 +206,7 @@ private:
 
 }  // namespace
 
-PolygonMesh read_obj(const Source& source) { return ObjReader(source).read(); }
+PolygonMesh read_obj(const InputText& source) { return ObjReader(source).read(); }
 
 void write_obj(std::string& out, const PolygonMesh& mesh) {
     reserve_text(out, mesh);

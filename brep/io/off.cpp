@@ -31,7 +31,7 @@ namespace {
 
 class OffReader {
 public:
-    explicit OffReader(const Source& source)
+    explicit OffReader(const InputText& source)
         : source_(source),
           text_(source, TextRules{.hash_comments = true, .continuation = false}),
           quick_(source),
@@ -168,7 +168,7 @@ private:
         mesh_.end_face(at);
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     QuickText quick_;
     MeshBuilder mesh_;
@@ -179,7 +179,7 @@ private:
 
 }  // namespace
 
-PolygonMesh read_off(const Source& source) { return OffReader(source).read(); }
+PolygonMesh read_off(const InputText& source) { return OffReader(source).read(); }
 
 void write_off(std::string& out, const PolygonMesh& mesh) {
     reserve_text(out, mesh);

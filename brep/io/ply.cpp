@@ -44,7 +44,7 @@ enum class Role : std::uint8_t { X = 0, Y = 1, Z = 2, Indices, Other };
 /// Values written as words; an entry is a line.
 class TextValues {
 public:
-    TextValues(const Source& source, const char* body)
+    TextValues(const InputText& source, const char* body)
         : source_(source), text_(source, TextRules{}, body), quick_(source) {}
 
     /// Adds plain entries from number i on and returns the number of the first other one.
@@ -94,7 +94,7 @@ private:
         return true;
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     QuickText quick_;
 };
@@ -103,7 +103,7 @@ private:
 template <bool Big>
 class ByteValues {
 public:
-    ByteValues(const Source& source, const char* body) : source_(source), here_(body) {}
+    ByteValues(const InputText& source, const char* body) : source_(source), here_(body) {}
 
     static std::uint64_t quick_entries(const PlyElement&, const std::vector<Role>&, std::uint64_t i,
                                        MeshBuilder&) noexcept {
@@ -184,7 +184,7 @@ private:
         source_.fail(source_.end(), "the file ends inside its data");
     }
 
-    const Source& source_;
+    const InputText& source_;
     const char* here_;
     const char* last_ = nullptr;
 };
@@ -200,7 +200,7 @@ Role role_of(const PlyElement& element, const PlyProperty& p) {
 }
 
 /// Checks that `element` has each of the properties that give it a meaning once, of a usable kind.
-std::vector<Role> checked_roles(const Source& source, const PlyElement& element) {
+std::vector<Role> checked_roles(const InputText& source, const PlyElement& element) {
     std::vector<Role> roles;
     for (const PlyProperty& p : element.properties) {
         const Role role = role_of(element, p);
@@ -226,7 +226,7 @@ std::vector<Role> checked_roles(const Source& source, const PlyElement& element)
 template <class Values>
 class BodyReader {
 public:
-    BodyReader(const Source& source, const PlyHeader& header)
+    BodyReader(const InputText& source, const PlyHeader& header)
         : source_(source), header_(header), values_(source, header.body), mesh_(source, 0) {}
 
     PolygonMesh read(const std::vector<std::vector<Role>>& roles) {
@@ -292,13 +292,13 @@ private:
         mesh_.end_face(at);
     }
 
-    const Source& source_;
+    const InputText& source_;
     const PlyHeader& header_;
     Values values_;
     MeshBuilder mesh_;
 };
 
-std::vector<std::vector<Role>> checked_roles(const Source& source, const PlyHeader& header) {
+std::vector<std::vector<Role>> checked_roles(const InputText& source, const PlyHeader& header) {
     std::vector<std::vector<Role>> roles;
     bool vertices = false;
     for (const PlyElement& element : header.elements) {
@@ -356,7 +356,7 @@ std::optional<CommonLayout> common_layout(const PlyHeader& header,
 template <bool Big>
 class QuickBody {
 public:
-    QuickBody(const Source& source, const CommonLayout& layout, const char* body)
+    QuickBody(const InputText& source, const CommonLayout& layout, const char* body)
         : source_(source), layout_(layout), here_(body) {}
 
     std::optional<PolygonMesh> read() {
@@ -434,14 +434,14 @@ private:
         return true;
     }
 
-    const Source& source_;
+    const InputText& source_;
     const CommonLayout& layout_;
     const char* here_;
     PolygonMesh mesh_;
 };
 
 template <bool Big>
-PolygonMesh read_bytes(const Source& source, const PlyHeader& header,
+PolygonMesh read_bytes(const InputText& source, const PlyHeader& header,
                        const std::vector<std::vector<Role>>& roles) {
     if (const auto layout = common_layout(header, roles); layout && source.allows_quick())
         if (auto mesh = QuickBody<Big>(source, *layout, header.body).read())
@@ -451,7 +451,7 @@ PolygonMesh read_bytes(const Source& source, const PlyHeader& header,
 
 }  // namespace
 
-PolygonMesh read_ply(const Source& source) {
+PolygonMesh read_ply(const InputText& source) {
     const PlyHeader header = read_ply_header(source);
     const auto roles = checked_roles(source, header);
     switch (header.encoding) {

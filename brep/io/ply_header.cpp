@@ -43,7 +43,7 @@ constexpr std::array<std::pair<std::string_view, PlyEncoding>, 3> encodings{{
 
 class HeaderReader {
 public:
-    explicit HeaderReader(const Source& source) : source_(source), text_(source, TextRules{}) {}
+    explicit HeaderReader(const InputText& source) : source_(source), text_(source, TextRules{}) {}
 
     PlyHeader read() {
         if (!text_.next_line() || text_.word() != "ply") {
@@ -134,7 +134,7 @@ private:
         return word;
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     PlyHeader header_;
     bool has_format_ = false;
@@ -142,6 +142,6 @@ private:
 
 }  // namespace
 
-PlyHeader read_ply_header(const Source& source) { return HeaderReader(source).read(); }
+PlyHeader read_ply_header(const InputText& source) { return HeaderReader(source).read(); }
 
 }  // namespace trisect::detail

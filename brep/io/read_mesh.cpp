@@ -6,7 +6,7 @@
 #include <trisect/brep/io/read_mesh.h>
 
 #include <trisect/brep/io/detail/formats.h>
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/kernel/error.h>
 
@@ -26,7 +26,7 @@ PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::strin
                       const ReadOptions& options) {
     if (format == MeshFormat::Stl) format = detect_stl_kind(data);
     const bool binary = format == MeshFormat::StlBinary;
-    const detail::Source source(data, name, options.limits, binary);
+    const detail::InputText source(data, name, options.limits, binary);
     if (data.size() > options.limits.bytes) {
         throw LimitError(name + ": more than " + std::to_string(options.limits.bytes) +
                          " bytes, the limit for a file");

@@ -33,7 +33,7 @@ namespace {
 /// Welds corners and adds them to a mesh, with the limits of the builder.
 class SoupBuilder {
 public:
-    SoupBuilder(const Source& source, std::uint64_t faces_hint)
+    SoupBuilder(const InputText& source, std::uint64_t faces_hint)
         : mesh_(source, 0), welder_(mesh_.points(), faces_hint / 2) {
         mesh_.reserve(faces_hint / 2, faces_hint, 3 * faces_hint);
     }
@@ -56,7 +56,7 @@ private:
 
 class AsciiReader {
 public:
-    explicit AsciiReader(const Source& source)
+    explicit AsciiReader(const InputText& source)
         : source_(source),
           text_(source, TextRules{}),
           quick_(source),
@@ -175,14 +175,14 @@ private:
                           [](char a, char b) { return a == b || a == b - 'a' + 'A'; });
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextCursor text_;
     QuickText quick_;
     SoupBuilder soup_;
 };
 
 /// The count of a binary STL, once it is known to fit the size of the file.
-std::uint64_t checked_count(const Source& source) {
+std::uint64_t checked_count(const InputText& source) {
     const std::uint64_t size = source.bytes().size();
     if (size < stl_header_size) {
         source.fail(source.end(), "a binary STL has at least 84 bytes, this file has " +
@@ -208,7 +208,7 @@ std::uint64_t checked_count(const Source& source) {
     return count;
 }
 
-Point3d load_corner(const Source& source, const char* at) {
+Point3d load_corner(const InputText& source, const char* at) {
     Point3d p;
     for (std::size_t i = 0; i < 3; ++i) {
         p[i] = static_cast<double>(load<float, false>(at + 4 * i));
@@ -218,7 +218,7 @@ Point3d load_corner(const Source& source, const char* at) {
 }
 
 /// Any file: every corner is checked for every error and limit.
-PolygonMesh read_records(const Source& source, std::uint64_t count) {
+PolygonMesh read_records(const InputText& source, std::uint64_t count) {
     SoupBuilder soup(source, count);
     const char* record = source.begin() + stl_header_size;
     for (std::uint64_t i = 0; i < count; ++i, record += stl_record_size) {
@@ -245,7 +245,7 @@ bool load_corners(const char* record, std::size_t count, Point3d* out) {
 }
 
 /// Files without errors that are far from all limits, in blocks; nothing for others.
-std::optional<PolygonMesh> read_records_quickly(const Source& source, std::uint64_t count) {
+std::optional<PolygonMesh> read_records_quickly(const InputText& source, std::uint64_t count) {
     constexpr std::size_t block = VertexWelder::block / 3;
     if (!source.allows_quick() || count > 0x4000'0000U) return std::nullopt;
     if (source.limits().loop_corners < 3) return std::nullopt;
@@ -270,9 +270,9 @@ std::optional<PolygonMesh> read_records_quickly(const Source& source, std::uint6
 
 }  // namespace
 
-PolygonMesh read_stl_ascii(const Source& source) { return AsciiReader(source).read(); }
+PolygonMesh read_stl_ascii(const InputText& source) { return AsciiReader(source).read(); }
 
-PolygonMesh read_stl_binary(const Source& source) {
+PolygonMesh read_stl_binary(const InputText& source) {
     const std::uint64_t count = checked_count(source);
     auto quick = read_records_quickly(source, count);
     PolygonMesh mesh = quick ? *std::move(quick) : read_records(source, count);

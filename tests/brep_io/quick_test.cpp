@@ -43,7 +43,7 @@ struct Outcome {
     std::string error;
 };
 
-Outcome read_as(const detail::Source& source, MeshFormat format) {
+Outcome read_as(const detail::InputText& source, MeshFormat format) {
     Outcome out;
     try {
         switch (format) {
@@ -70,7 +70,7 @@ Outcome read_as(const detail::Source& source, MeshFormat format) {
 
 /// Compares both ways; the number of items that went the quick way.
 std::uint64_t compare(const std::string& text, MeshFormat format, const ReadLimits& limits = {}) {
-    const detail::Source source(text, "test", limits, format == MeshFormat::StlBinary);
+    const detail::InputText source(text, "test", limits, format == MeshFormat::StlBinary);
     const Outcome careful = read_as(source.carefully(), format);
     const std::uint64_t before = detail::quick_items;
     const Outcome quick = read_as(source, format);
@@ -191,7 +191,7 @@ std::optional<double> from_chars(const std::string& text) {
 /// Compares number() with from_chars; whether it took the number.
 bool compare_number(const std::string& text) {
     const std::string line = text + "\n" + std::string(40, '\n');
-    const detail::Source source(line, "test", {}, false);
+    const detail::InputText source(line, "test", {}, false);
     detail::QuickText quick(source);
     quick.begin(source.begin());
     double value = 0;

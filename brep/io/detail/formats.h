@@ -4,7 +4,7 @@
 // given a mesh that was checked (see write_mesh.cpp) and append to `out`.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 
@@ -12,11 +12,11 @@
 
 namespace trisect::detail {
 
-[[nodiscard]] PolygonMesh read_obj(const Source& source);
-[[nodiscard]] PolygonMesh read_off(const Source& source);
-[[nodiscard]] PolygonMesh read_ply(const Source& source);
-[[nodiscard]] PolygonMesh read_stl_ascii(const Source& source);
-[[nodiscard]] PolygonMesh read_stl_binary(const Source& source);
+[[nodiscard]] PolygonMesh read_obj(const InputText& source);
+[[nodiscard]] PolygonMesh read_off(const InputText& source);
+[[nodiscard]] PolygonMesh read_ply(const InputText& source);
+[[nodiscard]] PolygonMesh read_stl_ascii(const InputText& source);
+[[nodiscard]] PolygonMesh read_stl_binary(const InputText& source);
 
 void write_obj(std::string& out, const PolygonMesh& mesh);
 void write_off(std::string& out, const PolygonMesh& mesh);

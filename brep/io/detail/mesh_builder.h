@@ -9,7 +9,7 @@
 // then so is the first one that reached as far.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/polygon_mesh.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace trisect::detail {
 class MeshBuilder {
 public:
     /// `index_base` is the number that the format gives to the first vertex.
-    MeshBuilder(const Source& source, unsigned index_base)
+    MeshBuilder(const InputText& source, unsigned index_base)
         : source_(source),
           index_base_(index_base),
           vertex_limit_(std::min<std::uint64_t>(source.limits().vertices, 0xFFFF'FFFEU)) {
@@ -115,7 +115,7 @@ private:
         source_.fail_limit(at, "more than 2^32 - 1 corners in all");
     }
 
-    const Source& source_;
+    const InputText& source_;
     PolygonMesh mesh_;
     unsigned index_base_;
     std::uint64_t vertex_limit_;

@@ -4,7 +4,7 @@
 // each, and which properties, of which type, each entry has.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/write_mesh.h>
 
 #include <cstdint>
@@ -72,6 +72,6 @@ struct PlyHeader {
 };
 
 /// Reads and checks the syntax; what the elements mean is not looked at.
-[[nodiscard]] PlyHeader read_ply_header(const Source& source);
+[[nodiscard]] PlyHeader read_ply_header(const InputText& source);
 
 }  // namespace trisect::detail

@@ -4,7 +4,7 @@
 // digits, indices, single words, and blanks between them) eight characters at a time. It knows no
 // errors: what it does not know it refuses, and TextCursor reads the line again with all checks.
 //
-// Digits: eight bytes minus '0' with a carry test tell how many leading ones are digits; shifting
+// DigitRun: eight bytes minus '0' with a carry test tell how many leading ones are digits; shifting
 // the others out leaves zeros in front, and three multiplications add the digits up in pairs
 // (D. Lemire, Number Parsing at a Gigabyte per Second, 2021, section 4).
 //
@@ -14,7 +14,7 @@
 // rounding. Everything else is refused.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/polygon_mesh.h>
 
 #include <array>
@@ -27,12 +27,12 @@
 namespace trisect::detail {
 
 /// The digits at the start of eight characters.
-struct Digits {
+struct DigitRun {
     std::uint64_t value = 0;
     unsigned count = 0;
 };
 
-inline Digits leading_digits(const char* at) noexcept {
+inline DigitRun leading_digits(const char* at) noexcept {
     constexpr std::uint64_t ones = 0x0101'0101'0101'0101U;
     std::uint64_t x = 0;
     std::memcpy(&x, at, 8);
@@ -40,7 +40,7 @@ inline Digits leading_digits(const char* at) noexcept {
     // The top bit of each byte that is no digit; a carry spoils bytes behind the first of them
     // only.
     const std::uint64_t others = ((x + 0x76 * ones) | x) & (0x80 * ones);
-    Digits d;
+    DigitRun d;
     d.count = static_cast<unsigned>(std::countr_zero(others)) / 8;
     if (d.count == 0) return d;
     x <<= 64 - 8 * d.count;
@@ -87,7 +87,7 @@ inline double quotient_by_power_of_ten(std::uint64_t w, unsigned k) noexcept {
 class QuickText {
 public:
     /// Lines that begin before end() can be tried.
-    explicit QuickText(const Source& source) {
+    explicit QuickText(const InputText& source) {
         const ReadLimits& limits = source.limits();
         const std::string_view bytes = source.bytes();
         end_ = source.begin();
@@ -150,7 +150,7 @@ public:
     /// Takes an integer that is not negative, of at most seven digits; what follows is not looked
     /// at.
     bool integer(std::uint32_t& value) noexcept {
-        const Digits d = leading_digits(here_);
+        const DigitRun d = leading_digits(here_);
         here_ += d.count;
         value = static_cast<std::uint32_t>(d.value);
         return d.count - 1 < 7;
@@ -196,7 +196,7 @@ private:
     /// Appends digits to w; false when it gets more than 19.
     static bool take_digits(const char*& p, std::uint64_t& w, unsigned& digits) noexcept {
         for (;;) {
-            const Digits d = leading_digits(p);
+            const DigitRun d = leading_digits(p);
             if (w >= powers_of_ten[19 - d.count] || digits > 40) return false;
             digits += d.count;
             w = w * powers_of_ten[d.count] + d.value;
@@ -209,7 +209,7 @@ private:
         ++p;
         const bool negative = *p == '-';
         p += negative || *p == '+' ? 1 : 0;
-        const Digits d = leading_digits(p);
+        const DigitRun d = leading_digits(p);
         if (d.count == 0 || d.count > 3) return false;
         p += d.count;
         const int e = static_cast<int>(d.value);

@@ -9,7 +9,7 @@
 // a leading `+`, which it refuses, is skipped here.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 
 #include <algorithm>
 #include <charconv>
@@ -29,13 +29,13 @@ struct TextRules {
 
 class TextCursor {
 public:
-    TextCursor(const Source& source, TextRules rules)
+    TextCursor(const InputText& source, TextRules rules)
         : source_(source), rules_(rules), next_line_(source.begin()) {
         if (source.bytes().starts_with("\xEF\xBB\xBF")) next_line_ += 3;
         here_ = line_end_ = next_line_;
     }
     /// Begins at `from` instead of the start of the file.
-    TextCursor(const Source& source, TextRules rules, const char* from)
+    TextCursor(const InputText& source, TextRules rules, const char* from)
         : source_(source), rules_(rules), here_(from), line_end_(from), next_line_(from) {}
 
     /// Moves to the start of the next line; false at the end of the file.
@@ -225,7 +225,7 @@ private:
         return std::min(std::max(value, -huge), huge);
     }
 
-    const Source& source_;
+    const InputText& source_;
     TextRules rules_;
     const char* here_;
     const char* line_end_;

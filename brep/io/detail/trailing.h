@@ -4,14 +4,14 @@
 // space.
 #pragma once
 
-#include <trisect/brep/io/detail/source.h>
+#include <trisect/brep/io/detail/input_text.h>
 
 #include <string>
 #include <string_view>
 
 namespace trisect::detail {
 
-inline void refuse_trailing_bytes(const Source& source, const char* at, const char* after) {
+inline void refuse_trailing_bytes(const InputText& source, const char* at, const char* after) {
     constexpr std::string_view padding("\0\t\n\v\f\r ", 7);
     for (; at != source.end(); ++at) {
         if (padding.find(*at) != std::string_view::npos) continue;

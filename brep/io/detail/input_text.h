@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Source: the bytes being read, their limits, and the only way in which readers report errors.
+// InputText: the bytes being read, their limits, and the only way in which readers report errors.
 // Readers hold plain pointers into the bytes; line and column are counted when an error needs
 // them, so that the fast path counts nothing.
 #pragma once
@@ -15,9 +15,9 @@
 
 namespace trisect::detail {
 
-class Source {
+class InputText {
 public:
-    Source(std::string_view bytes, std::string name, const ReadLimits& limits, bool binary)
+    InputText(std::string_view bytes, std::string name, const ReadLimits& limits, bool binary)
         : bytes_(bytes), name_(std::move(name)), limits_(limits), binary_(binary) {
         // The first line end tells the convention: a CR that no LF follows means bare CR.
         const std::size_t eol = bytes.find_first_of("\r\n");
@@ -34,14 +34,14 @@ public:
     [[nodiscard]] char line_end() const noexcept { return line_end_; }
     /// Whether readers may take their quick ways. The result is the same; tests compare.
     [[nodiscard]] bool allows_quick() const noexcept { return quick_; }
-    [[nodiscard]] Source carefully() const {
-        Source copy = *this;
+    [[nodiscard]] InputText carefully() const {
+        InputText copy = *this;
         copy.quick_ = false;
         return copy;
     }
     /// The same bytes with places given as byte offsets: the body of a binary PLY.
-    [[nodiscard]] Source as_binary() const {
-        Source copy = *this;
+    [[nodiscard]] InputText as_binary() const {
+        InputText copy = *this;
         copy.binary_ = true;
         return copy;
     }
