@@ -544,7 +544,9 @@ CellRef Worker::divide(CellTask& task) {
     const auto second = static_cast<double>(children[1].size());
     const double pairs = first * first + second * second;
     const bool worth_it = pairs < (total < 4000 ? 0.8 : 1.6) * total * total;
-    const int price = std::min(first, second) > 0.5 * total ? 4 : 1;
+    // Walls that make more pairs than there were never pay: a pair costs a few nanoseconds.
+    const bool makes_pairs = pairs > 1.05 * total * total;
+    const int price = makes_pairs ? 12 : (std::min(first, second) > 0.5 * total ? 4 : 1);
     for (CellTask& c : children) c.stalled = worth_it ? 0 : task.stalled + price;
     return solve_children(task, *wall, children);
 }

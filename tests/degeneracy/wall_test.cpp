@@ -89,6 +89,20 @@ TEST(Walls, OctahedraInGeneralPositionsOnTheLattice) {
     }
 }
 
+// Two coplanar triangles that face each other, larger than the cells: in every cell the one speaks
+// for both, and so it must be the same one in all of them.
+TEST(Walls, CoincidentFacetsReachAcrossWalls) {
+    const Operand below = reference::prism({{0, 0}, {61, 7}, {11, 59}}, 0, 9);
+    const Operand above = reference::pyramid({{5, 3}, {64, 31}, {2, 47}}, 9, {20, 20, 30});
+    const Operand flush = reference::prism({{-3, 10}, {40, -6}, {50, 40}, {8, 52}}, 4, 9);
+    for_all_walls([&](const trisect::EvaluateOptions& options) {
+        for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor}) {
+            (void)checked_figures({below, above}, reference::pair_expression(kind), options);
+            (void)checked_figures({below, flush}, reference::pair_expression(kind), options);
+        }
+    });
+}
+
 // Both halves of a cut lie in one tree: the next operation must not see the wall between them.
 TEST(Walls, FacesCutByWallsAreOneAgain) {
     for_all_walls([&](const trisect::EvaluateOptions& options) {

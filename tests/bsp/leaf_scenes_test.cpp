@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes that are hard for a leaf arrangement, with the counters that show how it copes. Volumes
+// are exact, counts are asserted, times never.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/measure.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/counters.h>
+
+namespace {
+
+using trisect::Embedding;
+using trisect::evaluate;
+using trisect::EvaluateStats;
+using trisect::exact_volume;
+using trisect::ExactRational;
+using trisect::Expression;
+using trisect::LatticeMesh;
+using trisect::LatticePoint;
+using trisect::Solid;
+
+void add_box(LatticeMesh& mesh, const LatticePoint& lo, const LatticePoint& hi) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (int i = 0; i < 8; ++i)
+        mesh.points.push_back(
+            {(i & 1) != 0 ? hi.x : lo.x, (i & 2) != 0 ? hi.y : lo.y, (i & 4) != 0 ? hi.z : lo.z});
+    constexpr std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                           {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& q : quads) {
+        mesh.triangles.push_back({first + q[0], first + q[1], first + q[2]});
+        mesh.triangles.push_back({first + q[0], first + q[2], first + q[3]});
+    }
+}
+
+// A double cone: two hubs with `needles` facets around each of them. Turned by `angle` about two
+// axes and rounded to integers, which leaves it free of self-intersections.
+LatticeMesh double_cone(int needles, double angle) {
+    constexpr double radius = 1e6;
+    LatticeMesh mesh;
+    const auto add = [&](double x, double y, double z) {
+        const double c = std::cos(angle);
+        const double s = std::sin(angle);
+        const double v = c * y - s * z;
+        const double w = s * y + c * z;
+        mesh.points.push_back(
+            {std::llround(c * x - s * v), std::llround(s * x + c * v), std::llround(w)});
+        return static_cast<std::uint32_t>(mesh.points.size() - 1);
+    };
+    const std::uint32_t top = add(0, 0, radius / 3);
+    const std::uint32_t bottom = add(0, 0, -radius / 3);
+    const auto n = static_cast<std::uint32_t>(needles);
+    for (int i = 0; i < needles; ++i) {
+        const double a = 2 * 3.14159265358979323846 * i / needles;
+        (void)add(radius * std::cos(a), radius * std::sin(a), 0);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t a = 2 + i;
+        const std::uint32_t b = 2 + (i + 1) % n;
+        mesh.triangles.push_back({top, a, b});
+        mesh.triangles.push_back({bottom, b, a});
+    }
+    return mesh;
+}
+
+ExactRational volume_of(const Solid& solid) { return exact_volume(solid.to_brep()); }
+
+// V(A ∪ B) + V(A ∩ B) = V(A) + V(B) and V(A - B) + V(A ∩ B) = V(A).
+void expect_volumes_add_up(const Solid& a, const Solid& b, const ExactRational& volume_a,
+                           const ExactRational& volume_b) {
+    const ExactRational common = volume_of(evaluate(a & b));
+    EXPECT_EQ(volume_of(evaluate(a | b)) + common, volume_a + volume_b);
+    EXPECT_EQ(volume_of(evaluate(a - b)) + common, volume_a);
+}
+
+TEST(NeedleFans, HubOf500NeedlesAgainstATurnedCopy) {
+    const LatticeMesh a = double_cone(500, 0);
+    const LatticeMesh b = double_cone(500, 0.6);
+    expect_volumes_add_up(Solid::from_lattice_mesh(a), Solid::from_lattice_mesh(b), exact_volume(a),
+                          exact_volume(b));
+}
+
+// Every two needles of a hub have a corner in common: by name, without arithmetic.
+TEST(NeedleFans, NeedlesOfOneHubAreToldApartByTheFilter) {
+    const Solid a = Solid::from_lattice_mesh(double_cone(500, 0), Embedding::Resolve);
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 2000;  // one leaf
+    trisect::predicate_counters() = {};
+    EvaluateStats stats;
+    const Solid resolved = evaluate(a | a, options, &stats);
+    EXPECT_EQ(stats.mixed_leaves, 1U);
+    EXPECT_GT(stats.pairs_boxes, 10'000U);
+    EXPECT_EQ(stats.pairs_touching, 0U);
+    EXPECT_EQ(stats.untouched_polygons, 1000U);
+    EXPECT_EQ(stats.pieces, 0U);
+    EXPECT_LE(stats.traces, 1U);
+    const auto counters = trisect::predicate_counters();
+    EXPECT_LT(counters.exact_narrow + counters.exact_wide, 100U);
+    EXPECT_EQ(volume_of(resolved), exact_volume(double_cone(500, 0)));
+}
+
+// Two surfaces that cross: nothing is traced piece by piece, and no sign needs wide integers.
+TEST(NeedleFans, GenericCutsNeedNoWideIntegers) {
+    const Solid a = Solid::from_lattice_mesh(double_cone(60, 0));
+    const Solid b = Solid::from_lattice_mesh(double_cone(60, 0.6));
+    trisect::predicate_counters() = {};
+    EvaluateStats stats;
+    (void)evaluate(a | b, {}, &stats);
+    const auto counters = trisect::predicate_counters();
+    EXPECT_GT(stats.pairs_cutting, 20U);
+    EXPECT_GE(stats.pairs_boxes, stats.pairs_touching);
+    EXPECT_GE(stats.pairs_touching, stats.pairs_cutting);
+    EXPECT_LT((counters.exact_narrow + counters.exact_wide) * 100, counters.filtered);
+    EXPECT_LT(stats.traces * 2, stats.pieces + 60);
+}
+
+class EngravedPlate : public ::testing::TestWithParam<int> {};
+
+// n² pockets in one mesh, whose tops are coplanar with the plate's: what a leaf compares and what
+// it makes grows with their number, not with its square.
+TEST_P(EngravedPlate, CoplanarPiecesCostAsManyAsThereAre) {
+    const int n = GetParam();
+    const std::int64_t side = 10 * n;
+    LatticeMesh plate;
+    LatticeMesh pockets;
+    add_box(plate, {0, 0, 0}, {side, side, 10});
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            add_box(pockets, {10 * i + 2, 10 * j + 2, 5}, {10 * i + 8, 10 * j + 8, 10});
+    EvaluateStats stats;
+    const Solid engraved =
+        evaluate(Solid::from_lattice_mesh(plate) - Solid::from_lattice_mesh(pockets), {}, &stats);
+    const auto count = static_cast<std::uint64_t>(n) * static_cast<std::uint64_t>(n);
+    EXPECT_LT(stats.pairs_boxes, 60 * count);
+    EXPECT_LT(stats.pieces, 60 * count);
+    EXPECT_LT(stats.traces, 20 * count);
+    const trisect::Brep brep = engraved.to_brep();
+    EXPECT_EQ(brep.faces().size(), 6 + 5 * count);
+    const auto volume =
+        static_cast<std::int64_t>(side * side * 10) - static_cast<std::int64_t>(count) * 6 * 6 * 5;
+    EXPECT_EQ(exact_volume(brep), ExactRational(volume));
+}
+
+INSTANTIATE_TEST_SUITE_P(Pockets, EngravedPlate, ::testing::Values(10, 32, 100));
+
+}  // namespace
