@@ -176,7 +176,7 @@ TEST(MspLocate, ResultsOfBooleans) {
         const auto operands = reference::random_family(random, 3, true);
         const auto expression = reference::random_expression(random, operands.size(), 3, false);
         std::vector<Solid> solids;
-        for (const auto& o : operands) solids.push_back(engines::solid(o, Embedding::Resolve));
+        for (const auto& o : operands) solids.push_back(engines::solid(o, Embedding::Assume));
         const Brep brep = evaluate(engines::formula(expression, solids)).to_brep();
         if (brep.is_empty()) continue;
         // Whether the boolean is right is asked in tests/engines; here it has to be, or faces
