@@ -7,32 +7,18 @@
 
 #include <fmt/format.h>
 
-#include <span>
 #include <vector>
 
 #include "certificate.h"
 #include "commands.h"
 #include "description.h"
+#include "formula.h"
 #include "mesh_files.h"
 #include "operand.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
-
-Expression formula(const std::string& operation, const std::vector<Operand>& operands) {
-    std::vector<Expression> terms;
-    terms.reserve(operands.size());
-    for (const Operand& operand : operands) terms.emplace_back(operand.solid);
-    if (operation == "union") return Expression::any_of(terms);
-    if (operation == "intersection") return Expression::all_of(terms);
-    if (operation == "difference") {
-        return terms.front() - Expression::any_of(std::span(terms).subspan(1));
-    }
-    Expression result = terms.front();
-    for (std::size_t i = 1; i < terms.size(); ++i) result = result ^ terms[i];
-    return result;
-}
 
 /// Everything the command found out.
 struct BooleanResult {

@@ -27,6 +27,10 @@ struct Request {
     CheckOptions check;
     DiffOptions diff;
     ConvertOptions convert;
+    LocateOptions locate;
+    SectionOptions section;
+    RenderOptions render;
+    TreeOptions tree;
 };
 
 constexpr const char* exit_code_help =
@@ -140,6 +144,10 @@ void declare(CLI::App& app, Request& request) {
     add_check_command(app, request.check);
     add_diff_command(app, request.diff);
     add_convert_command(app, request.convert);
+    add_locate_command(app, request.locate);
+    add_section_command(app, request.section);
+    add_render_command(app, request.render);
+    add_tree_command(app, request.tree);
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
     }
@@ -150,6 +158,10 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "check") return run_check(session, request.check);
     if (name == "diff") return run_diff(session, request.diff);
     if (name == "convert") return run_convert(session, request.convert);
+    if (name == "locate") return run_locate(session, request.locate);
+    if (name == "section") return run_section(session, request.section);
+    if (name == "render") return run_render(session, request.render);
+    if (name == "tree") return run_tree(session, request.tree);
     BooleanOptions options = request.boolean;
     options.operation = name;
     return run_boolean(session, options);
@@ -159,7 +171,8 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
 /// ("--translate -.5,0,0") is tied to its option, or it would be taken for an option itself.
 std::vector<std::string> prepared_arguments(int argc, char** argv) {
     static constexpr std::string_view numeric[] = {"--translate", "--rotate", "--scale",
-                                                   "--lattice"};
+                                                   "--lattice",   "--plane",  "--section",
+                                                   "--view",      "--point"};
     std::vector<std::string> arguments;
     for (int i = 1; i < argc; ++i) {
         std::string argument = argv[i];

@@ -28,6 +28,18 @@ void add_diff_command(CLI::App& app, DiffOptions& options);
 void add_convert_command(CLI::App& app, ConvertOptions& options);
 [[nodiscard]] Outcome run_convert(Session& session, const ConvertOptions& options);
 
+void add_locate_command(CLI::App& app, LocateOptions& options);
+[[nodiscard]] Outcome run_locate(Session& session, const LocateOptions& options);
+
+void add_section_command(CLI::App& app, SectionOptions& options);
+[[nodiscard]] Outcome run_section(Session& session, const SectionOptions& options);
+
+void add_render_command(CLI::App& app, RenderOptions& options);
+[[nodiscard]] Outcome run_render(Session& session, const RenderOptions& options);
+
+void add_tree_command(CLI::App& app, TreeOptions& options);
+[[nodiscard]] Outcome run_tree(Session& session, const TreeOptions& options);
+
 /// --assume-embedded and --winding.
 void add_operand_options(CLI::App& command, OperandOptions& options);
 

@@ -14,6 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "picture_style.h"
+#include "plane_request.h"
+
 namespace trisect::app {
 
 enum class Progress : std::uint8_t {
@@ -68,6 +71,41 @@ struct DiffOptions {
     std::array<std::string, 2> inputs;
     OperandOptions operands;
     bool exact = false;
+};
+
+/// A set to be looked at: one mesh, or several combined.
+struct QueryOptions {
+    std::vector<std::string> inputs;
+    std::string operation = "union";
+    OperandOptions operands;
+};
+
+struct LocateOptions {
+    QueryOptions set;
+    std::string points_file;                    ///< empty: none; "-": standard input
+    std::vector<std::array<double, 3>> points;  ///< of the command line
+};
+
+struct SectionOptions {
+    QueryOptions set;
+    PlaneRequest plane;
+    std::string output;  ///< empty: none
+};
+
+struct TreeOptions {
+    QueryOptions set;
+    PlaneRequest plane = PlaneRequest::from_text("z", "--plane");
+    std::string output;  ///< empty: none
+};
+
+struct RenderOptions {
+    QueryOptions set;
+    std::string output;
+    std::string view = "iso";
+    std::string up = "z";
+    std::optional<PlaneRequest> section;
+    double opening = 0;  ///< degrees; 0: parallel rays
+    PictureStyle style;
 };
 
 struct ConvertOptions {
