@@ -69,7 +69,7 @@ struct EvaluateOptions {
     /// input hits the same limit everywhere.
     std::uint64_t max_work = 0;
     /// Bytes that lists and results may hold at once, operands and scratch memory not counted; 0
-    /// means no limit.
+    /// means no limit. Several threads hold more at once than one.
     std::uint64_t max_memory = 0;
     /// Threads that may take part; 0 means one for every processor. The result does not depend on
     /// it. Small work, and work under a budget, is done by the calling thread alone.
