@@ -348,13 +348,12 @@ Split IndexTreeBuilder::best_split(const State& s, std::size_t count) const {
             bounds.hi[k] = std::max(bounds.hi[k], items_[i].hi[k]);
         }
     Split best;
-    if (count > 256) {
-        std::size_t axis = 0;
-        for (std::size_t k = 1; k < 3; ++k)
-            if (s.cell.extent(k) > s.cell.extent(axis)) axis = k;
-        bin_axis(s, axis, bounds, best);
-        if (best.axis >= 0) return best;
-    }
+    // Mostly the longest axis is the right one, and looking at one costs a third.
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (s.cell.extent(k) > s.cell.extent(axis)) axis = k;
+    bin_axis(s, axis, bounds, best);
+    if (best.axis >= 0 && best.cost < static_cast<float>(count)) return best;
     for (std::size_t k = 0; k < 3; ++k) bin_axis(s, k, bounds, best);
     return best;
 }
