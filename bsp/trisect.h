@@ -12,6 +12,7 @@
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/expression.h>
