@@ -35,6 +35,7 @@
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/handover.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/partition.h>
@@ -566,7 +567,14 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
     std::array<CellRef, 2> results;
     if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
         tbb::task_group group;
-        group.run([&] { results[1] = shared_.worker().solve(children[1]); });
+        Handover start;
+        Handover result;
+        start.give();
+        group.run([&] {
+            start.take();
+            results[1] = shared_.worker().solve(children[1]);
+            result.give();
+        });
         std::exception_ptr failure;
         try {
             results[0] = solve(children[0]);
@@ -575,6 +583,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
             group.cancel();
         }
         group.wait();
+        result.take();
         if (failure) std::rethrow_exception(failure);
     } else {
         for (std::size_t i = 0; i < 2; ++i) results[i] = solve(children[i]);
