@@ -795,7 +795,10 @@ bool IndexTreeBuilder::make_grid(const State& s) {
     if (grid.cell_count() < 8) return give_up();
     grid.list();
 
-    const auto [nx, ny, nz] = grid.n();
+    const auto counts = grid.n();  // lambdas of clang 14 cannot capture structured bindings
+    const std::uint32_t nx = counts[0];
+    const std::uint32_t ny = counts[1];
+    const std::uint32_t nz = counts[2];
     struct Known {
         FinePoint at;
         std::int32_t winding = 0;
