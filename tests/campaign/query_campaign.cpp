@@ -15,6 +15,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/import_mesh.h>
@@ -24,6 +25,7 @@
 #include "bench/shapes.h"
 #include "brute_force.h"
 #include "engines/engines.h"
+#include "random_result.h"
 #include "reference/random_solids.h"
 
 namespace {
@@ -56,21 +58,9 @@ Model fresh(const std::string& name, LatticeMesh mesh) {
 LatticeMesh imported(const trisect::PolygonMesh& mesh) { return import_mesh(mesh).mesh; }
 
 Model result(std::uint64_t seed) {
-    reference::Random random(seed);
-    const std::size_t operands = 2 + random.below(3);
-    const auto family = reference::random_family(random, operands);
-    const auto expression = reference::random_expression(random, operands, operands);
-    std::vector<Solid> solids;
-    reference::Operand all;
-    for (const auto& o : family) {
-        solids.push_back(engines::solid(o));
-        all = reference::concatenated(all, o);
-    }
-    trisect::EvaluateOptions options;
-    options.leaf_polygons = seed % 2 == 0 ? 60 : 4;
-    return {"result " + std::to_string(seed),
-            evaluate(engines::formula(expression, solids), options), engines::lattice_mesh(all),
-            brute::Boundary::of_result(reference::evaluate(family, expression)), false};
+    brute::RandomResult r = brute::random_result(seed, 4, true);
+    return {"result " + std::to_string(seed), std::move(r.solid), std::move(r.mesh),
+            std::move(r.boundary), false};
 }
 
 Model make_model(std::uint64_t i, std::uint64_t seed) {

@@ -7,6 +7,7 @@
 
 #include "brute_force.h"
 #include "engines/engines.h"
+#include "random_result.h"
 #include "reference/random_solids.h"
 
 namespace {
@@ -96,21 +97,10 @@ TEST(Handles, OfFreshMeshesOnASmallGrid) {
 
 TEST(Handles, OfResultsOfBooleansOnASmallGrid) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-        reference::Random random(seed);
-        const auto family = reference::random_family(random, 2);
-        const auto expression = reference::random_expression(random, 2, 2, false);
-        std::vector<Solid> solids;
-        reference::Operand all;
-        for (const auto& o : family) {
-            solids.push_back(engines::solid(o));
-            all = reference::concatenated(all, o);
-        }
-        trisect::EvaluateOptions options;
-        options.leaf_polygons = seed % 2 == 0 ? 60 : 4;
-        const BrepIndex index =
-            BrepIndex(evaluate(engines::formula(expression, solids), options)).with_brep();
+        const brute::RandomResult result = brute::random_result(seed, 2, false);
+        const BrepIndex index = BrepIndex(result.solid).with_brep();
         expect_round_trips(index, seed);
-        expect_faces(index, engines::lattice_mesh(all), seed);
+        expect_faces(index, result.mesh, seed);
     }
 }
 

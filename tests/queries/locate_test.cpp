@@ -7,6 +7,7 @@
 
 #include "brute_force.h"
 #include "engines/engines.h"
+#include "random_result.h"
 #include "reference/random_solids.h"
 
 namespace {
@@ -53,21 +54,8 @@ TEST(Locate, FreshMeshesOnASmallGrid) {
 
 TEST(Locate, ResultsOfBooleansOnASmallGrid) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-        reference::Random random(seed);
-        const std::size_t operands = 2 + random.below(2);
-        const auto family = reference::random_family(random, operands);
-        const auto expression = reference::random_expression(random, operands, operands);
-        std::vector<Solid> solids;
-        reference::Operand all;
-        for (const auto& o : family) {
-            solids.push_back(engines::solid(o));
-            all = reference::concatenated(all, o);
-        }
-        trisect::EvaluateOptions options;
-        options.leaf_polygons = seed % 2 == 0 ? 60 : 4;
-        const BrepIndex index(evaluate(engines::formula(expression, solids), options));
-        expect_agreement(index, brute::Boundary::of_result(reference::evaluate(family, expression)),
-                         engines::lattice_mesh(all), false, seed, 150);
+        const brute::RandomResult result = brute::random_result(seed, 3, true);
+        expect_agreement(BrepIndex(result.solid), result.boundary, result.mesh, false, seed, 150);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "brute_force.h"
 #include "engines/engines.h"
+#include "random_result.h"
 #include "reference/random_solids.h"
 
 namespace {
@@ -63,18 +64,8 @@ TEST(Nearest, FreshMeshesOnASmallGrid) {
 
 TEST(Nearest, ResultsOfBooleansOnASmallGrid) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-        reference::Random random(seed);
-        const auto family = reference::random_family(random, 2);
-        const auto expression = reference::random_expression(random, 2, 2, false);
-        std::vector<Solid> solids;
-        reference::Operand all;
-        for (const auto& o : family) {
-            solids.push_back(engines::solid(o));
-            all = reference::concatenated(all, o);
-        }
-        const BrepIndex index(evaluate(engines::formula(expression, solids)));
-        expect_agreement(index, brute::Boundary::of_result(reference::evaluate(family, expression)),
-                         engines::lattice_mesh(all), false, seed);
+        const brute::RandomResult result = brute::random_result(seed, 2, false);
+        expect_agreement(BrepIndex(result.solid), result.boundary, result.mesh, false, seed);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "brute_force.h"
 #include "engines/engines.h"
+#include "random_result.h"
 #include "reference/random_solids.h"
 
 namespace {
@@ -135,19 +136,10 @@ TEST(Section, FreshMeshesOnASmallGrid) {
 TEST(Section, ResultsOfBooleansOnASmallGrid) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         reference::Random random(seed);
-        const auto family = reference::random_family(random, 2);
-        const auto expression = reference::random_expression(random, 2, 2, false);
-        std::vector<Solid> solids;
-        reference::Operand all;
-        for (const auto& o : family) {
-            solids.push_back(engines::solid(o));
-            all = reference::concatenated(all, o);
-        }
-        trisect::EvaluateOptions options;
-        options.leaf_polygons = seed % 2 == 0 ? 60 : 4;
-        const BrepIndex index(evaluate(engines::formula(expression, solids), options));
-        const auto boundary = brute::Boundary::of_result(reference::evaluate(family, expression));
-        const auto mesh = engines::lattice_mesh(all);
+        const brute::RandomResult result = brute::random_result(seed, 2, false);
+        const BrepIndex index(result.solid);
+        const brute::Boundary& boundary = result.boundary;
+        const trisect::LatticeMesh& mesh = result.mesh;
         for (int i = 0; i < 5; ++i)
             expect_section(index, boundary, random_plane(mesh, random), random, seed);
     }
