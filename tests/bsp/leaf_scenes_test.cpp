@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/transform.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
@@ -148,5 +151,32 @@ TEST_P(EngravedPlate, CoplanarPiecesCostAsManyAsThereAre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pockets, EngravedPlate, ::testing::Values(10, 32, 100));
+
+// Boxes turned about one axis: their caps lie in two planes and overlap all over. No cap may be cut
+// by all the others, and both kinds of leaf engine must say the same.
+TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
+    constexpr int count = 12;
+    const auto united = [&](Embedding embedding, EvaluateStats& stats) {
+        std::vector<Expression> boxes;
+        trisect::SolidOptions options;
+        options.embedding = embedding;
+        for (int i = 0; i < count; ++i)
+            boxes.emplace_back(Solid::from_mesh(
+                trisect::transformed(trisect::make_box({-8, -3, 0}, {8, 3, 5}),
+                                     trisect::AffineMap::rotation({0, 0, 1}, 180.0 * i / count)),
+                options));
+        return evaluate(Expression::any_of(boxes), {}, &stats);
+    };
+    EvaluateStats stats;
+    EvaluateStats resolved_stats;
+    const Solid fan = united(Embedding::Assume, stats);
+    const Solid resolved = united(Embedding::Resolve, resolved_stats);
+    EXPECT_GT(stats.cuts_undone, 0U);
+    // Twelve facets a box, each in a few parts for every other box; not in n² parts.
+    EXPECT_LT(stats.pieces, 24U * count * count);
+    EXPECT_LT(4 * stats.pieces, resolved_stats.pieces);
+    EXPECT_EQ(exact_volume(fan.to_brep()), exact_volume(resolved.to_brep()));
+    EXPECT_EQ(fan.to_brep().counts().faces, resolved.to_brep().counts().faces);
+}
 
 }  // namespace

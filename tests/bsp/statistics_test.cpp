@@ -43,6 +43,16 @@ TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
     EXPECT_LT(exact * 20, filtered);
 }
 
+// The short ways of leaves, by their counts: one trace serves what hangs together, and within a cut
+// facet winding numbers are carried over.
+TEST_F(TwoBalls, WindingNumbersAreCarriedOverInsteadOfTraced) {
+    EvaluateStats stats;
+    (void)evaluate(a | b, {}, &stats);
+    EXPECT_GT(stats.untouched_polygons, 1000U);
+    EXPECT_GT(stats.traces_within, stats.pieces / 2);
+    EXPECT_LT(stats.traces * 4, stats.pieces + stats.untouched_polygons);
+}
+
 TEST_F(TwoBalls, CellsAndPairsAreFew) {
     EvaluateStats stats;
     (void)evaluate(a | b, {}, &stats);
