@@ -33,6 +33,7 @@
 #include <limits>
 #include <utility>
 
+#include <trisect/bsp/detail/index_grid_lists.h>
 #include <trisect/bsp/detail/index_signs.h>
 #include <trisect/kernel/contract.h>
 
@@ -73,13 +74,6 @@ constexpr int max_depth = 96;
 constexpr std::size_t bin_count = 16;
 constexpr std::size_t grid_items = 24;  // from so many polygons on
 
-// A part of a polygon: its box relative to the model's middle.
-struct Item {
-    std::array<float, 3> lo{};
-    std::array<float, 3> hi{};
-    Id id = 0;
-};
-
 float rounded_down(double v) {
     const auto f = static_cast<float>(v);
     return static_cast<double>(f) > v ? std::nextafter(f, -HUGE_VALF) : f;
@@ -88,15 +82,6 @@ float rounded_up(double v) {
     const auto f = static_cast<float>(v);
     return static_cast<double>(f) < v ? std::nextafter(f, HUGE_VALF) : f;
 }
-
-struct FloatBox {
-    std::array<float, 3> lo{};
-    std::array<float, 3> hi{};
-    [[nodiscard]] float extent(std::size_t k) const { return hi[k] - lo[k]; }
-    [[nodiscard]] float area() const {
-        return extent(0) * extent(1) + extent(1) * extent(2) + extent(2) * extent(0);
-    }
-};
 
 struct Split {
     int axis = -1;
@@ -134,12 +119,13 @@ private:
                    int depth);
     void add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell, std::uint32_t node,
                        int depth);
+    class GridSweep;
     [[nodiscard]] bool make_grid(const State& s);
     void subdivide(State s);
     [[nodiscard]] Split best_split(const State& s, std::size_t count) const;
     void bin_axis(const State& s, std::size_t axis, const FloatBox& bounds, Split& best) const;
     [[nodiscard]] std::size_t partition(std::size_t first, std::size_t end, const Split& split);
-    void clip(Item& below, Item& above, const Split& split) const;
+    void clip(IndexItem& below, IndexItem& above, const Split& split) const;
     [[nodiscard]] std::int64_t position(std::size_t k, float lo, float hi, float part) const;
     [[nodiscard]] bool is_in(const FinePoint& p, const FloatBox& cell) const;
     [[nodiscard]] bool trace(std::size_t first, const FinePoint& from, const FinePoint& to,
@@ -155,7 +141,7 @@ private:
     IndexPolygons& polygons_;
     std::array<std::int64_t, 3> middle_{};
     float grid_ = 1.0F / 256;  // walls are odd multiples of it where floats have the bits
-    std::vector<Item> items_;
+    std::vector<IndexItem> items_;
 };
 
 void IndexTreeBuilder::build(const SolidState& state) {
@@ -260,7 +246,7 @@ void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, con
             id = polygons_.add(r, turned, cell);
             if (id == IndexPolygons::none) continue;
         }
-        Item item;
+        IndexItem item;
         item.id = id;
         const Box& box = r.box();
         bool meets = true;
@@ -360,7 +346,7 @@ Split IndexTreeBuilder::best_split(const State& s, std::size_t count) const {
 
 // The boxes of the two parts of a polygon that crosses the wall: a corner belongs to its side, and
 // so does the point where an edge crosses the wall.
-void IndexTreeBuilder::clip(Item& below, Item& above, const Split& split) const {
+void IndexTreeBuilder::clip(IndexItem& below, IndexItem& above, const Split& split) const {
     const auto axis = static_cast<std::size_t>(split.axis);
     below.hi[axis] = split.wall;
     above.lo[axis] = split.wall;
@@ -405,18 +391,18 @@ void IndexTreeBuilder::clip(Item& below, Item& above, const Split& split) const 
 // end of those below; what lies between is unused.
 std::size_t IndexTreeBuilder::partition(std::size_t first, std::size_t end, const Split& split) {
     const auto axis = static_cast<std::size_t>(split.axis);
-    const auto is_empty = [](const Item& i) {
+    const auto is_empty = [](const IndexItem& i) {
         return i.lo[0] > i.hi[0] || i.lo[1] > i.hi[1] || i.lo[2] > i.hi[2];
     };
     std::size_t out = first;
     for (std::size_t i = first; i < end; ++i) {
-        Item item = items_[i];
+        IndexItem item = items_[i];
         if (item.hi[axis] < split.wall) {
             items_[out++] = item;
         } else if (item.lo[axis] > split.wall) {
             items_.push_back(item);
         } else {
-            Item above = item;
+            IndexItem above = item;
             clip(item, above, split);
             if (!is_empty(item)) items_[out++] = item;
             if (!is_empty(above)) items_.push_back(above);
@@ -464,7 +450,7 @@ bool IndexTreeBuilder::trace(std::size_t first, const FinePoint& from, const Fin
     const Reference reference(from);
     std::int32_t change = 0;
     for (std::size_t i = first; i < items_.size(); ++i) {
-        const Item& item = items_[i];
+        const IndexItem& item = items_[i];
         if (item.lo[0] > box.hi[0] || item.hi[0] < box.lo[0] || item.lo[1] > box.hi[1] ||
             item.hi[1] < box.lo[1] || item.lo[2] > box.hi[2] || item.hi[2] < box.lo[2])
             continue;
@@ -566,320 +552,117 @@ void IndexTreeBuilder::subdivide(State s) {
 
 // Grids ------------------------------------------------------------------------------------------
 
-namespace {
-
-// May a triangle meet boxes? By its plane and its edges seen along the axes (Akenine-Möller 2001),
-// with margins; coordinates relative to the model's middle, below 2^54. Made once for a triangle,
-// asked for many boxes.
-class TriangleInBoxes {
-public:
-    explicit TriangleInBoxes(const std::array<std::array<double, 3>, 3>& c) {
-        std::array<double, 3> u{};
-        std::array<double, 3> v{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            u[k] = c[1][k] - c[0][k];
-            v[k] = c[2][k] - c[0][k];
-        }
-        axes_[0] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                    u[0] * v[1] - u[1] * v[0]};
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t j = (k + 1) % 3;
-                const std::size_t l = (k + 2) % 3;
-                auto& axis = axes_[1 + 3 * i + k];
-                axis[k] = 0;
-                axis[j] = -(c[(i + 1) % 3][l] - c[i][l]);
-                axis[l] = c[(i + 1) % 3][j] - c[i][j];
-            }
-        for (std::size_t a = 0; a < axes_.size(); ++a) {
-            lo_[a] = HUGE_VAL;
-            hi_[a] = -HUGE_VAL;
-            double terms = 0;
-            for (const auto& p : c) {
-                double at = 0;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    at += axes_[a][k] * p[k];
-                    terms += std::fabs(axes_[a][k] * p[k]);
-                }
-                lo_[a] = std::min(lo_[a], at);
-                hi_[a] = std::max(hi_[a], at);
-            }
-            // Axes carry two roundings and a cancellation of products of edges; edges are sums of
-            // coordinates. All of it is below 2^-40 of the terms plus what follows from 8 units.
-            const double margin = 0x1p-40 * terms;
-            lo_[a] -= margin;
-            hi_[a] += margin;
-        }
-    }
-
-    [[nodiscard]] bool may_meet(const std::array<double, 3>& middle, double half) const {
-        for (std::size_t a = 0; a < axes_.size(); ++a) {
-            const auto& x = axes_[a];
-            const double reach = (std::fabs(x[0]) + std::fabs(x[1]) + std::fabs(x[2])) * half;
-            const double at = x[0] * middle[0] + x[1] * middle[1] + x[2] * middle[2];
-            const double margin =
-                0x1p-40 * (std::fabs(x[0] * middle[0]) + std::fabs(x[1] * middle[1]) +
-                           std::fabs(x[2] * middle[2]) + reach);
-            if (at - reach - margin > hi_[a] || at + reach + margin < lo_[a]) return false;
-        }
-        return true;
-    }
-
-private:
-    std::array<std::array<double, 3>, 10> axes_{};
-    std::array<double, 10> lo_{};
-    std::array<double, 10> hi_{};
-};
-
-}  // namespace
-
-// A grid over the items, with a k-d tree in every cell that has some. About as many cells as items:
-// most cells are then empty and most others hold a handful.
-class IndexGridBuilder {
-public:
-    IndexGridBuilder(const std::array<double, 3>& middle, const FloatBox& box,
-                     const std::vector<Item>& items, const IndexPolygons& polygons, float finest)
-        : middle_(middle), whole_(box), items_(items), polygons_(polygons) {
-        float largest = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
-        // Walls are floats: origin an odd multiple of the last bit that the largest one has.
-        float bit = finest;
-        while (bit * 0x1p23F < 2 * largest) bit *= 2;
-        // The last cell takes the rest of the box: half a cell to one and a half.
-        size_ = bit * 4;
-        const auto count = [&](std::size_t k) {
-            return std::max(
-                1.0, std::round(static_cast<double>(box.extent(k)) / static_cast<double>(size_)));
-        };
-        const double wanted = 2.5 * static_cast<double>(items.size());
-        while (count(0) * count(1) * count(2) > wanted) size_ *= 2;
-        for (std::size_t k = 0; k < 3; ++k) {
-            float steps = std::floor(box.lo[k] / bit);
-            if (std::fmod(steps, 2.0F) == 0) steps -= 1;
-            origin_[k] = steps * bit;
-            n_[k] = static_cast<std::uint32_t>(count(k));
-        }
-    }
-
-    [[nodiscard]] const std::array<std::uint32_t, 3>& n() const { return n_; }
-    [[nodiscard]] float size() const { return size_; }
-    [[nodiscard]] const std::array<float, 3>& origin() const { return origin_; }
-    [[nodiscard]] std::size_t cell_count() const { return std::size_t{n_[0]} * n_[1] * n_[2]; }
-    [[nodiscard]] std::span<const std::uint32_t> items_in(std::size_t cell) const {
-        return std::span(listed_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
-    }
-    [[nodiscard]] FloatBox box_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-        const std::array<std::uint32_t, 3> at{x, y, z};
-        FloatBox b;
-        for (std::size_t k = 0; k < 3; ++k) {
-            b.lo[k] = at[k] == 0 ? whole_.lo[k] : origin_[k] + size_ * static_cast<float>(at[k]);
-            b.hi[k] = at[k] + 1 == n_[k] ? whole_.hi[k]
-                                         : origin_[k] + size_ * static_cast<float>(at[k] + 1);
-        }
-        return b;
-    }
-
-    // Counts, then fills. Small polygons go to all cells that their box meets.
-    void list() {
-        begin_.assign(cell_count() + 1, 0);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> large;  // cell, item
-        for (std::uint32_t i = 0; i < items_.size(); ++i) {
-            const Range r = range_of(items_[i]);
-            if (is_large(r)) {
-                list_large(i, r, large);
-                continue;
-            }
-            for_range(r, [&](std::size_t cell) { ++begin_[cell + 1]; });
-        }
-        for (const auto& [cell, item] : large) ++begin_[cell + 1];
-        for (std::size_t c = 0; c + 1 < begin_.size(); ++c) begin_[c + 1] += begin_[c];
-        listed_.resize(begin_.back());
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        for (std::uint32_t i = 0; i < items_.size(); ++i) {
-            const Range r = range_of(items_[i]);
-            if (!is_large(r)) for_range(r, [&](std::size_t cell) { listed_[next[cell]++] = i; });
-        }
-        for (const auto& [cell, item] : large) listed_[next[cell]++] = item;
-    }
-
-private:
-    struct Range {
-        std::array<std::uint32_t, 3> lo{};
-        std::array<std::uint32_t, 3> hi{};
-    };
-
-    [[nodiscard]] std::size_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-        return (std::size_t{z} * n_[1] + y) * n_[0] + x;
-    }
-    // Floats of at most 24 bits and differences of them in doubles: exact.
-    [[nodiscard]] Range range_of(const Item& item) const {
-        Range r;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double scale = 1.0 / static_cast<double>(size_);
-            const auto at = [&](float v) {
-                const double t = (static_cast<double>(v) - static_cast<double>(origin_[k])) * scale;
-                if (!(t > 0)) return std::uint32_t{0};
-                return std::min(static_cast<std::uint32_t>(t), n_[k] - 1);
-            };
-            r.lo[k] = at(item.lo[k]);
-            r.hi[k] = at(item.hi[k]);
-        }
-        return r;
-    }
-    [[nodiscard]] static bool is_large(const Range& r) {
-        return std::size_t{r.hi[0] - r.lo[0] + 1} * (r.hi[1] - r.lo[1] + 1) *
-                   (r.hi[2] - r.lo[2] + 1) >
-               8;
-    }
-    template <class F>
-    void for_range(const Range& r, const F& f) const {
-        for (std::uint32_t z = r.lo[2]; z <= r.hi[2]; ++z)
-            for (std::uint32_t y = r.lo[1]; y <= r.hi[1]; ++y)
-                for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x) f(number(x, y, z));
-    }
-    void list_large(std::uint32_t i, const Range& r,
-                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const {
-        const Id id = items_[i].id;
-        if (!polygons_.is_triangle(id)) {
-            for_range(r,
-                      [&](std::size_t c) { out.emplace_back(static_cast<std::uint32_t>(c), i); });
-            return;
-        }
-        std::array<std::array<double, 3>, 3> corners{};
-        for (int c = 0; c < 3; ++c)
-            for (std::size_t k = 0; k < 3; ++k)
-                corners[static_cast<std::size_t>(c)][k] =
-                    static_cast<double>(polygons_.corner(id, c)[static_cast<int>(k)]) - middle_[k];
-        const TriangleInBoxes triangle(corners);
-        const double half = 0.5 * static_cast<double>(size_);
-        std::array<double, 3> at{};
-        for (std::uint32_t z = r.lo[2]; z <= r.hi[2]; ++z) {
-            at[2] = static_cast<double>(origin_[2]) + static_cast<double>(size_) * (z + 0.5);
-            for (std::uint32_t y = r.lo[1]; y <= r.hi[1]; ++y) {
-                at[1] = static_cast<double>(origin_[1]) + static_cast<double>(size_) * (y + 0.5);
-                for (std::uint32_t x = r.lo[0]; x <= r.hi[0]; ++x) {
-                    at[0] =
-                        static_cast<double>(origin_[0]) + static_cast<double>(size_) * (x + 0.5);
-                    const bool is_last = x + 1 == n_[0] || y + 1 == n_[1] || z + 1 == n_[2];
-                    if (is_last || triangle.may_meet(at, half))
-                        out.emplace_back(static_cast<std::uint32_t>(number(x, y, z)), i);
-                }
-            }
-        }
-    }
-
-    const std::array<double, 3>& middle_;
-    FloatBox whole_;
-    const std::vector<Item>& items_;
-    const IndexPolygons& polygons_;
-    float size_ = 1;
-    std::array<float, 3> origin_{};
-    std::array<std::uint32_t, 3> n_{};
-    std::vector<std::uint32_t> begin_;
-    std::vector<std::uint32_t> listed_;
-};
-
 // References of cells lie at the same place in every cell. They are swept: along x through every
 // row, from row to row along y at the start of rows, from layer to layer along z. A segment between
-// the references of neighbours stays in the two cells, so their lists decide.
-bool IndexTreeBuilder::make_grid(const State& s) {
-    const std::array<double, 3> middle{this->middle(0), this->middle(1), this->middle(2)};
-    const std::vector<Item> all = std::move(items_);
-    items_ = {};
-    IndexGridBuilder grid(middle, s.cell, all, polygons_, grid_);
-    const auto give_up = [&] {
-        items_ = all;
-        return false;
-    };
-    if (grid.cell_count() < 8) return give_up();
-    grid.list();
-
-    const auto counts = grid.n();  // lambdas of clang 14 cannot capture structured bindings
-    const std::uint32_t nx = counts[0];
-    const std::uint32_t ny = counts[1];
-    const std::uint32_t nz = counts[2];
+// the references of neighbours stays in the two cells, so their lists decide. Along empty cells
+// nothing changes: the last reference serves for all of them.
+class IndexTreeBuilder::GridSweep {
+public:
     struct Known {
         FinePoint at;
         std::int32_t winding = 0;
         std::size_t cell = 0;
         bool valid = false;
     };
-    const auto number = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        return (std::size_t{z} * ny + y) * nx + x;
-    };
-    // The reference of a cell, from the one of its neighbour.
-    const auto step = [&](const Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        Known to;
-        to.cell = number(x, y, z);
-        const FloatBox box = grid.box_of(x, y, z);
-        const auto mine = grid.items_in(to.cell);
-        const auto theirs = grid.items_in(from.cell);
-        items_.clear();
-        for (const std::uint32_t i : theirs) items_.push_back(all[i]);
-        for (const std::uint32_t i : mine)
-            if (std::find(theirs.begin(), theirs.end(), i) == theirs.end())
-                items_.push_back(all[i]);
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            for (std::size_t k = 0; k < 3; ++k)
-                to.at.c[k] = position(k, box.lo[k], box.hi[k], parts[(i + 2 * k) % parts.size()]);
-            to.winding = from.winding;
-            if (is_in(to.at, box) && trace(0, from.at, to.at, to.winding)) {
-                to.valid = true;
-                break;
+
+    GridSweep(IndexTreeBuilder& builder, const IndexGridLists& grid,
+              const std::vector<IndexItem>& all)
+        : b_(builder), grid_(grid), all_(all) {}
+
+    /// Writes which empty cells are inside, from place `first` on, and leaves the references of the
+    /// others in mixed(). False when a reference cannot be moved.
+    bool run(const State& s, std::uint32_t first) {
+        Known layer = first_cell(s);
+        if (!layer.valid) return false;
+        for (std::uint32_t z = 0; z < grid_.n()[2]; ++z) {
+            if (z != 0 && !advance(layer, 0, 0, z)) return false;
+            Known row = layer;
+            for (std::uint32_t y = 0; y < grid_.n()[1]; ++y) {
+                if (y != 0 && !advance(row, 0, y, z)) return false;
+                if (!sweep_row(row, y, z, first)) return false;
             }
         }
-        return to;
-    };
-
-    // The first cell from the node's reference, over everything.
-    Known corner;
-    {
-        items_ = all;
-        const FloatBox box = grid.box_of(0, 0, 0);
-        for (std::size_t i = 0; i < parts.size() && !corner.valid; ++i) {
-            for (std::size_t k = 0; k < 3; ++k)
-                corner.at.c[k] =
-                    position(k, box.lo[k], box.hi[k], parts[(i + 2 * k) % parts.size()]);
-            corner.winding = s.winding;
-            corner.valid =
-                is_in(corner.at, box) && trace(0, s.reference, corner.at, corner.winding);
-        }
-        if (!corner.valid) return give_up();
+        return true;
     }
-    // Along empty cells nothing changes: the last reference serves for all of them.
-    const auto first = static_cast<std::uint32_t>(t_.cells_.size());
-    std::vector<Known> mixed;
-    const auto advance = [&](Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        const std::size_t cell = number(x, y, z);
+    [[nodiscard]] const std::vector<Known>& mixed() const { return mixed_; }
+
+private:
+    bool sweep_row(Known at, std::uint32_t y, std::uint32_t z, std::uint32_t first) {
+        for (std::uint32_t x = 0; x < grid_.n()[0]; ++x) {
+            if (x != 0 && !advance(at, x, y, z)) return false;
+            const std::size_t c = grid_.number(x, y, z);
+            if (grid_.items_in(c).empty()) {
+                b_.t_.cells_[first + c] = at.winding > 0 ? IndexGrid::inside : IndexGrid::outside;
+            } else {
+                mixed_.push_back(at);
+            }
+        }
+        return true;
+    }
+    bool advance(Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        const std::size_t cell = grid_.number(x, y, z);
         const bool in_row = x != 0;  // the start of a row is the reference of the next one
-        if (in_row && grid.items_in(cell).empty() && grid.items_in(from.cell).empty()) return true;
+        if (in_row && grid_.items_in(cell).empty() && grid_.items_in(from.cell).empty())
+            return true;
         from = step(from, x, y, z);
         return from.valid;
-    };
-    t_.cells_.resize(t_.cells_.size() + grid.cell_count());
-    Known layer = corner;
-    for (std::uint32_t z = 0; z < nz; ++z) {
-        bool valid = z == 0 || advance(layer, 0, 0, z);
-        Known row = layer;
-        for (std::uint32_t y = 0; y < ny; ++y) {
-            valid = valid && (y == 0 || advance(row, 0, y, z));
-            Known at = row;
-            for (std::uint32_t x = 0; x < nx; ++x) {
-                valid = valid && (x == 0 || advance(at, x, y, z));
-                if (!valid) {
-                    t_.cells_.resize(first);
-                    return give_up();
-                }
-                const std::size_t c = number(x, y, z);
-                if (grid.items_in(c).empty()) {
-                    t_.cells_[first + c] = at.winding > 0 ? IndexGrid::inside : IndexGrid::outside;
-                } else {
-                    mixed.push_back(at);
-                }
-            }
-        }
     }
+    // The first cell from the node's reference, over everything.
+    Known first_cell(const State& s) {
+        b_.items_ = all_;
+        Known from;
+        from.at = s.reference;
+        from.winding = s.winding;
+        return moved(from, 0, grid_.box_of(0, 0, 0));
+    }
+    // The reference of a cell, from the one of its neighbour.
+    Known step(const Known& from, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        const std::size_t cell = grid_.number(x, y, z);
+        const auto mine = grid_.items_in(cell);
+        const auto theirs = grid_.items_in(from.cell);
+        b_.items_.clear();
+        for (const std::uint32_t i : theirs) b_.items_.push_back(all_[i]);
+        for (const std::uint32_t i : mine)
+            if (std::find(theirs.begin(), theirs.end(), i) == theirs.end())
+                b_.items_.push_back(all_[i]);
+        return moved(from, cell, grid_.box_of(x, y, z));
+    }
+    // To the first of some places in a box that a trace over the builder's items reaches.
+    Known moved(const Known& from, std::size_t cell, const FloatBox& box) const {
+        Known to;
+        to.cell = cell;
+        for (std::size_t i = 0; i < parts.size() && !to.valid; ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                to.at.c[k] =
+                    b_.position(k, box.lo[k], box.hi[k], parts[(i + 2 * k) % parts.size()]);
+            to.winding = from.winding;
+            to.valid = b_.is_in(to.at, box) && b_.trace(0, from.at, to.at, to.winding);
+        }
+        return to;
+    }
+
+    IndexTreeBuilder& b_;
+    const IndexGridLists& grid_;
+    const std::vector<IndexItem>& all_;
+    std::vector<Known> mixed_;
+};
+
+bool IndexTreeBuilder::make_grid(const State& s) {
+    const std::array<double, 3> middle{this->middle(0), this->middle(1), this->middle(2)};
+    const std::vector<IndexItem> all = std::move(items_);
+    items_ = {};
+    IndexGridLists grid(middle, s.cell, all, polygons_, grid_);
+    const auto first = static_cast<std::uint32_t>(t_.cells_.size());
+    const auto give_up = [&] {
+        t_.cells_.resize(first);
+        items_ = all;
+        return false;
+    };
+    if (grid.cell_count() < 8) return give_up();
+    grid.list();
+    t_.cells_.resize(t_.cells_.size() + grid.cell_count());
+    GridSweep sweep(*this, grid, all);
+    if (!sweep.run(s, first)) return give_up();
 
     IndexGrid out;
     for (std::size_t k = 0; k < 3; ++k)
@@ -891,10 +674,8 @@ bool IndexTreeBuilder::make_grid(const State& s) {
     t_.nodes_[s.node].next = static_cast<std::uint32_t>(t_.grids_.size());
     t_.nodes_[s.node].flags = Node::leaf | Node::grid_flag;
     t_.grids_.push_back(out);
-    for (const Known& known : mixed) {
-        const auto x = static_cast<std::uint32_t>(known.cell % nx);
-        const auto y = static_cast<std::uint32_t>(known.cell / nx % ny);
-        const auto z = static_cast<std::uint32_t>(known.cell / nx / ny);
+    for (const GridSweep::Known& known : sweep.mixed()) {
+        const auto [x, y, z] = grid.place_of(known.cell);
         State cell;
         cell.cell = grid.box_of(x, y, z);
         cell.depth = s.depth + 1;
@@ -905,7 +686,7 @@ bool IndexTreeBuilder::make_grid(const State& s) {
         t_.cells_[first + known.cell] = cell.node;
         items_.clear();
         for (const std::uint32_t i : grid.items_in(known.cell)) {
-            Item item = all[i];
+            IndexItem item = all[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 item.lo[k] = std::max(item.lo[k], cell.cell.lo[k]);
                 item.hi[k] = std::min(item.hi[k], cell.cell.hi[k]);
