@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// InterferenceModelData: the arrays behind an InterferenceModel, as algorithms see them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect::detail {
+
+/// A triangle of a face, counter-clockwise seen from outside. 28 bytes.
+struct ModelTriangle {
+    std::array<VertexId, 3> vertex;
+    /// Side i runs from vertex i to vertex i + 1. Invalid for a diagonal within the face. Of an
+    /// edge that was taken apart it is the copy that bounds this face.
+    std::array<EdgeId, 3> edge;
+    FaceId face;
+};
+
+/// The triangles of one face of a B-rep, which fill it exactly. No corner of the face lies within
+/// a side.
+void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles);
+
+/// Immutable once built, except for the index, which is made when first asked for.
+struct InterferenceModelData {
+    explicit InterferenceModelData(const Solid& s);
+    explicit InterferenceModelData(const BrepIndex& i);
+    /// Of a boundary alone. `index()` may not be asked for.
+    explicit InterferenceModelData(const Brep& b);
+
+    Solid solid;
+    Brep brep;
+
+    /// In order of their faces.
+    std::vector<ModelTriangle> triangles;
+    /// Triangles of face f: first_triangle[f] .. first_triangle[f + 1].
+    std::vector<std::uint32_t> first_triangle{0};
+
+    /// For each vertex, in lattice units: its coordinates are within `position_error` of these.
+    std::vector<std::array<double, 3>> positions;
+    /// 0 where all vertices are lattice points, whose coordinates are doubles.
+    double position_error = 0;
+    /// Whether all vertices are lattice points.
+    bool all_lattice = true;
+    /// Bounds of the solid, exact where all vertices are lattice points, otherwise outward; in
+    /// lattice units. Of an empty model lo = hi = 0.
+    std::array<double, 3> lo{};
+    std::array<double, 3> hi{};
+
+    /// The smallest id of all vertices at the same place as the vertex, for each vertex.
+    std::vector<VertexId> place;
+    /// A vertex of each shell.
+    std::vector<VertexId> shell_vertex;
+
+    double brep_seconds = 0;
+    double triangulate_seconds = 0;
+
+    [[nodiscard]] bool is_empty() const { return triangles.empty(); }
+    [[nodiscard]] const std::array<double, 3>& position(VertexId v) const {
+        return positions[v.index];
+    }
+    [[nodiscard]] std::span<const ModelTriangle> triangles_of(FaceId f) const {
+        return std::span(triangles).subspan(first_triangle[f.index],
+                                            first_triangle[f.index + 1] - first_triangle[f.index]);
+    }
+    [[nodiscard]] ShellId shell_of(const ModelTriangle& t) const { return brep.shell(t.face); }
+    /// Safe to call from several threads.
+    [[nodiscard]] const BrepIndex& index() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    void build();
+
+    mutable std::once_flag index_once_;
+    mutable std::optional<BrepIndex> index_;
+};
+
+}  // namespace trisect::detail
