@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -164,5 +165,15 @@ ExactRational::Value& ExactRational::mutable_value() {
     if (!value_) value_ = std::make_unique<Value>();
     return *value_;
 }
+
+namespace detail {
+
+struct ExactRationalAccess {
+    static const mpq_class& fraction(const ExactRational& v) { return v.value().q; }
+};
+
+mpq_class to_gmp(const ExactRational& value) { return ExactRationalAccess::fraction(value); }
+
+}  // namespace detail
 
 }  // namespace trisect

@@ -15,6 +15,10 @@
 
 namespace trisect {
 
+namespace detail {
+struct ExactRationalAccess;
+}
+
 /// p/q in lowest terms with q > 0.
 ///
 /// Regular value type; copying allocates. Every operation is exact; `to_double` rounds once.
@@ -66,6 +70,7 @@ public:
     [[nodiscard]] double to_double() const;
 
 private:
+    friend struct detail::ExactRationalAccess;
     struct Value;
     [[nodiscard]] const Value& value() const;
     [[nodiscard]] Value& mutable_value();

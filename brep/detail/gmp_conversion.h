@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Between the numbers of the public headers, which do not know GMP, and GMP's.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+/// The value of a fraction.
+[[nodiscard]] mpq_class to_gmp(const ExactRational& value);
+[[nodiscard]] ExactRational from_gmp(const mpq_class& value);
+
+template <int N>
+[[nodiscard]] mpz_class to_gmp(const WideInt<N>& value) {
+    const WideInt<N> magnitude = value.abs();
+    std::array<std::uint64_t, static_cast<std::size_t>(N)> limbs{};
+    for (int i = 0; i < N; ++i) limbs[static_cast<std::size_t>(i)] = magnitude.limb(i);
+    mpz_class z;
+    mpz_import(z.get_mpz_t(), limbs.size(), -1, sizeof limbs[0], 0, 0, limbs.data());
+    if (value.is_negative()) z = -z;
+    return z;
+}
+[[nodiscard]] inline mpz_class to_gmp(Int128 value) { return to_gmp(WideInt<2>(value)); }
+[[nodiscard]] inline mpz_class to_gmp(std::int64_t value) {
+    static_assert(sizeof(long) == sizeof(std::int64_t), "GMP takes long");
+    return mpz_class(static_cast<long>(value));
+}
+
+/// The fractions times the least common multiple of their denominators, which is `denominator`.
+[[nodiscard]] std::vector<mpz_class> common_numerators(std::span<const mpq_class> values,
+                                                       mpz_class& denominator);
+
+}  // namespace trisect::detail
