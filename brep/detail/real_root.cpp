@@ -174,16 +174,18 @@ std::vector<RealRoot> isolate_roots(const IntegerPolynomial& p, const mpq_class&
         mpq_class from;
         mpq_class to;
         std::vector<mpz_class> coefficients;
+        bool is_right_half = false;
     };
     std::vector<Part> parts;  // the leftmost one on top
-    parts.push_back({from, to, bernstein_coefficients(polynomial->on_interval(from, to))});
+    parts.push_back({from, to, bernstein_coefficients(polynomial->on_interval(from, to)), false});
     if (sgn(parts.back().coefficients.front()) == 0) roots.emplace_back(from);
     const bool ends_in_root = sgn(parts.back().coefficients.back()) == 0;
     while (!parts.empty()) {
         Part part = std::move(parts.back());
         parts.pop_back();
-        // A zero at the lower end of a part that begins inside was met as the middle of two halves.
-        if (part.from != from && sgn(part.coefficients.front()) == 0) roots.emplace_back(part.from);
+        // A root in the middle of a part is reported once, by the right one of its halves.
+        if (part.is_right_half && sgn(part.coefficients.front()) == 0)
+            roots.emplace_back(part.from);
         const int changes = changes_of_sign(part.coefficients);
         if (changes == 0) continue;
         if (changes == 1) {
@@ -193,8 +195,8 @@ std::vector<RealRoot> isolate_roots(const IntegerPolynomial& p, const mpq_class&
         }
         const mpq_class m = middle(part.from, part.to);
         auto [left, right] = halve_bernstein(part.coefficients);
-        parts.push_back({m, std::move(part.to), std::move(right)});
-        parts.push_back({std::move(part.from), m, std::move(left)});
+        parts.push_back({m, std::move(part.to), std::move(right), true});
+        parts.push_back({std::move(part.from), m, std::move(left), false});
     }
     if (ends_in_root) roots.emplace_back(to);
     return roots;
