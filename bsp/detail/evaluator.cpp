@@ -103,7 +103,9 @@ private:
     void refine_frame(CellTask& task);
     Children children_of(const CellTask& task, const Wall& wall);
 
-    bool place_reference(const CellTask& task, const Wall& wall, int which, CellTask& out);
+    bool place_reference(const CellTask& task, const Wall& wall, int which, Children& children);
+    bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
+                   const CellTask& other_side, CellTask& out);
     bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis,
                      CellTask& out);
     std::optional<int> list_winding(const CellTask& task, const CellOperand& o, const FinePoint& p,
@@ -399,8 +401,7 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
         for (std::size_t i = 0; i < 2; ++i) ::new (&out[i].operands[n]) CellOperand(c[i]);
     }
     for (int i = 0; i < 2; ++i)
-        TRISECT_EXPECTS(place_reference(task, wall, i, out[static_cast<std::size_t>(i)]),
-                        "no reference point found in a cell");
+        TRISECT_EXPECTS(place_reference(task, wall, i, out), "no reference point found in a cell");
     return out;
 }
 
@@ -471,8 +472,31 @@ bool Worker::windings_at(const CellTask& task, const FinePoint& p, std::optional
     return true;
 }
 
-bool Worker::place_reference(const CellTask& task, const Wall& wall, int which, CellTask& out) {
+// The same for a point straight behind a wall, on whose other side the reference lies. What meets
+// the way there reaches over to that side, unless the way passes a lattice position behind the
+// wall.
+bool Worker::pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
+                       const CellTask& other_side, CellTask& out) {
     const auto k = static_cast<std::size_t>(wall.axis);
+    if (p.c[k] >> wall_bits != wall.last_below() || p.c[k] % wall_scale == 0)
+        return windings_at(task, p, wall.axis, out);
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& o = task.operands[i];
+        const std::optional<int> w = o.is_list
+                                         ? list_winding(task, other_side.operands[i], p, wall.axis)
+                                         : winding_at(*o.node, o.complemented, task.cell, p);
+        if (!w) return false;
+        out.operands[i].winding = *w;
+    }
+    out.reference = p;
+    return true;
+}
+
+bool Worker::place_reference(const CellTask& task, const Wall& wall, int which,
+                             Children& children) {
+    const auto k = static_cast<std::size_t>(wall.axis);
+    CellTask& out = children[static_cast<std::size_t>(which)];
+    const CellTask& other_side = children[static_cast<std::size_t>(1 - which)];
     if (out.cell.contains(task.reference)) {
         out.reference = task.reference;
         for (std::size_t i = 0; i < task.operands.size(); ++i)
@@ -492,7 +516,7 @@ bool Worker::place_reference(const CellTask& task, const Wall& wall, int which, 
     FinePoint p = task.reference;
     for (const std::int64_t step : {3, 37, 59, 101}) {
         p.c[k] = wall.position + (which == 0 ? -step : step);
-        if (out.cell.contains(p) && windings_at(task, p, wall.axis, out)) return true;
+        if (out.cell.contains(p) && pass_wall(task, wall, p, other_side, out)) return true;
     }
     // Then anywhere near the polygons.
     Box around;

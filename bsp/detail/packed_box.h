@@ -184,10 +184,18 @@ private:
 [[nodiscard]] inline PackedBox box_of(const PackedBox* list, std::size_t count) {
     PackedBox all;
 #if defined(__SSE2__)
+    const auto* lanes = reinterpret_cast<const __m128i*>(list);
     __m128i least = _mm_load_si128(reinterpret_cast<const __m128i*>(&all));
-    for (std::size_t i = 0; i < count; ++i)
-        least = _mm_min_epi16(least, _mm_load_si128(reinterpret_cast<const __m128i*>(list + i)));
-    _mm_store_si128(reinterpret_cast<__m128i*>(&all), least);
+    __m128i other = least;
+    std::size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        least = _mm_min_epi16(least, _mm_load_si128(lanes + i));
+        other = _mm_min_epi16(other, _mm_load_si128(lanes + i + 1));
+        least = _mm_min_epi16(least, _mm_load_si128(lanes + i + 2));
+        other = _mm_min_epi16(other, _mm_load_si128(lanes + i + 3));
+    }
+    for (; i < count; ++i) least = _mm_min_epi16(least, _mm_load_si128(lanes + i));
+    _mm_store_si128(reinterpret_cast<__m128i*>(&all), _mm_min_epi16(least, other));
 #else
     for (std::size_t i = 0; i < count; ++i) all.add(list[i]);
 #endif

@@ -2,14 +2,13 @@
 //
 // Three ways to distribute a list, from fast to slow. A list that lies on one side of the wall is
 // handed on as it is. When the wall is between two rounded positions of the frame, comparing the
-// rounded boxes is exact: one pass without branches, each entry written to all ends, which are
-// advanced by the outcome of the comparisons. Otherwise (a wall that another evaluation chose in
-// another frame) the polygons' own boxes are looked up.
+// rounded boxes is exact: one pass without branches. Otherwise (a wall that another evaluation
+// chose in another frame) the polygons' own boxes are looked up.
 
 #include <trisect/bsp/detail/partition.h>
 
 #include <algorithm>
-#include <cstring>
+#include <optional>
 
 #include <trisect/bsp/detail/facet_in_cell.h>
 
@@ -19,6 +18,8 @@ namespace {
 
 // In longer lists a few facets too many cost less than looking.
 constexpr std::size_t short_list = 4000;
+// Longer than any rounded box.
+constexpr int unlimited = 4 * packed_limit;
 
 template <class Visit>
 void for_each_box(const CellNode& leaf, Visit&& visit) {
@@ -44,42 +45,51 @@ void set_box(CellOperand& operand, const CellTask& task, const Cell& cell) {
     operand.box = box_of(operand.entries, operand.count).intersected(packed_cell(task.frame, cell));
 }
 
-// Ends of what is written: entries on one side of the wall only, and those that cross it.
+// Where the next entries go: those below the wall upwards from the front of the memory, those above
+// it downwards from its end. Both get the entries that cross the wall.
 struct Ends {
     PackedBox* below;
     PackedBox* above;
-    PackedBox* crossing;
 };
 
-// The wall is below rounded position `first_above`.
-Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_above, Ends ends) {
+// The wall is below rounded position `first_above`. Every entry is written to both ends, and those
+// are advanced by the outcome of the comparisons. Entries that cross the wall and are longer than
+// `long_facet` are left to `add_long`; without a limit the loop has no branch.
+template <bool limited, class AddLong>
+Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_above, int long_facet,
+                Ends ends, const AddLong& add_long) {
     const auto q = static_cast<std::int16_t>(first_above);
     const auto minus_q = static_cast<std::int16_t>(-first_above);
     for (const PackedBox& e : list) {
         const std::size_t below = e.lo[axis] < q ? 1 : 0;
         const std::size_t above = e.minus_hi[axis] <= minus_q ? 1 : 0;
+        if (limited && (below & above) != 0 && e.high(axis) - e.low(axis) > long_facet)
+            [[unlikely]] {
+            ends = add_long(e, ends);
+            continue;
+        }
         copy(e, ends.below);
-        copy(e, ends.above);
-        copy(e, ends.crossing);
-        ends.below += 1 - above;
-        ends.above += 1 - below;
-        ends.crossing += below & above;
+        copy(e, ends.above - 1);
+        ends.below += below;
+        ends.above -= above;
     }
     return ends;
 }
 
 // The same for a wall anywhere.
+template <class AddLong>
 Ends distribute_exactly(const CellOperand& operand, std::size_t axis, std::int64_t last_below,
-                        Ends ends) {
+                        int long_facet, Ends ends, const AddLong& add_long) {
     for (const PackedBox& e : operand.list()) {
         const Box b = operand.polygon(e.id).box();
-        if (b.hi[axis] <= last_below) {
-            *ends.below++ = e;
-        } else if (b.lo[axis] > last_below) {
-            *ends.above++ = e;
-        } else {
-            *ends.crossing++ = e;
+        const bool below = b.lo[axis] <= last_below;
+        const bool above = b.hi[axis] > last_below;
+        if (below && above && e.high(axis) - e.low(axis) > long_facet) {
+            ends = add_long(e, ends);
+            continue;
         }
+        if (below) *ends.below++ = e;
+        if (above) *--ends.above = e;
     }
     return ends;
 }
@@ -103,6 +113,14 @@ Box reach_in(const CellTask& task, const Cell& cell) {
         reach.hi[k] = open_high ? b.hi[k] : unpacked(task.frame, k, all.high(k) + 1) - 1;
     }
     return reach.intersected(b);
+}
+
+// Facets that are longer than this along an axis are looked at themselves.
+int long_facet_of(const CellTask& task, std::size_t axis) {
+    PackedBox all;
+    for (const CellOperand& o : task.operands)
+        if (o.is_list && !o.unbounded && !o.box.is_empty()) all.add(o.box);
+    return all.is_empty() ? unlimited : (all.high(axis) - all.low(axis)) / 4;
 }
 
 }  // namespace
@@ -206,35 +224,34 @@ void partition(const CellOperand& operand, const CellTask& task, const Wall& wal
         }
     }
     const std::size_t n = operand.count;
-    auto* below = arena.take<PackedBox>(3 * n + 3);
-    auto* above = below + n + 1;
-    auto* crossing = above + n + 1;
-    Ends ends{below, above, crossing};
-    ends = q ? distribute(operand.list(), k, *q, ends) : distribute_exactly(operand, k, last, ends);
-    // A facet that crosses the wall and is long for its cell may still miss one of the children.
+    // Room for both lists at their largest. What stays free between them is never touched.
+    const std::size_t room = 2 * n + 2;
+    auto* memory = arena.take<PackedBox>(room);
+    Ends ends{memory, memory + room};
     const bool small = task.size() < short_list;
-    int long_facet = 4 * packed_limit;
-    std::array<Box, 2> reach;
-    if (small && ends.crossing != crossing) {
-        PackedBox all;
-        for (const CellOperand& o : task.operands)
-            if (o.is_list && !o.unbounded && !o.box.is_empty()) all.add(o.box);
-        if (!all.is_empty()) long_facet = (all.high(k) - all.low(k)) / 4;
-        reach = {reach_in(task, cells[0]), reach_in(task, cells[1])};
+    const int long_facet = small ? long_facet_of(task, k) : unlimited;
+    std::array<std::optional<Box>, 2> reach;
+    const auto misses = [&](const PackedBox& e, std::size_t i) {
+        if (!reach[i]) reach[i] = reach_in(task, cells[i]);
+        return certainly_misses(operand.polygon(e.id), *reach[i]);
+    };
+    // A facet that crosses the wall and is long for its cell may still miss one of the children.
+    const auto add_long = [&](const PackedBox& e, Ends to) {
+        if (!misses(e, 0)) *to.below++ = e;
+        if (!misses(e, 1)) *--to.above = e;
+        return to;
+    };
+    if (!q) {
+        ends = distribute_exactly(operand, k, last, long_facet, ends, add_long);
+    } else if (small) {
+        ends = distribute<true>(operand.list(), k, *q, long_facet, ends, add_long);
+    } else {
+        ends = distribute<false>(operand.list(), k, *q, unlimited, ends, add_long);
     }
-    for (const PackedBox* e = crossing; e != ends.crossing; ++e) {
-        const bool doubtful = e->high(k) - e->low(k) > long_facet;
-        if (!doubtful || !certainly_misses(operand.polygon(e->id), reach[0])) *ends.below++ = *e;
-        if (!doubtful || !certainly_misses(operand.polygon(e->id), reach[1])) *ends.above++ = *e;
-    }
-    const auto n_below = static_cast<std::size_t>(ends.below - below);
-    const auto n_above = static_cast<std::size_t>(ends.above - above);
-    std::memmove(static_cast<void*>(ends.below), above, n_above * sizeof(PackedBox));
-    arena.shrink(ends.below + n_above);
-    out[0].entries = below;
-    out[0].count = static_cast<std::uint32_t>(n_below);
-    out[1].entries = ends.below;
-    out[1].count = static_cast<std::uint32_t>(n_above);
+    out[0].entries = memory;
+    out[0].count = static_cast<std::uint32_t>(ends.below - memory);
+    out[1].entries = ends.above;
+    out[1].count = static_cast<std::uint32_t>(memory + room - ends.above);
     for (std::size_t i = 0; i < 2; ++i) set_box(out[i], task, cells[i]);
 }
 
