@@ -17,6 +17,7 @@
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/joint.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
