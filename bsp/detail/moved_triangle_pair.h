@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where two triangles of two posed solids meet: exactly, and which of their features meet there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <trisect/kernel/detail/relative_pose.h>
+#include <trisect/kernel/moved_predicates.h>
+#include <trisect/kernel/plane.h>
+#include <trisect/kernel/point.h>
+
+namespace trisect::detail {
+
+/// A triangle in its own solid's lattice, counter-clockwise seen from above its plane, which is the
+/// outward one of its face.
+struct PosedTriangle {
+    std::array<const Point*, 3> corner{};
+    const Plane* plane = nullptr;
+};
+
+/// A part of a triangle: corners 0, 1, 2, sides 3, 4, 5 (from corner i to the next), the interior.
+class Feature {
+public:
+    constexpr Feature() = default;
+    [[nodiscard]] static constexpr Feature corner(std::size_t i) { return Feature(i); }
+    [[nodiscard]] static constexpr Feature side(std::size_t i) { return Feature(3 + i); }
+    [[nodiscard]] static constexpr Feature interior() { return Feature(6); }
+
+    [[nodiscard]] constexpr bool is_corner() const { return code_ < 3; }
+    [[nodiscard]] constexpr bool is_side() const { return code_ >= 3 && code_ < 6; }
+    [[nodiscard]] constexpr bool is_interior() const { return code_ == 6; }
+    /// Of a corner or side.
+    [[nodiscard]] constexpr std::size_t index() const { return code_ < 3 ? code_ : code_ - 3U; }
+    /// Whether it is side i or one of its ends.
+    [[nodiscard]] constexpr bool is_on_side(std::size_t i) const {
+        return is_side() ? index() == i : is_corner() && (index() == i || index() == (i + 1) % 3);
+    }
+    friend constexpr bool operator==(const Feature&, const Feature&) = default;
+
+private:
+    constexpr explicit Feature(std::size_t code) : code_(static_cast<std::uint8_t>(code)) {}
+    std::uint8_t code_ = 6;
+};
+
+/// A point where the triangles meet, as the smallest features of both that it lies on.
+struct MeetingPoint {
+    Feature a;
+    Feature b;
+    friend constexpr bool operator==(const MeetingPoint&, const MeetingPoint&) = default;
+};
+
+/// The intersection of two triangles is convex: nothing, a point, a segment or a polygon of up to
+/// six corners. These are its corners, in no order.
+struct TriangleContact {
+    std::array<MeetingPoint, 6> points{};
+    std::uint8_t count = 0;
+    bool coplanar = false;
+    /// Coplanar with outward normals that point in opposite directions.
+    bool opposite = false;
+    /// The interiors of both triangles pass through each other along a segment: the solids'
+    /// interiors meet, and neither solid contains the other.
+    bool crossing = false;
+
+    [[nodiscard]] bool meets() const { return count != 0; }
+    /// Of the intersection: 0, 1 or 2. \pre meets()
+    [[nodiscard]] int dimension() const { return count > 2 ? 2 : count - 1; }
+    [[nodiscard]] std::span<const MeetingPoint> corners() const {
+        return std::span(points).first(count);
+    }
+};
+
+/// Finds contacts of triangles of A with triangles of B. Keeps the last two planes
+/// seen from the other side, so runs of pairs with one of them the same are cheaper. For one
+/// thread.
+class TrianglePairTest {
+public:
+    explicit TrianglePairTest(const PosedPair& poses) : poses_(&poses) {}
+
+    /// The planes and points must live until the next call.
+    [[nodiscard]] TriangleContact operator()(const PosedTriangle& a, const PosedTriangle& b);
+
+private:
+    const PosedPair* poses_;
+    const Plane* last_a_ = nullptr;
+    const Plane* last_b_ = nullptr;
+    std::optional<PulledPlane> plane_a_;
+    std::optional<PulledPlane> plane_b_;
+};
+
+}  // namespace trisect::detail
