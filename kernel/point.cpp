@@ -2,6 +2,7 @@
 
 #include <trisect/kernel/point.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -24,12 +25,19 @@ std::optional<std::int64_t> integer_quotient(const WideInt<7>& x, const WideInt<
     return i;
 }
 
+// Correctly rounded coordinates are off by half a unit in the last place of the largest one.
+Approximation certified(const std::array<double, 3>& nearest) {
+    const double largest =
+        std::max(std::fabs(nearest[0]), std::max(std::fabs(nearest[1]), std::fabs(nearest[2])));
+    return {nearest, largest * 0x1p-53};
+}
+
 }  // namespace
 
 Point::Point(const Plane& p, const Plane& q, const Plane& r) {
     const auto exact = intersect(p, q, r);
     TRISECT_EXPECTS(exact.has_value(), "point of three planes that do not meet in one point");
-    approximation_ = approximate(*exact);
+    approximation_ = certified(nearest_doubles(approximate(p, q, r), p, q, r));
     const auto x = integer_quotient(exact->xyz[0], exact->w, approximation_.c[0]);
     const auto y = integer_quotient(exact->xyz[1], exact->w, approximation_.c[1]);
     const auto z = integer_quotient(exact->xyz[2], exact->w, approximation_.c[2]);

@@ -48,6 +48,9 @@ struct Approximation {
 [[nodiscard]] double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator);
 /// Correctly rounded coordinates: a function of the exact point alone.
 [[nodiscard]] std::array<double, 3> nearest_doubles(const HomogeneousPoint& p);
+/// The same for p∩q∩r, given what approximate(p, q, r) returned: filtered, then exact.
+[[nodiscard]] std::array<double, 3> nearest_doubles(const Approximation& approximation,
+                                                    const Plane& p, const Plane& q, const Plane& r);
 
 /// Side of a lattice point, degree 3.
 [[nodiscard]] Side side_of(const LatticePoint& point, const Plane& plane);

@@ -6,7 +6,7 @@
 // from vertices to numbers costs more than everything else here together.
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
 #include <trisect/brep/detail/small_polygon.h>
 #include <trisect/brep/triangulate.h>
@@ -27,7 +27,11 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 class MeshWriter {
 public:
     MeshWriter(const SolidState& solid, const BoundaryParts& parts)
-        : lattice_(solid.lattice), parts_(parts), bench_(parts.bench), loops_(parts.bench) {}
+        : lattice_(solid.lattice),
+          unit_(lattice_.to_double(1)),
+          parts_(parts),
+          bench_(parts.bench),
+          loops_(parts.bench) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         reserve(edges.size());
@@ -37,33 +41,48 @@ public:
             tables_[t].assign(parts_.sources[t].source()->mesh().points.size(), none);
         rest_ = edges;
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
-        const std::size_t triangles = mesh_.corners.size() / 3;
-        mesh_.face_begin.resize(triangles + 1);
-        for (std::size_t i = 0; i <= triangles; ++i)
-            mesh_.face_begin[i] = static_cast<std::uint32_t>(3 * i);
+        mesh_.points.resize(point_count_);
+        mesh_.corners.resize(corner_count_);
+        mesh_.face_begin.resize(corner_count_ / 3 + 1);
+        std::uint32_t begin = 0;
+        for (std::uint32_t& f : mesh_.face_begin) f = std::exchange(begin, begin + 3);
         return std::move(mesh_);
     }
 
 private:
-    // Of k edges come at most k - 2 triangles, and two more for each hole.
+    // Of k edges come k - 2 triangles, and two more for each hole.
     void reserve(std::size_t edges) {
         const std::size_t whole = parts_.stats.whole_facets;
-        mesh_.corners.reserve(3 * (whole + edges));
+        mesh_.corners.resize(3 * (whole + edges));
         std::size_t corners = edges;
         for (const FacetMarks& marks : parts_.sources)
             corners += marks.source()->mesh().points.size();
-        mesh_.points.reserve(std::min(corners, 3 * whole + edges));
+        mesh_.points.resize(std::min(corners, 3 * whole + edges));
+    }
+
+    // For the triangles of so many edges beside those of the facets that pass through.
+    void make_room(std::size_t edges) {
+        const std::size_t needed = 3 * (parts_.stats.whole_facets + 2 * edges) + worked_corners_;
+        if (needed > mesh_.corners.size()) mesh_.corners.resize(needed + needed / 4);
     }
 
     void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const std::array t{a, b, c};
-        mesh_.corners.insert(mesh_.corners.end(), t.begin(), t.end());
+        std::uint32_t* out = &mesh_.corners[corner_count_];
+        out[0] = a;
+        out[1] = b;
+        out[2] = c;
+        corner_count_ += 3;
+    }
+
+    // A power of two times a double, which is what Lattice::to_double is unless the power
+    // underflows.
+    [[nodiscard]] double in_units(double v) const {
+        return unit_ >= 0x1p-1000 ? v * unit_ : lattice_.to_double(v);
     }
 
     std::uint32_t add_point(const std::array<double, 3>& p) {
-        mesh_.points.push_back(
-            {lattice_.to_double(p[0]), lattice_.to_double(p[1]), lattice_.to_double(p[2])});
-        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+        mesh_.points[point_count_] = {in_units(p[0]), in_units(p[1]), in_units(p[2])};
+        return static_cast<std::uint32_t>(point_count_++);
     }
 
     std::uint32_t add_point(const LatticePoint& p) {
@@ -110,6 +129,8 @@ private:
     void write_worked(const BoundaryFacet& f) {
         std::size_t n = 1;
         while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
+        make_room(n);
+        const std::size_t begin = corner_count_;
         loops_.set_region(f.support, f.flipped, rest_.first(n));
         rest_ = rest_.subspan(n);
         const auto loop = loops_.loop(0);
@@ -120,6 +141,7 @@ private:
         } else {
             write_small(f, loop);
         }
+        worked_corners_ += corner_count_ - begin;
     }
 
     // A facet may have been touched in vain; then nothing may tell it from one that was not.
@@ -140,7 +162,7 @@ private:
             const auto [source, v] = bench_.corner_name(p);
             at = corner(parts_.table_of(source), v);
         } else {
-            at = add_point(nearest_doubles(bench_.homogeneous(p)));
+            at = add_point(bench_.nearest(p));
         }
         return at;
     }
@@ -205,9 +227,13 @@ private:
     }
 
     Lattice lattice_;
+    double unit_;
     const BoundaryParts& parts_;
     const Workbench& bench_;
-    PolygonMesh mesh_;
+    PolygonMesh mesh_;                                // longer than what is written so far:
+    std::size_t point_count_ = 0;                     // in mesh_.points
+    std::size_t corner_count_ = 0;                    // in mesh_.corners, and of these:
+    std::size_t worked_corners_ = 0;                  // those of facets that did not pass through
     std::span<const BoundaryEdge> rest_;              // of facets not yet written
     std::vector<std::vector<std::uint32_t>> tables_;  // by source
     std::vector<std::uint32_t> number_;               // by PointId

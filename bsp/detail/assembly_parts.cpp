@@ -160,7 +160,7 @@ void Gatherer::number_facets() {
     for (std::size_t t = 0; t < tables.size(); ++t) {
         const Source* source = tables[t].source();
         out_.table_ids.assign(BoundaryParts::key_of(source), static_cast<std::int32_t>(t));
-        tables[t].for_each_whole([&](std::uint32_t, bool) { ++out_.stats.whole_facets; });
+        out_.stats.whole_facets += tables[t].whole_count();
         tables[t].for_each_worked([&](std::uint32_t f, bool flipped) {
             auto& index = facet_index_[t];
             if (index.empty()) index.assign(2 * std::size_t{source->facet_count()}, -1);
@@ -277,48 +277,51 @@ void Gatherer::conform_edges() {
 }
 
 // The axis along which the ends of an edge are farthest apart.
-std::size_t longest_axis(const Approximation& a, const Approximation& b) {
+std::size_t longest_axis(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     std::size_t best = 0;
     for (std::size_t k = 1; k < 3; ++k)
-        if (std::fabs(a.c[k] - b.c[k]) > std::fabs(a.c[best] - b.c[best])) best = k;
+        if (std::fabs(a[k] - b[k]) > std::fabs(a[best] - b[best])) best = k;
     return best;
 }
 
 // The certified doubles of an edge's ends, to tell points that are clearly not on it.
 class EdgeFilter {
 public:
-    EdgeFilter(const Approximation& a, const Approximation& b, double widest)
-        : a_(a), axis_(longest_axis(a, b)), error_(1.0000001 * (a.error + b.error + widest)) {
+    /// `error`: of the ends and of a point together.
+    EdgeFilter(const std::array<double, 3>& a, const std::array<double, 3>& b, double error)
+        : a_(a), b_(b), error_(1.0000001 * error) {
         for (std::size_t k = 0; k < 3; ++k) {
-            d_[k] = b.c[k] - a.c[k];
-            lo_[k] = std::min(a.c[k], b.c[k]) - error_;
-            hi_[k] = std::max(a.c[k], b.c[k]) + error_;
+            lo_[k] = std::min(a[k], b[k]) - error_;
+            hi_[k] = std::max(a[k], b[k]) + error_;
         }
-        // Of a point in the box: a component of (p - a) × d is two products, their factors below m
-        // and off by at most `error` each; the last term pays for all roundings.
-        const double m = std::fabs(d_[axis_]) + 2 * error_;
-        bound_ = 2 * (2 * m * error_ + error_ * error_ + 0x1p-50 * m * m);
     }
-    [[nodiscard]] int axis() const { return static_cast<int>(axis_); }
     [[nodiscard]] double lo(std::size_t k) const { return lo_[k]; }
     [[nodiscard]] double hi(std::size_t k) const { return hi_[k]; }
-    [[nodiscard]] bool may_contain(const Approximation& p) const {
+    [[nodiscard]] bool may_contain(const std::array<double, 3>& p) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (p.c[k] < lo_[k] || p.c[k] > hi_[k]) return false;
-        const double along = p.c[axis_] - a_.c[axis_];
+            if (p[k] < lo_[k] || p[k] > hi_[k]) return false;
+        return may_be_on_line(p);
+    }
+
+private:
+    // A component of (p - a) × (b - a) is two products, their factors below m and off by at most
+    // `error` each; the last term pays for all roundings.
+    [[nodiscard]] bool may_be_on_line(const std::array<double, 3>& p) const {
+        const std::size_t axis = longest_axis(a_, b_);
+        const double m = std::fabs(b_[axis] - a_[axis]) + 2 * error_;
+        const double bound = 2 * (2 * m * error_ + error_ * error_ + 0x1p-50 * m * m);
+        const double along = p[axis] - a_[axis];
         for (std::size_t k = 0; k < 3; ++k) {
-            const double cross = (p.c[k] - a_.c[k]) * d_[axis_] - along * d_[k];
-            if (k != axis_ && std::fabs(cross) > bound_) return false;
+            const double cross = (p[k] - a_[k]) * (b_[axis] - a_[axis]) - along * (b_[k] - a_[k]);
+            if (k != axis && std::fabs(cross) > bound) return false;
         }
         return true;
     }
 
-private:
-    const Approximation& a_;
-    std::size_t axis_;
+    const std::array<double, 3>& a_;
+    const std::array<double, 3>& b_;
     double error_;
-    double bound_;
-    std::array<double, 3> d_, lo_, hi_;
+    std::array<double, 3> lo_{}, hi_{};
 };
 
 // Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
@@ -342,6 +345,18 @@ int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
     return order < 0 ? -1 : (order > 0 ? 1 : 0);
 }
 
+void EdgeSplitter::clear() {
+    for (const Candidate& c : candidates_) rank_[u(c.point)] = -1;
+    candidates_.clear();
+}
+
+void EdgeSplitter::add_candidate(PointId p) {
+    if (rank_.size() <= u(p)) rank_.resize(bench_.point_count(), -1);
+    if (rank_[u(p)] >= 0) return;
+    rank_[u(p)] = 0;
+    candidates_.push_back({bench_.approximation(p).c, p});
+}
+
 // Along the axis on which the candidates extend farthest; on another one all may be equal, and
 // every edge would look at all of them.
 void EdgeSplitter::sort_candidates() {
@@ -351,40 +366,49 @@ void EdgeSplitter::sort_candidates() {
     hi.fill(-HUGE_VAL);
     widest_ = 0;
     for (const Candidate& c : candidates_) {
-        const Approximation& a = bench_.approximation(c.point);
-        widest_ = std::max(widest_, a.error);
+        widest_ = std::max(widest_, bench_.approximation(c.point).error);
         for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], a.c[k]);
-            hi[k] = std::max(hi[k], a.c[k]);
+            lo[k] = std::min(lo[k], c.c[k]);
+            hi[k] = std::max(hi[k], c.c[k]);
         }
     }
-    axis_ = 0;
+    std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
-        if (hi[k] - lo[k] > hi[axis_] - lo[axis_]) axis_ = k;
-    for (Candidate& c : candidates_) c.at = bench_.approximation(c.point).c[axis_];
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-        return std::tie(a.at, a.point) < std::tie(b.at, b.point);
+        if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    axis_ = axis;
+    std::sort(candidates_.begin(), candidates_.end(), [axis](const auto& a, const auto& b) {
+        return a.c[axis] != b.c[axis] ? a.c[axis] < b.c[axis] : a.point < b.point;
     });
-    candidates_.erase(std::unique(candidates_.begin(), candidates_.end(),
-                                  [](const auto& a, const auto& b) { return a.point == b.point; }),
-                      candidates_.end());
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+        rank_[u(candidates_[i].point)] = static_cast<std::int32_t>(i);
 }
 
+// What is between the ends along axis_ comes between them; what is farther out by no more than the
+// errors allow comes right before or after.
 void EdgeSplitter::find_inside(const BoundaryEdge& e) {
-    const EdgeFilter filter(bench_.approximation(e.from), bench_.approximation(e.to), widest_);
-    const PlaneId support = facets_[u(e.facet)].support;
     inside_.clear();
-    auto it = std::lower_bound(candidates_.begin(), candidates_.end(), filter.lo(axis_),
-                               [](const Candidate& c, double at) { return c.at < at; });
-    for (; it != candidates_.end() && it->at <= filter.hi(axis_); ++it) {
-        const PointId p = it->point;
-        if (p == e.from || p == e.to || !filter.may_contain(bench_.approximation(p))) continue;
-        if (lies_inside(bench_, p, e, support, filter.axis())) inside_.push_back(p);
+    const Candidate* const first = candidates_.data();
+    const Candidate* const end = first + candidates_.size();
+    const Candidate* const from = first + rank_[u(e.from)];
+    const Candidate* const to = first + rank_[u(e.to)];
+    const EdgeFilter filter(
+        from->c, to->c,
+        bench_.approximation(e.from).error + bench_.approximation(e.to).error + widest_);
+    const Candidate* it = std::min(from, to);
+    while (it != first && it[-1].c[axis_] >= filter.lo(axis_)) --it;
+    for (; it != end && it->c[axis_] <= filter.hi(axis_); ++it) {
+        if (it == from || it == to || !filter.may_contain(it->c)) continue;
+        const auto axis = static_cast<int>(longest_axis(from->c, to->c));
+        if (lies_inside(bench_, it->point, e, facets_[u(e.facet)].support, axis))
+            inside_.push_back(it->point);
     }
-    if (inside_.size() < 2) return;
-    const int direction = compare_along(bench_, e.from, e.to, filter.axis());
+    if (inside_.size() > 1) sort_inside(e, static_cast<int>(longest_axis(from->c, to->c)));
+}
+
+void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis) {
+    const int direction = compare_along(bench_, e.from, e.to, axis);
     std::sort(inside_.begin(), inside_.end(), [&](PointId p, PointId q) {
-        return p != q && compare_along(bench_, p, q, filter.axis()) == direction;
+        return p != q && compare_along(bench_, p, q, axis) == direction;
     });
 }
 

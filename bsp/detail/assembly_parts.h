@@ -3,6 +3,8 @@
 // First half of assembly: from the polygons of the cells to directed edges between exact vertices.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,7 +39,8 @@ struct BoundaryEdge {
 /// What the result has of the facets of one source: a byte for each facet.
 class FacetMarks {
 public:
-    explicit FacetMarks(const Source* source) : source_(source), marks_(source->facet_count()) {}
+    explicit FacetMarks(const Source* source)
+        : source_(source), marks_((source->facet_count() + 7) / 8 * 8) {}
     [[nodiscard]] const Source* source() const { return source_; }
 
     /// The facet bounds the result somewhere.
@@ -51,22 +54,43 @@ public:
     /// Calls visit(facet, flipped) for the facets that pass through, in order.
     template <class Visit>
     void for_each_whole(Visit&& visit) const {
-        for_each([](unsigned m) { return m & ~(m >> 2) & 3U; }, visit);
+        for_each([](std::uint64_t m) { return whole_in(m); }, visit);
     }
     /// The same for those that are present and do not.
     template <class Visit>
     void for_each_worked(Visit&& visit) const {
-        for_each([](unsigned m) { return m & (m >> 2) & 3U; }, visit);
+        for_each([](std::uint64_t m) { return worked_in(m); }, visit);
+    }
+
+    /// How many pass through.
+    [[nodiscard]] std::size_t whole_count() const {
+        std::size_t n = 0;
+        for (std::size_t i = 0; i < marks_.size(); i += 8)
+            n += static_cast<std::size_t>(std::popcount(whole_in(eight_at(i))));
+        return n;
     }
 
 private:
-    // `select` makes two bits, one for each orientation, out of a facet's marks.
+    // Marks of eight facets, the first one in the lowest byte; compilers make one load of this.
+    [[nodiscard]] std::uint64_t eight_at(std::size_t i) const {
+        std::uint64_t m = 0;
+        for (std::size_t k = 0; k < 8; ++k) m |= std::uint64_t{marks_[i + k]} << (8 * k);
+        return m;
+    }
+    static constexpr std::uint64_t low_bits = 0x0303030303030303U;
+    static constexpr std::uint64_t whole_in(std::uint64_t m) { return m & ~(m >> 2) & low_bits; }
+    static constexpr std::uint64_t worked_in(std::uint64_t m) { return m & (m >> 2) & low_bits; }
+
+    // `select` makes two bits for each of eight facets, one for each orientation, out of their
+    // marks.
     template <class Select, class Visit>
     void for_each(Select select, Visit&& visit) const {
-        for (std::uint32_t f = 0; f < marks_.size(); ++f) {
-            const unsigned which = select(marks_[f]);
-            if ((which & 1U) != 0) visit(f, false);
-            if ((which & 2U) != 0) visit(f, true);
+        for (std::size_t i = 0; i < marks_.size(); i += 8) {
+            for (std::uint64_t m = select(eight_at(i)); m != 0; m &= m - 1) {
+                const int bit = std::countr_zero(m);
+                visit(static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(bit) / 8,
+                      (bit & 1) != 0);
+            }
         }
     }
     static constexpr unsigned present = 1;
@@ -76,7 +100,7 @@ private:
     }
 
     const Source* source_;
-    std::vector<std::uint8_t> marks_;
+    std::vector<std::uint8_t> marks_;  // a byte for each facet, filled up to a multiple of eight
 };
 
 /// The boundary in pieces, conforming within each facet's cells but not yet joined.
@@ -107,24 +131,27 @@ class EdgeSplitter {
 public:
     EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
         : bench_(bench), facets_(facets) {}
-    void clear() { candidates_.clear(); }
-    void add_candidate(PointId p) { candidates_.push_back({0, p}); }
-    /// Appends the parts of the edges to `out`, each edge's parts in order.
+    void clear();
+    void add_candidate(PointId p);
+    /// Appends the parts of the edges to `out`, each edge's parts in order. \pre the ends of the
+    /// edges are candidates.
     void split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out);
 
 private:
     struct Candidate {
-        double at = 0;  // along axis_
+        std::array<double, 3> c{};  // approximate
         PointId point = -1;
     };
     void sort_candidates();
     void find_inside(const BoundaryEdge& e);
+    void sort_inside(const BoundaryEdge& e, int axis);
 
     const Workbench& bench_;
     const std::vector<BoundaryFacet>& facets_;
     std::vector<Candidate> candidates_;
-    std::size_t axis_ = 0;
-    double widest_ = 0;  // error of a candidate
+    std::vector<std::int32_t> rank_;  // by point: its place among the candidates, -1 is none
+    std::size_t axis_ = 0;            // that they are sorted along
+    double widest_ = 0;               // error of a candidate
     std::vector<PointId> inside_;
 };
 

@@ -160,6 +160,13 @@ Point Workbench::point(PointId id) const {
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
+std::array<double, 3> Workbench::nearest(PointId id) const {
+    const PointRecord& r = points_[u(id)];
+    if (r.planes[0] < 0) return r.approximation.c;
+    return nearest_doubles(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
+                           plane_at(r.planes[2]));
+}
+
 // Whether the name of a plane says that it passes through a vertex of a source.
 bool Workbench::has_vertex(const PlaneName& plane, const Source* source, std::uint32_t vertex) {
     if (plane.is_wall() || plane.source() != source || source->is_half_space()) return false;

@@ -75,6 +75,8 @@ public:
     }
     [[nodiscard]] HomogeneousPoint homogeneous(PointId id) const;
     [[nodiscard]] Point point(PointId id) const;
+    /// Correctly rounded coordinates in lattice units.
+    [[nodiscard]] std::array<double, 3> nearest(PointId id) const;
     /// Exact equality.
     [[nodiscard]] bool same_point(PointId a, PointId b) const;
 

@@ -61,6 +61,7 @@ void expect_exact(const Plane& p, const Plane& q, const Plane& r, const Plane& s
     EXPECT_EQ(side_of(approximate(p, q, r), p, q, r, s), side);
     const auto d = nearest_doubles(*h);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(d[i], oracle::nearest(oracle::rational(*h)[i]));
+    EXPECT_EQ(nearest_doubles(approximate(p, q, r), p, q, r), d);
 }
 
 // Planes whose coefficients all have the largest magnitude, with every pattern of signs; among them

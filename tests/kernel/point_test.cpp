@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
 
 #include "gmp_oracle.h"
@@ -157,6 +158,36 @@ TEST(Point, NearestIsCorrectlyRounded) {
         const auto d = Point(p, q, r).nearest();
         for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(d[i], oracle::nearest(x[i]));
     }
+}
+
+// Points of lattice triangles, as booleans make them, and planes that share an axis or a corner:
+// doubles and one exact residual decide nearly always, and agree with the quotient of integers.
+TEST(Point, NearestOfPlanesIsFilteredAndCorrectlyRounded) {
+    oracle::Source random(6);
+    trisect::predicate_counters() = {};
+    std::uint64_t count = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const int bits = static_cast<int>(2 + random.below(52));
+        const Plane p = random.plane(bits);
+        const LatticePoint a = random.point(bits);
+        const LatticePoint b = random.point(bits);
+        const int axis = static_cast<int>(random.below(3));
+        if (a[(axis + 1) % 3] == b[(axis + 1) % 3] && a[(axis + 2) % 3] == b[(axis + 2) % 3])
+            continue;
+        const Plane q = Plane::along_axis(a, b, axis);
+        const LatticePoint c = random.point(bits);
+        if (are_collinear(a, b, c)) continue;
+        for (const Plane& r :
+             {Plane::through(a, b, c), Plane::axis_aligned(axis, 256, 2 * b[axis] + 1),
+              random.plane(bits)}) {
+            const auto exact = intersect(p, q, r);
+            if (!exact) continue;
+            ++count;
+            EXPECT_EQ(nearest_doubles(approximate(p, q, r), p, q, r), nearest_doubles(*exact));
+        }
+    }
+    const auto& counters = trisect::predicate_counters();
+    EXPECT_LT(counters.exact_narrow + counters.exact_wide, count / 10);
 }
 
 void expect_nearest(const mpz_class& n, const mpz_class& d) {
