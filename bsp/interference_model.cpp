@@ -34,6 +34,8 @@ InterferenceModelStats InterferenceModel::stats() const {
     s.bytes = data_->bytes();
     s.brep_seconds = data_->brep_seconds;
     s.triangulate_seconds = data_->triangulate_seconds;
+    s.boxes_seconds = data_->boxes_seconds;
+    s.box_levels = data_->boxes.depth;
     return s;
 }
 

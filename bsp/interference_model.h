@@ -23,9 +23,11 @@ struct InterferenceModelStats {
     std::size_t faces = 0;
     std::size_t triangles = 0;
     std::size_t shells = 0;
-    std::size_t bytes = 0;           ///< of triangles and positions, without the B-rep
+    std::size_t box_levels = 0;      ///< of the tree of oriented boxes
+    std::size_t bytes = 0;           ///< of triangles, positions and boxes, without the B-rep
     double brep_seconds = 0;         ///< Solid::to_brep
     double triangulate_seconds = 0;  ///< triangles of all faces
+    double boxes_seconds = 0;        ///< the tree of oriented boxes
 };
 
 /// The boundary of a solid with maximal faces, cut into triangles, with what queries under motion

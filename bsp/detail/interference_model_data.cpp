@@ -129,7 +129,6 @@ void InterferenceModelData::build() {
 
     positions.reserve(brep.vertices().size());
     place.reserve(brep.vertices().size());
-    double largest = 0;
     for (const VertexId v : brep.vertices()) {
         const Point& p = brep.point(v);
         all_lattice = all_lattice && p.is_lattice();
@@ -154,6 +153,13 @@ void InterferenceModelData::build() {
             lo[k] = std::nextafter(lo[k] - position_error, -INFINITY);
             hi[k] = std::nextafter(hi[k] + position_error, INFINITY);
         }
+    const auto boxes_start = std::chrono::steady_clock::now();
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    corners.reserve(triangles.size());
+    for (const ModelTriangle& t : triangles)
+        corners.push_back({t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
+    boxes = ObbTree(positions, position_error, corners);
+    boxes_seconds = seconds_since(boxes_start);
     for (const ShellId s : brep.shells())
         shell_vertex.push_back(
             brep.origin(brep.halfedges(brep.outer_loop(brep.faces(s).front()))[0]));
@@ -169,7 +175,7 @@ const BrepIndex& InterferenceModelData::index() const {
 std::size_t InterferenceModelData::bytes() const {
     return triangles.size() * sizeof(ModelTriangle) +
            first_triangle.size() * sizeof(std::uint32_t) + positions.size() * sizeof(positions[0]) +
-           (place.size() + shell_vertex.size()) * sizeof(VertexId);
+           boxes.bytes() + (place.size() + shell_vertex.size()) * sizeof(VertexId);
 }
 
 }  // namespace trisect::detail

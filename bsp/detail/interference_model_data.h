@@ -13,6 +13,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/detail/obb_tree.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/solid.h>
 
@@ -50,6 +51,8 @@ struct InterferenceModelData {
     std::vector<std::array<double, 3>> positions;
     /// 0 where all vertices are lattice points, whose coordinates are doubles.
     double position_error = 0;
+    /// The largest magnitude of a coordinate of a position.
+    double largest = 0;
     /// Whether all vertices are lattice points.
     bool all_lattice = true;
     /// Bounds of the solid, exact where all vertices are lattice points, otherwise outward; in
@@ -62,8 +65,12 @@ struct InterferenceModelData {
     /// A vertex of each shell.
     std::vector<VertexId> shell_vertex;
 
+    /// Oriented boxes around the triangles; named by their numbers in `triangles`.
+    ObbTree boxes;
+
     double brep_seconds = 0;
     double triangulate_seconds = 0;
+    double boxes_seconds = 0;
 
     [[nodiscard]] bool is_empty() const { return triangles.empty(); }
     [[nodiscard]] const std::array<double, 3>& position(VertexId v) const {
@@ -74,6 +81,10 @@ struct InterferenceModelData {
                                             first_triangle[f.index + 1] - first_triangle[f.index]);
     }
     [[nodiscard]] ShellId shell_of(const ModelTriangle& t) const { return brep.shell(t.face); }
+    /// For walks. \pre not empty
+    [[nodiscard]] BoxedTriangles boxed() const {
+        return {&boxes, positions, position_error, largest};
+    }
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
     [[nodiscard]] std::size_t bytes() const;

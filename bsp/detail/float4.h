@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Float4: four floats side by side, by the vector extension of g++ and clang; one register on every
+// x86-64. Operators work lane by lane; a comparison gives Mask4.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace trisect::detail {
+
+__extension__ typedef float Float4 __attribute__((vector_size(16)));
+__extension__ typedef std::int32_t Mask4 __attribute__((vector_size(16)));
+
+[[nodiscard]] inline Float4 all_lanes(float v) { return Float4{v, v, v, v}; }
+
+[[nodiscard]] inline Float4 magnitude(Float4 v) {
+    constexpr std::int32_t most = 0x7fffffff;
+    return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(v) & Mask4{most, most, most, most});
+}
+
+/// Bit i is set where lane i is.
+[[nodiscard]] inline unsigned bits_of(Mask4 m) {
+#if defined(__SSE__)
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(m)));
+#else
+    return (m[0] != 0 ? 1U : 0U) | (m[1] != 0 ? 2U : 0U) | (m[2] != 0 ? 4U : 0U) |
+           (m[3] != 0 ? 8U : 0U);
+#endif
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Why a box test in floats is a proof.
+//
+// Coordinates y = U_A (x - c_A), U_A the float axes of box A as they are: there the slabs of A are
+// |y_i| <= a_i exactly, and the image of box B is t + Σ s_j b_j r_j, |s_j| <= b_j, with r_j = U_A M
+// u_j and t = U_A (M c_B + T - c_A). For any vector L, however it came about,
+//
+//     |L·t| > Σ a_i |L_i| + Σ b_k |L·r_k|
+//
+// proves the two sets, hence all that the boxes contain, disjoint. So axes need not be right, only
+// the two sides of this inequality must be bounded. Let u = 2^-24, s the scale of M (M^T M = s² I
+// up to 2^-24, checked), M' = M / s, b' = s b, r' = r / s, and
+//
+//     Λ = |T| + reach_A + s reach_B
+//
+// in units of A. All vectors above are at most Λ long, |r'| <= 1 + 2^-20, |u_j| <= 1 + 2^-23.
+//
+// (1) Errors of r'. An entry of M' carries u of itself; a product of three terms 3 u of the product
+// of
+//     lengths (Cauchy-Schwarz). U_A M': 4 u. Times u_j: (4 √3 + 3) u < 10 u. In the order M' u_j
+//     first the same.
+// (2) Errors of t. With U_A M' first: the product with c_B has (4 √3 + 3) u s|c_B|, times the float
+// s two
+//     u more; the other part U_A (T - c_A): (2 + 3) u (|T| + reach_A) and one rounding of T; the
+//     sum: u Λ. With M c_B + T first: each component of the image minus c_A is off by at most (6 s
+//     reach_B + 3 |T| + reach_A) u, √3 times that after U_A, and 3 u Λ. Both are below 16 u Λ. The
+//     doubles T and M' have errors of their own, e_T and e_M; these add at most 2 e_T + 6 e_M
+//     reach_B.
+// (3) L = e_i: left side as (2); right side Σ b'_j |r'_ij|: 10 u Σ b'.
+// (4) L = r'_j as computed: left √3·16 u Λ + 3 √3 u Λ < 33 u Λ, plus twice the doubles' errors.
+// Right: Σ a_i |L_i|
+//     exact; r'_k·L differs from δ_kj by the deviation of U_A^T U_A, U_B^T U_B and M'^T M' from I
+//     (3·2^-22 in all) and by 10 √3 u: at most 2^-18.5. So Σ b'_k |r'_k·L| <= b'_j + 2^-18.5 Σ b'.
+// (5) L = e_i × r'_j: left √2·16 u Λ + 3 √2 u Λ < 33 u Λ; right: L·r'_j <= 18 u, and for k ≠ j
+//     |L·r'_k| = |e_i·(r'_j × r'_k)|, where r'_j × r'_k = ± r'_l up to the same deviations,
+//     2^-18.5. A mirror image changes the sign only.
+//
+// So `margin_` = 2^-18 Λ + 4 e_T + 12 e_M reach_B and 2^-18 Σ b' serve all fifteen axes. Rounding
+// of the right sides, at most seven relative u, is paid for by the halves, which were made larger
+// by 2^-21 (obb_tree.cpp). Underflow adds less than 2^-140 Λ.
+//
+// A map that is not a similarity: scale is a bound on the length of any image of a unit vector, so
+// that again |r'| <= 1; (3) holds as it is, in (4) the products r'_k·L are computed (error below
+// 30 u), and no products of edges are tried.
+
+#include <trisect/bsp/detail/obb_pose.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trisect/bsp/detail/obb_fit.h>
+
+namespace trisect::detail {
+
+ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map) {
+    const double factor = b.unit / a.unit;
+    std::array<Double3, 3> m{};
+    Double3 t{};
+    double matrix_error = map.m_error * factor;
+    double way_error = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double sum = map.t[i];
+        double size = std::abs(map.t[i]) + std::abs(a.origin[i]);
+        for (std::size_t j = 0; j < 3; ++j) {
+            m[i][j] = map.m[i][j] * factor;
+            largest = std::max(largest, std::abs(m[i][j]));
+            sum += map.m[i][j] * b.origin[j];
+            size += std::abs(map.m[i][j] * b.origin[j]);
+            way_error += map.m_error * std::abs(b.origin[j]);
+        }
+        t[i] = (sum - a.origin[i]) / a.unit;
+        way_error += 0x1p-50 * size + map.t_error;
+    }
+    way_error = 1.0001 * way_error / a.unit;
+    matrix_error += 0x1p-50 * largest;
+
+    // The squares of lengths of images, and how far they are from one number.
+    std::array<Double3, 3> gram{};
+    double rows = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) gram[i][j] += m[k][i] * m[k][j];
+            row += std::abs(gram[i][j]);
+        }
+        rows = std::max(rows, row);
+    }
+    const double square = (gram[0][0] + gram[1][1] + gram[2][2]) / 3;
+    double off = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            off = std::max(off, std::abs(gram[i][j] - (i == j ? square : 0)));
+    rigid_ = off <= 0x1p-25 * square && matrix_error <= 0x1p-28 * std::sqrt(square);
+    const double scale = rigid_ ? std::sqrt(square) : 1.0001 * std::sqrt(rows) + 3 * matrix_error;
+
+    const double length = std::sqrt(dot(t, t));
+    const double reach = 1.001 * (a.reach + (scale + 3 * matrix_error) * b.reach) + 2 * way_error;
+    apart_ = length > 1.001 * reach;
+    const double lambda = length + reach;
+    const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach;
+    scale_ = static_cast<float>(scale);
+    for (std::size_t i = 0; i < 3; ++i) {
+        t_[i] = static_cast<float>(t[i]);
+        for (std::size_t j = 0; j < 3; ++j) m_[i][j] = static_cast<float>(m[i][j] / scale);
+    }
+    // Beyond the range of floats nothing is certain.
+    const bool in_range = scale < 0x1p100 && lambda < 0x1p100;
+    margin_ =
+        in_range ? static_cast<float>(1.0001 * margin) : std::numeric_limits<float>::infinity();
+}
+
+}  // namespace trisect::detail

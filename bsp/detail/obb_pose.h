@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ObbPose: boxes of one tree against boxes of another under a relative pose, four at a time, in
+// single precision. A pair found apart is apart; one not found apart may be.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <trisect/bsp/detail/approximate_map.h>
+#include <trisect/bsp/detail/float4.h>
+#include <trisect/bsp/detail/obb_tree.h>
+
+namespace trisect::detail {
+
+/// The map from the units of tree B to those of tree A, prepared. The derivation of `margin` is in
+/// obb_pose.cpp.
+class ObbPose {
+public:
+    /// \pre both trees have boxes.
+    ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& b_to_a);
+
+    /// Certainly no box of one meets a box of the other.
+    [[nodiscard]] bool is_apart() const { return apart_; }
+    /// Bit i: box a and lane i of node b may meet.
+    [[nodiscard]] unsigned overlaps(const OrientedBox& a, const ObbNode& b) const {
+        return rigid_ ? single_a<true>(a, b) : single_a<false>(a, b);
+    }
+    /// Bit i: lane i of node a and box b may meet.
+    [[nodiscard]] unsigned overlaps(const ObbNode& a, const OrientedBox& b) const {
+        return rigid_ ? single_b<true>(a, b) : single_b<false>(a, b);
+    }
+    /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
+    [[nodiscard]] float scale() const { return scale_; }
+
+private:
+    // Boxes in the frame of box A, the axes of which are the coordinate axes there.
+    struct Lanes {
+        std::array<std::array<Float4, 3>, 3> r;  // [i][j]: component i of axis j of B
+        std::array<Float4, 3> t;                 // from the centre of A to that of B
+        std::array<Float4, 3> a;                 // halves
+        std::array<Float4, 3> b;
+    };
+    template <bool Rigid>
+    [[nodiscard]] unsigned single_a(const OrientedBox& a, const ObbNode& b) const;
+    template <bool Rigid>
+    [[nodiscard]] unsigned single_b(const ObbNode& a, const OrientedBox& b) const;
+    template <bool Rigid>
+    [[nodiscard]] unsigned may_meet(const Lanes& l) const;
+
+    std::array<std::array<float, 3>, 3> m_{};  // divided by scale
+    std::array<float, 3> t_{};
+    float scale_ = 1;
+    float margin_ = 0;
+    bool rigid_ = true;
+    bool apart_ = false;
+};
+
+template <bool Rigid>
+unsigned ObbPose::may_meet(const Lanes& l) const {
+    const auto& r = l.r;
+    const auto& t = l.t;
+    const Float4 margin = all_lanes(margin_) + all_lanes(0x1p-18F) * ((l.b[0] + l.b[1]) + l.b[2]);
+    std::array<std::array<Float4, 3>, 3> q;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) q[i][j] = magnitude(r[i][j]);
+    // Normals of A.
+    Mask4 apart{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Float4 reach =
+            (((l.a[i] + margin) + q[i][0] * l.b[0]) + q[i][1] * l.b[1]) + q[i][2] * l.b[2];
+        apart |= magnitude(t[i]) > reach;
+    }
+    // Normals of B.
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Float4 along = (t[0] * r[0][j] + t[1] * r[1][j]) + t[2] * r[2][j];
+        Float4 reach = ((margin + q[0][j] * l.a[0]) + q[1][j] * l.a[1]) + q[2][j] * l.a[2];
+        if constexpr (Rigid) {
+            reach += l.b[j];
+        } else {
+            for (std::size_t k = 0; k < 3; ++k)
+                reach +=
+                    l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) + r[2][k] * r[2][j]);
+        }
+        apart |= magnitude(along) > reach;
+    }
+    unsigned apart_bits = bits_of(apart);
+    if (apart_bits == 15 || !Rigid) return ~apart_bits & 15U;
+    // Products of an edge of A and an edge of B.
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t i1 = (i + 1) % 3;
+        const std::size_t i2 = (i + 2) % 3;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t j1 = (j + 1) % 3;
+            const std::size_t j2 = (j + 2) % 3;
+            const Float4 along = t[i2] * r[i1][j] - t[i1] * r[i2][j];
+            const Float4 reach =
+                (((margin + l.a[i1] * q[i2][j]) + l.a[i2] * q[i1][j]) + l.b[j1] * q[i][j2]) +
+                l.b[j2] * q[i][j1];
+            apart |= magnitude(along) > reach;
+        }
+    }
+    return ~bits_of(apart) & 15U;
+}
+
+template <bool Rigid>
+unsigned ObbPose::single_a(const OrientedBox& a, const ObbNode& b) const {
+    // Rows of A's axes times the map, and the way from its centre to the image of B's origin.
+    std::array<std::array<float, 3>, 3> p{};
+    std::array<float, 3> from{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            p[i][j] = (a.axis[i][0] * m_[0][j] + a.axis[i][1] * m_[1][j]) + a.axis[i][2] * m_[2][j];
+        from[i] = (a.axis[i][0] * (t_[0] - a.center[0]) + a.axis[i][1] * (t_[1] - a.center[1])) +
+                  a.axis[i][2] * (t_[2] - a.center[2]);
+    }
+    Lanes l;
+    const Float4 scale = all_lanes(scale_);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Float4 p0 = all_lanes(p[i][0]);
+        const Float4 p1 = all_lanes(p[i][1]);
+        const Float4 p2 = all_lanes(p[i][2]);
+        for (std::size_t j = 0; j < 3; ++j)
+            l.r[i][j] = (p0 * b.axis[j][0] + p1 * b.axis[j][1]) + p2 * b.axis[j][2];
+        l.t[i] =
+            scale * ((p0 * b.center[0] + p1 * b.center[1]) + p2 * b.center[2]) + all_lanes(from[i]);
+        l.a[i] = all_lanes(a.half[i]);
+        l.b[i] = scale * b.half[i];
+    }
+    return may_meet<Rigid>(l);
+}
+
+template <bool Rigid>
+unsigned ObbPose::single_b(const ObbNode& a, const OrientedBox& b) const {
+    std::array<std::array<float, 3>, 3> p{};  // [k][j]: component k of the image of B's axis j
+    std::array<float, 3> center{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < 3; ++j)
+            p[k][j] = (m_[k][0] * b.axis[j][0] + m_[k][1] * b.axis[j][1]) + m_[k][2] * b.axis[j][2];
+        center[k] =
+            scale_ * ((m_[k][0] * b.center[0] + m_[k][1] * b.center[1]) + m_[k][2] * b.center[2]) +
+            t_[k];
+    }
+    Lanes l;
+    std::array<Float4, 3> way;
+    for (std::size_t k = 0; k < 3; ++k) way[k] = all_lanes(center[k]) - a.center[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            l.r[i][j] = (a.axis[i][0] * all_lanes(p[0][j]) + a.axis[i][1] * all_lanes(p[1][j])) +
+                        a.axis[i][2] * all_lanes(p[2][j]);
+        l.t[i] = (a.axis[i][0] * way[0] + a.axis[i][1] * way[1]) + a.axis[i][2] * way[2];
+        l.a[i] = a.half[i];
+        l.b[i] = all_lanes(scale_ * b.half[i]);
+    }
+    return may_meet<Rigid>(l);
+}
+
+}  // namespace trisect::detail
