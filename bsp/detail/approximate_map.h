@@ -6,6 +6,10 @@
 #include <array>
 #include <cstddef>
 
+#include <trisect/kernel/detail/relative_pose.h>
+#include <trisect/kernel/lattice.h>
+#include <trisect/kernel/pose.h>
+
 namespace trisect::detail {
 
 /// x' = m x + t from lattice units of one solid to those of another: every exact entry of m is
@@ -39,6 +43,16 @@ struct ApproximateMap {
         }
         return 1.0001 * (worst + 3 * m_error * largest + t_error);
     }
+    /// Whether all numbers are finite and the errors small enough for filters to be of use.
+    [[nodiscard]] bool is_usable() const;
 };
+
+/// From the lattice of a solid posed by `from` into that of a solid posed by `to`, without exact
+/// arithmetic: a tenth of the cost of a RelativePose. Not usable when doubles cannot tell that the
+/// matrix of `to` is regular, or overflow.
+[[nodiscard]] ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& from,
+                                             Lattice from_lattice);
+/// The same from the exact one. \pre r.has_doubles()
+[[nodiscard]] ApproximateMap approximate_map(const RelativePose& r);
 
 }  // namespace trisect::detail
