@@ -31,7 +31,14 @@ constexpr double more = 1.01;
 struct Inverse {
     std::array<std::array<double, 3>, 3> m;
     std::array<std::array<double, 3>, 3> error;
+    bool certain = false;  // that there is one
 };
+
+// The larger of two bounds; what is not a number is no bound.
+double worse(double a, double b) {
+    return b < std::numeric_limits<double>::infinity() ? std::max(a, b)
+                                                       : std::numeric_limits<double>::infinity();
+}
 
 Inverse inverse_of(const std::array<double, 12>& a) {
     const auto at = [&a](std::size_t i, std::size_t j) { return a[4 * (i % 3) + j % 3]; };
@@ -53,14 +60,14 @@ Inverse inverse_of(const std::array<double, 12>& a) {
     const double det_error = more * 4 * e * det_size;
     const double least = std::abs(det) - det_error;
     Inverse r{};
+    r.certain = least > 0.5 * std::abs(det);
+    if (!r.certain) return r;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
             const double v = c[j][i] / det;
             r.m[i][j] = v;
-            r.error[i][j] = least > 0.5 * std::abs(det)
-                                ? more * ((2.5 * e * size[j][i] + std::abs(v) * det_error) / least +
-                                          u * std::abs(v))
-                                : std::numeric_limits<double>::infinity();
+            r.error[i][j] =
+                more * ((2.5 * e * size[j][i] + std::abs(v) * det_error) / least + u * std::abs(v));
         }
     return r;
 }
@@ -89,6 +96,10 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
     const double m_unit = std::ldexp(1.0, from_lattice.exponent - to_lattice.exponent);
     const double t_unit = std::ldexp(1.0, -to_lattice.exponent);
     ApproximateMap r;
+    if (!inverse.certain) {
+        r.m_error = r.t_error = std::numeric_limits<double>::infinity();
+        return r;
+    }
     std::array<double, 3> way{};
     std::array<double, 3> way_error{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,7 +117,7 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
                     (inverse.error[i][k] + std::abs(inverse.m[i][k]) * (e + 3 * u)) * std::abs(v);
             }
             r.m[i][j] = sum * m_unit;
-            r.m_error = std::max(r.m_error, more * error * m_unit);
+            r.m_error = worse(r.m_error, more * error * m_unit);
         }
         double sum = 0;
         double error = 0;
@@ -117,7 +128,7 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
                      std::abs(inverse.m[i][k]) * way_error[k];
         }
         r.t[i] = sum * t_unit;
-        r.t_error = std::max(r.t_error, more * error * t_unit);
+        r.t_error = worse(r.t_error, more * error * t_unit);
     }
     return r;
 }
