@@ -16,8 +16,11 @@
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/first_contact.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/joint.h>
+#include <trisect/bsp/motion.h>
+#include <trisect/bsp/moving_points.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>

@@ -74,6 +74,19 @@ void RealRoot::refine(const mpq_class& width) {
     while (!is_rational() && upper_ - lower_ > width) halve();
 }
 
+RealRoot RealRoot::shifted(unsigned long n) const {
+    if (n == 0) return *this;
+    RealRoot r = *this;
+    r.lower_ += n;
+    r.upper_ += n;
+    if (polynomial_) {
+        const mpz_class zero = -mpz_class(n);
+        r.polynomial_ = std::make_shared<const IntegerPolynomial>(
+            polynomial_->on_interval(zero, mpz_class(zero + 1)));
+    }
+    return r;
+}
+
 std::strong_ordering RealRoot::compare(const mpq_class& value) {
     if (is_rational()) return order(cmp(lower_, value));
     if (value <= lower_) return std::strong_ordering::greater;

@@ -42,6 +42,9 @@ public:
     /// Narrows the interval to at most this width. \pre width > 0
     void refine(const mpq_class& width);
 
+    /// This number plus n.
+    [[nodiscard]] RealRoot shifted(unsigned long n) const;
+
     [[nodiscard]] std::strong_ordering compare(const mpq_class& value);
     [[nodiscard]] std::strong_ordering compare(RealRoot& other);
     /// The sign of p at this number, exactly.

@@ -59,14 +59,14 @@ bool is_zero_at(RealRoot& s, const PolynomialVector& v) {
                        [&s](const IntegerPolynomial& p) { return s.sign_of(p) == 0; });
 }
 
-// Do the edges, not parallel, both reach the point where their lines cross?
-bool cross_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b, std::size_t axis) {
-    return side_at(s, a.direction, a.ends[0], b.ends[0], axis) *
-                   side_at(s, a.direction, a.ends[0], b.ends[1], axis) <=
-               0 &&
-           side_at(s, b.direction, b.ends[0], a.ends[0], axis) *
-                   side_at(s, b.direction, b.ends[0], a.ends[1], axis) <=
-               0;
+// Where the ends of each edge are seen from the line of the other: products of their sides. Both
+// are negative when the edges, not parallel, cross within, and none is positive when they meet.
+std::array<int, 2> separations_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b,
+                                  std::size_t axis) {
+    return {side_at(s, a.direction, a.ends[0], b.ends[0], axis) *
+                side_at(s, a.direction, a.ends[0], b.ends[1], axis),
+            side_at(s, b.direction, b.ends[0], a.ends[0], axis) *
+                side_at(s, b.direction, b.ends[0], a.ends[1], axis)};
 }
 
 MovingEdge side(const MovingTriangle& t, std::size_t i) {
@@ -170,9 +170,29 @@ bool meet_at(RealRoot& s, const PolynomialVector& point, const MovingTriangle& t
 
 bool meet_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b) {
     const Projection projection = projection_at(s, a.direction, b.direction);
-    if (projection.orientation != 0) return cross_at(s, a, b, projection.axis);
+    if (projection.orientation != 0) {
+        const auto separation = separations_at(s, a, b, projection.axis);
+        return separation[0] <= 0 && separation[1] <= 0;
+    }
     return meet_at(s, a.ends[0], b) || meet_at(s, a.ends[1], b) || meet_at(s, b.ends[0], a) ||
            meet_at(s, b.ends[1], a);
+}
+
+std::array<int, 3> sides_at(RealRoot& s, const PolynomialVector& point,
+                            const MovingTriangle& triangle) {
+    const Projection projection = projection_at(s, triangle.directions[0], triangle.directions[1]);
+    std::array<int, 3> sides{};
+    for (const std::size_t i : axes)
+        sides[i] = projection.orientation *
+                   side_at(s, triangle.directions[i], triangle.corners[i], point, projection.axis);
+    return sides;
+}
+
+bool cross_within_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b) {
+    const Projection projection = projection_at(s, a.direction, b.direction);
+    if (projection.orientation == 0) return false;
+    const auto separation = separations_at(s, a, b, projection.axis);
+    return separation[0] < 0 && separation[1] < 0;
 }
 
 IntegerPolynomial coplanarity(const PolynomialVector& point, const MovingTriangle& triangle) {

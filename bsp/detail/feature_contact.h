@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include <trisect/brep/detail/integer_polynomial.h>
 #include <trisect/brep/detail/real_root.h>
@@ -45,6 +46,13 @@ struct MovingTriangle {
 [[nodiscard]] bool meet_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b);
 /// Is the point on the closed edge?
 [[nodiscard]] bool meet_at(RealRoot& s, const PolynomialVector& point, const MovingEdge& edge);
+
+/// On which sides of the triangle's sides the point is: 1 inside, 0 on the line, -1 beyond it.
+/// \pre the point is in the triangle's plane at s, and the triangle is not flat there.
+[[nodiscard]] std::array<int, 3> sides_at(RealRoot& s, const PolynomialVector& point,
+                                          const MovingTriangle& triangle);
+/// Do the edges cross in a point within both, the ends not counted? \pre they are coplanar at s.
+[[nodiscard]] bool cross_within_at(RealRoot& s, const MovingEdge& a, const MovingEdge& b);
 
 /// The closed interval of the parameter in which a contact is looked for.
 struct TimeInterval {

@@ -40,6 +40,8 @@
 // of the right sides, at most seven relative u, is paid for by the halves, which were made larger
 // by 2^-21 (obb_tree.cpp). Underflow adds less than 2^-140 Λ.
 //
+// A sweep adds its length times |L|, which is at most 1 + 2^-19, to the left side.
+//
 // A map that is not a similarity: scale is a bound on the length of any image of a unit vector, so
 // that again |r'| <= 1; (3) holds as it is, in (4) the products r'_k·L are computed (error below
 // 30 u), and no products of edges are tried.
@@ -54,7 +56,7 @@
 
 namespace trisect::detail {
 
-ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map) {
+ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, double sweep) {
     const double factor = b.unit / a.unit;
     std::array<Double3, 3> m{};
     Double3 t{};
@@ -97,10 +99,12 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map) 
     const double scale = rigid_ ? std::sqrt(square) : 1.0001 * std::sqrt(rows) + 3 * matrix_error;
 
     const double length = std::sqrt(dot(t, t));
-    const double reach = 1.001 * (a.reach + (scale + 3 * matrix_error) * b.reach) + 2 * way_error;
+    const double way = 1.0001 * sweep / a.unit;
+    const double reach =
+        1.001 * (a.reach + (scale + 3 * matrix_error) * b.reach) + 2 * way_error + way;
     apart_ = length > 1.001 * reach;
     const double lambda = length + reach;
-    const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach;
+    const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach + way;
     scale_ = static_cast<float>(scale);
     for (std::size_t i = 0; i < 3; ++i) {
         t_[i] = static_cast<float>(t[i]);

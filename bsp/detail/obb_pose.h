@@ -18,8 +18,9 @@ namespace trisect::detail {
 /// obb_pose.cpp.
 class ObbPose {
 public:
-    /// \pre both trees have boxes.
-    ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& b_to_a);
+    /// \pre both trees have boxes. `sweep`: every point of B may be that far, in lattice units of
+    /// A, from where the map takes it (a solid that moves while it is asked about).
+    ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& b_to_a, double sweep = 0);
 
     /// Certainly no box of one meets a box of the other.
     [[nodiscard]] bool is_apart() const { return apart_; }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bernstein coefficients over [0, 1] are fractions of integers, rounded once. Over parts of the
+// interval they are averages of neighbours (de Casteljau), which are as well-conditioned as can be:
+// forty halvings of a cubic cost about 120 roundings of the largest coefficient.
+
+#include <trisect/bsp/detail/ball_motion.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <trisect/brep/detail/gmp_conversion.h>
+
+namespace trisect::detail {
+
+namespace {
+
+Ball average(Ball a, Ball b) {
+    const Ball s = a + b;
+    return {s.value / 2, s.error / 2};
+}
+
+// The distinct polynomials of a motion and where their coefficients are kept.
+template <class Visit>
+void for_each_entry(const RelativeMotion& motion, Visit&& visit) {
+    using Maps = BallMotion::Maps;
+    const auto matrix = [&visit](const PolynomialMatrix& m, BallMatrix Maps::*member) {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                visit(m[i][j], [=](Maps& maps) -> Ball& { return (maps.*member)[i][j]; });
+    };
+    const auto vector = [&visit](const PolynomialVector& v, BallVector Maps::*member) {
+        for (std::size_t i = 0; i < 3; ++i)
+            visit(v[i], [=](Maps& maps) -> Ball& { return (maps.*member)[i]; });
+    };
+    matrix(motion.point.matrix, &Maps::matrix);
+    vector(motion.point.shift, &Maps::shift);
+    visit(motion.point.weight, [](Maps& maps) -> Ball& { return maps.weight; });
+    matrix(motion.plane_normal, &Maps::plane_normal);
+    vector(motion.plane_shift, &Maps::plane_shift);
+    visit(motion.plane_offset, [](Maps& maps) -> Ball& { return maps.plane_offset; });
+    matrix(motion.line_direction, &Maps::line_direction);
+    matrix(motion.line_moment, &Maps::line_moment);
+    matrix(motion.line_lever, &Maps::line_lever);
+}
+
+int degree_of(const RelativeMotion& motion) {
+    int d = 0;
+    for_each_entry(motion,
+                   [&d](const IntegerPolynomial& p, const auto&) { d = std::max(d, p.degree()); });
+    return d;
+}
+
+// A fraction rounded to double; GMP truncates, so it is off by less than one unit in the last
+// place.
+Ball rounded(const mpq_class& v) { return Ball::rounded(v.get_d()); }
+
+// b_j = sum over i <= j of C(j, i) / C(n, i) c_i, times 1 / scale.
+std::array<Ball, BallPolynomial::max_degree + 1> bernstein(const IntegerPolynomial& p,
+                                                           std::size_t n, const mpz_class& scale) {
+    std::vector<mpq_class> c(n + 1);
+    for (std::size_t i = 0; i < p.coefficients().size(); ++i) {
+        mpz_class binomial;
+        mpz_bin_uiui(binomial.get_mpz_t(), n, i);
+        c[i] = mpq_class(p.coefficients()[i], mpz_class(binomial * scale));
+        c[i].canonicalize();
+    }
+    for (std::size_t round = 1; round <= n; ++round)
+        for (std::size_t j = n; j >= round; --j) c[j] += c[j - 1];
+    std::array<Ball, BallPolynomial::max_degree + 1> r{};
+    for (std::size_t j = 0; j <= n; ++j) r[j] = rounded(c[j]);
+    return r;
+}
+
+// One power of two for all entries of a map keeps doubles in range.
+mpz_class scale_of(const RelativeMotion& motion) {
+    std::size_t bits = 0;
+    for_each_entry(motion, [&bits](const IntegerPolynomial& p, const auto&) {
+        for (const mpz_class& c : p.coefficients())
+            bits = std::max(bits, mpz_sizeinbase(c.get_mpz_t(), 2));
+    });
+    return mpz_class(1) << (bits > 200 ? bits - 200 : 0);
+}
+
+}  // namespace
+
+void halve(const BallPolynomial& p, std::size_t degree, BallPolynomial& left,
+           BallPolynomial& right) {
+    std::array<Ball, BallPolynomial::max_degree + 1> row = p.b;
+    for (std::size_t round = 0; round <= degree; ++round) {
+        left.b[round] = row[0];
+        right.b[degree - round] = row[degree - round];
+        for (std::size_t j = 0; j + round < degree; ++j) row[j] = average(row[j], row[j + 1]);
+    }
+}
+
+bool BallMotion::fits(const RelativeMotion& motion) {
+    return degree_of(motion) <= static_cast<int>(BallPolynomial::max_degree);
+}
+
+BallMotion::BallMotion(const RelativeMotion& motion)
+    : degree(static_cast<std::size_t>(degree_of(motion))) {
+    const mpz_class scale = scale_of(motion);
+    for_each_entry(motion, [&](const IntegerPolynomial& p, const auto& entry) {
+        const auto b = bernstein(p, degree, scale);
+        for (std::size_t k = 0; k <= degree; ++k) entry(maps[k]) = b[k];
+    });
+}
+
+BallMotion BallMotion::half(bool right) const {
+    // A struct of balls and nothing else is an array of balls.
+    constexpr std::size_t count = sizeof(Maps) / sizeof(Ball);
+    static_assert(count * sizeof(Ball) == sizeof(Maps));
+    BallMotion r = *this;
+    const auto balls = [](Maps& m) { return reinterpret_cast<Ball*>(&m); };
+    // Left: coefficient k becomes what the first k + 1 average to; right: mirrored.
+    for (std::size_t round = 1; round <= degree; ++round) {
+        for (std::size_t j = degree; j >= round; --j) {
+            Ball* to_ball = balls(r.maps[right ? degree - j : j]);
+            const Ball* other = balls(r.maps[right ? degree - j + 1 : j - 1]);
+            for (std::size_t i = 0; i < count; ++i) to_ball[i] = average(to_ball[i], other[i]);
+        }
+    }
+    (right ? r.from : r.to) = middle();
+    return r;
+}
+
+}  // namespace trisect::detail
