@@ -43,6 +43,7 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     shared_cells += part.shared_cells;
     constant_cells += part.constant_cells;
     mixed_leaves += part.mixed_leaves;
+    plain_leaves += part.plain_leaves;
     listed_polygons += part.listed_polygons;
     pairs_boxes += part.pairs_boxes;
     pairs_cutting += part.pairs_cutting;

@@ -36,6 +36,7 @@
 #include <trisect/bsp/detail/leaf_pairs.h>
 #include <trisect/bsp/detail/leaf_pieces.h>
 #include <trisect/bsp/detail/leaf_work.h>
+#include <trisect/bsp/detail/plain_leaf.h>
 
 namespace trisect::detail {
 
@@ -51,6 +52,7 @@ private:
     void emit_pieces(LeafIndex i, std::size_t first, std::size_t last);
     void emit(const PolygonRef& ref, bool inside_above);
 
+    PlainLeaf plain_;
     LeafWork work_;
     LeafPairs pairs_;
     LeafLinks links_;
@@ -73,6 +75,7 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
     out_.clear();
+    if (plain_.arrange(problem, values, stats, out_)) return {std::move(out_), {}};
     work_.start(problem, stats);
     pairs_.relate_all(work_);
     const bool embedded = std::all_of(problem.operands.begin(), problem.operands.end(),

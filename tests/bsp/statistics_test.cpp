@@ -53,6 +53,18 @@ TEST_F(TwoBalls, WindingNumbersAreCarriedOverInsteadOfTraced) {
     EXPECT_LT(stats.traces * 4, stats.pieces + stats.untouched_polygons);
 }
 
+// Nothing touches without crossing, so no leaf needs more than doubles.
+TEST_F(TwoBalls, AllLeavesAreArrangedInDoubles) {
+    for (const std::uint32_t leaf : {20U, 100U, 1000U}) {
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = leaf;
+        EvaluateStats stats;
+        (void)evaluate(a - b, options, &stats);
+        EXPECT_GT(stats.mixed_leaves, 0U);
+        EXPECT_EQ(stats.plain_leaves, stats.mixed_leaves);
+    }
+}
+
 TEST_F(TwoBalls, CellsAndPairsAreFew) {
     EvaluateStats stats;
     (void)evaluate(a | b, {}, &stats);

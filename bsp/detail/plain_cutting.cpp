@@ -1,0 +1,631 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What crosses a facet in general position leaves a path of segments on it, and where two of them
+// meet, an edge of the cutters' mesh pierces the facet. The facet is split along the whole line of
+// a segment, within the part that the segment runs through, so parts stay convex. Then the next
+// segment begins on a line that was cut before, exactly at the point that both lines have in
+// common: such points carry the name of the edge that pierces there, and no arithmetic asks about
+// them. Whatever else is asked is about points that differ, and doubles nearly always tell.
+//
+// Facets of one plane with a common edge, the two halves of a quadrilateral say, give one line.
+
+#include <trisect/bsp/detail/plain_cutting.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <trisect/bsp/detail/facet_in_cell.h>
+#include <trisect/kernel/plane.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Contacts are compared pair by pair for common planes.
+constexpr std::size_t many_contacts = 200;
+
+// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot tell.
+int compare_along(std::size_t axis, const Approximation& a, const Approximation& b) {
+    const double gap = b.c[axis] - a.c[axis];
+    const double error = 1.0001 * (a.error + b.error);
+    return gap > error ? -1 : (gap < -error ? 1 : 0);
+}
+
+// The axis along which two points are farthest apart.
+std::size_t longest_axis(const Approximation& a, const Approximation& b) {
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
+    return axis;
+}
+
+}  // namespace
+
+void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
+                         LeafFormula& formula, EvaluateStats& stats) {
+    facets_ = &facets;
+    pairs_ = &pairs;
+    windings_ = &windings;
+    formula_ = &formula;
+    stats_ = &stats;
+    n_ = facets.operand_count();
+    last_windings_ = -1;
+}
+
+PlainPart& PlainCutting::add_part() {
+    if (count_ == parts_.size()) parts_.emplace_back();
+    PlainPart& p = parts_[count_++];
+    p.state = PlainPart::State::Open;
+    p.sides = sides_.size();
+    sides_.resize(sides_.size() + 2 * n_);
+    return p;
+}
+
+// The whole facet as its only part.
+bool PlainCutting::start_item(LeafIndex item) {
+    item_ = item;
+    contacts_ = pairs_->contacts(item);
+    vertices_.clear();
+    sides_.clear();
+    count_ = 0;
+    const PlainFacet& f = (*facets_)[item];
+    clipped_.size = 0;
+    clipped_.above = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        PlainVertex& v = vertices_.emplace_back();
+        v.at = {f.corners[c], 0.0};
+        v.lines = {static_cast<PlainLine>((c + 2) % 3), static_cast<PlainLine>(c)};
+        clipped_.add(static_cast<std::int16_t>(c), static_cast<PlainLine>(c), false);
+    }
+    was_clipped_ = false;
+    return contacts_.size() <= many_contacts && join_coplanar();
+}
+
+bool PlainCutting::join_coplanar() {
+    line_.resize(contacts_.size());
+    for (std::size_t b = 0; b < contacts_.size(); ++b) {
+        line_[b] = static_cast<std::int16_t>(b);
+        const PlainFacet& g = (*facets_)[contacts_[b].other];
+        for (std::size_t a = 0; a < b; ++a) {
+            const PlainFacet& f = (*facets_)[contacts_[a].other];
+            if (f.sheet != g.sheet) continue;
+            std::size_t apex = 3;
+            std::size_t apart = 0;
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (f.has_vertex(g.vertices[c])) continue;
+                apex = c;
+                ++apart;
+            }
+            if (apart != 1) continue;
+            const Approximation at{g.corners[apex], 0.0};
+            if (facets_->plane(contacts_[a].other).sign(at) != 0) continue;
+            const auto corner = [](const PlainFacet& of, std::size_t c) -> const LatticePoint& {
+                return of.ref.source->corner(of.ref.facet, static_cast<int>(c));
+            };
+            const Plane p = Plane::through(corner(f, 0), corner(f, 1), corner(f, 2));
+            if (side_of(corner(g, apex), p) != Side::On) continue;
+            const Plane q = Plane::through(corner(g, 0), corner(g, 1), corner(g, 2));
+            if (!same_orientation(p, q)) return false;
+            const std::int16_t from = std::max(line_[a], line_[b]);
+            const std::int16_t to = std::min(line_[a], line_[b]);
+            for (std::size_t c = 0; c <= b; ++c)
+                if (line_[c] == from) line_[c] = to;
+        }
+    }
+    return true;
+}
+
+// --- Points and lines.
+
+bool PlainCutting::passes(const PlainVertex& vertex, std::size_t contact) const {
+    const PlainLine line = line_of(contact);
+    if (vertex.lines[0] == line || vertex.lines[1] == line) return true;
+    if (vertex.sheet < 0) return false;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        if (line_[c] != line_[contact]) continue;
+        const PlainFacet& f = (*facets_)[contacts_[c].other];
+        if (f.sheet == vertex.sheet && f.has_vertex(vertex.pierced[0]) &&
+            f.has_vertex(vertex.pierced[1]))
+            return true;
+    }
+    return false;
+}
+
+// -1 below the contact's support, 0 on it, 1 above; 2 when doubles cannot tell.
+int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
+    const PlainContact& c = contacts_[contact];
+    const auto v = static_cast<std::size_t>(vertex);
+    if (v < 3) return crossing_of(contact).sides[c.is_second ? 1 : 0][v];
+    if (passes(vertices_[v], contact)) return 0;
+    const int s = facets_->plane(c.other).sign(vertices_[v].at);
+    return s == 0 ? 2 : s;
+}
+
+// Where two contacts' lines meet, the edge that their facets have in common pierces the item.
+void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
+    if (vertex.lines[0] < first_contact_line || vertex.lines[1] < first_contact_line) return;
+    for (std::size_t a = 0; a < contacts_.size(); ++a) {
+        if (line_of(a) != vertex.lines[0]) continue;
+        const PlainFacet& f = (*facets_)[contacts_[a].other];
+        for (std::size_t b = 0; b < contacts_.size(); ++b) {
+            if (line_of(b) != vertex.lines[1]) continue;
+            const PlainFacet& g = (*facets_)[contacts_[b].other];
+            if (f.sheet != g.sheet) continue;
+            std::size_t found = 0;
+            std::array<std::uint32_t, 3> common{};
+            for (const std::uint32_t v : g.vertices)
+                if (f.has_vertex(v)) common[found++] = v;
+            if (found != 2) continue;
+            vertex.sheet = f.sheet;
+            vertex.pierced = {common[0], common[1]};
+            // Where that edge pierces is known better than where two lines meet that may be nearly
+            // parallel.
+            for (const PlainEnd& end : crossing_of(a).ends)
+                if (is_end(vertex, a, end)) vertex.at = end.at;
+            return;
+        }
+    }
+}
+
+// Whether a vertex on a contact's line is an end of the contact's segment. Points of different
+// names that are the same are left to doubles, which cannot tell.
+bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
+                          const PlainEnd& end) const {
+    const PlainContact& c = contacts_[contact];
+    if (end.of_second == c.is_second)
+        return vertex.lines[0] == end.edge || vertex.lines[1] == end.edge;
+    const PlainFacet& f = (*facets_)[c.other];
+    if (vertex.sheet != f.sheet) return false;
+    const auto e = static_cast<std::size_t>(end.edge);
+    const std::uint32_t v = f.vertices[e];
+    const std::uint32_t w = f.vertices[e == 2 ? 0 : e + 1];
+    return (vertex.pierced[0] == v && vertex.pierced[1] == w) ||
+           (vertex.pierced[0] == w && vertex.pierced[1] == v);
+}
+
+// A point in the interior of a part.
+Approximation PlainCutting::middle_of(const PlainPart& part, int attempt) const {
+    static constexpr std::array<std::array<double, 3>, 4> weights{
+        {{1, 1, 1}, {3, 5, 11}, {7, 2, 4}, {1, 6, 2}}};
+    const auto& weight = weights[static_cast<std::size_t>(attempt)];
+    const std::size_t n = part.size;
+    const std::array<std::size_t, 3> corners{0, n / 3, 2 * n / 3};
+    const double total = weight[0] + weight[1] + weight[2];
+    Approximation m;
+    double largest = 0;
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[corners[i]])].at;
+        error = std::max(error, a.error);
+        for (std::size_t k = 0; k < 3; ++k) {
+            m.c[k] += weight[i] * a.c[k] / total;
+            largest = std::max(largest, std::fabs(a.c[k]));
+        }
+    }
+    m.error = 1.0000001 * error + largest * 0x1p-49;
+    return m;
+}
+
+// --- Splitting.
+
+// Both parts of a part whose vertices have these signs with respect to a line's plane. `cuts`: the
+// new vertices in the order in which a walk around the part comes to them.
+void PlainCutting::divide(const PlainPart& from, PlainLine line, const Signs& signs,
+                          const std::array<std::int16_t, 2>& cuts, PlainPart& below,
+                          PlainPart& above) const {
+    below.size = above.size = 0;
+    below.above = above.above = 0;
+    std::size_t cut = 0;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        const int here = signs[i];
+        const int next = signs[i + 1 < from.size ? i + 1 : 0];
+        const std::int16_t v = from.vertices[i];
+        const PlainLine e = from.lines[i];
+        const bool side = (from.above >> i & 1U) != 0;
+        if (here < 0) below.add(v, e, side);
+        if (here > 0) above.add(v, e, side);
+        if (here == 0 && next < 0) {
+            below.add(v, e, side);
+            above.add(v, line, true);
+        } else if (here == 0) {
+            above.add(v, e, side);
+            below.add(v, line, false);
+        } else if (here * next < 0) {
+            const std::int16_t x = cuts[cut++];
+            if (next < 0) {
+                below.add(x, e, side);
+                above.add(x, line, true);
+            } else {
+                above.add(x, e, side);
+                below.add(x, line, false);
+            }
+        }
+    }
+}
+
+PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, bool sure) {
+    const PlainPart from = parts_[part];
+    Signs signs;
+    bool below = false;
+    bool above = false;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        const int s = sign_at(from.vertices[i], contact);
+        if (s == 2) return Split::Doubtful;
+        signs[i] = static_cast<std::int8_t>(s);
+        below = below || s < 0;
+        above = above || s > 0;
+    }
+    if (!below || !above) return Split::Missed;
+    if (from.size + 2U > PlainPart::max_size) return Split::Doubtful;
+    // Where the line enters and leaves the part.
+    const PlainPlane& plane = facets_->plane(contacts_[contact].other);
+    std::array<std::int16_t, 2> ends{};
+    std::array<std::int16_t, 2> cuts{};
+    std::size_t found = 0;
+    std::size_t made = 0;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        const std::size_t next = i + 1 < from.size ? i + 1 : 0;
+        if (signs[i] != 0 && signs[i] * signs[next] >= 0) continue;
+        if (found == 2) return Split::Doubtful;
+        if (signs[i] == 0) {
+            ends[found++] = from.vertices[i];
+            continue;
+        }
+        const Approximation u = vertices_[static_cast<std::size_t>(from.vertices[i])].at;
+        const Approximation w = vertices_[static_cast<std::size_t>(from.vertices[next])].at;
+        PlainVertex x;
+        if (!interpolate(u, plane.value(u.c), w, plane.value(w.c), plane.error(u) + plane.error(w),
+                         x.at))
+            return Split::Doubtful;
+        x.lines = {from.lines[i], line_of(contact)};
+        name_pierced_edge(x);
+        cuts[made++] = ends[found++] = static_cast<std::int16_t>(vertices_.size());
+        vertices_.push_back(x);
+    }
+    if (found != 2) return Split::Doubtful;
+    if (!sure) {
+        // Does the segment have more than a point in common with what of the line is in the part?
+        const auto& segment = crossing_of(contact).ends;
+        const std::size_t axis = longest_axis(segment[0].at, segment[1].at);
+        const int direction = compare_along(axis, segment[0].at, segment[1].at);
+        const auto vertex = [&](std::size_t i) -> const PlainVertex& {
+            return vertices_[static_cast<std::size_t>(ends[i])];
+        };
+        const int order = compare_along(axis, vertex(0).at, vertex(1).at);
+        if (direction == 0 || order == 0) return Split::Doubtful;
+        const std::size_t low = direction < 0 ? 0 : 1;
+        const std::size_t first = order < 0 ? 0 : 1;
+        const auto is_before_end = [&](const PlainVertex& v, const PlainEnd& end, int sign) {
+            if (is_end(v, contact, end)) return 0;
+            const int c = compare_along(axis, v.at, end.at);
+            return c == 0 ? 2 : (c == sign ? 1 : 0);
+        };
+        const int starts = is_before_end(vertex(first), segment[1 - low], -1);
+        const int stops = is_before_end(vertex(1 - first), segment[low], 1);
+        if (starts == 0 || stops == 0) return Split::Missed;
+        if (starts == 2 || stops == 2) return Split::Doubtful;
+    }
+    PlainPart& upper = add_part();
+    PlainPart& lower = parts_[part];
+    std::copy_n(sides_.begin() + static_cast<std::ptrdiff_t>(from.sides), 2 * n_,
+                sides_.begin() + static_cast<std::ptrdiff_t>(upper.sides));
+    divide(from, line_of(contact), signs, cuts, lower, upper);
+    return Split::Done;
+}
+
+bool PlainCutting::clip_at(std::size_t axis, bool high) {
+    const double wall = high ? facets_->wall_hi()[axis] : facets_->wall_lo()[axis];
+    const PlainPart from = clipped_;
+    if (from.size + 2U > PlainPart::max_size) return false;
+    const auto point = [&](std::size_t i) -> const Approximation& {
+        return vertices_[static_cast<std::size_t>(from.vertices[i])].at;
+    };
+    const auto error = [&](const Approximation& a) {
+        return a.error + 0x1p-51 * (std::fabs(a.c[axis]) + std::fabs(wall));
+    };
+    Signs signs;
+    bool below = false;
+    bool above = false;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        int s = 0;
+        if (from.vertices[i] < 3) {
+            // A lattice position, and the last one below the wall is exact too.
+            const double c = point(i).c[axis];
+            s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
+        } else {
+            const double gap = point(i).c[axis] - wall;
+            if (std::fabs(gap) <= error(point(i))) return false;
+            s = gap > 0 ? 1 : -1;
+        }
+        signs[i] = static_cast<std::int8_t>(s);
+        below = below || s < 0;
+        above = above || s > 0;
+    }
+    if (!(high ? above : below)) return true;  // nothing is beyond the wall
+    was_clipped_ = true;
+    if (!(high ? below : above)) {
+        clipped_.size = 0;
+        return true;
+    }
+    const auto line = static_cast<PlainLine>(first_wall_line + 2 * static_cast<int>(axis) +
+                                             static_cast<int>(high));
+    std::array<std::int16_t, 2> cuts{};
+    std::size_t made = 0;
+    for (std::size_t i = 0; i < from.size; ++i) {
+        const std::size_t next = i + 1 < from.size ? i + 1 : 0;
+        if (signs[i] == signs[next]) continue;
+        if (made == 2) return false;
+        PlainVertex x;
+        if (!interpolate(point(i), point(i).c[axis] - wall, point(next), point(next).c[axis] - wall,
+                         error(point(i)) + error(point(next)), x.at))
+            return false;
+        x.lines = {from.lines[i], line};
+        cuts[made++] = static_cast<std::int16_t>(vertices_.size());
+        vertices_.push_back(x);
+    }
+    PlainPart rest;
+    divide(from, line, signs, cuts, high ? clipped_ : rest, high ? rest : clipped_);
+    return true;
+}
+
+bool PlainCutting::clip_to_cell() {
+    const PlainFacet& f = (*facets_)[item_];
+    if (f.contained) return true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (clipped_.size != 0 && f.lo[k] < facets_->inner_lo()[k] && !clip_at(k, false))
+            return false;
+        if (clipped_.size != 0 && f.hi[k] > facets_->inner_hi()[k] && !clip_at(k, true))
+            return false;
+    }
+    return true;
+}
+
+// --- Winding numbers.
+
+bool PlainCutting::trace_start() {
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        start_ = middle_of(clipped_, attempt);
+        if (!windings_->at_point(start_, (*facets_)[item_].operand, *stats_, start_windings_))
+            continue;
+        bool sure = true;
+        start_sides_.clear();
+        for (const PlainContact& c : contacts_) {
+            start_sides_.push_back(static_cast<std::int8_t>(facets_->plane(c.other).sign(start_)));
+            sure = sure && start_sides_.back() != 0;
+        }
+        if (sure) return true;
+    }
+    return false;
+}
+
+// Winding numbers of the other operands at some point of the item.
+bool PlainCutting::set_start() {
+    const PlainWindings::Anchor anchor = windings_->anchor_of(item_, *stats_);
+    if (anchor.windings < 0) return trace_start();
+    const auto known = windings_->windings(anchor.windings);
+    start_windings_.assign(known.begin(), known.end());
+    const auto corner = static_cast<std::size_t>(anchor.corner);
+    start_ = vertices_[corner].at;
+    start_sides_.clear();
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+        start_sides_.push_back(crossing_of(c).sides[contacts_[c].is_second ? 1 : 0][corner]);
+    return true;
+}
+
+// How winding numbers change on the straight way from the start to a point of the item.
+bool PlainCutting::change_to(const Approximation& middle, std::size_t begin, std::size_t end,
+                             int& change) {
+    change = 0;
+    for (std::size_t c = begin; c < end; ++c) {
+        const PlainPlane& plane = facets_->plane(contacts_[c].other);
+        const int at_end = plane.sign(middle);
+        if (at_end == 0) return false;
+        const int at_start = start_sides_[c];
+        if (at_start == at_end) continue;
+        Approximation x;
+        if (!interpolate(start_, plane.value(start_.c), middle, plane.value(middle.c),
+                         plane.error(start_) + plane.error(middle), x))
+            return false;
+        const auto& segment = crossing_of(c).ends;
+        const std::size_t axis = longest_axis(segment[0].at, segment[1].at);
+        const int first = compare_along(axis, x, segment[0].at);
+        const int second = compare_along(axis, x, segment[1].at);
+        if (first == 0 || second == 0) return false;
+        if (first != second) change += at_start * (*facets_)[contacts_[c].other].orientation;
+    }
+    return true;
+}
+
+bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::size_t begin,
+                              std::size_t end) {
+    ++stats_->traces_within;
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        int change = 0;
+        if (!change_to(middle_of(part, attempt), begin, end, change)) continue;
+        const int w = start_windings_[LeafWork::u(operand)] + change;
+        above(part)[LeafWork::u(operand)] = w;
+        below(part)[LeafWork::u(operand)] = w;
+        return true;
+    }
+    return false;
+}
+
+void PlainCutting::settle(PlainPart& part) {
+    const int over = formula_->bound_at(above(part));
+    if (over < 0) return;
+    const int under = formula_->bound_at(below(part));
+    if (under < 0) return;
+    part.state = over == under ? PlainPart::State::Dropped : PlainPart::State::Kept;
+    part.inside_above = over == 1;
+}
+
+// --- Items.
+
+PlainCutting::Result PlainCutting::whole(LeafIndex item) {
+    const PlainFacet& f = (*facets_)[item];
+    LeafIndex windings = windings_->anchor_of(item, *stats_).windings;
+    const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
+    if (windings >= 0 && windings == last_windings_ && key == last_key_) return last_result_;
+    if (windings < 0) {
+        if (!f.contained && certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
+            return {};
+        if (!start_item(item) || !clip_to_cell()) return {Remains::Doubtful, false};
+        if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
+        if (!trace_start()) return {Remains::Doubtful, false};
+        windings = windings_->remember(item, start_windings_);
+    }
+    sides_.clear();
+    count_ = 0;
+    PlainPart& part = add_part();
+    const auto known = windings_->windings(windings);
+    std::copy(known.begin(), known.end(), above(part).begin());
+    std::copy(known.begin(), known.end(), below(part).begin());
+    above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
+    below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
+    settle(part);
+    last_windings_ = windings;
+    last_key_ = key;
+    last_result_ = {};
+    if (part.state == PlainPart::State::Kept) last_result_ = {Remains::Uncut, part.inside_above};
+    return last_result_;
+}
+
+PlainCutting::Result PlainCutting::cut(LeafIndex item) {
+    constexpr Result doubtful{Remains::Doubtful, false};
+    if (!start_item(item) || !clip_to_cell()) return doubtful;
+    if (clipped_.size == 0) return {};
+    if (!set_start()) return doubtful;
+    const auto operand_at = [&](std::size_t c) { return (*facets_)[contacts_[c].other].operand; };
+    {
+        const PlainFacet& f = (*facets_)[item];
+        PlainPart& part = add_part();
+        const std::size_t sides = part.sides;
+        part = clipped_;
+        part.state = PlainPart::State::Open;
+        part.sides = sides;
+        std::copy(start_windings_.begin(), start_windings_.end(), above(part).begin());
+        for (std::size_t c = 0; c < contacts_.size(); ++c)
+            above(part)[LeafWork::u(operand_at(c))] = unknown_winding;
+        std::copy_n(above(part).begin(), n_, below(part).begin());
+        above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
+        below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
+        const int over = formula_->bound_at(above(part));
+        if (over >= 0 && over == formula_->bound_at(below(part))) return {};
+        settle(part);
+    }
+    for (std::size_t begin = 0; begin < contacts_.size();) {
+        std::size_t end = begin + 1;
+        while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
+        if (!cut_by(operand_at(begin), begin, end)) return doubtful;
+        begin = end;
+    }
+    stats_->pieces += count_;
+    return remains();
+}
+
+bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end) {
+    const std::size_t o = LeafWork::u(operand);
+    const std::size_t before = count_;
+    for (std::size_t k = 0; k < before; ++k) {
+        if (parts_[k].state != PlainPart::State::Open) continue;
+        const bool above_matters = formula_->bound_at(above(parts_[k])) < 0;
+        const bool below_matters = formula_->bound_at(below(parts_[k])) < 0;
+        const std::size_t first = count_;
+        {
+            const std::size_t sides = add_part().sides;
+            parts_[first] = parts_[k];
+            parts_[first].sides = sides;
+            std::copy_n(above(parts_[k]).begin(), 2 * n_, above(parts_[first]).begin());
+        }
+        // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+        bool sure = first == 1 && (*facets_)[item_].contained;
+        for (std::size_t c = begin; c < end; ++c) {
+            const std::size_t last = count_;
+            for (std::size_t j = first; j < last; ++j)
+                if (split(j, c, sure) == Split::Doubtful) return false;
+            sure = false;
+        }
+        for (std::size_t j = first; j < count_; ++j)
+            if (!find_sides(parts_[j], operand, begin, end)) return false;
+        if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
+            // Undone, if anything was cut.
+            PlainPart& part = parts_[k];
+            if (above_matters) above(part)[o] = above(parts_[first])[o];
+            if (below_matters) below(part)[o] = below(parts_[first])[o];
+            if (count_ > first + 1) ++stats_->cuts_undone;
+            count_ = first;
+            settle(part);
+            continue;
+        }
+        for (std::size_t j = first; j < count_; ++j) settle(parts_[j]);
+        // The first of the new parts takes the place of the old one, the last one its place.
+        parts_[k] = parts_[first];
+        --count_;
+        if (first != count_) parts_[first] = parts_[count_];
+    }
+    return true;
+}
+
+bool PlainCutting::same_sides(std::size_t first, LeafIndex operand, bool above_matters,
+                              bool below_matters) const {
+    const std::size_t o = LeafWork::u(operand);
+    const auto over = [&](std::size_t j) { return sides_[parts_[j].sides + o]; };
+    const auto under = [&](std::size_t j) { return sides_[parts_[j].sides + n_ + o]; };
+    for (std::size_t j = first + 1; j < count_; ++j)
+        if ((above_matters && over(j) != over(first)) ||
+            (below_matters && under(j) != under(first)))
+            return false;
+    return true;
+}
+
+PlainCutting::Result PlainCutting::remains() const {
+    std::size_t kept = 0;
+    bool uniform = true;
+    bool inside_above = false;
+    for (const PlainPart& p : parts()) {
+        if (p.state == PlainPart::State::Open) return {Remains::Doubtful, false};
+        if (p.state == PlainPart::State::Dropped) continue;
+        if (kept++ == 0) inside_above = p.inside_above;
+        uniform = uniform && p.inside_above == inside_above;
+    }
+    if (kept == 0) return {};
+    if (kept == count_ && uniform) return {Remains::Uncut, inside_above};
+    return {Remains::Parts, false};
+}
+
+PolygonRef PlainCutting::fragment(const PlainPart& part) const {
+    const PlainFacet& f = (*facets_)[item_];
+    const Cell& cell = facets_->problem().cell;
+    std::vector<EdgeName> edges;
+    edges.reserve(part.size);
+    Box box;
+    for (std::size_t i = 0; i < part.size; ++i) {
+        const PlainLine line = part.lines[i];
+        PlaneName name;
+        if (line < first_wall_line) {
+            name = PlaneName::edge(f.ref.source, f.ref.facet, line);
+        } else if (line < first_contact_line) {
+            const int wall = line - first_wall_line;
+            const auto axis = static_cast<std::size_t>(wall / 2);
+            name = PlaneName::wall(wall / 2, wall % 2 != 0 ? cell.hi[axis] : cell.lo[axis]);
+        } else {
+            const PlainContact& c = contacts_[static_cast<std::size_t>(line - first_contact_line)];
+            const PolygonRef& other = (*facets_)[c.other].ref;
+            name = PlaneName::support(other.source, other.facet);
+        }
+        edges.push_back({name, (part.above >> i & 1U) != 0});
+        const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto low = static_cast<std::int64_t>(std::floor(a.c[k] - a.error));
+            const auto high = static_cast<std::int64_t>(std::ceil(a.c[k] + a.error));
+            box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + low);
+            box.hi[k] = std::max(box.hi[k], facets_->origin()[k] + high);
+        }
+    }
+    PolygonRef out = f.ref;
+    out.fragment = new Fragment(std::move(edges), box);
+    return out;
+}
+
+}  // namespace trisect::detail

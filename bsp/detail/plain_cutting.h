@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cutting facets of leaves in general position (plain_leaf.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/detail/leaf_formula.h>
+#include <trisect/bsp/detail/plain_facets.h>
+#include <trisect/bsp/detail/plain_pairs.h>
+#include <trisect/bsp/detail/plain_windings.h>
+
+namespace trisect::detail {
+
+/// A line in the support of an item: 0 to 2 the item's edges, then the cell's walls (3 + 2 · axis,
+/// the upper one 1 more), then its contacts in their order.
+using PlainLine = std::int16_t;
+inline constexpr PlainLine first_wall_line = 3;
+inline constexpr PlainLine first_contact_line = 9;
+
+/// A vertex of a part: where two lines meet.
+struct PlainVertex {
+    Approximation at;
+    std::array<PlainLine, 2> lines{-1, -1};
+    /// When an edge of a cutter's mesh pierces the item here, so that all its facets pass: its
+    /// sheet and its ends.
+    LeafIndex sheet = -1;
+    std::array<std::uint32_t, 2> pierced{};
+};
+
+/// A convex part of an item, counter-clockwise: `lines[i]` runs from vertex i to the next one.
+struct PlainPart {
+    static constexpr std::size_t max_size = 24;
+    enum class State : std::uint8_t { Open, Kept, Dropped };
+
+    std::uint8_t size = 0;
+    State state = State::Open;
+    bool inside_above = false;
+    std::uint32_t above = 0;  ///< bit i: the part lies above the plane of line i instead of below
+    std::array<std::int16_t, max_size> vertices{};
+    std::array<PlainLine, max_size> lines{};
+    std::size_t sides = 0;  ///< place of its winding numbers
+
+    void add(std::int16_t vertex, PlainLine line, bool is_above) {
+        vertices[size] = vertex;
+        lines[size] = line;
+        above |= static_cast<std::uint32_t>(is_above ? 1 : 0) << size;
+        ++size;
+    }
+};
+
+/// Cuts an item by the other operands, one after the other, and no more than the result needs: what
+/// LeafCutting does, on doubles and names. Points on a line have zero distance by name, all others
+/// must be told by their doubles. Keeps its memory.
+class PlainCutting {
+public:
+    /// \pre contacts are known. `formula` must outlive the leaf.
+    void start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
+               LeafFormula& formula, EvaluateStats& stats);
+
+    /// What is left of an item. `Doubtful`: doubles cannot tell.
+    enum class Remains : std::uint8_t { Doubtful, Nothing, Uncut, Parts };
+    struct Result {
+        Remains kind = Remains::Nothing;
+        bool inside_above = false;  ///< of an uncut one
+    };
+    /// An item that something crosses. Its parts are in parts() until the next call.
+    [[nodiscard]] Result cut(LeafIndex item);
+    /// An item that nothing crosses: does it bound the result?
+    [[nodiscard]] Result whole(LeafIndex item);
+
+    [[nodiscard]] std::span<const PlainPart> parts() const { return {parts_.data(), count_}; }
+    /// The polygon of the last item with its part in the cell, or with one of its parts, as its
+    /// fragment.
+    [[nodiscard]] PolygonRef fragment(const PlainPart& part) const;
+    /// The part of the last item in the cell.
+    [[nodiscard]] const PlainPart& clipped() const { return clipped_; }
+    /// Whether the cell's walls cut anything off the last item.
+    [[nodiscard]] bool was_clipped() const { return was_clipped_; }
+
+private:
+    using Signs = std::array<std::int8_t, PlainPart::max_size>;
+    enum class Split : std::uint8_t { Doubtful, Missed, Done };
+
+    [[nodiscard]] bool start_item(LeafIndex item);
+    [[nodiscard]] bool clip_to_cell();
+    [[nodiscard]] bool clip_at(std::size_t axis, bool high);
+    [[nodiscard]] bool set_start();
+    [[nodiscard]] bool trace_start();
+    [[nodiscard]] bool cut_by(LeafIndex operand, std::size_t begin, std::size_t end);
+    [[nodiscard]] Split split(std::size_t part, std::size_t contact, bool sure);
+    void divide(const PlainPart& from, PlainLine line, const Signs& signs,
+                const std::array<std::int16_t, 2>& cuts, PlainPart& below, PlainPart& above) const;
+    [[nodiscard]] bool find_sides(const PlainPart& part, LeafIndex operand, std::size_t begin,
+                                  std::size_t end);
+    [[nodiscard]] bool change_to(const Approximation& middle, std::size_t begin, std::size_t end,
+                                 int& change);
+    [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
+                                  bool below_matters) const;
+    void settle(PlainPart& part);
+    [[nodiscard]] Result remains() const;
+
+    [[nodiscard]] const PlainContact& contact(std::size_t c) const { return contacts_[c]; }
+    [[nodiscard]] const PlainCrossing& crossing_of(std::size_t c) const {
+        return pairs_->crossing(contacts_[c].crossing);
+    }
+    [[nodiscard]] PlainLine line_of(std::size_t contact) const {
+        return static_cast<PlainLine>(first_contact_line + line_[contact]);
+    }
+    [[nodiscard]] bool join_coplanar();
+    [[nodiscard]] int sign_at(std::int16_t vertex, std::size_t contact);
+    [[nodiscard]] bool passes(const PlainVertex& vertex, std::size_t contact) const;
+    [[nodiscard]] bool is_end(const PlainVertex& vertex, std::size_t contact,
+                              const PlainEnd& end) const;
+    void name_pierced_edge(PlainVertex& vertex) const;
+    [[nodiscard]] Approximation middle_of(const PlainPart& part, int attempt) const;
+    [[nodiscard]] std::span<int> above(const PlainPart& p) { return {&sides_[p.sides], n_}; }
+    [[nodiscard]] std::span<int> below(const PlainPart& p) { return {&sides_[p.sides + n_], n_}; }
+    PlainPart& add_part();
+
+    PlainFacets* facets_ = nullptr;
+    const PlainPairs* pairs_ = nullptr;
+    PlainWindings* windings_ = nullptr;
+    LeafFormula* formula_ = nullptr;
+    EvaluateStats* stats_ = nullptr;
+    std::size_t n_ = 0;  // operands
+    LeafIndex item_ = -1;
+    std::span<const PlainContact> contacts_;
+    std::vector<std::int16_t> line_;  // of a contact: the first one in the same plane
+    std::vector<PlainVertex> vertices_;
+    std::vector<PlainPart> parts_;  // the first count_ are in use
+    std::size_t count_ = 0;
+    std::vector<int> sides_;  // above and below of one part after the other
+    PlainPart clipped_;
+    bool was_clipped_ = false;
+    // Where the item's windings are known, and on which side of every contact that is.
+    std::vector<int> start_windings_;
+    Approximation start_;
+    std::vector<std::int8_t> start_sides_;
+    // The last answer of whole(): most items hang together with the one before.
+    LeafIndex last_windings_ = -1;
+    int last_key_ = 0;
+    Result last_result_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bounds. The value of a plane at a point is the determinant of Shewchuk ("Adaptive precision
+// floating-point arithmetic", 1997, orient3d), developed along the row of the point: it errs by at
+// most (7 + 56 ε) ε times the permanent, ε = 2^-53, rounded differences included. Here 8 ε times
+// the permanent for the farthest point that the leaf has. A point that is off by e changes the
+// value by at most e times the sum of the normal's components, whose magnitudes the minors'
+// permanents bound.
+
+#include <trisect/bsp/detail/plain_facets.h>
+
+#include <algorithm>
+
+namespace trisect::detail {
+
+namespace {
+
+// Differences of lattice positions up to this are exact.
+constexpr double exact_limit = 0x1p53;
+
+}  // namespace
+
+void PlainFacets::set_origin(const LatticePoint& origin) {
+    const Cell& cell = problem_->cell;
+    origin_ = {origin.x, origin.y, origin.z};
+    reference_.error = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto from_origin = [&](std::int64_t fine) {
+            return static_cast<double>(fine - origin_[k] * wall_scale) *
+                   (1.0 / static_cast<double>(wall_scale));
+        };
+        wall_lo_[k] = from_origin(cell.lo[k]);
+        wall_hi_[k] = from_origin(cell.hi[k]);
+        reference_.c[k] = from_origin(problem_->reference.c[k]);
+        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * 0x1p-53);
+        const auto inner = [&](std::int64_t c) {
+            return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
+        };
+        inner_lo_[k] = inner((cell.lo[k] >> wall_bits) + 1);
+        inner_hi_[k] = inner(cell.hi[k] >> wall_bits);
+    }
+}
+
+bool PlainFacets::list(const LeafProblem& leaf) {
+    problem_ = &leaf;
+    facets_.clear();
+    sheets_.clear();
+    for (const LeafOperand& o : leaf.operands) {
+        if (!o.embedded) return false;
+        for (const PolygonRef& r : o.polygons)
+            if (r.fragment != nullptr || r.source->is_half_space()) return false;
+    }
+    bool has_origin = false;
+    // Of all points that a plane is asked about.
+    Vector3 low{};
+    Vector3 high{};
+    for (std::size_t o = 0; o < leaf.operands.size(); ++o) {
+        const LeafOperand& operand = leaf.operands[o];
+        const auto number = static_cast<LeafIndex>(o);
+        const Source* source = nullptr;
+        LeafIndex sheet = -1;
+        for (const PolygonRef& ref : operand.polygons) {
+            if (!has_origin) {
+                set_origin(ref.source->corner(ref.facet, 0));
+                low = high = reference_.c;
+                has_origin = true;
+            }
+            if (ref.source != source) {
+                source = ref.source;
+                sheet = sheets_
+                            .insert({reinterpret_cast<std::uintptr_t>(source),
+                                     static_cast<std::uint32_t>(o)},
+                                    static_cast<LeafIndex>(sheets_.size()))
+                            .first;
+            }
+            add(ref, operand, number, sheet);
+            PlainFacet& f = facets_.back();
+            f.contained = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], f.lo[k]);
+                high[k] = std::max(high[k], f.hi[k]);
+                f.contained = f.contained && f.lo[k] >= inner_lo_[k] && f.hi[k] <= inner_hi_[k];
+                // A cell without lattice points still has an inside: keep one unit around it.
+                f.lo[k] = std::max(f.lo[k], inner_lo_[k] - 1);
+                f.hi[k] = std::min(f.hi[k], inner_hi_[k] + 1);
+            }
+        }
+    }
+    bool small = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        small = small && low[k] > -exact_limit && high[k] < exact_limit;
+        extent_[k] = high[k] - low[k] + 1;
+    }
+    return small;
+}
+
+void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
+                      LeafIndex sheet) {
+    PlainFacet& f = facets_.emplace_back();
+    f.ref = ref;
+    f.ref.flipped = ref.flipped != operand.flipped;
+    f.orientation = f.ref.flipped ? -1 : 1;
+    f.operand = number;
+    f.sheet = sheet;
+    const LatticeMesh& mesh = ref.source->mesh();
+    f.vertices = mesh.triangles[ref.facet];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const LatticePoint& p = mesh.points[f.vertices[i]];
+        f.corners[i] = {static_cast<double>(p.x - origin_[0]),
+                        static_cast<double>(p.y - origin_[1]),
+                        static_cast<double>(p.z - origin_[2])};
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.lo[k] = std::min({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
+        f.hi[k] = std::max({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
+    }
+}
+
+void PlainFacets::make_plane(PlainFacet& f) const {
+    Vector3 u;
+    Vector3 v;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = f.corners[1][k] - f.corners[0][k];
+        v[k] = f.corners[2][k] - f.corners[0][k];
+    }
+    PlainPlane& p = f.plane;
+    p.origin = f.corners[0];
+    double permanent = 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        const double s = u[i] * v[j];
+        const double t = u[j] * v[i];
+        p.normal[k] = s - t;
+        const double minor = std::fabs(s) + std::fabs(t);
+        permanent += minor * extent_[k];
+        sum += minor;
+    }
+    p.bound = 0x1p-50 * permanent;
+    p.slope = 1.0001 * sum;
+}
+
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+    Vector3 p;
+    Vector3 q;
+    Vector3 r;
+    for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = a[k] - d[k];
+        q[k] = b[k] - d[k];
+        r[k] = c[k] - d[k];
+    }
+    double sum = 0;
+    double permanent = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        const double s = q[i] * r[j];
+        const double t = q[j] * r[i];
+        sum += p[k] * (s - t);
+        permanent += std::fabs(p[k]) * (std::fabs(s) + std::fabs(t));
+    }
+    const double error = 0x1p-50 * permanent;
+    return sum > error ? 1 : (sum < -error ? -1 : 0);
+}
+
+}  // namespace trisect::detail

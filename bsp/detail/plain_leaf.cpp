@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What leaf_arrangement.cpp does, for the common case that needs no more than doubles. There every
+// facet gets planes in wide integers, its points get names in hash tables, and every question may
+// end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
+// points exactly, pairs of facets by orientations of corners, and constructed points by doubles
+// with a bound. A point on a line that was cut before is known to be on it by name
+// (plain_cutting.cpp); every other sign that doubles cannot tell ends the attempt, and the leaf is
+// arranged the long way. So the short way never decides anything that it does not know; leaves with
+// touching or coincident facets lose the attempt, which mostly ends at the first such pair.
+//
+// EvaluateStats::plain_leaves counts the leaves that it served.
+
+#include <trisect/bsp/detail/plain_leaf.h>
+
+#include <trisect/bsp/detail/leaf_formula.h>
+
+namespace trisect::detail {
+
+bool PlainLeaf::arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+                        std::vector<PolygonRef>& out) {
+    if (!facets_.list(problem)) return false;
+    const EvaluateStats before = stats;
+    const std::size_t first = out.size();
+    bool done = false;
+    const auto undo = [&] {
+        stats = before;
+        std::vector<PolygonRef> made(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
+        const PolygonList freed(std::move(made));  // the fragments made so far
+        out.resize(first);
+    };
+    try {
+        done = arrange_listed(problem, values, stats, out);
+    } catch (...) {
+        undo();
+        throw;
+    }
+    if (!done) undo();
+    return done;
+}
+
+bool PlainLeaf::arrange_listed(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out) {
+    if (!pairs_.relate_all(facets_, stats)) return false;
+    windings_.start(facets_, pairs_);
+    LeafFormula formula(problem, values);
+    cutting_.start(facets_, pairs_, windings_, formula, stats);
+    for (LeafIndex i = 0; i < facets_.size(); ++i) {
+        const bool crossed = !pairs_.contacts(i).empty();
+        if (crossed) {
+            facets_[i].ref.touched = true;
+        } else if (!facets_[i].ref.touched) {
+            ++stats.untouched_polygons;
+        }
+        const PlainCutting::Result result = crossed ? cutting_.cut(i) : cutting_.whole(i);
+        if (result.kind == PlainCutting::Remains::Doubtful) return false;
+        emit(i, result, out);
+    }
+    ++stats.mixed_leaves;
+    ++stats.plain_leaves;
+    return true;
+}
+
+// The outside faces upwards, unless flipped.
+void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result,
+                     std::vector<PolygonRef>& out) {
+    const auto add = [&](PolygonRef ref, bool inside_above) {
+        ref.flipped = inside_above;
+        out.push_back(ref);
+    };
+    if (result.kind == PlainCutting::Remains::Uncut) {
+        // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a facet
+        // within the cell stays whole.
+        const bool part = !pairs_.contacts(item).empty() && cutting_.was_clipped();
+        add(part ? cutting_.fragment(cutting_.clipped()) : facets_[item].ref, result.inside_above);
+    } else if (result.kind == PlainCutting::Remains::Parts) {
+        for (const PlainPart& p : cutting_.parts())
+            if (p.state == PlainPart::State::Kept) add(cutting_.fragment(p), p.inside_above);
+    }
+}
+
+}  // namespace trisect::detail

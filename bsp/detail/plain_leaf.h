@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Leaf arrangement in general position.
+#pragma once
+
+#include <vector>
+
+#include <trisect/bsp/detail/leaf_problem.h>
+#include <trisect/bsp/detail/plain_cutting.h>
+#include <trisect/bsp/detail/plain_facets.h>
+#include <trisect/bsp/detail/plain_pairs.h>
+#include <trisect/bsp/detail/plain_windings.h>
+
+namespace trisect::detail {
+
+/// Arranges leaves of whole facets of embedded operands where nothing of two operands touches
+/// without crossing: no corner on another one's facet, no two edges that meet, no coincident
+/// planes. Most leaves of meshes are of that kind. Keeps its memory from leaf to leaf; what it
+/// returns depends on the problem alone.
+class PlainLeaf {
+public:
+    /// Appends what bounds the result. False when the leaf is of another kind or doubles cannot
+    /// tell; then `out` and `stats` are as before. `values` is scratch as in LeafArranger.
+    [[nodiscard]] bool arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out);
+
+private:
+    [[nodiscard]] bool arrange_listed(const LeafProblem& problem, SlotValues& values,
+                                      EvaluateStats& stats, std::vector<PolygonRef>& out);
+    void emit(LeafIndex item, const PlainCutting::Result& result, std::vector<PolygonRef>& out);
+
+    PlainFacets facets_;
+    PlainPairs pairs_;
+    PlainWindings windings_;
+    PlainCutting cutting_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two facets in general position meet in a segment or not at all. Both meet the common line of
+// their supports in an interval, if their corners are on both sides of the other one's support.
+// With the corners numbered so that the first one is alone on its side, every end of an interval is
+// where an edge from that corner pierces the other support, and the order of two such points, one
+// of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
+// triangle-triangle overlap test using orientation predicates", 2003). Four orientations tell
+// whether the intervals overlap and which points are the ends of what they share. No plane in
+// integers is ever made.
+
+#include <trisect/bsp/detail/plain_pairs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trisect/bsp/detail/work_budget.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Corners of one facet with respect to the support of another one.
+struct Sides {
+    std::array<double, 3> value{};
+    double bound = 0;
+    int above = 0;
+    int below = 0;
+
+    Sides(const PlainPlane& plane, const std::array<Vector3, 3>& corners) : bound(plane.bound) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            value[i] = plane.value(corners[i]);
+            above += value[i] > bound ? 1 : 0;
+            below += value[i] < -bound ? 1 : 0;
+        }
+    }
+    [[nodiscard]] bool is_off() const { return above == 3 || below == 3; }
+    [[nodiscard]] bool is_sure() const { return above + below == 3; }
+    /// The corner that is alone on its side. \pre is_sure() and not is_off()
+    [[nodiscard]] std::size_t lonely() const {
+        const bool up = above == 1;
+        return (value[0] > 0) == up ? 0 : ((value[1] > 0) == up ? 1 : 2);
+    }
+};
+
+// A facet's corners, the lonely one first, and turned over if need be so that the other facet's
+// lonely corner is above it.
+struct Numbered {
+    std::array<std::size_t, 3> corner;
+    const std::array<Vector3, 3>& points;
+
+    Numbered(const std::array<Vector3, 3>& all, std::size_t lonely, bool turned) : points(all) {
+        corner = {lonely, (lonely + 1) % 3, (lonely + 2) % 3};
+        if (turned) std::swap(corner[1], corner[2]);
+    }
+    [[nodiscard]] const Vector3& operator[](std::size_t i) const { return points[corner[i]]; }
+    /// The edge between the lonely corner and another one.
+    [[nodiscard]] std::int8_t edge_to(std::size_t i) const {
+        const std::size_t a = corner[0];
+        const std::size_t b = corner[i];
+        return static_cast<std::int8_t>(b == (a + 1) % 3 ? a : b);
+    }
+};
+
+Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
+
+// Where the edge from the lonely corner to corner i pierces the other support.
+bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation& x) {
+    return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
+                       sides.value[t.corner[i]], 2 * sides.bound, x);
+}
+
+// Surely: a segment on a wall is not.
+bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double low = facets.wall_lo()[k];
+        const double high = facets.wall_hi()[k];
+        const double slack = 2 * (a.error + b.error) + 0x1p-50 * (std::fabs(low) + std::fabs(high));
+        if (std::max(a.c[k], b.c[k]) + slack < low || std::min(a.c[k], b.c[k]) - slack > high)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+// Facets that may meet one of another operand, sorted along the axis on which the fewest boxes
+// overlap: where their lengths sum up to the smallest part of the whole extent.
+void PlainPairs::list_candidates(const PlainFacets& facets) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::size_t n = facets.operand_count();
+    candidates_.clear();
+    // With many operands the boxes of the others overlap nearly everything.
+    const bool compare = n <= 8;
+    reach_.assign(n, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
+    for (LeafIndex i = 0; i < facets.size(); ++i) {
+        const PlainFacet& f = facets[i];
+        auto& [lo, hi] = reach_[LeafWork::u(f.operand)];
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], f.lo[k]);
+            hi[k] = std::max(hi[k], f.hi[k]);
+        }
+    }
+    Vector3 lengths{};
+    Vector3 low{infinity, infinity, infinity};
+    Vector3 high{-infinity, -infinity, -infinity};
+    for (LeafIndex i = 0; i < facets.size(); ++i) {
+        const PlainFacet& f = facets[i];
+        bool candidate = !compare;
+        for (std::size_t o = 0; o < n && !candidate; ++o)
+            candidate = o != LeafWork::u(f.operand) && f.meets(reach_[o].first, reach_[o].second);
+        if (!candidate) continue;
+        candidates_.push_back({0, 0, i, f.operand});
+        for (std::size_t k = 0; k < 3; ++k) {
+            lengths[k] += f.hi[k] - f.lo[k];
+            low[k] = std::min(low[k], f.lo[k]);
+            high[k] = std::max(high[k], f.hi[k]);
+        }
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (lengths[k] * (high[axis] - low[axis] + 1) < lengths[axis] * (high[k] - low[k] + 1))
+            axis = k;
+    for (Candidate& c : candidates_) {
+        c.lo = facets[c.item].lo[axis];
+        c.hi = facets[c.item].hi[axis];
+    }
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+        return a.lo != b.lo ? a.lo < b.lo : a.item < b.item;
+    });
+}
+
+bool PlainPairs::relate_all(PlainFacets& facets, EvaluateStats& stats) {
+    crossings_.clear();
+    list_candidates(facets);
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        check_budget(*facets.problem().options, stats);
+        const Candidate& a = candidates_[i];
+        const PlainFacet& f = facets[a.item];
+        for (std::size_t j = i + 1; j < candidates_.size() && candidates_[j].lo <= a.hi; ++j) {
+            const Candidate& b = candidates_[j];
+            if (a.operand == b.operand || !f.meets(facets[b.item].lo, facets[b.item].hi)) continue;
+            ++stats.pairs_boxes;
+            PlainCrossing crossing;
+            const Relation r =
+                relate(facets, std::min(a.item, b.item), std::max(a.item, b.item), crossing);
+            if (r == Relation::Doubtful) return false;
+            if (r == Relation::Apart) continue;
+            if (is_outside_cell(facets, crossing.ends[0].at, crossing.ends[1].at))
+                continue;  // in this cell the two are as if they did not meet
+            crossings_.push_back(crossing);
+        }
+    }
+    stats.pairs_touching += crossings_.size();
+    stats.pairs_cutting += crossings_.size();
+    list_contacts(facets.size());
+    return true;
+}
+
+PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                        PlainCrossing& out) const {
+    const PlainFacet& a = facets[s];
+    const PlainFacet& b = facets[t];
+    const Sides of_b(facets.plane(s), b.corners);
+    if (of_b.is_off()) return Relation::Apart;
+    const Sides of_a(facets.plane(t), a.corners);
+    if (of_a.is_off()) return Relation::Apart;
+    if (!of_a.is_sure() || !of_b.is_sure()) return Relation::Doubtful;
+    const std::size_t lonely_a = of_a.lonely();
+    const std::size_t lonely_b = of_b.lonely();
+    const Numbered p(a.corners, lonely_a, of_b.value[lonely_b] < 0);
+    const Numbered q(b.corners, lonely_b, of_a.value[lonely_a] < 0);
+    // The interval of a runs from its edge to corner 2 to that to corner 1, the one of b from 1 to
+    // 2. order(i, j) > 0: along the line, b's edge to corner j comes before a's to corner i.
+    const auto order = [&](std::size_t i, std::size_t j) {
+        return orientation(p[0], p[i], q[0], q[j]);
+    };
+    const int start_of_b = order(1, 1);
+    if (start_of_b < 0) return Relation::Apart;
+    const int start_of_a = order(2, 2);
+    if (start_of_a > 0) return Relation::Apart;
+    const int starts = order(2, 1);
+    const int ends = order(1, 2);
+    if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0) return Relation::Doubtful;
+    out.items = {s, t};
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.sides[0][i] = of_a.value[i] > 0 ? 1 : -1;
+        out.sides[1][i] = of_b.value[i] > 0 ? 1 : -1;
+    }
+    const auto set_end = [&](PlainEnd& end, bool of_second, std::size_t corner) {
+        end.of_second = of_second;
+        end.edge = (of_second ? q : p).edge_to(corner);
+        return of_second ? pierce(q, of_b, corner, end.at) : pierce(p, of_a, corner, end.at);
+    };
+    // The later start and the earlier end.
+    const bool sure = set_end(out.ends[0], starts < 0, starts < 0 ? 1 : 2) &&
+                      set_end(out.ends[1], ends > 0, ends > 0 ? 2 : 1);
+    return sure ? Relation::Crossing : Relation::Doubtful;
+}
+
+// Counting sort by item: `first_contact_[i + 1]` runs from the start of item i to its end.
+void PlainPairs::list_contacts(LeafIndex count) {
+    first_contact_.assign(LeafWork::u(count) + 1, 0);
+    for (const PlainCrossing& c : crossings_)
+        for (const LeafIndex i : c.items) ++first_contact_[LeafWork::u(i) + 1];
+    std::size_t before = 0;
+    for (std::size_t i = 1; i < first_contact_.size(); ++i) {
+        const std::size_t n = first_contact_[i];
+        first_contact_[i] = before;
+        before += n;
+    }
+    contacts_.resize(2 * crossings_.size());
+    for (std::size_t c = 0; c < crossings_.size(); ++c) {
+        const auto& items = crossings_[c].items;
+        for (std::size_t i = 0; i < 2; ++i)
+            contacts_[first_contact_[LeafWork::u(items[i]) + 1]++] = {
+                items[1 - i], static_cast<std::int32_t>(c), i == 1};
+    }
+    for (std::size_t i = 0; i + 1 < first_contact_.size(); ++i) {
+        if (first_contact_[i + 1] - first_contact_[i] < 2) continue;
+        const auto at = [&](std::size_t k) {
+            return contacts_.begin() + static_cast<std::ptrdiff_t>(first_contact_[k]);
+        };
+        std::sort(at(i), at(i + 1),
+                  [](const PlainContact& a, const PlainContact& b) { return a.other < b.other; });
+    }
+}
+
+}  // namespace trisect::detail

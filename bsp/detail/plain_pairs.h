@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Pairs of facets that cross, in leaves in general position (plain_leaf.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/detail/plain_facets.h>
+
+namespace trisect::detail {
+
+/// An end of the segment that two facets have in common: an edge of one pierces the other.
+struct PlainEnd {
+    bool of_second = false;  ///< whose edge it is
+    std::int8_t edge = 0;    ///< from that corner to the next one
+    Approximation at;
+};
+
+/// Two facets that cross in a segment, each with its corners off the other one's support.
+struct PlainCrossing {
+    std::array<LeafIndex, 2> items{};
+    std::array<std::array<std::int8_t, 3>, 2> sides{};  ///< of the corners of each, ±1
+    std::array<PlainEnd, 2> ends;
+};
+
+/// A crossing, seen from one of its facets.
+struct PlainContact {
+    LeafIndex other = 0;
+    std::int32_t crossing = 0;
+    bool is_second = false;  ///< the facet from which it is seen
+};
+
+/// Compares all facets of different operands whose boxes meet; keeps its memory.
+class PlainPairs {
+public:
+    /// False when doubles cannot tell about some pair. Counts pairs.
+    [[nodiscard]] bool relate_all(PlainFacets& facets, EvaluateStats& stats);
+
+    [[nodiscard]] const PlainCrossing& crossing(std::int32_t i) const {
+        return crossings_[static_cast<std::size_t>(i)];
+    }
+    /// Contacts of an item, by ascending `other`.
+    [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
+        const auto i = LeafWork::u(item);
+        return {contacts_.data() + first_contact_[i], contacts_.data() + first_contact_[i + 1]};
+    }
+
+private:
+    enum class Relation : std::uint8_t { Apart, Crossing, Doubtful };
+    struct Candidate {
+        double lo = 0;
+        double hi = 0;
+        LeafIndex item = 0;
+        LeafIndex operand = 0;
+    };
+    void list_candidates(const PlainFacets& facets);
+    [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                  PlainCrossing& out) const;
+    void list_contacts(LeafIndex count);
+
+    std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
+    std::vector<Candidate> candidates_;
+    std::vector<PlainCrossing> crossings_;
+    std::vector<PlainContact> contacts_;
+    std::vector<std::size_t> first_contact_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A trace is a straight segment from the leaf's reference point; it counts the facets that it goes
+// through. Which side of a facet its ends are on tells the value of the facet's plane there;
+// whether it goes through the facet or beside it is seen along the axis that is nearest to the
+// normal. A segment so near to an edge that doubles cannot tell is given up.
+
+#include <trisect/bsp/detail/plain_windings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <trisect/bsp/detail/work_budget.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
+// doubles and with a margin.
+bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b) {
+    const Vector3& lo = facets.inner_lo();
+    const Vector3& hi = facets.inner_hi();
+    for (std::size_t k = 0; k < 3; ++k)
+        if (lo[k] > hi[k] || (a[k] < lo[k] && b[k] < lo[k]) || (a[k] > hi[k] && b[k] > hi[k]))
+            return false;
+    double from = 0;
+    double to = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double d = b[k] - a[k];
+        if (d == 0) continue;
+        const double s = (lo[k] - a[k]) / d;
+        const double t = (hi[k] - a[k]) / d;
+        from = std::max(from, std::min(s, t));
+        to = std::min(to, std::max(s, t));
+    }
+    return to - from > 0x1p-20;
+}
+
+// Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
+// outside, 0 when doubles cannot tell.
+int is_inside(const PlainFacet& f, const Approximation& x) {
+    const Vector3& n = f.plane.normal;
+    std::size_t k = std::fabs(n[0]) > std::fabs(n[1]) ? 0 : 1;
+    if (std::fabs(n[2]) > std::fabs(n[k])) k = 2;
+    // The sign of the largest component must be sure.
+    if (std::fabs(n[k]) <= 0x1p-50 * f.plane.slope) return 0;
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    int inside = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Vector3& a = f.corners[c];
+        const Vector3& b = f.corners[c == 2 ? 0 : c + 1];
+        const double u = b[i] - a[i];
+        const double v = b[j] - a[j];
+        const double s = u * (x.c[j] - a[j]);
+        const double t = v * (x.c[i] - a[i]);
+        const double m = n[k] > 0 ? s - t : t - s;
+        const double error = 0x1p-50 * (std::fabs(s) + std::fabs(t)) +
+                             1.0001 * x.error * (std::fabs(u) + std::fabs(v));
+        if (m < -error) return -1;
+        if (m <= error) inside = 0;
+    }
+    return inside;
+}
+
+}  // namespace
+
+void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
+    facets_ = &facets;
+    pairs_ = &pairs;
+    reference_ = facets.reference();
+    operands_ = facets.operand_count();
+    ids_.clear();
+    nodes_.clear();
+    known_.clear();
+    vertices_.resize(LeafWork::u(facets.size()));
+    first_.assign(LeafWork::u(facets.size()), -1);
+    for (LeafIndex i = 0; i < facets.size(); ++i) {
+        const PlainFacet& f = facets[i];
+        auto& vertices = vertices_[LeafWork::u(i)];
+        const bool free = pairs.contacts(i).empty();
+        const auto sheet = static_cast<std::uint32_t>(f.sheet);
+        for (std::size_t c = 0; c < 3; ++c) {
+            vertices[c] = -1;
+            if (!f.contained && !facets.in_cell(f.corners[c])) continue;
+            vertices[c] = node_of({f.vertices[c], sheet}, i, static_cast<int>(c));
+            if (free) join_item(i, vertices[c]);
+        }
+        if (!free || f.contained) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t d = c == 2 ? 0 : c + 1;
+            if (vertices[c] >= 0 || vertices[d] >= 0 ||
+                !runs_through(facets, f.corners[c], f.corners[d]))
+                continue;
+            const std::uint64_t v = std::min(f.vertices[c], f.vertices[d]);
+            const std::uint64_t w = std::max(f.vertices[c], f.vertices[d]);
+            join_item(i, node_of({(w + 1) << 32 | v, sheet}, i, -1));
+        }
+    }
+}
+
+LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int corner) {
+    const auto next = static_cast<LeafIndex>(nodes_.size());
+    const auto [id, inserted] = ids_.insert(key, next);
+    if (inserted) {
+        Node& n = nodes_.emplace_back();
+        n.parent = next;
+        n.item = item;
+        n.corner = static_cast<std::int8_t>(corner);
+    }
+    return id;
+}
+
+void PlainWindings::join_item(LeafIndex item, LeafIndex node) {
+    LeafIndex& first = first_[LeafWork::u(item)];
+    if (first < 0) {
+        first = node;
+    } else {
+        join(first, node);
+    }
+}
+
+LeafIndex PlainWindings::root(LeafIndex v) {
+    while (nodes_[LeafWork::u(v)].parent != v) {
+        LeafIndex& parent = nodes_[LeafWork::u(v)].parent;
+        v = parent = nodes_[LeafWork::u(parent)].parent;
+    }
+    return v;
+}
+
+void PlainWindings::join(LeafIndex a, LeafIndex b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    // A tree's root is a vertex if there is one.
+    if (nodes_[LeafWork::u(a)].corner < 0) std::swap(a, b);
+    nodes_[LeafWork::u(b)].parent = a;
+    if (nodes_[LeafWork::u(b)].corner >= 0) nodes_[LeafWork::u(a)].example = b;
+}
+
+LeafIndex PlainWindings::keep(std::span<const int> windings) {
+    const auto at = static_cast<LeafIndex>(known_.size() / operands_);
+    known_.insert(known_.end(), windings.begin(), windings.end());
+    return at;
+}
+
+bool PlainWindings::at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
+                             std::vector<int>& w) {
+    check_budget(*facets_->problem().options, stats);
+    ++stats.traces;
+    w.clear();
+    for (const LeafOperand& o : facets_->problem().operands) w.push_back(o.winding);
+    Vector3 lo;
+    Vector3 hi;
+    for (std::size_t k = 0; k < 3; ++k) {
+        // One more unit than the errors, so that rounding does not matter.
+        lo[k] = std::min(reference_.c[k] - reference_.error, target.c[k] - target.error) - 1;
+        hi[k] = std::max(reference_.c[k] + reference_.error, target.c[k] + target.error) + 1;
+    }
+    for (LeafIndex i = 0; i < facets_->size(); ++i) {
+        PlainFacet& f = (*facets_)[i];
+        if (f.operand == own || !f.meets(lo, hi)) continue;
+        const PlainPlane& plane = facets_->plane(i);
+        const double at_target = plane.value(target.c);
+        const double target_error = plane.error(target);
+        const double at_start = plane.value(reference_.c);
+        const double start_error = plane.error(reference_);
+        const bool sure = std::fabs(at_start) > start_error && std::fabs(at_target) > target_error;
+        if (sure && (at_start > 0) == (at_target > 0)) continue;
+        Approximation x;
+        const int inside = sure && interpolate(reference_, at_start, target, at_target,
+                                               start_error + target_error, x)
+                               ? is_inside(f, x)
+                               : 0;
+        if (inside == 0) {
+            ++stats.traces_retried;
+            return false;
+        }
+        if (inside > 0) w[LeafWork::u(f.operand)] += at_start > 0 ? f.orientation : -f.orientation;
+    }
+    return true;
+}
+
+void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
+    nodes_[LeafWork::u(r)].state = State::Useless;
+    const LeafIndex example = nodes_[LeafWork::u(r)].example;
+    for (const LeafIndex at : {r, example}) {
+        if (at < 0) continue;
+        const Node& n = nodes_[LeafWork::u(at)];
+        if (n.corner < 0) continue;  // edges only: see remember()
+        const PlainFacet& f = (*facets_)[n.item];
+        if (!at_point({f.corners[static_cast<std::size_t>(n.corner)], 0.0}, f.operand, stats,
+                      traced_))
+            continue;
+        nodes_[LeafWork::u(r)].state = State::Known;
+        nodes_[LeafWork::u(r)].windings = keep(traced_);
+        return;
+    }
+}
+
+LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {
+    const LeafIndex kept = keep(windings);
+    const LeafIndex first = first_[LeafWork::u(item)];
+    if (first < 0) return kept;
+    Node& r = nodes_[LeafWork::u(root(first))];
+    r.windings = kept;
+    r.state = State::Known;
+    return kept;
+}
+
+PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& stats) {
+    if (const LeafIndex first = first_[LeafWork::u(item)]; first >= 0) {
+        // All its vertices hang together; which one it is does not matter.
+        const LeafIndex r = root(first);
+        if (nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
+        return {nodes_[LeafWork::u(r)].windings, 0};
+    }
+    const auto& vertices = vertices_[LeafWork::u(item)];
+    // First a vertex of which the windings are known.
+    for (const bool ask : {false, true}) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (vertices[c] < 0) continue;
+            const LeafIndex r = root(vertices[c]);
+            if (ask && nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
+            const Node& n = nodes_[LeafWork::u(r)];
+            if (n.state == State::Known) return {n.windings, static_cast<int>(c)};
+        }
+    }
+    return {};
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Winding numbers in leaves in general position (plain_leaf.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/detail/plain_facets.h>
+#include <trisect/bsp/detail/plain_pairs.h>
+
+namespace trisect::detail {
+
+/// Winding numbers of the other operands are the same all over a facet that nothing crosses. So
+/// vertices in the cell, and edges that run through it, hang together by such facets, and one trace
+/// to any vertex serves all that hang together with it; also the facets that are crossed. The same
+/// idea as in leaf_anchors.h, on doubles.
+class PlainWindings {
+public:
+    /// A vertex in the cell where the winding numbers of all other operands are known.
+    struct Anchor {
+        LeafIndex windings = -1;  ///< see windings(); -1 when there is none
+        int corner = 0;           ///< of the facet
+    };
+
+    void start(PlainFacets& facets, const PlainPairs& pairs);
+    [[nodiscard]] Anchor anchor_of(LeafIndex item, EvaluateStats& stats);
+    /// What was found out about a facet that nothing crosses and that had no anchor, for its
+    /// neighbours.
+    LeafIndex remember(LeafIndex item, std::span<const int> windings);
+    /// By operand; the entry of the facet's own is meaningless.
+    [[nodiscard]] std::span<const int> windings(LeafIndex i) const {
+        return {known_.data() + LeafWork::u(i) * operands_, operands_};
+    }
+    /// Winding numbers at a point on a facet of the operand `own`, with a meaningless one for that.
+    /// False when doubles cannot tell.
+    [[nodiscard]] bool at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
+                                std::vector<int>& w);
+
+private:
+    enum class State : std::uint8_t { Unknown, Known, Useless };
+    /// A vertex in the cell, or an edge through it: a node of a union-find forest.
+    struct Node {
+        LeafIndex parent = 0;
+        LeafIndex item = 0;      // where it was seen first, and which corner it is there
+        std::int8_t corner = 0;  // -1: an edge
+        State state = State::Unknown;
+        LeafIndex example = -1;   // another vertex of the same tree; of a root
+        LeafIndex windings = -1;  // of a root that is known
+    };
+    [[nodiscard]] LeafIndex node_of(const StampMap::Key& key, LeafIndex item, int corner);
+    void join_item(LeafIndex item, LeafIndex node);
+    [[nodiscard]] LeafIndex root(LeafIndex v);
+    void join(LeafIndex a, LeafIndex b);
+    void find_windings(LeafIndex root, EvaluateStats& stats);
+    LeafIndex keep(std::span<const int> windings);
+
+    PlainFacets* facets_ = nullptr;
+    const PlainPairs* pairs_ = nullptr;
+    Approximation reference_;
+    std::size_t operands_ = 0;
+    StampMap ids_;
+    std::vector<Node> nodes_;
+    std::vector<std::array<LeafIndex, 3>> vertices_;  // nodes of an item's corners; -1 not in cell
+    std::vector<LeafIndex> first_;                    // a node of an item, -1 none
+    std::vector<int> known_;                          // a row of `operands_` for each
+    std::vector<int> traced_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Solids in general position, whose leaves are arranged in doubles (plain_leaf.h), against the
+// naive engine in rationals. Within a solid facets lie in common planes as often as on the small
+// grid; an integer map of its own takes every solid out of the grid of the others.
+
+#include <gtest/gtest.h>
+
+#include "engines.h"
+
+namespace {
+
+using reference::Operand;
+using Matrix = std::array<std::array<std::int64_t, 3>, 3>;
+
+std::int64_t determinant(const Matrix& m) {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += m[0][i] *
+               (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]);
+    return sum;
+}
+
+// The solid under a random map with integer coefficients.
+Operand mapped(const Operand& operand, reference::Random& random) {
+    Matrix m{};
+    while (determinant(m) == 0)
+        for (auto& row : m)
+            for (auto& x : row) x = random.between(-9, 9);
+    const std::array<std::int64_t, 3> by{random.between(-50, 50), random.between(-50, 50),
+                                         random.between(-50, 50)};
+    Operand out = operand;
+    for (auto& triangle : out)
+        for (auto& p : triangle) {
+            std::array<std::int64_t, 3> q{};
+            for (std::size_t i = 0; i < 3; ++i)
+                q[i] = by[i] + m[i][0] * (p[0] - 7) + m[i][1] * (p[1] - 7) + m[i][2] * (p[2] - 7);
+            p = {q[0], q[1], q[2]};
+        }
+    return determinant(m) < 0 ? reference::reversed(out) : out;
+}
+
+struct Leaves {
+    std::uint64_t plain = 0;
+    std::uint64_t mixed = 0;
+};
+
+void expect_agreement(const std::vector<Operand>& operands, const reference::Expression& expression,
+                      std::uint32_t leaf_polygons, Leaves& leaves) {
+    std::vector<trisect::Solid> solids;
+    for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = leaf_polygons;
+    trisect::EvaluateStats stats;
+    const trisect::Solid result =
+        trisect::evaluate(engines::formula(expression, solids), options, &stats);
+    leaves.plain += stats.plain_leaves;
+    leaves.mixed += stats.mixed_leaves;
+    EXPECT_EQ(engines::open_edge(result.to_mesh()), "");
+    const auto expected = reference::evaluate(operands, expression);
+    EXPECT_EQ(engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells)),
+              "");
+}
+
+TEST(GeneralPosition, PairsInOneLeafAndInManySmallOnes) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        reference::Random random(seed + 310000);
+        const std::vector<Operand> operands{
+            mapped(reference::random_embedded_solid(random), random),
+            mapped(reference::random_embedded_solid(random), random)};
+        const auto kind = seed % 2 == 0 ? reference::Expression::Kind::Xor
+                                        : reference::Expression::Kind::Difference;
+        for (const std::uint32_t leaf : {3U, 10U, 100U}) {
+            SCOPED_TRACE("seed " + std::to_string(seed) + " leaf size " + std::to_string(leaf));
+            expect_agreement(operands, reference::pair_expression(kind), leaf, leaves);
+        }
+    }
+    EXPECT_GT(leaves.mixed, 300U);
+    EXPECT_GT(leaves.plain * 10, leaves.mixed * 8);
+}
+
+TEST(GeneralPosition, FormulasOverSeveralSolids) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 320000);
+        std::vector<Operand> operands;
+        for (std::size_t i = 0; i < 3 + seed % 3; ++i)
+            operands.push_back(mapped(reference::random_embedded_solid(random), random));
+        const auto expression =
+            reference::random_expression(random, operands.size(), operands.size() + seed % 4);
+        expect_agreement(operands, expression, seed % 2 == 0 ? 100 : 12, leaves);
+    }
+    EXPECT_GT(leaves.mixed, 100U);
+    EXPECT_GT(leaves.plain * 10, leaves.mixed * 7);
+}
+
+// Both halves of a bar's side cut the other bar along one line, and end on it inside of it.
+TEST(GeneralPosition, BarsWhoseSidesAreCutInTwoTriangles) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 330000);
+        const std::vector<Operand> operands{mapped(reference::box({0, 5, 6}, {15, 9, 10}), random),
+                                            mapped(reference::box({5, 0, 4}, {8, 15, 9}), random)};
+        expect_agreement(operands, reference::pair_expression(reference::Expression::Kind::Union),
+                         100, leaves);
+    }
+    EXPECT_GT(leaves.plain * 10, leaves.mixed * 8);
+}
+
+// Whatever touches is left to the exact way.
+TEST(GeneralPosition, FlushBoxesAreNotInGeneralPosition) {
+    Leaves leaves;
+    expect_agreement(
+        {reference::box({0, 0, 0}, {10, 10, 10}), reference::box({3, 3, 10}, {7, 7, 20})},
+        reference::pair_expression(reference::Expression::Kind::Union), 100, leaves);
+    expect_agreement(
+        {reference::box({0, 0, 0}, {10, 10, 10}), reference::box({3, 3, 5}, {7, 7, 10})},
+        reference::pair_expression(reference::Expression::Kind::Difference), 100, leaves);
+    EXPECT_EQ(leaves.plain, 0U);
+    EXPECT_GT(leaves.mixed, 0U);
+}
+
+}  // namespace
