@@ -324,6 +324,17 @@ private:
     std::array<double, 3> lo_{}, hi_{};
 };
 
+// An axis along which the ends of an edge differ. Ends that are nearer to each other than doubles
+// can tell may be equal along the axis that looks longest: then an edge would never be split.
+int separating_axis(const Workbench& bench, PointId from, PointId to) {
+    const auto axis =
+        static_cast<int>(longest_axis(bench.approximation(from).c, bench.approximation(to).c));
+    for (int k = 0; k < 2; ++k)
+        if (const int candidate = (axis + k) % 3; compare_along(bench, from, to, candidate) != 0)
+            return candidate;
+    return (axis + 2) % 3;
+}
+
 // Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
 bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support,
                  int along) {
@@ -398,11 +409,11 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     while (it != first && it[-1].c[axis_] >= filter.lo(axis_)) --it;
     for (; it != end && it->c[axis_] <= filter.hi(axis_); ++it) {
         if (it == from || it == to || !filter.may_contain(it->c)) continue;
-        const auto axis = static_cast<int>(longest_axis(from->c, to->c));
+        const int axis = separating_axis(bench_, e.from, e.to);
         if (lies_inside(bench_, it->point, e, facets_[u(e.facet)].support, axis))
             inside_.push_back(it->point);
     }
-    if (inside_.size() > 1) sort_inside(e, static_cast<int>(longest_axis(from->c, to->c)));
+    if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));
 }
 
 void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis) {

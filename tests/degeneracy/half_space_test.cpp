@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
+#include <trisect/brep/measure.h>
 #include <trisect/kernel/error.h>
 
 #include "figures.h"
+#include "reference/random_solids.h"
 
 namespace {
 
@@ -134,6 +137,62 @@ TEST_F(HalfSpaces, UnboundedBoundariesAreRefused) {
     EXPECT_THROW((void)evaluate(h & below(-1, -1, 0, -3)).to_brep(), trisect::UnsupportedError);
     EXPECT_FALSE(h.is_empty());
     EXPECT_FALSE(h.is_whole_space());
+}
+
+// Groups of fifteen decimal digits.
+template <int N>
+trisect::WideInt<N> decimal(std::initializer_list<std::int64_t> groups) {
+    const trisect::WideInt<1> base(std::int64_t{1'000'000'000'000'000});
+    trisect::WideInt<N> value(0);
+    for (const std::int64_t g : groups)
+        value = trisect::multiply<N>(value, base) + trisect::WideInt<N>(g);
+    return value;
+}
+
+trisect::Int128 decimal128(std::int64_t high, std::int64_t low) {
+    return trisect::Int128{high} * 1'000'000'000'000'000 + low;
+}
+
+trisect::PolygonMesh mesh_of(const reference::Operand& operand) {
+    const trisect::LatticeMesh lattice_mesh = engines::lattice_mesh(operand);
+    trisect::PolygonMesh mesh;
+    for (const auto& p : lattice_mesh.points)
+        mesh.points.push_back(
+            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+    for (const auto& t : lattice_mesh.triangles) mesh.add_triangle(t[0], t[1], t[2]);
+    return mesh;
+}
+
+// A plane through an edge of a solid, cut by another plane where further facets pass by: several
+// vertices lie within a unit in the last place of each other, on an edge along which one coordinate
+// does not change. Their order follows from signs alone. Found by verifying random results.
+TEST_F(HalfSpaces, VerticesNearerToEachOtherThanDoublesCanTell) {
+    reference::Random random(8);
+    const trisect::PolygonMesh a = mesh_of(reference::random_embedded_solid(random));
+    const trisect::PolygonMesh b = mesh_of(reference::random_embedded_solid(random));
+    trisect::PolygonMesh moved = evaluate(Solid::from_mesh(a) | Solid::from_mesh(b)).to_mesh();
+    for (std::size_t i = 0; i < moved.points.size(); ++i)
+        if (random.chance(1, 6)) moved.points[i][i % 3] += random.chance(1, 2) ? 0.125 : -0.125;
+    trisect::SolidOptions options;
+    options.import.lattice = trisect::Lattice{-48};
+    options.import.require_closed = false;
+    options.embedding = trisect::Embedding::Resolve;
+    const Expression difference =
+        (Expression(Solid::from_mesh(a, options)) | Solid::from_mesh(b, options)) ^
+        Solid::from_mesh(moved, options);
+    const Solid across = Solid::half_space(
+        Plane(-256, 0, 0, decimal<3>({647, 421'111'883'655'301})), trisect::Lattice{-48});
+    const Solid along = Solid::half_space(
+        Plane(decimal128(121'052'679'546'074, 197'102'485'208'651),
+              decimal128(31'413'198'769'670, 819'350'603'989'429),
+              decimal128(151'545'855'209'223, 92'059'580'759'731),
+              -decimal<3>({469'996'917'169'182, 401'677'154'693'457, 65'189'528'567'808})),
+        trisect::Lattice{-48});
+    const auto volume = [](const Expression& e) {
+        return trisect::exact_volume(evaluate(e).to_brep());
+    };
+    EXPECT_EQ(volume(difference & across & along) + volume((difference & across) - along),
+              volume(difference & across));
 }
 
 }  // namespace
