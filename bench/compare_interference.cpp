@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Interference beside FCL and CGAL on identical doubles, in one process and on one thread. Prints a
+// line of JSON for every scene, question and engine: microseconds a query as mean, median and 99th
+// percentile over all placements (of each placement the best of some rounds, the engines taking
+// turns), apart and colliding placements separately, what was counted, and with whom the engine
+// disagrees.
+//
+//     compare_interference [--rounds 3] [--most 2000] [--scene NAME]... [--no-peers]
+//
+// Scenes: see interference_scene.h. Volumes with which FCL copies and refits a whole model for each
+// query are asked for every fiftieth placement only.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <trisect/bsp/detail/boundary_pairs.h>
+#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/pose.h>
+
+#include "interference_peers.h"
+#include "interference_scene.h"
+
+namespace {
+
+using interference_peers::Peer;
+using interference_peers::Placement;
+using nlohmann::json;
+using trisect::InterferenceModel;
+using trisect::Pose;
+using trisect::Solid;
+using trisect::detail::BoundaryPairs;
+using trisect::detail::ObbWalk;
+using trisect::detail::WalkCounters;
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+// Boundaries of two solids, as the peers see them: surfaces.
+class Trisect : public Peer {
+public:
+    Trisect(const interference_scenes::Scene& scene) {
+        const Solid a = Solid::from_mesh(scene.a);
+        const double start = now();
+        a_ = InterferenceModel(a);
+        build_ = now() - start;
+        b_ = InterferenceModel(Solid::from_mesh(scene.b));
+        for (const Placement& p : scene.placements) poses_.push_back(Pose::from_doubles(p));
+    }
+    [[nodiscard]] std::string name() const override { return "Trisect"; }
+    [[nodiscard]] double build_seconds() const override { return build_; }
+    [[nodiscard]] bool collide(std::size_t i) override {
+        BoundaryPairs pairs(a_.data(), home_, b_.data(), poses_[i], stack_);
+        const bool meet = pairs.any().has_value();
+        counters += pairs.counters();
+        return meet;
+    }
+    [[nodiscard]] std::optional<std::size_t> contacts(std::size_t i) override {
+        BoundaryPairs pairs(a_.data(), home_, b_.data(), poses_[i], stack_);
+        std::size_t n = 0;
+        pairs.all([&n](const BoundaryPairs::Meeting&) {
+            ++n;
+            return false;
+        });
+        counters += pairs.counters();
+        return n;
+    }
+    [[nodiscard]] json build_stages() const {
+        const auto s = a_.stats();
+        return {{"brep", 1e3 * s.brep_seconds},
+                {"triangulate", 1e3 * s.triangulate_seconds},
+                {"boxes", 1e3 * s.boxes_seconds},
+                {"megabytes", 1e-6 * static_cast<double>(s.bytes)}};
+    }
+
+    WalkCounters counters;
+
+private:
+    InterferenceModel a_;
+    InterferenceModel b_;
+    Pose home_;
+    std::vector<Pose> poses_;
+    ObbWalk::Stack stack_;
+    double build_ = 0;
+};
+
+struct Options {
+    int rounds = 3;
+    std::size_t most = 2000;
+    std::vector<std::string> scenes;
+    bool peers = true;
+};
+
+// The times of one engine for one question.
+struct Column {
+    Peer* peer = nullptr;
+    std::vector<std::size_t> placements;
+    std::vector<double> best;
+    std::vector<double> answer;
+};
+
+json quantiles(std::vector<double> times) {
+    if (times.empty()) return nullptr;
+    std::ranges::sort(times);
+    double sum = 0;
+    for (const double t : times) sum += t;
+    const auto at = [&times](double q) {
+        return times[std::min(times.size() - 1,
+                              static_cast<std::size_t>(q * static_cast<double>(times.size())))];
+    };
+    const auto us = [](double t) { return std::round(1e8 * t) / 1e2; };
+    return {{"n", times.size()},
+            {"mean", us(sum / static_cast<double>(times.size()))},
+            {"p50", us(at(0.5))},
+            {"p99", us(at(0.99))}};
+}
+
+using Question = std::function<std::optional<double>(Peer&, std::size_t)>;
+
+void ask(const interference_scenes::Scene& scene, const std::string& what, std::vector<Peer*> peers,
+         int rounds, Trisect& ours, const Question& question) {
+    std::vector<Column> columns;
+    for (Peer* p : peers) {
+        if (!question(*p, 0)) continue;
+        Column c;
+        c.peer = p;
+        const std::size_t step = p->is_slow() && what == "collide" ? 50 : p->is_slow() ? 0 : 1;
+        if (step == 0) continue;
+        for (std::size_t i = 0; i < scene.placements.size(); i += step) c.placements.push_back(i);
+        c.best.assign(c.placements.size(), std::numeric_limits<double>::infinity());
+        c.answer.assign(c.placements.size(), 0);
+        columns.push_back(std::move(c));
+    }
+    WalkCounters counted;
+    for (int round = 0; round < rounds; ++round)
+        for (Column& c : columns) {
+            if (c.peer->is_slow() && round > 0) continue;
+            ours.counters = {};
+            for (std::size_t k = 0; k < c.placements.size(); ++k) {
+                const double start = now();
+                const auto answer = question(*c.peer, c.placements[k]);
+                c.best[k] = std::min(c.best[k], now() - start);
+                c.answer[k] = answer.value_or(0);
+            }
+            if (c.peer == &ours) counted = ours.counters;
+        }
+    // Apart and colliding by our own answer.
+    const Column& first = columns.front();
+    for (const Column& c : columns) {
+        std::vector<double> hit;
+        std::vector<double> miss;
+        json disagree = json::array();
+        double total = 0;
+        for (std::size_t k = 0; k < c.placements.size(); ++k) {
+            const double own = first.answer[c.placements[k]];
+            (own > 0 ? hit : miss).push_back(c.best[k]);
+            total += c.answer[k];
+            if ((c.answer[k] > 0) != (own > 0) && disagree.size() < 20)
+                disagree.push_back(c.placements[k]);
+        }
+        json line{{"scene", scene.name},
+                  {"what", what},
+                  {"engine", c.peer->name()},
+                  {"us", quantiles(c.best)},
+                  {"us_colliding", quantiles(hit)},
+                  {"us_apart", quantiles(miss)},
+                  {"total", total},
+                  {"build_ms", 1e3 * c.peer->build_seconds()},
+                  {"disagrees", disagree}};
+        if (c.peer == &ours) {
+            const double n = static_cast<double>(c.placements.size());
+            line["a_query"] = {{"node_tests", static_cast<double>(counted.node_tests) / n},
+                               {"triangle_pairs", static_cast<double>(counted.triangle_pairs) / n},
+                               {"crossing", static_cast<double>(counted.crossing) / n},
+                               {"unknown", static_cast<double>(counted.unknown) / n}};
+            line["build_stages_ms"] = ours.build_stages();
+        }
+        std::printf("%s\n", line.dump().c_str());
+        std::fflush(stdout);
+    }
+}
+
+void run(const std::string& name, const Options& options) {
+    const auto scene = interference_scenes::make(name, options.most);
+    Trisect ours(scene);
+    interference_peers::Peers peers;
+    if (options.peers) {
+        interference_peers::add_fcl(peers, scene.a, scene.b, scene.placements);
+        interference_peers::add_cgal(peers, scene.a, scene.b, scene.placements);
+    }
+    std::vector<Peer*> all{&ours};
+    for (const auto& p : peers) all.push_back(p.get());
+    ask(scene, "collide", all, options.rounds, ours,
+        [](Peer& p, std::size_t i) -> std::optional<double> { return p.collide(i) ? 1 : 0; });
+    ask(scene, "contacts", all, options.rounds, ours,
+        [](Peer& p, std::size_t i) -> std::optional<double> {
+            const auto n = p.contacts(i);
+            if (!n) return {};
+            return static_cast<double>(*n);
+        });
+}
+
+Options parse(int argc, char** argv) {
+    Options o;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--no-peers") {
+            o.peers = false;
+        } else if (word == "--rounds" && i + 1 < argc) {
+            o.rounds = std::atoi(argv[++i]);
+        } else if (word == "--most" && i + 1 < argc) {
+            o.most = static_cast<std::size_t>(std::atoll(argv[++i]));
+        } else if (word == "--scene" && i + 1 < argc) {
+            o.scenes.emplace_back(argv[++i]);
+        } else {
+            std::fprintf(stderr,
+                         "usage: compare_interference [--rounds N] [--most N] [--scene NAME]... "
+                         "[--no-peers]\n");
+            std::exit(2);
+        }
+    }
+    if (o.scenes.empty()) o.scenes = interference_scenes::names();
+    return o;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Options options = parse(argc, argv);
+    int status = 0;
+    for (const std::string& scene : options.scenes) try {
+            run(scene, options);
+        } catch (const std::exception& e) {
+            std::fprintf(stderr, "compare_interference: %s: %s\n", scene.c_str(), e.what());
+            status = 1;
+        }
+    return status;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Peers of interference queries behind one interface, each compiled with what it needs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <trisect/brep/polygon_mesh.h>
+
+namespace interference_peers {
+
+/// A 3x4 matrix, row by row: where the second body is put. The first one stays.
+using Placement = std::array<double, 12>;
+
+/// Two bodies prepared, and the placements, in the peer's own form; a query names a placement.
+class Peer {
+public:
+    virtual ~Peer() = default;
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// Of the first body.
+    [[nodiscard]] virtual double build_seconds() const = 0;
+    [[nodiscard]] virtual bool collide(std::size_t placement) = 0;
+    /// The number of contacting pairs; nothing when the peer has no such query.
+    [[nodiscard]] virtual std::optional<std::size_t> contacts(std::size_t) { return {}; }
+    [[nodiscard]] virtual std::optional<double> distance(std::size_t) { return {}; }
+    /// Whether a query copies and refits a whole model: then only a few are asked.
+    [[nodiscard]] virtual bool is_slow() const { return false; }
+};
+
+using Peers = std::vector<std::unique_ptr<Peer>>;
+
+/// FCL with each of its volumes.
+void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+             std::span<const Placement> placements);
+/// CGAL Rigid_triangle_mesh_collision_detection: surfaces, and with inclusion.
+void add_cgal(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+              std::span<const Placement> placements);
+
+}  // namespace interference_peers
