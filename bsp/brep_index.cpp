@@ -182,6 +182,13 @@ Place BrepIndex::locate(const Point& point) const {
     return located(*core_, IndexPoint(point), on);
 }
 
+Place BrepIndex::locate(const std::array<ExactRational, 3>& point) const {
+    std::vector<PolygonId> on;
+    IndexPoint::Rational p = point;
+    for (ExactRational& x : p) x = x.scaled(-solid().lattice().exponent);
+    return located(*core_, IndexPoint(std::move(p)), on);
+}
+
 std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> points,
                                      unsigned threads) const {
     std::vector<Place> places(points.size());

@@ -254,6 +254,8 @@ public:
     [[nodiscard]] Place locate(const std::array<double, 3>& point) const;
     [[nodiscard]] Place locate(const LatticePoint& point) const;
     [[nodiscard]] Place locate(const Point& point) const;
+    /// Rationals in the user's units.
+    [[nodiscard]] Place locate(const std::array<ExactRational, 3>& point) const;
     /// Many points at once, visited in an order that is kind to the caches. Several threads where
     /// `threads` is not 1 (0: as many as there are).
     [[nodiscard]] std::vector<Place> locate(std::span<const std::array<double, 3>> points,

@@ -104,7 +104,7 @@ void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>&
 
 InterferenceModelData::InterferenceModelData(const Solid& s) : solid(resolved(s)) {
     const auto start = std::chrono::steady_clock::now();
-    brep = boundary_of(s);
+    brep = boundary_of(solid);
     brep_seconds = seconds_since(start);
     build();
 }

@@ -87,6 +87,10 @@ struct InterferenceModelData {
     }
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
+    /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that the
+    /// B-rep knows: a corner in a face, say. Found out at the first call (pairs of near triangles).
+    /// Safe to call from several threads. In self_contact.cpp.
+    [[nodiscard]] bool touches_itself() const;
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -94,6 +98,8 @@ private:
 
     mutable std::once_flag index_once_;
     mutable std::optional<BrepIndex> index_;
+    mutable std::once_flag self_contact_once_;
+    mutable bool touches_itself_ = false;
 };
 
 }  // namespace trisect::detail

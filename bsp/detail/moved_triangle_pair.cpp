@@ -28,18 +28,6 @@ bool all_of_one_side(const Signs& s) {
     return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
-// The feature with these signs towards the three sides, inside positive; nothing when outside.
-std::optional<Feature> feature_at(const Signs& s) {
-    if (s[0] < 0 || s[1] < 0 || s[2] < 0) return std::nullopt;
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (s[i] != 0) continue;
-        if (s[next(i)] == 0) return Feature::corner(next(i));
-        if (s[next(next(i))] == 0) return Feature::corner(i);
-        return Feature::side(i);
-    }
-    return Feature::interior();
-}
-
 // Everything about one pair; signs that several questions need are asked for once.
 class Pair {
 public:
@@ -76,8 +64,8 @@ public:
         for (std::size_t k = 0; k < 3; ++k) of_a[k] = signs_of_a(k);
         if (is_beyond_a_side(of_a)) return;
         for (std::size_t k = 0; k < 3; ++k) {
-            note(Feature::corner(k), feature_at(of_a[k]));
-            note(feature_at(of_b[k]), Feature::corner(k));
+            note(Feature::corner(k), feature_from_signs(of_a[k]));
+            note(feature_from_signs(of_b[k]), Feature::corner(k));
         }
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
@@ -107,8 +95,12 @@ private:
             s[i] = up * planar_orientation(*t.corner[i], *t.corner[next(i)], p, axis);
         return s;
     }
-    std::optional<Feature> corner_of_a(std::size_t k) const { return feature_at(signs_of_a(k)); }
-    std::optional<Feature> corner_of_b(std::size_t k) const { return feature_at(signs_of_b(k)); }
+    std::optional<Feature> corner_of_a(std::size_t k) const {
+        return feature_from_signs(signs_of_a(k));
+    }
+    std::optional<Feature> corner_of_b(std::size_t k) const {
+        return feature_from_signs(signs_of_b(k));
+    }
 
     // The point where side i of A, whose first end is on the side `from` of B's plane, passes
     // through that plane: where is it in B?
@@ -118,7 +110,7 @@ private:
             s[j] = turn_ * from * edge_sign(i, j);
             if (s[j] < 0) return std::nullopt;
         }
-        return feature_at(s);
+        return feature_from_signs(s);
     }
     std::optional<Feature> side_of_b(std::size_t j, int from) {
         Signs s{};
@@ -126,7 +118,7 @@ private:
             s[i] = from * edge_sign(i, j);
             if (s[i] < 0) return std::nullopt;
         }
-        return feature_at(s);
+        return feature_from_signs(s);
     }
     int edge_sign(std::size_t i, std::size_t j) {
         int& sign = edges_[i][j];
@@ -165,6 +157,17 @@ private:
 };
 
 }  // namespace
+
+std::optional<Feature> feature_from_signs(const std::array<int, 3>& s) {
+    if (s[0] < 0 || s[1] < 0 || s[2] < 0) return std::nullopt;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (s[i] != 0) continue;
+        if (s[next(i)] == 0) return Feature::corner(next(i));
+        if (s[next(next(i))] == 0) return Feature::corner(i);
+        return Feature::side(i);
+    }
+    return Feature::interior();
+}
 
 TriangleContact TrianglePairTest::operator()(const PosedTriangle& a, const PosedTriangle& b) {
     if (last_a_ != a.plane) {

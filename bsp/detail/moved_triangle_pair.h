@@ -46,6 +46,10 @@ private:
     std::uint8_t code_ = 6;
 };
 
+/// The feature that a point of the plane is on, from its signs towards the three sides, inside
+/// positive; nothing when it is outside.
+[[nodiscard]] std::optional<Feature> feature_from_signs(const std::array<int, 3>& s);
+
 /// A point where the triangles meet, as the smallest features of both that it lies on.
 struct MeetingPoint {
     Feature a;

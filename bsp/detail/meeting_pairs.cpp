@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/meeting_pairs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace trisect::detail {
+
+PosedTriangle posed_triangle(const InterferenceModelData& model, std::uint32_t t) {
+    const ModelTriangle& m = model.triangles[t];
+    return {{&model.brep.point(m.vertex[0]), &model.brep.point(m.vertex[1]),
+             &model.brep.point(m.vertex[2])},
+            &model.brep.plane(m.face)};
+}
+
+BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t triangle,
+                         Feature feature) {
+    const ModelTriangle& t = model.triangles[triangle];
+    if (feature.is_corner()) return model.place[t.vertex[feature.index()].index];
+    if (feature.is_side()) {
+        const EdgeId e = t.edge[feature.index()];
+        if (e.is_valid()) {
+            const auto copies = model.brep.copies(e);
+            return copies.empty() ? e : *std::ranges::min_element(copies);
+        }
+    }
+    return t.face;
+}
+
+// Candidates ---------------------------------------------------------------------------------
+
+ApproximateMap approximate_map(const RelativePose& pose) {
+    ApproximateMap map;
+    map.m = pose.approx_rows();
+    map.t = pose.approx_translation();
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const double v : map.m[i])
+            map.m_error = std::max(map.m_error, RelativePose::relative_error * std::abs(v));
+        map.t_error = std::max(map.t_error, RelativePose::relative_error * std::abs(map.t[i]));
+    }
+    return map;
+}
+
+// Contacts of entities -----------------------------------------------------------------------
+
+namespace {
+
+// The open segment between two neighbouring corners of an intersection: along a side that both are
+// on, else through the interior.
+Feature feature_between(Feature p, Feature q) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (p.is_on_side(i) && q.is_on_side(i)) return Feature::side(i);
+    return Feature::interior();
+}
+
+}  // namespace
+
+std::vector<Contact> contacts_of(const PosedModels& models, const std::vector<MeetingPair>& pairs) {
+    std::vector<Contact> all;
+    for (const MeetingPair& pair : pairs) {
+        const TriangleContact& c = pair.contact;
+        const auto note = [&](Feature a, Feature b, std::uint8_t dimension) {
+            all.push_back({entity_of(models.a, pair.a, a), entity_of(models.b, pair.b, b),
+                           dimension, dimension == 2 && c.opposite});
+        };
+        for (const MeetingPoint& p : c.corners()) note(p.a, p.b, 0);
+        for (std::size_t i = 0; i < c.count; ++i)
+            for (std::size_t j = i + 1; j < c.count; ++j) {
+                // Corners of a polygon are neighbours where a side of one triangle carries both.
+                const Feature a = feature_between(c.points[i].a, c.points[j].a);
+                const Feature b = feature_between(c.points[i].b, c.points[j].b);
+                if (c.count == 2 || a.is_side() || b.is_side()) note(a, b, 1);
+            }
+        if (c.count > 2) note(Feature::interior(), Feature::interior(), 2);
+    }
+    // Of each pair of entities the largest dimension.
+    std::ranges::sort(all, [](const Contact& x, const Contact& y) {
+        return std::tie(x.a, x.b, y.dimension) < std::tie(y.a, y.b, x.dimension);
+    });
+    const auto rest = std::ranges::unique(
+        all, [](const Contact& x, const Contact& y) { return x.a == y.a && x.b == y.b; });
+    all.erase(rest.begin(), rest.end());
+    return all;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The pairs of triangles of two posed models that meet, and what follows from them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/detail/approximate_map.h>
+#include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/moved_triangle_pair.h>
+#include <trisect/bsp/detail/obb_walk.h>
+#include <trisect/bsp/interference.h>
+#include <trisect/kernel/detail/relative_pose.h>
+
+namespace trisect::detail {
+
+struct MeetingPair {
+    std::uint32_t a = 0;  ///< numbers of triangles
+    std::uint32_t b = 0;
+    TriangleContact contact;
+};
+
+/// Two models with their places.
+struct PosedModels {
+    const InterferenceModelData& a;
+    const InterferenceModelData& b;
+    PosedPair poses;
+};
+
+[[nodiscard]] PosedTriangle posed_triangle(const InterferenceModelData& model, std::uint32_t t);
+
+/// The smallest entity that a feature of a triangle is on; a diagonal is in its face. Of copies the
+/// one with the smallest id.
+[[nodiscard]] BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t triangle,
+                                       Feature feature);
+
+/// For walks. \pre pose.has_doubles()
+[[nodiscard]] ApproximateMap approximate_map(const RelativePose& pose);
+
+/// Calls visit(i, j, verdict) for pairs of triangles that may meet, all that do among them, until
+/// it returns true. Returns whether it was stopped. \pre neither model is empty
+template <class Visit>
+bool for_candidate_pairs(const PosedModels& models, Visit&& visit) {
+    if (models.poses.to_a.has_doubles()) {
+        ObbWalk::Stack stack;
+        ObbWalk walk(models.a.boxed(), models.b.boxed(), approximate_map(models.poses.to_a), stack);
+        return walk.run(visit);
+    }
+    // Beyond the range of doubles nothing is known before the exact tests.
+    for (std::uint32_t i = 0; i < models.a.triangles.size(); ++i)
+        for (std::uint32_t j = 0; j < models.b.triangles.size(); ++j)
+            if (visit(i, j, PairVerdict::Unknown)) return true;
+    return false;
+}
+
+/// All contacts of entities, in ascending order.
+[[nodiscard]] std::vector<Contact> contacts_of(const PosedModels& models,
+                                               const std::vector<MeetingPair>& pairs);
+
+/// What the contact vertices say: at each the two cones are compared. Stops early when the relation
+/// is decided.
+void add_flags_at_contacts(const PosedModels& models, const std::vector<MeetingPair>& pairs,
+                           BoundaryFlags& flags);
+
+}  // namespace trisect::detail

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Six flags decide the relation (boundary_flags.h). They come from three places:
+//   crossings   two faces that pass through each other set four flags at once, and the relation is
+//               Overlapping whatever else there is. The walk stops there unless contacts are asked
+//               for. This is how nearly all overlaps are found.
+//   contacts    without a crossing the boundaries may still touch, lie in each other and pass
+//               through each other at edges. The cones at contact vertices tell
+//               (contact_places.cpp); coplanar faces that share area say by their normals what they
+//               are.
+//   shells      a shell that meets nothing lies wholly inside, outside or in a cavity of the other
+//               solid: one of its vertices is located there.
+// Comparing interiors where the boundaries meet, not at sampled points, is what makes flush
+// placements come out right.
+
+#include <trisect/bsp/interference.h>
+
+#include <vector>
+
+#include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/exact_place.h>
+#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/meeting_pairs.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect {
+
+using detail::BoundaryFlags;
+using detail::InterferenceModelData;
+using detail::MeetingPair;
+using detail::PairVerdict;
+using detail::PosedModels;
+using detail::RelativePose;
+using detail::TriangleContact;
+
+namespace {
+
+// All pairs of triangles that meet, and the flags that they set by themselves. Unless `all` is set
+// it stops when the relation is decided.
+std::vector<MeetingPair> meeting_pairs(const PosedModels& models, bool all, BoundaryFlags& flags) {
+    std::vector<MeetingPair> pairs;
+    detail::TrianglePairTest test(models.poses);
+    for_candidate_pairs(models, [&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
+        if (verdict == PairVerdict::Crossing && !all) {
+            flags.set_crossing();
+            return true;
+        }
+        const TriangleContact c = test(posed_triangle(models.a, i), posed_triangle(models.b, j));
+        if (!c.meets()) return false;
+        flags.meet = true;
+        if (c.crossing) flags.set_crossing();
+        if (c.dimension() == 2) (c.opposite ? flags.opposite : flags.same) = true;
+        pairs.push_back({i, j, c});
+        return !all && flags.is_decided();
+    });
+    return pairs;
+}
+
+std::vector<bool> shells_in_contact(const InterferenceModelData& model,
+                                    const std::vector<MeetingPair>& pairs,
+                                    std::uint32_t MeetingPair::*triangle) {
+    std::vector<bool> r(model.shell_vertex.size(), false);
+    for (const MeetingPair& pair : pairs)
+        r[model.shell_of(model.triangles[pair.*triangle]).index] = true;
+    return r;
+}
+
+// Where a vertex is with respect to another solid, when it is not on its boundary.
+bool is_inside(const InterferenceModelData& model, VertexId v, const RelativePose& to_other,
+               const InterferenceModelData& other) {
+    const Point& p = model.brep.point(v);
+    if (to_other.has_doubles()) {
+        const Approximation x = to_other.move(p.approximation());
+        for (std::size_t k = 0; k < 3; ++k)
+            if (x.c[k] - x.error > other.hi[k] || x.c[k] + x.error < other.lo[k]) return false;
+    }
+    std::array<ExactRational, 3> x = moved(detail::exact_place(p), to_other).c;
+    for (ExactRational& c : x) c = c.scaled(other.brep.lattice().exponent);
+    const Location location = other.index().locate(x).location;
+    TRISECT_EXPECTS(location == Location::Inside || location == Location::Outside,
+                    "a shell without contact has a vertex on the other boundary");
+    return location == Location::Inside;
+}
+
+void add_flags_of_shells(const PosedModels& models, const std::vector<MeetingPair>& pairs,
+                         BoundaryFlags& flags) {
+    const auto touched_a = shells_in_contact(models.a, pairs, &MeetingPair::a);
+    const auto touched_b = shells_in_contact(models.b, pairs, &MeetingPair::b);
+    for (std::size_t s = 0; s < touched_a.size() && !flags.is_decided(); ++s)
+        if (!touched_a[s])
+            (is_inside(models.a, models.a.shell_vertex[s], models.poses.to_b, models.b)
+                 ? flags.a_in
+                 : flags.a_out) = true;
+    for (std::size_t s = 0; s < touched_b.size() && !flags.is_decided(); ++s)
+        if (!touched_b[s])
+            (is_inside(models.b, models.b.shell_vertex[s], models.poses.to_a, models.a)
+                 ? flags.b_in
+                 : flags.b_out) = true;
+}
+
+}  // namespace
+
+const char* to_string(Relation relation) {
+    switch (relation) {
+        case Relation::Disjoint:
+            return "disjoint";
+        case Relation::Touching:
+            return "touching";
+        case Relation::Overlapping:
+            return "overlapping";
+        case Relation::Inside:
+            return "inside";
+        case Relation::Contains:
+            return "contains";
+        case Relation::Equal:
+            return "equal";
+    }
+    return "";
+}
+
+InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
+                             const InterferenceModel& b, const Pose& pose_b,
+                             const InterferenceOptions& options) {
+    InterferenceResult result;
+    const PosedModels models{a.data(), b.data(),
+                             detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
+    if (a.is_empty() || b.is_empty()) return result;
+    BoundaryFlags flags;
+    const std::vector<MeetingPair> pairs = meeting_pairs(models, options.contacts, flags);
+    if (!flags.is_decided()) add_flags_at_contacts(models, pairs, flags);
+    if (!flags.is_decided()) add_flags_of_shells(models, pairs, flags);
+    result.relation = flags.relation();
+    if (options.contacts) result.contacts = contacts_of(models, pairs);
+    return result;
+}
+
+}  // namespace trisect
