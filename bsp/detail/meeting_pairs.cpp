@@ -3,17 +3,9 @@
 #include <trisect/bsp/detail/meeting_pairs.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace trisect::detail {
-
-PosedTriangle posed_triangle(const InterferenceModelData& model, std::uint32_t t) {
-    const ModelTriangle& m = model.triangles[t];
-    return {{&model.brep.point(m.vertex[0]), &model.brep.point(m.vertex[1]),
-             &model.brep.point(m.vertex[2])},
-            &model.brep.plane(m.face)};
-}
 
 BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t triangle,
                          Feature feature) {
@@ -28,22 +20,6 @@ BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t trian
     }
     return t.face;
 }
-
-// Candidates ---------------------------------------------------------------------------------
-
-ApproximateMap approximate_map(const RelativePose& pose) {
-    ApproximateMap map;
-    map.m = pose.approx_rows();
-    map.t = pose.approx_translation();
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (const double v : map.m[i])
-            map.m_error = std::max(map.m_error, RelativePose::relative_error * std::abs(v));
-        map.t_error = std::max(map.t_error, RelativePose::relative_error * std::abs(map.t[i]));
-    }
-    return map;
-}
-
-// Contacts of entities -----------------------------------------------------------------------
 
 namespace {
 

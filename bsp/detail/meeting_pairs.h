@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/boundary_pairs.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/moved_triangle_pair.h>
 #include <trisect/bsp/detail/obb_walk.h>
@@ -29,15 +30,10 @@ struct PosedModels {
     PosedPair poses;
 };
 
-[[nodiscard]] PosedTriangle posed_triangle(const InterferenceModelData& model, std::uint32_t t);
-
 /// The smallest entity that a feature of a triangle is on; a diagonal is in its face. Of copies the
 /// one with the smallest id.
 [[nodiscard]] BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t triangle,
                                        Feature feature);
-
-/// For walks. \pre pose.has_doubles()
-[[nodiscard]] ApproximateMap approximate_map(const RelativePose& pose);
 
 /// Calls visit(i, j, verdict) for pairs of triangles that may meet, all that do among them, until
 /// it returns true. Returns whether it was stopped. \pre neither model is empty
