@@ -132,14 +132,105 @@ bool PlainCutting::passes(const PlainVertex& vertex, std::size_t contact) const 
     return false;
 }
 
-// -1 below the contact's support, 0 on it, 1 above; 2 when doubles cannot tell.
+PlaneName PlainCutting::plane_of(PlainLine line) const {
+    const PolygonRef& ref = (*facets_)[item_].ref;
+    if (line < first_wall_line) return PlaneName::edge(ref.source, ref.facet, line);
+    if (line < first_contact_line) {
+        const Cell& cell = facets_->problem().cell;
+        const int wall = line - first_wall_line;
+        const auto axis = static_cast<std::size_t>(wall / 2);
+        return PlaneName::wall(wall / 2, wall % 2 != 0 ? cell.hi[axis] : cell.lo[axis]);
+    }
+    const PlainContact& c = contacts_[static_cast<std::size_t>(line - first_contact_line)];
+    const PolygonRef& other = (*facets_)[c.other].ref;
+    return PlaneName::support(other.source, other.facet);
+}
+
+int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
+    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const PolygonRef& ref = (*facets_)[item_].ref;
+    if (vertex < 3) return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
+    Approximation at = v.at;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto origin = static_cast<double>(facets_->origin()[k]);
+        at.c[k] += origin;
+        at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
+    }
+    return trisect::sign_of(side_of(at, ref.source->support(ref.facet),
+                                    plane_of(v.lines[0]).plane(), plane_of(v.lines[1]).plane(),
+                                    plane));
+}
+
+// Where two lines meet, for lines that are nearly parallel.
+Approximation PlainCutting::exact_point(const std::array<PlainLine, 2>& lines) const {
+    const PolygonRef& ref = (*facets_)[item_].ref;
+    Approximation at = approximate(ref.source->support(ref.facet), plane_of(lines[0]).plane(),
+                                   plane_of(lines[1]).plane());
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto origin = static_cast<double>(facets_->origin()[k]);
+        at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
+        at.c[k] -= origin;
+    }
+    return at;
+}
+
+// -1 below the contact's support, 0 on it, 1 above.
 int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
     const PlainContact& c = contacts_[contact];
     const auto v = static_cast<std::size_t>(vertex);
     if (v < 3) return crossing_of(contact).sides[c.is_second ? 1 : 0][v];
     if (passes(vertices_[v], contact)) return 0;
     const int s = facets_->plane(c.other).sign(vertices_[v].at);
-    return s == 0 ? 2 : s;
+    if (s != 0) return s;
+    const PolygonRef& other = (*facets_)[c.other].ref;
+    return exact_sign(vertex, other.source->support(other.facet));
+}
+
+// The same for the middle of a part; 0 when nothing tells. Where its corners are on one side of the
+// support, so is the middle.
+int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& middle, int attempt,
+                                 std::size_t contact) {
+    const int s = facets_->plane(contacts_[contact].other).sign(middle);
+    if (s != 0 || attempt > 0) return s;
+    int low = 1;
+    int high = -1;
+    for (std::size_t i = 0; i < part.size; ++i) {
+        const int at = sign_at(part.vertices[i], contact);
+        low = std::min(low, at);
+        high = std::max(high, at);
+    }
+    return low >= 0 ? high : (high <= 0 ? low : 0);
+}
+
+// The product of the normals. Its left is what is below: n × (n × m) = -m within the support of n.
+PlainCutting::Direction PlainCutting::direction_of(std::size_t contact) {
+    const PlainPlane& own = facets_->plane(item_);
+    const PlainPlane& other = facets_->plane(contacts_[contact].other);
+    const Vector3& n = own.normal;
+    const Vector3& m = other.normal;
+    const Vector3 d{n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
+                    n[0] * m[1] - n[1] * m[0]};
+    Direction out;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (std::fabs(d[k]) > std::fabs(d[out.axis])) out.axis = k;
+    // Components err by less than 8 · 2^-53 times the slopes, which bound them.
+    if (std::fabs(d[out.axis]) > 0x1p-47 * own.slope * other.slope)
+        out.sign = d[out.axis] > 0 ? 1 : -1;
+    return out;
+}
+
+// Whether a vertex on a contact's line is strictly on the inner side of an end of its segment.
+bool PlainCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
+                                 const Direction& direction) const {
+    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const PlainEnd& end = end_of(contact, last);
+    if (is_end(v, contact, end)) return false;
+    const int order = direction.sign * compare_along(direction.axis, v.at, end.at);
+    if (order != 0) return last ? order < 0 : order > 0;
+    const PlainContact& c = contacts_[contact];
+    const LeafIndex owner = end.of_second == c.is_second ? item_ : c.other;
+    const PolygonRef& ref = (*facets_)[owner].ref;
+    return exact_sign(vertex, ref.source->edge_plane(ref.facet, end.edge)) < 0;
 }
 
 // Where two contacts' lines meet, the edge that their facets have in common pierces the item.
@@ -251,60 +342,44 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
     bool above = false;
     for (std::size_t i = 0; i < from.size; ++i) {
         const int s = sign_at(from.vertices[i], contact);
-        if (s == 2) return Split::Doubtful;
         signs[i] = static_cast<std::int8_t>(s);
         below = below || s < 0;
         above = above || s > 0;
     }
     if (!below || !above) return Split::Missed;
     if (from.size + 2U > PlainPart::max_size) return Split::Doubtful;
-    // Where the line enters and leaves the part.
+    // Where the line enters the part and where it leaves it, in its direction.
     const PlainPlane& plane = facets_->plane(contacts_[contact].other);
-    std::array<std::int16_t, 2> ends{};
+    std::array<std::int16_t, 2> ends{-1, -1};
     std::array<std::int16_t, 2> cuts{};
-    std::size_t found = 0;
     std::size_t made = 0;
     for (std::size_t i = 0; i < from.size; ++i) {
         const std::size_t next = i + 1 < from.size ? i + 1 : 0;
         if (signs[i] != 0 && signs[i] * signs[next] >= 0) continue;
-        if (found == 2) return Split::Doubtful;
+        std::int16_t& end = ends[signs[next] > 0 ? 0 : 1];
+        if (end >= 0 || signs[next] == 0) return Split::Doubtful;
         if (signs[i] == 0) {
-            ends[found++] = from.vertices[i];
+            end = from.vertices[i];
             continue;
         }
         const Approximation u = vertices_[static_cast<std::size_t>(from.vertices[i])].at;
         const Approximation w = vertices_[static_cast<std::size_t>(from.vertices[next])].at;
         PlainVertex x;
+        x.lines = {from.lines[i], line_of(contact)};
         if (!interpolate(u, plane.value(u.c), w, plane.value(w.c), plane.error(u) + plane.error(w),
                          x.at))
-            return Split::Doubtful;
-        x.lines = {from.lines[i], line_of(contact)};
+            x.at = exact_point(x.lines);
         name_pierced_edge(x);
-        cuts[made++] = ends[found++] = static_cast<std::int16_t>(vertices_.size());
+        cuts[made++] = end = static_cast<std::int16_t>(vertices_.size());
         vertices_.push_back(x);
     }
-    if (found != 2) return Split::Doubtful;
+    if (ends[0] < 0 || ends[1] < 0) return Split::Doubtful;
     if (!sure) {
         // Does the segment have more than a point in common with what of the line is in the part?
-        const auto& segment = crossing_of(contact).ends;
-        const std::size_t axis = longest_axis(segment[0].at, segment[1].at);
-        const int direction = compare_along(axis, segment[0].at, segment[1].at);
-        const auto vertex = [&](std::size_t i) -> const PlainVertex& {
-            return vertices_[static_cast<std::size_t>(ends[i])];
-        };
-        const int order = compare_along(axis, vertex(0).at, vertex(1).at);
-        if (direction == 0 || order == 0) return Split::Doubtful;
-        const std::size_t low = direction < 0 ? 0 : 1;
-        const std::size_t first = order < 0 ? 0 : 1;
-        const auto is_before_end = [&](const PlainVertex& v, const PlainEnd& end, int sign) {
-            if (is_end(v, contact, end)) return 0;
-            const int c = compare_along(axis, v.at, end.at);
-            return c == 0 ? 2 : (c == sign ? 1 : 0);
-        };
-        const int starts = is_before_end(vertex(first), segment[1 - low], -1);
-        const int stops = is_before_end(vertex(1 - first), segment[low], 1);
-        if (starts == 0 || stops == 0) return Split::Missed;
-        if (starts == 2 || stops == 2) return Split::Doubtful;
+        const Direction direction = direction_of(contact);
+        if (!is_inside_end(ends[0], contact, true, direction) ||
+            !is_inside_end(ends[1], contact, false, direction))
+            return Split::Missed;
     }
     PlainPart& upper = add_part();
     PlainPart& lower = parts_[part];
@@ -414,12 +489,13 @@ bool PlainCutting::set_start() {
 }
 
 // How winding numbers change on the straight way from the start to a point of the item.
-bool PlainCutting::change_to(const Approximation& middle, std::size_t begin, std::size_t end,
+bool PlainCutting::change_to(const PlainPart& part, int attempt, std::size_t begin, std::size_t end,
                              int& change) {
+    const Approximation middle = middle_of(part, attempt);
     change = 0;
     for (std::size_t c = begin; c < end; ++c) {
         const PlainPlane& plane = facets_->plane(contacts_[c].other);
-        const int at_end = plane.sign(middle);
+        const int at_end = sign_at_middle(part, middle, attempt, c);
         if (at_end == 0) return false;
         const int at_start = start_sides_[c];
         if (at_start == at_end) continue;
@@ -442,7 +518,7 @@ bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::siz
     ++stats_->traces_within;
     for (int attempt = 0; attempt < 4; ++attempt) {
         int change = 0;
-        if (!change_to(middle_of(part, attempt), begin, end, change)) continue;
+        if (!change_to(part, attempt, begin, end, change)) continue;
         const int w = start_windings_[LeafWork::u(operand)] + change;
         above(part)[LeafWork::u(operand)] = w;
         below(part)[LeafWork::u(operand)] = w;
@@ -595,26 +671,11 @@ PlainCutting::Result PlainCutting::remains() const {
 }
 
 PolygonRef PlainCutting::fragment(const PlainPart& part) const {
-    const PlainFacet& f = (*facets_)[item_];
-    const Cell& cell = facets_->problem().cell;
     std::vector<EdgeName> edges;
     edges.reserve(part.size);
     Box box;
     for (std::size_t i = 0; i < part.size; ++i) {
-        const PlainLine line = part.lines[i];
-        PlaneName name;
-        if (line < first_wall_line) {
-            name = PlaneName::edge(f.ref.source, f.ref.facet, line);
-        } else if (line < first_contact_line) {
-            const int wall = line - first_wall_line;
-            const auto axis = static_cast<std::size_t>(wall / 2);
-            name = PlaneName::wall(wall / 2, wall % 2 != 0 ? cell.hi[axis] : cell.lo[axis]);
-        } else {
-            const PlainContact& c = contacts_[static_cast<std::size_t>(line - first_contact_line)];
-            const PolygonRef& other = (*facets_)[c.other].ref;
-            name = PlaneName::support(other.source, other.facet);
-        }
-        edges.push_back({name, (part.above >> i & 1U) != 0});
+        edges.push_back({plane_of(part.lines[i]), (part.above >> i & 1U) != 0});
         const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto low = static_cast<std::int64_t>(std::floor(a.c[k] - a.error));
@@ -623,7 +684,7 @@ PolygonRef PlainCutting::fragment(const PlainPart& part) const {
             box.hi[k] = std::max(box.hi[k], facets_->origin()[k] + high);
         }
     }
-    PolygonRef out = f.ref;
+    PolygonRef out = (*facets_)[item_].ref;
     out.fragment = new Fragment(std::move(edges), box);
     return out;
 }

@@ -54,7 +54,8 @@ struct PlainPart {
 
 /// Cuts an item by the other operands, one after the other, and no more than the result needs: what
 /// LeafCutting does, on doubles and names. Points on a line have zero distance by name, all others
-/// must be told by their doubles. Keeps its memory.
+/// nearly always show in doubles; where planes are nearly parallel the exact predicates are asked.
+/// Keeps its memory.
 class PlainCutting {
 public:
     /// \pre contacts are known. `formula` must outlive the leaf.
@@ -96,8 +97,8 @@ private:
                 const std::array<std::int16_t, 2>& cuts, PlainPart& below, PlainPart& above) const;
     [[nodiscard]] bool find_sides(const PlainPart& part, LeafIndex operand, std::size_t begin,
                                   std::size_t end);
-    [[nodiscard]] bool change_to(const Approximation& middle, std::size_t begin, std::size_t end,
-                                 int& change);
+    [[nodiscard]] bool change_to(const PlainPart& part, int attempt, std::size_t begin,
+                                 std::size_t end, int& change);
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;
     void settle(PlainPart& part);
@@ -112,6 +113,24 @@ private:
     }
     [[nodiscard]] bool join_coplanar();
     [[nodiscard]] int sign_at(std::int16_t vertex, std::size_t contact);
+    [[nodiscard]] int sign_at_middle(const PlainPart& part, const Approximation& middle,
+                                     int attempt, std::size_t contact);
+    /// The direction of a contact's line, in which it has what is below on its left: the axis along
+    /// which it is longest, and the sign there, 0 when doubles cannot tell.
+    struct Direction {
+        std::size_t axis = 0;
+        int sign = 0;
+    };
+    [[nodiscard]] Direction direction_of(std::size_t contact);
+    /// The ends of a contact's segment in that direction.
+    [[nodiscard]] const PlainEnd& end_of(std::size_t contact, bool last) const {
+        return crossing_of(contact).ends[contacts_[contact].is_second != last ? 1 : 0];
+    }
+    [[nodiscard]] bool is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
+                                     const Direction& direction) const;
+    [[nodiscard]] PlaneName plane_of(PlainLine line) const;
+    [[nodiscard]] int exact_sign(std::int16_t vertex, const Plane& plane) const;
+    [[nodiscard]] Approximation exact_point(const std::array<PlainLine, 2>& lines) const;
     [[nodiscard]] bool passes(const PlainVertex& vertex, std::size_t contact) const;
     [[nodiscard]] bool is_end(const PlainVertex& vertex, std::size_t contact,
                               const PlainEnd& end) const;

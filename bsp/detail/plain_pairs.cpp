@@ -169,10 +169,13 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (!of_a.is_sure() || !of_b.is_sure()) return Relation::Doubtful;
     const std::size_t lonely_a = of_a.lonely();
     const std::size_t lonely_b = of_b.lonely();
-    const Numbered p(a.corners, lonely_a, of_b.value[lonely_b] < 0);
-    const Numbered q(b.corners, lonely_b, of_a.value[lonely_a] < 0);
-    // The interval of a runs from its edge to corner 2 to that to corner 1, the one of b from 1 to
-    // 2. order(i, j) > 0: along the line, b's edge to corner j comes before a's to corner i.
+    const bool turned_a = of_b.value[lonely_b] < 0;
+    const bool turned_b = of_a.value[lonely_a] < 0;
+    const Numbered p(a.corners, lonely_a, turned_a);
+    const Numbered q(b.corners, lonely_b, turned_b);
+    // In the direction of the normals' product, as both are turned now, the interval of a runs from
+    // its edge to corner 2 to that to corner 1, the one of b from 1 to 2. order(i, j) > 0: b's edge
+    // to corner j comes before a's to corner i.
     const auto order = [&](std::size_t i, std::size_t j) {
         return orientation(p[0], p[i], q[0], q[j]);
     };
@@ -194,8 +197,9 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
         return of_second ? pierce(q, of_b, corner, end.at) : pierce(p, of_a, corner, end.at);
     };
     // The later start and the earlier end.
-    const bool sure = set_end(out.ends[0], starts < 0, starts < 0 ? 1 : 2) &&
-                      set_end(out.ends[1], ends > 0, ends > 0 ? 2 : 1);
+    const std::size_t start = turned_a != turned_b ? 1 : 0;
+    const bool sure = set_end(out.ends[start], starts < 0, starts < 0 ? 1 : 2) &&
+                      set_end(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
     return sure ? Relation::Crossing : Relation::Doubtful;
 }
 

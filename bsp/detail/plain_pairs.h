@@ -24,7 +24,7 @@ struct PlainEnd {
 struct PlainCrossing {
     std::array<LeafIndex, 2> items{};
     std::array<std::array<std::int8_t, 3>, 2> sides{};  ///< of the corners of each, ±1
-    std::array<PlainEnd, 2> ends;
+    std::array<PlainEnd, 2> ends;  ///< in the direction of the normals' product, first × second
 };
 
 /// A crossing, seen from one of its facets.
