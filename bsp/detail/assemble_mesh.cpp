@@ -118,10 +118,16 @@ private:
     }
 
     void copy(std::size_t t, std::uint32_t facet, bool flipped) {
-        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
-        const std::uint32_t a = corner(t, corners[0]);
-        const std::uint32_t b = corner(t, corners[flipped ? 2 : 1]);
-        const std::uint32_t c = corner(t, corners[flipped ? 1 : 2]);
+        const LatticeMesh& mesh = parts_.sources[t].source()->mesh();
+        const auto& corners = mesh.triangles[facet];
+        std::uint32_t* const numbers = tables_[t].data();
+        const auto number = [&](std::uint32_t vertex) {
+            if (numbers[vertex] == none) numbers[vertex] = add_point(mesh.points[vertex]);
+            return numbers[vertex];
+        };
+        const std::uint32_t a = number(corners[0]);
+        const std::uint32_t b = number(corners[flipped ? 2 : 1]);
+        const std::uint32_t c = number(corners[flipped ? 1 : 2]);
         add_triangle(a, b, c);
     }
 

@@ -71,11 +71,24 @@ private:
     BoundaryParts& out_;
     std::vector<Leaf> leaves_;
     std::size_t last_table_ = 0;
-    std::vector<std::vector<std::int32_t>> facet_index_;  // by source: of 2 · facet + flipped
-    std::vector<BoundaryEdge> edges_;                     // of the parts, leaf by leaf
+    std::vector<BoundaryEdge> edges_;  // of the parts, leaf by leaf
     std::vector<PointId> same_;
     EdgeSplitter splitter_;
 };
+
+}  // namespace
+
+std::size_t FacetMarks::number_worked(std::size_t first) {
+    numbers_.resize(marks_.size() / 8);
+    std::size_t n = first;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        numbers_[i] = static_cast<std::int32_t>(n);
+        n += static_cast<std::size_t>(count(worked_in(eight_at(8 * i))));
+    }
+    return n - first;
+}
+
+namespace {
 
 std::size_t Gatherer::table(const Source* source) {
     auto& tables = out_.sources;
@@ -108,10 +121,10 @@ void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& 
 }
 
 // Whether a whole facet that a leaf lists bounds the result. It may be listed in cells that it
-// passes by; the one of its first corner counts. Of a facet that is worked on anyway every cell is
-// looked at.
+// passes by; the one of its first corner counts, and is not looked for any more once it was found.
+// Of a facet that is worked on anyway every cell is looked at.
 bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bool flipped) {
-    return marks.is_worked(facet, flipped) ||
+    return marks.is_present(facet, flipped) || marks.is_worked(facet, flipped) ||
            cell.contains(Box::of(marks.source()->corner(facet, 0)));
 }
 
@@ -156,16 +169,12 @@ void Gatherer::number_facets() {
         return a.source()->serial() < b.source()->serial();
     });
     last_table_ = 0;
-    facet_index_.resize(tables.size());
     for (std::size_t t = 0; t < tables.size(); ++t) {
         const Source* source = tables[t].source();
         out_.table_ids.assign(BoundaryParts::key_of(source), static_cast<std::int32_t>(t));
         out_.stats.whole_facets += tables[t].whole_count();
+        tables[t].number_worked(out_.facets.size());
         tables[t].for_each_worked([&](std::uint32_t f, bool flipped) {
-            auto& index = facet_index_[t];
-            if (index.empty()) index.assign(2 * std::size_t{source->facet_count()}, -1);
-            index[2 * std::size_t{f} + (flipped ? 1 : 0)] =
-                static_cast<std::int32_t>(out_.facets.size());
             out_.facets.push_back({source, f, flipped});
         });
     }
@@ -174,19 +183,25 @@ void Gatherer::number_facets() {
 void Gatherer::make_parts(Leaf& leaf) {
     leaf.first_edge = edges_.size();
     const PolygonList& polygons = leaf.node->polygons();
-    const auto make = [&](const PolygonRef& r, const std::vector<std::int32_t>& index) {
-        const bool flipped = r.flipped != leaf.complemented;
-        const std::int32_t facet = index[2 * std::size_t{r.facet} + (flipped ? 1 : 0)];
-        if (facet >= 0) make_part(r, leaf, facet);
-    };
     if (const Source* source = polygons.whole_source()) {
-        const auto& index = facet_index_[table(source)];
-        for (std::size_t i = 0; !index.empty() && i < polygons.size(); ++i)
-            make(polygons[i], index);
+        const FacetMarks& marks = out_.sources[table(source)];
+        const bool flipped = polygons.flipped() != leaf.complemented;
+        const auto make = [&](std::uint32_t f) {
+            if (marks.takes_part(f, flipped))
+                make_part({source, nullptr, f, polygons.flipped(), false}, leaf,
+                          marks.number_of_worked(f, flipped));
+        };
+        if (polygons.has_all_facets()) {
+            for (std::uint32_t f = 0; f < polygons.size(); ++f) make(f);
+        } else {
+            for (const std::uint32_t f : polygons.facets()) make(f);
+        }
     } else {
         for (const PolygonRef r : polygons) {
-            const auto& index = facet_index_[table(r.source)];
-            if (!index.empty()) make(r, index);
+            const FacetMarks& marks = out_.sources[table(r.source)];
+            const bool flipped = r.flipped != leaf.complemented;
+            if (marks.takes_part(r.facet, flipped))
+                make_part(r, leaf, marks.number_of_worked(r.facet, flipped));
         }
     }
     leaf.end_edge = edges_.size();
@@ -206,8 +221,10 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
     f.leaf = number;
     if (ref.fragment != nullptr) add_corners_near(shape, ref);
     ++out_.stats.parts;
+    ++f.parts;
     const std::size_t n = shape.points.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = f.flipped ? n - 1 - k : k;
         PointId a = shape.points[i];
         PointId b = shape.points[i + 1 == n ? 0 : i + 1];
         if (f.flipped) std::swap(a, b);
@@ -295,8 +312,6 @@ public:
             hi_[k] = std::max(a[k], b[k]) + error_;
         }
     }
-    [[nodiscard]] double lo(std::size_t k) const { return lo_[k]; }
-    [[nodiscard]] double hi(std::size_t k) const { return hi_[k]; }
     [[nodiscard]] bool may_contain(const std::array<double, 3>& p) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (p[k] < lo_[k] || p[k] > hi_[k]) return false;
@@ -402,12 +417,16 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     const Candidate* const end = first + candidates_.size();
     const Candidate* const from = first + rank_[u(e.from)];
     const Candidate* const to = first + rank_[u(e.to)];
-    const EdgeFilter filter(
-        from->c, to->c,
-        bench_.approximation(e.from).error + bench_.approximation(e.to).error + widest_);
-    const Candidate* it = std::min(from, to);
-    while (it != first && it[-1].c[axis_] >= filter.lo(axis_)) --it;
-    for (; it != end && it->c[axis_] <= filter.hi(axis_); ++it) {
+    const Candidate* low = std::min(from, to);
+    const Candidate* high = std::max(from, to) + 1;
+    const double reach = 1.0000001 * (3 * widest_);
+    const double low_at = low->c[axis_] - reach;
+    const double high_at = high[-1].c[axis_] + reach;
+    while (low != first && low[-1].c[axis_] >= low_at) --low;
+    while (high != end && high->c[axis_] <= high_at) ++high;
+    if (high - low == 2) return;  // the ends
+    const EdgeFilter filter(from->c, to->c, 3 * widest_);
+    for (const Candidate* it = low; it != high; ++it) {
         if (it == from || it == to || !filter.may_contain(it->c)) continue;
         const int axis = separating_axis(bench_, e.from, e.to);
         if (lies_inside(bench_, it->point, e, facets_[u(e.facet)].support, axis))

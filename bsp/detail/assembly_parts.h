@@ -26,6 +26,7 @@ struct BoundaryFacet {
     PlaneId support = -1;
     std::int32_t leaf = -1;         ///< where parts of it were found
     bool in_several_cells = false;  ///< its parts were not all conformed in one leaf
+    std::uint32_t parts = 0;        ///< how many; the edges of one come in the order of its loop
 };
 
 /// An edge of a part of a facet, directed so that the part lies to its left seen from outside.
@@ -47,6 +48,9 @@ public:
     void set_present(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(present, flipped); }
     /// The facet is cut or touched somewhere: it does not pass through as it is.
     void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
+    [[nodiscard]] bool is_present(std::uint32_t facet, bool flipped) const {
+        return (marks_[facet] & bit(present, flipped)) != 0;
+    }
     [[nodiscard]] bool is_worked(std::uint32_t facet, bool flipped) const {
         return (marks_[facet] & bit(worked, flipped)) != 0;
     }
@@ -62,11 +66,24 @@ public:
         for_each([](std::uint64_t m) { return worked_in(m); }, visit);
     }
 
+    /// Numbers the facets of for_each_worked, from `first` on; returns how many there are.
+    std::size_t number_worked(std::size_t first);
+    /// Its number. \pre numbered, and the facet is present and worked on in this orientation.
+    [[nodiscard]] std::int32_t number_of_worked(std::uint32_t facet, bool flipped) const {
+        const std::uint64_t before = (std::uint64_t{flipped ? 2U : 1U} << (8 * (facet % 8))) - 1;
+        return numbers_[facet / 8] +
+               count(worked_in(eight_at(facet / 8 * std::size_t{8})) & before);
+    }
+    /// Whether it is present and worked on.
+    [[nodiscard]] bool takes_part(std::uint32_t facet, bool flipped) const {
+        const unsigned m = marks_[facet];
+        return (m & (m >> 2) & bit(present, flipped)) != 0;
+    }
     /// How many pass through.
     [[nodiscard]] std::size_t whole_count() const {
         std::size_t n = 0;
         for (std::size_t i = 0; i < marks_.size(); i += 8)
-            n += static_cast<std::size_t>(std::popcount(whole_in(eight_at(i))));
+            n += static_cast<std::size_t>(count(whole_in(eight_at(i))));
         return n;
     }
 
@@ -80,6 +97,11 @@ private:
     static constexpr std::uint64_t low_bits = 0x0303030303030303U;
     static constexpr std::uint64_t whole_in(std::uint64_t m) { return m & ~(m >> 2) & low_bits; }
     static constexpr std::uint64_t worked_in(std::uint64_t m) { return m & (m >> 2) & low_bits; }
+    // Set bits among low_bits.
+    static constexpr std::int32_t count(std::uint64_t m) {
+        constexpr std::uint64_t ones = 0x0101010101010101U;
+        return static_cast<std::int32_t>((((m & ones) + (m >> 1 & ones)) * ones) >> 56);
+    }
 
     // `select` makes two bits for each of eight facets, one for each orientation, out of their
     // marks.
@@ -100,7 +122,8 @@ private:
     }
 
     const Source* source_;
-    std::vector<std::uint8_t> marks_;  // a byte for each facet, filled up to a multiple of eight
+    std::vector<std::uint8_t> marks_;    // a byte for each facet, filled up to a multiple of eight
+    std::vector<std::int32_t> numbers_;  // of every eighth facet: the first number from it on
 };
 
 /// The boundary in pieces, conforming within each facet's cells but not yet joined.

@@ -11,10 +11,12 @@
 #include <trisect/bsp/detail/boundary_edges.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numeric>
 #include <tuple>
 
+#include <trisect/bsp/detail/edge_chains.h>
 #include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
 
@@ -30,9 +32,28 @@ std::uint64_t ends_of(const BoundaryEdge& e) {
     return (static_cast<std::uint64_t>(lo) << 32) | static_cast<std::uint32_t>(hi);
 }
 
-// Cancels opposite pairs within one region, in place; keeps the order of what is left by (min, max,
-// from). Returns how many edges are left.
-std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
+// Cancels opposite pairs of few edges, in place; keeps the order of what is left.
+std::size_t cancel_few(std::span<BoundaryEdge> edges) {
+    std::array<std::uint64_t, EdgeChains::few> way{};
+    const auto directed = [](PointId from, PointId to) {
+        return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
+    };
+    constexpr std::uint64_t gone = ~std::uint64_t{0};
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        way[i] = directed(edges[i].from, edges[i].to);
+        const std::uint64_t back = directed(edges[i].to, edges[i].from);
+        std::size_t j = 0;
+        while (j < i && way[j] != back) ++j;
+        if (j < i) way[j] = way[i] = gone;
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (way[i] != gone) edges[left++] = edges[i];
+    return left;
+}
+
+// The same for any number; what is left is ordered by (min, max, from).
+std::size_t cancel_many(std::span<BoundaryEdge> edges) {
     std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& a, const BoundaryEdge& b) {
         const std::uint64_t ka = ends_of(a);
         const std::uint64_t kb = ends_of(b);
@@ -53,6 +74,11 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
         i = j;
     }
     return left;
+}
+
+// Cancels opposite pairs within one region. Returns how many edges are left; they come first.
+std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
+    return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
 }
 
 void sort_by_facet(std::size_t facet_count, std::vector<BoundaryEdge>& edges) {
@@ -99,7 +125,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         i = j;
         const std::size_t first = out.size();
         const bool conforms = !parts.facets[u(group[0].facet)].in_several_cells;
-        if (group.size() == 3) {  // one triangle, nothing to join
+        if (parts.facets[u(group[0].facet)].parts == 1) {  // nothing to join
             out.insert(out.end(), group.begin(), group.end());
         } else if (const auto left = group.first(cancel_opposites(group)); conforms) {
             out.insert(out.end(), left.begin(), left.end());
@@ -113,6 +139,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
             if (out.size() - first > left.size())
                 out.resize(first + cancel_opposites(std::span(out).subspan(first)));
         }
+        EdgeChains::arrange(std::span(out).subspan(first));
         for (const BoundaryEdge& e : std::span(out).subspan(first)) {
             const PlaneName& n = parts.bench.name(e.line.plane);
             if (n.is_wall() && std::abs(n.position()) >= universe_limit)
@@ -122,6 +149,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     edges.swap(out);
     conform_walls(parts, edges);
 }
+
 void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
                           std::vector<BoundaryEdge>& edges) {
     std::vector<std::int32_t> cluster(parts.facets.size());
@@ -189,6 +217,20 @@ public:
     }
 
     void look_at(std::size_t first, std::size_t end) {
+        const auto region = std::span(edges_).subspan(first, end - first);
+        if (!chains_.are_simple(region)) return look_at_any(first, end);
+        for_each_turn(region, [&](std::size_t in, std::size_t out) {
+            const PointId p = region[out].from;
+            if (keep_[u(p)]) return;
+            if ((keep_corners_ && bench_.is_corner(p)) || !runs_straight(region[in], region[out])) {
+                keep_[u(p)] = true;
+            } else {
+                next_[first + in] = first + out;
+            }
+        });
+    }
+
+    void look_at_any(std::size_t first, std::size_t end) {
         by_from_.clear();
         by_to_.clear();
         for (std::size_t i = first; i < end; ++i) {
@@ -213,6 +255,7 @@ public:
         }
     }
 
+    // Loops that were in order stay so.
     [[nodiscard]] std::vector<BoundaryEdge> joined() const {
         std::vector<BoundaryEdge> out;
         out.reserve(edges_.size());
@@ -241,6 +284,7 @@ private:
     const std::vector<BoundaryEdge>& edges_;
     std::vector<bool> keep_;
     std::vector<std::size_t> next_;
+    EdgeChains chains_;
     Ends by_from_;
     Ends by_to_;
 };

@@ -119,20 +119,34 @@ void FaceLoops::set_region(PlaneId support, bool flipped, std::span<const Bounda
     u_ = (k + 1) % 3;
     v_ = (k + 2) % 3;
     right_handed_ = (p.normal(k) > 0) != flipped;
-    by_start_.clear();
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        by_start_.emplace_back(edges[i].from, static_cast<std::uint32_t>(i));
-    std::sort(by_start_.begin(), by_start_.end());
-    used_.assign(edges.size(), false);
     points_.clear();
     edge_at_.clear();
     loops_.clear();
-    for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (chains_.are_simple(edges)) {
+        chain_.clear();
+        for_each_turn(edges, [&](std::size_t in, std::size_t out) {
+            chain_.push_back(static_cast<std::uint32_t>(in));
+            if (out > in) return;
+            add_loop();
+            chain_.clear();
+        });
+    } else {
+        chain_all();
+    }
+    order_loops();
+}
+
+void FaceLoops::chain_all() {
+    by_start_.clear();
+    for (std::size_t i = 0; i < edges_.size(); ++i)
+        by_start_.emplace_back(edges_[i].from, static_cast<std::uint32_t>(i));
+    std::sort(by_start_.begin(), by_start_.end());
+    used_.assign(edges_.size(), false);
+    for (std::size_t start = 0; start < edges_.size(); ++start) {
         if (used_[start]) continue;
         chain_from(start);
         add_loop();
     }
-    order_loops();
 }
 
 // The corners of all loops for loops_below; edge i runs from corner i to the next one of its loop.

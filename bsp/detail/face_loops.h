@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/assembly_parts.h>
+#include <trisect/bsp/detail/edge_chains.h>
 
 namespace trisect::detail {
 
@@ -49,6 +50,7 @@ private:
     [[nodiscard]] int compare(PointId a, PointId b) const;
     [[nodiscard]] std::span<const std::pair<PointId, std::uint32_t>> leaving(PointId p) const;
     [[nodiscard]] std::size_t continuation(std::size_t arriving, PointId at) const;
+    void chain_all();
     void chain_from(std::size_t start);
     void add_loop();
     [[nodiscard]] bool is_outer(std::size_t smallest) const;
@@ -59,6 +61,7 @@ private:
     int u_ = 0;
     int v_ = 1;
     bool right_handed_ = true;
+    EdgeChains chains_;
     std::vector<std::pair<PointId, std::uint32_t>> by_start_;
     std::vector<bool> used_;
     std::vector<std::uint32_t> chain_;  // edges of the loop in the making

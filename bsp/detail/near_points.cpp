@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every point has an enclosure, its doubles with their error. Enclosures of equal points overlap
-// along all three axes. So: sort along an axis and cut where a gap shows; enclosures that chain
-// together stay in one group. Go on with the next axis within each group, until no axis cuts.
+// along all three axes. Nearly all overlap with no other, and a hash table over the cells of a fine
+// grid tells which, without sorting anything. For the rest: sort along an axis and cut where a gap
+// shows; enclosures that chain together stay in one group. Go on with the next axis within each
+// group, until no axis cuts.
 //
 // A sweep along one axis alone compares every pair that overlaps there, which on models with axis
 // parallel faces, where a tenth of all vertices may share one x, is quadratic.
@@ -10,13 +12,106 @@
 #include <trisect/bsp/detail/near_points.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
 namespace trisect::detail {
 
 namespace {
+
+std::size_t u(PointId p) { return static_cast<std::size_t>(p); }
+
+// Somewhat wider than the error bound, for the rounding of its ends.
+double reach(const Approximation& a, std::size_t axis) {
+    return 1.0000001 * a.error + 0x1p-50 * std::fabs(a.c[axis]);
+}
+
+// Finds the points that share a cell of a grid with others. An enclosure belongs to all cells that
+// it meets, so those that overlap have a cell in common. Cells are some dozens of times larger than
+// the largest enclosure, so nearly all enclosures meet one cell, and still far smaller than what
+// models are made of, so that few points share one without need. Cells of equal hashes count as
+// one; that costs time only.
+class Crowded {
+public:
+    explicit Crowded(const Workbench& bench)
+        : bench_(bench), per_unit_(1 / size_of_cell(bench)), is_near_(bench.point_count(), false) {
+        entries_.reserve(bench.point_count() + bench.point_count() / 4);
+        for (std::size_t p = 0; p < bench.point_count(); ++p) add(static_cast<PointId>(p));
+        mark();
+    }
+    [[nodiscard]] std::vector<PointId> points() const {
+        std::vector<PointId> out;
+        for (std::size_t p = 0; p < is_near_.size(); ++p)
+            if (is_near_[p]) out.push_back(static_cast<PointId>(p));
+        return out;
+    }
+
+private:
+    struct Entry {
+        std::uint64_t cell = 0;  // hash
+        PointId point = -1;
+    };
+
+    static double size_of_cell(const Workbench& bench) {
+        double widest = 0;
+        for (std::size_t p = 0; p < bench.point_count(); ++p) {
+            const Approximation& a = bench.approximation(static_cast<PointId>(p));
+            for (std::size_t k = 0; k < 3; ++k) widest = std::max(widest, reach(a, k));
+        }
+        return widest > 0 ? 64 * widest : 1;
+    }
+
+    // The number of a cell along an axis; the one around zero is twice as wide. At most 2^44, as
+    // the largest coordinate reaches 2^-50 of it.
+    [[nodiscard]] std::int64_t cell_at(double c) const {
+        return static_cast<std::int64_t>(c * per_unit_);
+    }
+
+    void add(PointId p) {
+        const Approximation& a = bench_.approximation(p);
+        std::array<std::int64_t, 3> lo{};
+        std::array<std::int64_t, 3> hi{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = cell_at(a.c[k] - reach(a, k));
+            hi[k] = cell_at(a.c[k] + reach(a, k));
+        }
+        for (std::int64_t x = lo[0]; x <= hi[0]; ++x)
+            for (std::int64_t y = lo[1]; y <= hi[1]; ++y)
+                for (std::int64_t z = lo[2]; z <= hi[2]; ++z)
+                    entries_.push_back({hash(x, y, z), p});
+    }
+
+    static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
+        constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+        return mix64(static_cast<std::uint64_t>(x) +
+                     odd * (static_cast<std::uint64_t>(y) + odd * static_cast<std::uint64_t>(z)));
+    }
+
+    // The table holds numbers of entries, one for each cell.
+    void mark() {
+        std::vector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
+        for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+            std::size_t i = entries_[e].cell & (table.size() - 1);
+            while (table[i] != none && entries_[table[i]].cell != entries_[e].cell)
+                i = (i + 1) & (table.size() - 1);
+            if (table[i] == none) {
+                table[i] = e;
+            } else {
+                is_near_[u(entries_[table[i]].point)] = is_near_[u(entries_[e].point)] = true;
+            }
+        }
+    }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    const Workbench& bench_;
+    double per_unit_;
+    std::vector<Entry> entries_;
+    std::vector<bool> is_near_;
+};
 
 struct Range {
     double low = 0;
@@ -27,8 +122,8 @@ struct Range {
 class Groups {
 public:
     Groups(const Workbench& bench, const std::function<void(std::span<const PointId>)>& visit)
-        : bench_(bench), visit_(visit), ranges_(bench.point_count()) {
-        for (std::size_t i = 0; i < ranges_.size(); ++i) ranges_[i].point = static_cast<PointId>(i);
+        : bench_(bench), visit_(visit) {
+        for (const PointId p : Crowded(bench).points()) ranges_.push_back({0, 0, p});
     }
 
     void run() { part(ranges_, 0, 0); }
@@ -45,13 +140,11 @@ private:
     std::vector<PointId> points_;
 };
 
-// Somewhat wider than the error bound, for the rounding of its ends.
 void Groups::measure(std::span<Range> group, std::size_t axis) const {
     for (Range& r : group) {
         const Approximation& a = bench_.approximation(r.point);
-        const double reach = 1.0000001 * a.error + 0x1p-50 * std::fabs(a.c[axis]);
-        r.low = a.c[axis] - reach;
-        r.high = a.c[axis] + reach;
+        r.low = a.c[axis] - reach(a, axis);
+        r.high = a.c[axis] + reach(a, axis);
     }
     std::sort(group.begin(), group.end(), [](const Range& a, const Range& b) {
         return std::tie(a.low, a.point) < std::tie(b.low, b.point);

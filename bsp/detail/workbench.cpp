@@ -136,8 +136,19 @@ Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
 }
 
 PointId Workbench::meet(PlaneId p, PlaneId q, PlaneId r) {
+    return point_named(point_key(p, q, r), p, q, r);
+}
+
+// The same for a facet's support and one of its edges; point_key comes to this key by a longer way.
+PointId Workbench::meet_on_edge(PlaneId support, PlaneId edge, PlaneId other) {
+    const std::uint64_t a = line_item(edge);
+    const std::uint64_t b = line_item(other);
+    return point_named({std::min(a, b), std::max(a, b)}, support, edge, other);
+}
+
+PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r) {
     const auto next = static_cast<PointId>(points_.size());
-    const auto [id, inserted] = point_ids_.insert(point_key(p, q, r), next);
+    const auto [id, inserted] = point_ids_.insert(key, next);
     if (inserted)
         points_.push_back(
             {{p, q, r}, {}, approximate(plane_at(p), plane_at(q), plane_at(r)), nullptr, 0});
@@ -245,19 +256,33 @@ WorkPolygon Workbench::polygon(const PolygonRef& ref) {
         return w;
     }
     const auto edges = ref.fragment->edges();
-    for (const EdgeName& e : edges) w.edges.push_back({plane(e.plane), e.above});
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const EdgeName& before = edges[(i + edges.size() - 1) % edges.size()];
-        const EdgeName& after = edges[i];
-        const auto own = [&](const EdgeName& e) {
-            return e.plane.is_edge() && e.plane.source() == ref.source &&
-                   e.plane.facet == ref.facet;
-        };
-        if (own(before) && own(after)) {
-            w.points.push_back(corner(ref.source, ref.facet, static_cast<int>(after.plane.kind)));
+    const std::size_t n = edges.size();
+    const PlaneName support = PlaneName::support(ref.source, ref.facet);
+    const auto is_own = [&](const PlaneName& e) {
+        return e.is_edge() && e.owner == support.owner && e.facet == support.facet;
+    };
+    PlaneId own = -1;  // the first of the facet's edge planes
+    for (const EdgeName& e : edges) {
+        if (!is_own(e.plane)) {
+            w.edges.push_back({plane(e.plane), e.above});
+            continue;
+        }
+        const auto i = static_cast<PlaneId>(e.plane.kind);
+        if (own < 0) own = plane(e.plane) - i;
+        w.edges.push_back({own + i, e.above});
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = i == 0 ? n - 1 : i - 1;
+        const PlaneId p = w.edges[before].plane;
+        const PlaneId q = w.edges[i].plane;
+        const bool own_p = is_own(edges[before].plane);
+        const bool own_q = is_own(edges[i].plane);
+        if (own_p && own_q) {
+            w.points.push_back(corner(ref.source, ref.facet, static_cast<int>(q - own)));
+        } else if (own_p || own_q) {
+            w.points.push_back(meet_on_edge(w.support, own_p ? p : q, own_p ? q : p));
         } else {
-            const PlaneId p = w.edges[(i + edges.size() - 1) % edges.size()].plane;
-            w.points.push_back(meet(w.support, p, w.edges[i].plane));
+            w.points.push_back(meet(w.support, p, q));
         }
     }
     return w;

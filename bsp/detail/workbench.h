@@ -130,6 +130,8 @@ private:
     [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
     [[nodiscard]] std::uint64_t line_item(PlaneId p);
     [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
+    PointId point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r);
+    PointId meet_on_edge(PlaneId support, PlaneId edge, PlaneId other);
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
     std::vector<Plane> planes_;
