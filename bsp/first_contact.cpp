@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Touch: the static query says how the solids lie at the start. If they are apart, the first event
+// of the search is the first touch, because before it no boundary reaches the other.
+//
+// Overlap: between two neighbouring events nothing changes in how the boundaries meet, so whether
+// interiors meet is the same all over the open interval between them, and one static query at a
+// rational time in it decides. The first interval with an overlap begins at the answer. No sign of
+// a derivative is looked at: what a sliding contact of many features does next would take the
+// comparison of cones that the static query makes anyway.
 
 #include <trisect/bsp/first_contact.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <string>
-#include <tuple>
+#include <utility>
 
+#include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/bsp/detail/ball_motion.h>
 #include <trisect/bsp/detail/contact_event.h>
 #include <trisect/bsp/detail/contact_search.h>
@@ -19,6 +30,9 @@ namespace trisect {
 
 namespace {
 
+using detail::EarliestEvents;
+using detail::RealRoot;
+
 std::size_t common_piece_count(const Motion& a, const Motion& b) {
     if (a.piece_count() == b.piece_count() || b.is_still()) return a.piece_count();
     if (a.is_still()) return b.piece_count();
@@ -26,69 +40,183 @@ std::size_t common_piece_count(const Motion& a, const Motion& b) {
                      std::to_string(b.piece_count()) + " pieces do not run together");
 }
 
-const detail::MotionPiece& piece_of(const Motion& m, std::size_t i) {
-    return m.piece(std::min(i, m.piece_count() - 1));
+// A motion that stands still may have less pieces.
+std::size_t index_of(const Motion& m, std::size_t i) { return std::min(i, m.piece_count() - 1); }
+
+Pose pose_in_piece(const Motion& m, std::size_t i, const mpq_class& s) {
+    return m.pose_at(detail::from_gmp(s + static_cast<unsigned long>(index_of(m, i))));
 }
 
-BoundaryFeature public_feature(const detail::ContactFeature& f) {
-    BoundaryFeature r;
-    r.vertex = f.vertex;
-    r.edge = f.edge;
-    if (!f.vertex.is_valid() && !f.edge.is_valid()) r.face = f.face;
-    r.near_face = f.face;
-    return r;
+bool interiors_meet(Relation r) { return r != Relation::Disjoint && r != Relation::Touching; }
+
+BoundaryEntity entity_of(const detail::ContactFeature& f, const detail::InterferenceModelData& d) {
+    if (f.vertex.is_valid()) return d.place[f.vertex.index];
+    if (!f.edge.is_valid()) return f.face;
+    const auto copies = d.brep.copies(f.edge);
+    return copies.empty() ? f.edge : *std::min_element(copies.begin(), copies.end());
 }
 
-std::vector<ContactWitness> witnesses_of(const detail::EarliestEvents& events) {
-    std::vector<ContactWitness> r;
-    for (const detail::FeaturePair& p : events.pairs())
-        r.push_back({public_feature(p.a), public_feature(p.b)});
-    std::sort(r.begin(), r.end());
-    // The same two features may have been met through several faces.
-    const auto key = [](const BoundaryFeature& f) { return std::tie(f.vertex, f.edge, f.face); };
-    const auto same = [&key](const ContactWitness& x, const ContactWitness& y) {
-        return key(x.a) == key(y.a) && key(x.b) == key(y.b);
-    };
-    r.erase(std::unique(r.begin(), r.end(), same), r.end());
-    return r;
+// The fraction with the smallest power of two for denominator in an open interval.
+mpq_class simplest_between(const mpq_class& low, const mpq_class& high) {
+    for (mpz_class denominator = 1;; denominator *= 2) {
+        const mpq_class scaled = low * denominator;
+        mpz_class n;
+        mpz_fdiv_q(n.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+        mpq_class candidate(mpz_class(n + 1), denominator);
+        candidate.canonicalize();
+        if (candidate < high) return candidate;
+    }
 }
 
-void search_exactly(const detail::EventModel& a, const detail::EventModel& b,
-                    detail::PairEvents& pairs, detail::EarliestEvents& events) {
-    for (std::uint32_t i = 0; i < a.data().triangles.size(); ++i)
-        for (std::uint32_t j = 0; j < b.data().triangles.size(); ++j)
-            pairs.find_exactly(i, j, {0, 1}, events);
+// A time strictly between two.
+mpq_class time_between(RealRoot low, RealRoot high) {
+    while (low.upper() >= high.lower()) {
+        low.halve();
+        high.halve();
+    }
+    return simplest_between(low.upper(), high.lower());
 }
+
+class Query {
+public:
+    Query(const InterferenceModel& a, const Motion& motion_a, const InterferenceModel& b,
+          const Motion& motion_b)
+        : a_(a),
+          motion_a_(motion_a),
+          b_(b),
+          motion_b_(motion_b),
+          events_a_(a.data()),
+          events_b_(b.data()) {}
+
+    FirstContact run(ContactEvent event) {
+        const std::size_t pieces = common_piece_count(motion_a_, motion_b_);
+        if (a_.is_empty() || b_.is_empty()) return result_;
+        result_.at_start = relation_at(0, 0);
+        const bool is_event_at_start = event == ContactEvent::Touch
+                                           ? result_.at_start != Relation::Disjoint
+                                           : interiors_meet(result_.at_start);
+        if (is_event_at_start) {
+            answer_with_contacts(0);
+            return std::move(result_);
+        }
+        bool apart = result_.at_start == Relation::Disjoint;
+        for (std::size_t i = 0; i < pieces && !result_.exists(); ++i) {
+            if (event == ContactEvent::Touch)
+                touch_in_piece(i);
+            else
+                overlap_in_piece(i, apart);
+        }
+        return std::move(result_);
+    }
+
+private:
+    Relation relation_at(std::size_t piece, const mpq_class& s) const {
+        return interfere(a_, pose_in_piece(motion_a_, piece, s), b_,
+                         pose_in_piece(motion_b_, piece, s))
+            .relation;
+    }
+
+    void touch_in_piece(std::size_t i) {
+        enter_piece(i);
+        EarliestEvents events;
+        search(events);
+        if (!events.is_empty()) answer(i, events);
+    }
+
+    // `apart`: the solids have no common point just before.
+    void overlap_in_piece(std::size_t i, bool& apart) {
+        enter_piece(i);
+        EarliestEvents last;  // the events at `time`
+        RealRoot time(mpq_class(0));
+        for (;;) {
+            EarliestEvents next(apart && last.is_empty() ? std::nullopt : std::optional(time));
+            search(next);
+            if (!apart || !last.is_empty()) {
+                RealRoot end = next.is_empty() ? RealRoot(mpq_class(1)) : next.time();
+                if (time.compare(mpq_class(1)) == 0) return;
+                const Relation r = relation_at(i, time_between(time, end));
+                apart = r == Relation::Disjoint;
+                if (interiors_meet(r)) {
+                    if (last.is_empty())
+                        answer_with_contacts(i);
+                    else
+                        answer(i, last);
+                    return;
+                }
+            }
+            if (next.is_empty()) return;
+            time = next.time();
+            last = std::move(next);
+            apart = false;
+        }
+    }
+
+    void enter_piece(std::size_t i) {
+        motion_ = std::make_unique<detail::RelativeMotion>(
+            motion_a_.piece(index_of(motion_a_, i)), a_.lattice(),
+            motion_b_.piece(index_of(motion_b_, i)), b_.lattice());
+        pairs_ = std::make_unique<detail::PairEvents>(events_a_, events_b_, *motion_);
+        filter_.reset();
+        if (detail::BallMotion::fits(*motion_))
+            filter_ = std::make_unique<detail::BallMotion>(*motion_);
+    }
+
+    void search(EarliestEvents& events) {
+        if (filter_ == nullptr) {
+            for (std::uint32_t i = 0; i < a_.triangle_count(); ++i)
+                for (std::uint32_t j = 0; j < b_.triangle_count(); ++j)
+                    pairs_->find_exactly(i, j, {0, 1}, events);
+            return;
+        }
+        detail::ContactSearch search(events_a_, events_b_, *pairs_);
+        search.run(*filter_, events);
+        result_.stats.intervals += search.counters().intervals;
+        result_.stats.box_tests += search.counters().box_tests;
+        result_.stats.triangle_pairs += search.counters().triangle_pairs;
+    }
+
+    void answer(std::size_t piece, EarliestEvents& events) {
+        result_.time = AlgebraicNumber(events.time().shifted(static_cast<unsigned long>(piece)));
+        for (const detail::FeaturePair& p : events.pairs())
+            result_.witnesses.push_back({entity_of(p.a, a_.data()), entity_of(p.b, b_.data())});
+        sort_witnesses();
+    }
+
+    // At the beginning of a piece.
+    void answer_with_contacts(std::size_t piece) {
+        result_.time = AlgebraicNumber(ExactRational(static_cast<std::int64_t>(piece)));
+        InterferenceOptions options;
+        options.contacts = true;
+        const InterferenceResult r = interfere(a_, pose_in_piece(motion_a_, piece, 0), b_,
+                                               pose_in_piece(motion_b_, piece, 0), options);
+        for (const Contact& c : r.contacts) result_.witnesses.push_back({c.a, c.b});
+        sort_witnesses();
+    }
+
+    void sort_witnesses() {
+        auto& w = result_.witnesses;
+        std::sort(w.begin(), w.end());
+        w.erase(std::unique(w.begin(), w.end()), w.end());
+    }
+
+    const InterferenceModel& a_;
+    const Motion& motion_a_;
+    const InterferenceModel& b_;
+    const Motion& motion_b_;
+    detail::EventModel events_a_;
+    detail::EventModel events_b_;
+    std::unique_ptr<detail::RelativeMotion> motion_;
+    std::unique_ptr<detail::PairEvents> pairs_;
+    std::unique_ptr<detail::BallMotion> filter_;  // null when degrees are too high
+    FirstContact result_;
+};
 
 }  // namespace
 
 FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,
-                           const InterferenceModel& b, const Motion& motion_b) {
-    const std::size_t pieces = common_piece_count(motion_a, motion_b);
-    FirstContact result;
-    if (a.is_empty() || b.is_empty()) return result;
-    const detail::EventModel model_a(a.data());
-    const detail::EventModel model_b(b.data());
-    for (std::size_t i = 0; i < pieces; ++i) {
-        const detail::RelativeMotion motion(piece_of(motion_a, i), a.lattice(),
-                                            piece_of(motion_b, i), b.lattice());
-        detail::PairEvents pairs(model_a, model_b, motion, i == 0);
-        detail::EarliestEvents events;
-        if (detail::BallMotion::fits(motion)) {
-            detail::ContactSearch search(model_a, model_b, pairs);
-            search.run(detail::BallMotion(motion), events);
-            result.stats.intervals += search.counters().intervals;
-            result.stats.box_tests += search.counters().box_tests;
-            result.stats.triangle_pairs += search.counters().triangle_pairs;
-        } else {
-            search_exactly(model_a, model_b, pairs, events);
-        }
-        if (events.is_empty()) continue;
-        result.time = AlgebraicNumber(events.time().shifted(static_cast<unsigned long>(i)));
-        result.witnesses = witnesses_of(events);
-        return result;
-    }
-    return result;
+                           const InterferenceModel& b, const Motion& motion_b,
+                           const FirstContactOptions& options) {
+    return Query(a, motion_a, b, motion_b).run(options.event);
 }
 
 }  // namespace trisect

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// first_contact: when do two moving solids first touch? Exact for rational motions.
+// first_contact: when do two moving solids first touch, or block each other? Exact for rational
+// motions.
 #pragma once
 
 #include <cstdint>
@@ -8,27 +9,32 @@
 #include <vector>
 
 #include <trisect/brep/algebraic_number.h>
-#include <trisect/brep/brep.h>
+#include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/motion.h>
 
 namespace trisect {
 
-/// Where on a boundary: a vertex, else an edge, else a face is valid. `near_face` is a face at the
-/// place in any case.
-struct BoundaryFeature {
-    VertexId vertex;
-    EdgeId edge;
-    FaceId face;
-    FaceId near_face;
-    friend auto operator<=>(const BoundaryFeature&, const BoundaryFeature&) = default;
+/// Two entities that meet. While solids come together one of them is a vertex, or both are edges
+/// that cross.
+struct ContactWitness {
+    BoundaryEntity a;
+    BoundaryEntity b;
+    friend constexpr auto operator<=>(const ContactWitness&, const ContactWitness&) = default;
 };
 
-/// A pair of features that meet. One of them is a vertex, or both are edges that cross.
-struct ContactWitness {
-    BoundaryFeature a;
-    BoundaryFeature b;
-    friend auto operator<=>(const ContactWitness&, const ContactWitness&) = default;
+/// What to look for.
+enum class ContactEvent : std::uint8_t {
+    /// The first time at which the solids have a point in common.
+    Touch,
+    /// The time from which on the interiors meet: the last one up to which the motion is possible.
+    /// Sliding along each other, grazing in passing and coming apart are no obstacles, at the start
+    /// or later.
+    Overlap
+};
+
+struct FirstContactOptions {
+    ContactEvent event = ContactEvent::Touch;
 };
 
 /// What a search did, besides motion_counters().
@@ -39,28 +45,37 @@ struct FirstContactStats {
 };
 
 struct FirstContact {
-    /// Nothing is a proof that there is no contact.
+    /// Nothing is a proof that there is no such event.
     [[nodiscard]] bool exists() const { return time.has_value(); }
 
     /// The parameter of the motions, exact; two of them compare exactly.
     std::optional<AlgebraicNumber> time;
-    /// All pairs of features that arrive at that time, sorted, each once.
+    /// All pairs of entities that arrive at each other at that time, sorted. At the start of the
+    /// motion: all pairs that meet there, which are none when one solid is within the other.
     std::vector<ContactWitness> witnesses;
+    /// How the solids lie to each other at the start.
+    Relation at_start = Relation::Disjoint;
     FirstContactStats stats;
 };
 
-/// The first value of the parameter at which the boundaries of the two solids touch.
+/// The first event of two moving solids, from the whole range of the parameter.
 ///
 /// Both motions run over the same range: they have the same number of pieces, or one of them stands
-/// still. A touch at either end of the range counts.
+/// still. Both ends belong to the range: a touch exactly at the end counts. Where interiors meet at
+/// the start the event is there. For Overlap the time is the end of what is possible, itself
+/// included: a block that falls onto a floor overlaps from the time on at which it touches.
 ///
-/// \pre The interiors are apart at the start. A solid within the other one, or already crossing
-/// it, is a static question; what is reported then is the next time at which some vertex or edge
-/// arrives at the other boundary.
+/// Any rational motions go together; where the relative motion has a degree above 8 (two blends of
+/// poses have 3, two screws 5) no filter in doubles is tried and all pairs are decided exactly,
+/// which is slow.
 ///
-/// Cost: one walk down both trees for each part of the range before the contact, shorter parts
-/// where the solids are near each other. \throw UsageError when the motions do not match.
+/// Cost: one static query at the start; then walks down both trees, for parts of the range before
+/// the event only, short parts where the solids are near each other. Overlap takes a search and a
+/// static query for each contact on the way.
+/// \throw UsageError when the motions do not match, LimitError when a pose of the static query is
+/// too wide (kernel/pose.h).
 [[nodiscard]] FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,
-                                         const InterferenceModel& b, const Motion& motion_b);
+                                         const InterferenceModel& b, const Motion& motion_b,
+                                         const FirstContactOptions& options = {});
 
 }  // namespace trisect

@@ -7,6 +7,11 @@
 
 namespace trisect::detail {
 
+EarliestEvents::EarliestEvents(std::optional<RealRoot> after) : after_(std::move(after)) {
+    // GMP truncates towards zero.
+    if (after_) earliest_ = after_->lower().get_d();
+}
+
 void EarliestEvents::add(RealRoot s, const FeaturePair& pair) {
     if (after_ && s.compare(*after_) <= 0) return;
     if (!pairs_.empty()) {

@@ -28,8 +28,7 @@ struct FeaturePair {
 class EarliestEvents {
 public:
     /// Only events after `after`, if given, count.
-    explicit EarliestEvents(std::optional<RealRoot> after = std::nullopt)
-        : after_(std::move(after)) {}
+    explicit EarliestEvents(std::optional<RealRoot> after = std::nullopt);
 
     void add(RealRoot s, const FeaturePair& pair);
 
@@ -39,12 +38,15 @@ public:
     [[nodiscard]] const std::vector<FeaturePair>& pairs() const { return pairs_; }
     /// No event after this matters; beyond 1 when there is none yet.
     [[nodiscard]] double latest() const { return latest_; }
+    /// No event before this counts.
+    [[nodiscard]] double earliest() const { return earliest_; }
 
 private:
     std::optional<RealRoot> after_;
     RealRoot time_;
     std::vector<FeaturePair> pairs_;
     double latest_ = 2;
+    double earliest_ = -1;
 };
 
 }  // namespace trisect::detail

@@ -56,7 +56,7 @@ private:
     void refine(const ObbPose& pose, const SweptMap& swept, const Pairs& front, Pairs& leaves,
                 Pairs& coarse);
     void push_children(const ObbPose& pose, const Pair& pair, bool of_b, Pairs& stack);
-    void solve(const BallMotion& over, const Pairs& leaves, EarliestEvents& events);
+    void solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events);
     [[nodiscard]] double size_a(ObbId id) const;
     [[nodiscard]] double size_b(const ObbPose& pose, ObbId id) const;
 

@@ -46,7 +46,7 @@ BallVector moved_point(const BallMotion::Maps& m, const BallVector& x) {
 }
 
 // B's plane over a point of A.
-Ball height(const BallMotion::Maps& m, const BallPlane& plane, const BallVector& x) {
+Ball height_over(const BallMotion::Maps& m, const BallPlane& plane, const BallVector& x) {
     return dot(m.plane_normal * plane.normal, x) +
            (m.plane_offset * plane.offset - dot(m.plane_shift, plane.normal));
 }
@@ -219,18 +219,120 @@ struct PairEvents::Scalars {
     }
 };
 
+// What the questions of all triangles of A have in common: a triangle of B on its way.
+struct PairEvents::Moved {
+    using Path = std::array<BallVector, BallPolynomial::max_degree + 1>;
+
+    std::uint32_t triangle = EntityId<void>::none;
+    double from = 0;
+    double to = 0;
+    Corners at_rest;
+    BallVector normal_at_rest;
+    std::array<Path, 3> corner;
+    Path normal;
+    std::array<Ball, BallPolynomial::max_degree + 1> offset;
+    // Of the sides.
+    std::array<Path, 3> direction;
+    std::array<Path, 3> moment;
+};
+
+// A triangle of A, which is the one at rest.
+struct PairEvents::Resting {
+    Corners corner;
+    BallVector normal;
+    Ball offset;
+
+    Resting(const EventModel& model, const ModelTriangle& t) : corner(corners_of(model, t)) {
+        const Plane& plane = model.data().brep.plane(t.face);
+        normal = normal_ball(plane);
+        offset = Ball::rounded(plane.approx_offset());
+    }
+};
+
+PairEvents::PairEvents(const EventModel& a, const EventModel& b, const RelativeMotion& motion)
+    : a_(a), b_(b), motion_(motion), moved_(std::make_unique<Moved>()) {}
+
+PairEvents::~PairEvents() = default;
+
+const PairEvents::Moved& PairEvents::moved(std::uint32_t triangle_b, const BallMotion& over) {
+    Moved& r = *moved_;
+    if (r.triangle == triangle_b && r.from == over.from && r.to == over.to) return r;
+    r.triangle = triangle_b;
+    r.from = over.from;
+    r.to = over.to;
+    const ModelTriangle& t = b_.triangle(triangle_b);
+    const Plane& plane = b_.data().brep.plane(t.face);
+    r.at_rest = corners_of(b_, t);
+    r.normal_at_rest = normal_ball(plane);
+    const Ball offset = Ball::rounded(plane.approx_offset());
+    for (std::size_t k = 0; k <= over.degree; ++k) {
+        const BallMotion::Maps& m = over.maps[k];
+        r.normal[k] = m.plane_normal * r.normal_at_rest;
+        r.offset[k] = m.plane_offset * offset - detail::dot(m.plane_shift, r.normal_at_rest);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const BallVector u = r.at_rest[after(i)] - r.at_rest[i];
+        const BallVector moment = detail::cross(r.at_rest[i], r.at_rest[after(i)]);
+        for (std::size_t k = 0; k <= over.degree; ++k) {
+            const BallMotion::Maps& m = over.maps[k];
+            r.corner[i][k] = moved_point(m, r.at_rest[i]);
+            if (!t.edge[i].is_valid()) continue;
+            r.direction[i][k] = m.line_direction * u;
+            r.moment[i][k] = m.line_moment * moment + m.line_lever * u;
+        }
+    }
+    return r;
+}
+
 void PairEvents::find(std::uint32_t triangle_a, std::uint32_t triangle_b, const BallMotion& over,
                       EarliestEvents& events) {
+    if (over.from > events.latest()) return;
+    const Moved& b = moved(triangle_b, over);
+    const Resting a(a_, a_.triangle(triangle_a));
+
+    // All corners of one for good on one side of the plane of the other: nothing can happen.
+    std::array<BallPolynomial, 3> b_over_a;
+    std::array<BallPolynomial, 3> a_over_b;
+    std::array<int, 3> side_of_b{};
+    std::array<int, 3> side_of_a{};
+    const auto all_on_one_side = [](const std::array<int, 3>& s) {
+        return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
+    };
     for (std::size_t i = 0; i < 3; ++i) {
-        if (over.from > events.latest()) return;
-        if (b_.owns_vertex(triangle_b, i))
-            vertex_of_b({Kind::VertexFace, triangle_a, triangle_b, 0, i}, over, events);
-        if (a_.owns_vertex(triangle_a, i))
-            vertex_of_a({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, over, events);
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            b_over_a[i].b[k] =
+                detail::dot(a.normal, b.corner[i][k]) + a.offset * over.maps[k].weight;
+        side_of_b[i] = constant_sign(b_over_a[i], over.degree);
+    }
+    if (all_on_one_side(side_of_b)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            a_over_b[i].b[k] = detail::dot(b.normal[k], a.corner[i]) + b.offset[k];
+        side_of_a[i] = constant_sign(a_over_b[i], over.degree);
+    }
+    if (all_on_one_side(side_of_a)) return;
+
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (b_.owns_vertex(triangle_b, i)) {
+            ++motion_counters().questions;
+            if (side_of_b[i] == 0)
+                vertex_of_b({Kind::VertexFace, triangle_a, triangle_b, 0, i}, a, b_over_a[i], over,
+                            events);
+            else
+                ++motion_counters().filtered;
+        }
+        if (a_.owns_vertex(triangle_a, i)) {
+            ++motion_counters().questions;
+            if (side_of_a[i] == 0)
+                vertex_of_a({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, a, a_over_b[i], over,
+                            events);
+            else
+                ++motion_counters().filtered;
+        }
         if (!a_.owns_edge(triangle_a, i)) continue;
         for (std::size_t j = 0; j < 3; ++j)
             if (b_.owns_edge(triangle_b, j))
-                edges({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, over, events);
+                edges({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, a, over, events);
     }
 }
 
@@ -248,76 +350,44 @@ void PairEvents::find_exactly(std::uint32_t triangle_a, std::uint32_t triangle_b
     }
 }
 
-void PairEvents::vertex_of_b(const Features& f, const BallMotion& over, EarliestEvents& events) {
-    ++motion_counters().questions;
-    const ModelTriangle& ta = a_.triangle(f.triangle_a);
-    const BallVector x = b_.position(b_.triangle(f.triangle_b).vertex[f.j]);
-    const Plane& plane = a_.data().brep.plane(ta.face);
-    const BallVector normal = normal_ball(plane);
-    const Ball offset = Ball::rounded(plane.approx_offset());
-    std::array<BallVector, BallPolynomial::max_degree + 1> path;
+void PairEvents::vertex_of_b(const Features& f, const Resting& a, const BallPolynomial& height,
+                             const BallMotion& over, EarliestEvents& events) {
     Scalars scalars;
-    for (std::size_t k = 0; k <= over.degree; ++k) {
-        path[k] = moved_point(over.maps[k], x);
-        scalars.coplanar.b[k] = detail::dot(normal, path[k]) + offset * over.maps[k].weight;
-    }
-    if (constant_sign(scalars.coplanar, over.degree) != 0) {
-        ++motion_counters().filtered;
-        return;
-    }
-    const Corners c = corners_of(a_, ta);
+    scalars.coplanar = height;
     for (std::size_t i = 0; i < 3; ++i) {
-        const BallPlane s = side_plane(c, normal, i);
+        const BallPlane s = side_plane(a.corner, a.normal, i);
         for (std::size_t k = 0; k <= over.degree; ++k)
             scalars.conditions[i].b[k] =
-                detail::dot(s.normal, path[k]) + s.offset * over.maps[k].weight;
+                detail::dot(s.normal, moved_->corner[f.j][k]) + s.offset * over.maps[k].weight;
     }
     narrow(f, over, scalars, events);
 }
 
-void PairEvents::vertex_of_a(const Features& f, const BallMotion& over, EarliestEvents& events) {
-    ++motion_counters().questions;
-    const ModelTriangle& tb = b_.triangle(f.triangle_b);
-    const BallVector x = a_.position(a_.triangle(f.triangle_a).vertex[f.i]);
-    const Plane& plane = b_.data().brep.plane(tb.face);
-    const BallPlane support{normal_ball(plane), Ball::rounded(plane.approx_offset())};
+void PairEvents::vertex_of_a(const Features& f, const Resting& a, const BallPolynomial& height,
+                             const BallMotion& over, EarliestEvents& events) {
     Scalars scalars;
-    for (std::size_t k = 0; k <= over.degree; ++k)
-        scalars.coplanar.b[k] = height(over.maps[k], support, x);
-    if (constant_sign(scalars.coplanar, over.degree) != 0) {
-        ++motion_counters().filtered;
-        return;
-    }
-    const Corners c = corners_of(b_, tb);
+    scalars.coplanar = height;
     for (std::size_t i = 0; i < 3; ++i) {
-        const BallPlane s = side_plane(c, support.normal, i);
+        const BallPlane s = side_plane(moved_->at_rest, moved_->normal_at_rest, i);
         for (std::size_t k = 0; k <= over.degree; ++k)
-            scalars.conditions[i].b[k] = height(over.maps[k], s, x);
+            scalars.conditions[i].b[k] = height_over(over.maps[k], s, a.corner[f.i]);
     }
     narrow(f, over, scalars, events);
 }
 
-void PairEvents::edges(const Features& f, const BallMotion& over, EarliestEvents& events) {
+void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& over,
+                       EarliestEvents& events) {
     ++motion_counters().questions;
-    const ModelTriangle& ta = a_.triangle(f.triangle_a);
-    const ModelTriangle& tb = b_.triangle(f.triangle_b);
-    const BallVector a0 = a_.position(ta.vertex[f.i]);
-    const BallVector a1 = a_.position(ta.vertex[after(f.i)]);
-    const BallVector b0 = b_.position(tb.vertex[f.j]);
-    const BallVector b1 = b_.position(tb.vertex[after(f.j)]);
+    const Moved& b = *moved_;
+    const BallVector& a0 = a.corner[f.i];
+    const BallVector& a1 = a.corner[after(f.i)];
     const BallVector ua = a1 - a0;
     const BallVector ma = detail::cross(a0, a1);
-    const BallVector ub = b1 - b0;
-    const BallVector mb = detail::cross(b0, b1);
-    std::array<BallVector, BallPolynomial::max_degree + 1> direction;
-    std::array<BallVector, BallPolynomial::max_degree + 1> moment;
+    const Moved::Path& direction = b.direction[f.j];
+    const Moved::Path& moment = b.moment[f.j];
     Scalars scalars;
-    for (std::size_t k = 0; k <= over.degree; ++k) {
-        const BallMotion::Maps& m = over.maps[k];
-        direction[k] = m.line_direction * ub;
-        moment[k] = m.line_moment * mb + m.line_lever * ub;
+    for (std::size_t k = 0; k <= over.degree; ++k)
         scalars.coplanar.b[k] = detail::dot(ua, moment[k]) + detail::dot(ma, direction[k]);
-    }
     if (constant_sign(scalars.coplanar, over.degree) != 0) {
         ++motion_counters().filtered;
         return;
@@ -325,12 +395,11 @@ void PairEvents::edges(const Features& f, const BallMotion& over, EarliestEvents
     scalars.count = 4;
     const std::size_t axis = dominant_axis(detail::cross(ua, direction[0]));
     for (std::size_t k = 0; k <= over.degree; ++k) {
-        const BallMotion::Maps& m = over.maps[k];
         scalars.conditions[0].b[k] = detail::cross(a0, direction[k])[axis] - moment[k][axis];
         scalars.conditions[1].b[k] = detail::cross(a1, direction[k])[axis] - moment[k][axis];
-        const Ball lift = ma[axis] * m.weight;
-        scalars.conditions[2].b[k] = detail::cross(moved_point(m, b0), ua)[axis] - lift;
-        scalars.conditions[3].b[k] = detail::cross(moved_point(m, b1), ua)[axis] - lift;
+        const Ball lift = ma[axis] * over.maps[k].weight;
+        scalars.conditions[2].b[k] = detail::cross(b.corner[f.j][k], ua)[axis] - lift;
+        scalars.conditions[3].b[k] = detail::cross(b.corner[after(f.j)][k], ua)[axis] - lift;
     }
     narrow(f, over, scalars, events);
 }
@@ -357,6 +426,7 @@ void PairEvents::narrow(const Features& f, const BallMotion& over, const Scalars
     while (size > 0) {
         const Part part = parts[--size];
         if (part.from > events.latest()) break;
+        if (part.to < events.earliest()) continue;
         if (constant_sign(part.scalars.coplanar, over.degree) != 0 ||
             part.scalars.never_meet(f.kind, over.degree))
             continue;
@@ -435,8 +505,6 @@ void PairEvents::decide(const Features& f, const TimeInterval& interval, Earlies
     const IntegerPolynomial p = coplanarity_of(f);
     if (p.is_zero()) {
         ++counters.coplanar;
-        RealRoot start(interval.from);
-        if (contact_at_start_ && sgn(interval.from) == 0) add_if_they_meet(f, start, events);
         return;
     }
     for (RealRoot& s : isolate_roots(p, interval.from, interval.to)) add_if_they_meet(f, s, events);

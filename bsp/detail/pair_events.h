@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <trisect/bsp/detail/ball_motion.h>
@@ -46,13 +47,14 @@ private:
 /// meeting in the same way.
 class PairEvents {
 public:
-    /// With `contact_at_start`, features that are coplanar for good and meet at s = 0 count too.
-    PairEvents(const EventModel& a, const EventModel& b, const RelativeMotion& motion,
-               bool contact_at_start)
-        : a_(a), b_(b), motion_(motion), contact_at_start_(contact_at_start) {}
+    PairEvents(const EventModel& a, const EventModel& b, const RelativeMotion& motion);
+    ~PairEvents();
+    PairEvents(const PairEvents&) = delete;
+    PairEvents& operator=(const PairEvents&) = delete;
 
     /// The events of two triangles in the closed interval of `over`, at least those up to the
-    /// first one known. `over` is a part of the motion.
+    /// first one known. `over` is a part of the motion. Best asked with the same triangle of B
+    /// many times in a row.
     void find(std::uint32_t triangle_a, std::uint32_t triangle_b, const BallMotion& over,
               EarliestEvents& events);
     /// The same without the doubles.
@@ -70,9 +72,15 @@ private:
         std::size_t j = 0;  // corner or side of b
     };
 
-    void vertex_of_b(const Features& f, const BallMotion& over, EarliestEvents& events);
-    void vertex_of_a(const Features& f, const BallMotion& over, EarliestEvents& events);
-    void edges(const Features& f, const BallMotion& over, EarliestEvents& events);
+    struct Moved;
+    struct Resting;
+
+    [[nodiscard]] const Moved& moved(std::uint32_t triangle_b, const BallMotion& over);
+    void vertex_of_b(const Features& f, const Resting& a, const BallPolynomial& height,
+                     const BallMotion& over, EarliestEvents& events);
+    void vertex_of_a(const Features& f, const Resting& a, const BallPolynomial& height,
+                     const BallMotion& over, EarliestEvents& events);
+    void edges(const Features& f, const Resting& a, const BallMotion& over, EarliestEvents& events);
     void narrow(const Features& f, const BallMotion& over, const Scalars& scalars,
                 EarliestEvents& events);
     void decide(const Features& f, const TimeInterval& interval, EarliestEvents& events);
@@ -82,7 +90,7 @@ private:
     const EventModel& a_;
     const EventModel& b_;
     const RelativeMotion& motion_;
-    bool contact_at_start_;
+    std::unique_ptr<Moved> moved_;  // of the last question
 };
 
 }  // namespace trisect::detail
