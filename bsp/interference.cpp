@@ -126,11 +126,13 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
     if (a.is_empty() || b.is_empty()) return result;
     BoundaryFlags flags;
-    const std::vector<MeetingPair> pairs = meeting_pairs(models, options.contacts, flags);
+    const bool all = options.contacts || options.regions;
+    const std::vector<MeetingPair> pairs = meeting_pairs(models, all, flags);
     if (!flags.is_decided()) add_flags_at_contacts(models, pairs, flags);
     if (!flags.is_decided()) add_flags_of_shells(models, pairs, flags);
     result.relation = flags.relation();
     if (options.contacts) result.contacts = contacts_of(models, pairs);
+    if (options.regions) result.regions = regions_of(models, pairs, pose_a);
     return result;
 }
 

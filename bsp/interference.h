@@ -71,15 +71,46 @@ struct Contact {
     friend constexpr auto operator<=>(const Contact&, const Contact&) = default;
 };
 
+/// A point of a contact region, in the world and in the user's units.
+struct ContactPoint {
+    std::array<ExactRational, 3> exact;
+    /// The doubles nearest to the exact coordinates.
+    std::array<double, 3> nearest{};
+};
+
+/// A part of the common points of two boundaries, as large as it can be within a pair of entities:
+///   dimension 2  the area that a face of each share; `a` and `b` are the faces. Loops have the
+///   area
+///                to their left, seen from where A's outward normal points (from the other side
+///                when A is mirrored); holes run the other way round. A pair of faces may share
+///                several areas. Corners are where the outline turns.
+///   dimension 1  a segment of an edge of one on an edge or face of the other, or where two faces
+///                pass through each other, that is not part of an area's outline: one loop of two
+///                points.
+///   dimension 0  a point that is on no segment or area: one loop of one point.
+struct ContactRegion {
+    std::uint8_t dimension = 0;
+    BoundaryEntity a;
+    BoundaryEntity b;
+    /// Of areas: the outward normals point in opposite directions.
+    bool opposite = false;
+    std::vector<std::vector<ContactPoint>> loops;
+};
+
 struct InterferenceOptions {
     /// All contacts. Without them the walk may stop as soon as the relation is known.
     bool contacts = false;
+    /// All contact regions. Exact coordinates are rationals of any size and take their time: some
+    /// microseconds a point.
+    bool regions = false;
 };
 
 struct InterferenceResult {
     Relation relation = Relation::Disjoint;
     /// In ascending order, if asked for.
     std::vector<Contact> contacts;
+    /// By falling dimension, then by entities, if asked for.
+    std::vector<ContactRegion> regions;
 };
 
 /// Relation of A under its pose to B under its pose, and what `options` ask for.

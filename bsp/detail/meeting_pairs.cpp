@@ -21,17 +21,11 @@ BoundaryEntity entity_of(const InterferenceModelData& model, std::uint32_t trian
     return t.face;
 }
 
-namespace {
-
-// The open segment between two neighbouring corners of an intersection: along a side that both are
-// on, else through the interior.
 Feature feature_between(Feature p, Feature q) {
     for (std::size_t i = 0; i < 3; ++i)
         if (p.is_on_side(i) && q.is_on_side(i)) return Feature::side(i);
     return Feature::interior();
 }
-
-}  // namespace
 
 std::vector<Contact> contacts_of(const PosedModels& models, const std::vector<MeetingPair>& pairs) {
     std::vector<Contact> all;

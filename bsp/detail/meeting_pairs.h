@@ -55,6 +55,16 @@ bool for_candidate_pairs(const PosedModels& models, Visit&& visit) {
 [[nodiscard]] std::vector<Contact> contacts_of(const PosedModels& models,
                                                const std::vector<MeetingPair>& pairs);
 
+/// The common points of the boundaries, joined into regions; coordinates in the world, into which
+/// A's pose takes A.
+[[nodiscard]] std::vector<ContactRegion> regions_of(const PosedModels& models,
+                                                    const std::vector<MeetingPair>& pairs,
+                                                    const Pose& pose_a);
+
+/// The open segment between two neighbouring corners of an intersection is on the side that both
+/// are on, or in the interior.
+[[nodiscard]] Feature feature_between(Feature p, Feature q);
+
 /// What the contact vertices say: at each the two cones are compared. Stops early when the relation
 /// is decided.
 void add_flags_at_contacts(const PosedModels& models, const std::vector<MeetingPair>& pairs,

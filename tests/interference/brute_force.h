@@ -41,6 +41,14 @@ struct Scene {
                                                      const trisect::InterferenceModel& b,
                                                      const trisect::Pose& pose_b);
 
+/// Why regions do not cover what the boundaries have in common, or are of the wrong size or kind;
+/// empty when they are right.
+[[nodiscard]] std::string wrong_regions(const trisect::InterferenceModel& a,
+                                        const trisect::Pose& pose_a,
+                                        const trisect::InterferenceModel& b,
+                                        const trisect::Pose& pose_b,
+                                        const trisect::InterferenceResult& result);
+
 /// Whether A ∩ B, A − B and B − A are empty. Nothing when moved corners do not fit the reference
 /// engine's 64-bit corners on a common grid.
 [[nodiscard]] std::optional<trisect::Relation> relation(const Scene& scene, bool boundaries_meet);
