@@ -4,6 +4,7 @@
 // x86-64. Operators work lane by lane; a comparison gives Mask4.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #if defined(__SSE__)
@@ -20,6 +21,28 @@ __extension__ typedef std::int32_t Mask4 __attribute__((vector_size(16)));
 [[nodiscard]] inline Float4 magnitude(Float4 v) {
     constexpr std::int32_t most = 0x7fffffff;
     return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(v) & Mask4{most, most, most, most});
+}
+
+[[nodiscard]] inline Float4 larger(Float4 a, Float4 b) {
+#if defined(__SSE__)
+    return reinterpret_cast<Float4>(
+        _mm_max_ps(reinterpret_cast<__m128>(a), reinterpret_cast<__m128>(b)));
+#else
+    Float4 r = a;
+    for (int i = 0; i < 4; ++i) r[i] = a[i] > b[i] ? a[i] : b[i];
+    return r;
+#endif
+}
+
+/// \pre no lane is negative
+[[nodiscard]] inline Float4 square_root(Float4 v) {
+#if defined(__SSE__)
+    return reinterpret_cast<Float4>(_mm_sqrt_ps(reinterpret_cast<__m128>(v)));
+#else
+    Float4 r = v;
+    for (int i = 0; i < 4; ++i) r[i] = std::sqrt(v[i]);
+    return r;
+#endif
 }
 
 /// Bit i is set where lane i is.

@@ -26,11 +26,20 @@ public:
     [[nodiscard]] bool is_apart() const { return apart_; }
     /// Bit i: box a and lane i of node b may meet.
     [[nodiscard]] unsigned overlaps(const OrientedBox& a, const ObbNode& b) const {
-        return rigid_ ? single_a<true>(a, b) : single_a<false>(a, b);
+        return rigid_ ? may_meet<true>(lanes_of(a, b)) : may_meet<false>(lanes_of(a, b));
     }
     /// Bit i: lane i of node a and box b may meet.
     [[nodiscard]] unsigned overlaps(const ObbNode& a, const OrientedBox& b) const {
-        return rigid_ ? single_b<true>(a, b) : single_b<false>(a, b);
+        return rigid_ ? may_meet<true>(lanes_of(a, b)) : may_meet<false>(lanes_of(a, b));
+    }
+    /// A lower bound of the distance of box a from each lane of node b, in units of A; 0 when they
+    /// may meet.
+    /// For lanes that are not used it means nothing.
+    [[nodiscard]] Float4 gaps(const OrientedBox& a, const ObbNode& b) const {
+        return gap(lanes_of(a, b));
+    }
+    [[nodiscard]] Float4 gaps(const ObbNode& a, const OrientedBox& b) const {
+        return gap(lanes_of(a, b));
     }
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
@@ -43,12 +52,11 @@ private:
         std::array<Float4, 3> a;                 // halves
         std::array<Float4, 3> b;
     };
-    template <bool Rigid>
-    [[nodiscard]] unsigned single_a(const OrientedBox& a, const ObbNode& b) const;
-    template <bool Rigid>
-    [[nodiscard]] unsigned single_b(const ObbNode& a, const OrientedBox& b) const;
+    [[nodiscard]] Lanes lanes_of(const OrientedBox& a, const ObbNode& b) const;
+    [[nodiscard]] Lanes lanes_of(const ObbNode& a, const OrientedBox& b) const;
     template <bool Rigid>
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
+    [[nodiscard]] Float4 gap(const Lanes& l) const;
 
     std::array<std::array<float, 3>, 3> m_{};  // divided by scale
     std::array<float, 3> t_{};
@@ -105,8 +113,41 @@ unsigned ObbPose::may_meet(const Lanes& l) const {
     return ~bits_of(apart) & 15U;
 }
 
-template <bool Rigid>
-unsigned ObbPose::single_a(const OrientedBox& a, const ObbNode& b) const {
+// Along six normals and along the line of centres, the best direction for boxes far apart.
+inline Float4 ObbPose::gap(const Lanes& l) const {
+    const auto& r = l.r;
+    const auto& t = l.t;
+    const Float4 margin = all_lanes(margin_) + all_lanes(0x1p-18F) * ((l.b[0] + l.b[1]) + l.b[2]);
+    const Float4 square = (t[0] * t[0] + t[1] * t[1]) + t[2] * t[2];
+    const Float4 length = square_root(square);
+    Float4 across =
+        (l.a[0] * magnitude(t[0]) + l.a[1] * magnitude(t[1])) + l.a[2] * magnitude(t[2]);
+    Float4 best = all_lanes(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Float4 reach =
+            (((l.a[i] + margin) + magnitude(r[i][0]) * l.b[0]) + magnitude(r[i][1]) * l.b[1]) +
+            magnitude(r[i][2]) * l.b[2];
+        best = larger(magnitude(t[i]) - reach, best);
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Float4 along = magnitude((t[0] * r[0][j] + t[1] * r[1][j]) + t[2] * r[2][j]);
+        across += l.b[j] * along;
+        Float4 reach = ((margin + magnitude(r[0][j]) * l.a[0]) + magnitude(r[1][j]) * l.a[1]) +
+                       magnitude(r[2][j]) * l.a[2];
+        if (rigid_) {
+            reach += l.b[j];
+        } else {
+            for (std::size_t k = 0; k < 3; ++k)
+                reach += l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) +
+                                            r[2][k] * r[2][j]);
+        }
+        best = larger(along - reach, best);
+    }
+    best = larger((square - across) / larger(length, all_lanes(1e-30F)) - margin, best);
+    return best * all_lanes(1 - 0x1p-18F);
+}
+
+inline ObbPose::Lanes ObbPose::lanes_of(const OrientedBox& a, const ObbNode& b) const {
     // Rows of A's axes times the map, and the way from its centre to the image of B's origin.
     std::array<std::array<float, 3>, 3> p{};
     std::array<float, 3> from{};
@@ -129,11 +170,10 @@ unsigned ObbPose::single_a(const OrientedBox& a, const ObbNode& b) const {
         l.a[i] = all_lanes(a.half[i]);
         l.b[i] = scale * b.half[i];
     }
-    return may_meet<Rigid>(l);
+    return l;
 }
 
-template <bool Rigid>
-unsigned ObbPose::single_b(const ObbNode& a, const OrientedBox& b) const {
+inline ObbPose::Lanes ObbPose::lanes_of(const ObbNode& a, const OrientedBox& b) const {
     std::array<std::array<float, 3>, 3> p{};  // [k][j]: component k of the image of B's axis j
     std::array<float, 3> center{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -154,7 +194,7 @@ unsigned ObbPose::single_b(const ObbNode& a, const OrientedBox& b) const {
         l.a[i] = a.half[i];
         l.b[i] = all_lanes(scale_ * b.half[i]);
     }
-    return may_meet<Rigid>(l);
+    return l;
 }
 
 }  // namespace trisect::detail
