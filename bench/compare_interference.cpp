@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trisect/bsp/detail/boundary_pairs.h>
+#include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
@@ -68,6 +69,9 @@ public:
         counters += pairs.counters();
         return meet;
     }
+    [[nodiscard]] trisect::Relation relation(std::size_t i) const {
+        return trisect::interfere(a_, home_, b_, poses_[i]).relation;
+    }
     [[nodiscard]] std::optional<std::size_t> contacts(std::size_t i) override {
         BoundaryPairs pairs(a_.data(), home_, b_.data(), poses_[i], stack_);
         std::size_t n = 0;
@@ -95,6 +99,20 @@ private:
     std::vector<Pose> poses_;
     ObbWalk::Stack stack_;
     double build_ = 0;
+};
+
+// Relations of the same models, containment included.
+class Solids : public Peer {
+public:
+    explicit Solids(const Trisect& models) : models_(&models) {}
+    [[nodiscard]] std::string name() const override { return "Trisect interfere"; }
+    [[nodiscard]] double build_seconds() const override { return models_->build_seconds(); }
+    [[nodiscard]] bool collide(std::size_t i) override {
+        return models_->relation(i) != trisect::Relation::Disjoint;
+    }
+
+private:
+    const Trisect* models_;
 };
 
 struct Options {
@@ -201,7 +219,8 @@ void run(const std::string& name, const Options& options) {
         interference_peers::add_fcl(peers, scene.a, scene.b, scene.placements);
         interference_peers::add_cgal(peers, scene.a, scene.b, scene.placements);
     }
-    std::vector<Peer*> all{&ours};
+    Solids solids(ours);
+    std::vector<Peer*> all{&ours, &solids};
     for (const auto& p : peers) all.push_back(p.get());
     ask(scene, "collide", all, options.rounds, ours,
         [](Peer& p, std::size_t i) -> std::optional<double> { return p.collide(i) ? 1 : 0; });

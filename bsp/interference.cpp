@@ -10,6 +10,9 @@
 //               are.
 //   shells      a shell that meets nothing lies wholly inside, outside or in a cavity of the other
 //               solid: one of its vertices is located there.
+// Where doubles see a crossing, or see the boundaries apart, none of that is asked
+// (quick_relation.cpp).
+//
 // Comparing interiors where the boundaries meet, not at sampled points, is what makes flush
 // placements come out right.
 
@@ -21,6 +24,7 @@
 #include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
+#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect {
@@ -122,9 +126,18 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
                              const InterferenceModel& b, const Pose& pose_b,
                              const InterferenceOptions& options) {
     InterferenceResult result;
+    if (a.is_empty() || b.is_empty()) return result;
+    if (!options.contacts) {
+        detail::ObbWalk::Stack stack;
+        stack.reserve(256);
+        if (const auto quick =
+                detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack)) {
+            result.relation = *quick;
+            return result;
+        }
+    }
     const PosedModels models{a.data(), b.data(),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
-    if (a.is_empty() || b.is_empty()) return result;
     BoundaryFlags flags;
     const bool all = options.contacts || options.regions;
     const std::vector<MeetingPair> pairs = meeting_pairs(models, all, flags);

@@ -42,10 +42,10 @@
 //
 // A sweep adds its length times |L|, which is at most 1 + 2^-19, to the left side.
 //
-// Gaps. Along a vector L, whatever its length up to 1 + 2^-20, the left side minus the right side bounds
-// the distance from below times that length. L = t as computed: t·t differs from |t|² by √3·16 u |t| Λ,
-// products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same margin. The factor 1 - 2^-18
-// takes the lengths and the last roundings.
+// Gaps. Along a vector L, whatever its length up to 1 + 2^-20, the left side minus the right side
+// bounds the distance from below times that length. L = t as computed: t·t differs from |t|² by
+// √3·16 u |t| Λ, products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same
+// margin. The factor 1 - 2^-18 takes the lengths and the last roundings.
 //
 // A map that is not a similarity: scale is a bound on the length of any image of a unit vector, so
 // that again |r'| <= 1; (3) holds as it is, in (4) the products r'_k·L are computed (error below

@@ -138,8 +138,8 @@ inline Float4 ObbPose::gap(const Lanes& l) const {
             reach += l.b[j];
         } else {
             for (std::size_t k = 0; k < 3; ++k)
-                reach += l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) +
-                                            r[2][k] * r[2][j]);
+                reach +=
+                    l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) + r[2][k] * r[2][j]);
         }
         best = larger(along - reach, best);
     }

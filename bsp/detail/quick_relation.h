@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// quick_relation: the relation of two posed models in general position, without exact arithmetic.
+// The relation of two placed solids where doubles can tell it.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,21 @@
 
 namespace trisect::detail {
 
-/// Overlapping where an edge of one passes through a face of the other, Disjoint where boundaries
-/// have no point in common and no shell of one is in the bounding box of the other; nothing where
-/// doubles cannot tell, and where one might contain a shell of the other. Never wrong.
-/// \pre both models have triangles.
+/// The relation when a crossing is found in doubles, or when the boundaries are certainly apart and
+/// for each shell it is certain on which side of the other boundary it is; otherwise nothing. No
+/// exact pose is made. Of solids in general position it hardly ever returns nothing.
+///
+/// The stack is scratch memory. \pre neither model is empty
 [[nodiscard]] std::optional<Relation> quick_relation(const InterferenceModelData& a,
                                                      const Pose& pose_a,
                                                      const InterferenceModelData& b,
-                                                     const Pose& pose_b, ObbWalk::Stack& stack);
+                                                     const Pose& pose_b, ObbWalk::Stack& stack,
+                                                     WalkCounters* counters = nullptr);
+
+/// Whether a vertex of a model is inside of another solid; nothing when doubles cannot tell.
+/// \pre it is not on the boundary of the other solid.
+[[nodiscard]] std::optional<bool> is_certainly_inside(const InterferenceModelData& model,
+                                                      VertexId v, const ApproximateMap& to_other,
+                                                      const InterferenceModelData& other);
 
 }  // namespace trisect::detail

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/detail/quick_relation.h>
+#include <trisect/bsp/expression.h>
+
+#include "reference/random_solids.h"
+
+namespace {
+
+using reference::Random;
+using trisect::Expression;
+using trisect::InterferenceModel;
+using trisect::InterferenceOptions;
+using trisect::Pose;
+using trisect::Relation;
+using trisect::Solid;
+using trisect::detail::ObbWalk;
+using trisect::detail::quick_relation;
+using trisect::detail::WalkCounters;
+
+Pose random_pose(Random& random, std::int64_t spread) {
+    const auto q = [&random] { return random.between(-1000, 1000); };
+    const auto t = [&random, spread] {
+        return 0x1p-10 * static_cast<double>(random.between(-spread, spread));
+    };
+    return Pose::from_quaternion({q(), q(), q(), 1 + std::abs(q())}, {t(), t(), t()});
+}
+
+// The full walk, which asks for exact contacts, says the same.
+TEST(QuickRelation, AgreesWithTheFullWalkInGeneralPosition) {
+    const InterferenceModel hollow(
+        evaluate(Expression(Solid::from_mesh(trisect::make_icosphere(1, 2))) -
+                 Solid::from_mesh(trisect::make_icosphere(0.75, 2))));
+    const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.0625, 1)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1.25, 2)));
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 24, 12)));
+    Random random(41);
+    std::map<Relation, int> seen;
+    int certain = 0;
+    int asked = 0;
+    for (int i = 0; i < 80; ++i)
+        for (const InterferenceModel* a : {&hollow, &torus, &ball})
+            for (const InterferenceModel* b : {&speck, &ball, &torus}) {
+                const Pose pa = random_pose(random, i % 2 == 0 ? 100 : 1000);
+                const Pose pb = random_pose(random, i % 2 == 0 ? 100 : 1000);
+                InterferenceOptions full;
+                full.contacts = true;
+                const Relation expected = interfere(*a, pa, *b, pb, full).relation;
+                ObbWalk::Stack stack;
+                const auto quick = quick_relation(a->data(), pa, b->data(), pb, stack);
+                ++asked;
+                certain += quick ? 1 : 0;
+                EXPECT_EQ(quick.value_or(expected), expected);
+                EXPECT_EQ(interfere(*a, pa, *b, pb).relation, expected);
+                ++seen[expected];
+            }
+    EXPECT_EQ(certain, asked);
+    EXPECT_GT(seen[Relation::Disjoint], 10);
+    EXPECT_GT(seen[Relation::Overlapping], 10);
+    EXPECT_GT(seen[Relation::Inside], 10);
+    EXPECT_GT(seen[Relation::Contains], 10);
+}
+
+// Flush and touching solids are left to the exact tests, never guessed.
+TEST(QuickRelation, ContactIsNotDecidedByDoubles) {
+    const InterferenceModel box(Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2})));
+    WalkCounters counters;
+    ObbWalk::Stack stack;
+    for (const std::array<double, 3>& by :
+         {std::array<double, 3>{2, 0, 0}, {2, 2, 2}, {2, 2, 0}, {0, 0, 0}})
+        EXPECT_FALSE(
+            quick_relation(box.data(), Pose(), box.data(), Pose::from_translation(by), stack, &counters));
+    EXPECT_EQ(quick_relation(box.data(), Pose(), box.data(), Pose::from_translation({2.001, 0, 0}),
+                             stack, &counters),
+              Relation::Disjoint);
+    EXPECT_GT(counters.unknown, 0U);
+}
+
+}  // namespace
