@@ -130,8 +130,7 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
     if (!options.contacts) {
         detail::ObbWalk::Stack stack;
         stack.reserve(256);
-        if (const auto quick =
-                detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack)) {
+        if (const auto quick = detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack)) {
             result.relation = *quick;
             return result;
         }

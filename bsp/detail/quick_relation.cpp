@@ -76,8 +76,8 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
                                        ObbWalk::Stack& stack, WalkCounters* counters) {
     const ApproximateMap to_a = approximate_map(pose_a, a.brep.lattice(), pose_b, b.brep.lattice());
     if (!to_a.is_usable()) return std::nullopt;
-    // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a crossing
-    // elsewhere is Overlapping whatever they are.
+    // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
+    // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
     const bool crossing = walk.run([](std::uint32_t, std::uint32_t, PairVerdict verdict) {
         return verdict == PairVerdict::Crossing;

@@ -75,8 +75,8 @@ TEST(QuickRelation, ContactIsNotDecidedByDoubles) {
     ObbWalk::Stack stack;
     for (const std::array<double, 3>& by :
          {std::array<double, 3>{2, 0, 0}, {2, 2, 2}, {2, 2, 0}, {0, 0, 0}})
-        EXPECT_FALSE(
-            quick_relation(box.data(), Pose(), box.data(), Pose::from_translation(by), stack, &counters));
+        EXPECT_FALSE(quick_relation(box.data(), Pose(), box.data(), Pose::from_translation(by),
+                                    stack, &counters));
     EXPECT_EQ(quick_relation(box.data(), Pose(), box.data(), Pose::from_translation({2.001, 0, 0}),
                              stack, &counters),
               Relation::Disjoint);
