@@ -45,7 +45,7 @@ public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
 
 private:
-    void arrange_embedded(SlotValues& values);
+    void arrange_embedded();
     void arrange_any(SlotValues& values);
     void emit_remains(LeafIndex i, const LeafRemains& remains);
     void emit_all();
@@ -60,6 +60,7 @@ private:
     LeafWindings windings_;
     LeafAnchors anchors_;
     LeafCutting cutting_;
+    LeafFormula formula_;
     std::vector<PolygonRef> out_;
     std::vector<std::pair<const WorkPolygon*, LeafSides>> kept_;
 };
@@ -75,14 +76,14 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
     out_.clear();
-    if (plain_.arrange(problem, values, stats, out_)) return {std::move(out_), {}};
+    if (plain_.arrange(problem, stats, out_)) return {std::move(out_), {}};
     work_.start(problem, stats);
     pairs_.relate_all(work_);
     const bool embedded = std::all_of(problem.operands.begin(), problem.operands.end(),
                                       [](const LeafOperand& o) { return o.embedded; });
     try {
         if (embedded) {
-            arrange_embedded(values);
+            arrange_embedded();
         } else {
             arrange_any(values);
         }
@@ -95,11 +96,11 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
 }
 
 // Operands without self-intersections: cut only what the result needs (leaf_cutting.h).
-void LeafArranger::Impl::arrange_embedded(SlotValues& values) {
+void LeafArranger::Impl::arrange_embedded() {
     windings_.start(work_);
     anchors_.build(work_, windings_);
-    LeafFormula formula(*work_.problem, values);
-    cutting_.start(work_, windings_, anchors_, formula);
+    formula_.start(*work_.problem);
+    cutting_.start(work_, windings_, anchors_, formula_);
     for (LeafIndex i = 0; i < work_.item_count(); ++i) {
         const bool whole = work_.item(i).is_whole();
         if (whole && !work_.item(i).ref.touched) ++work_.stats->untouched_polygons;

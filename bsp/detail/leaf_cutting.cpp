@@ -43,10 +43,15 @@ LeafCutting::Part& LeafCutting::add_part() {
 }
 
 // An embedded operand has 0 outside its own facets and 1 inside.
-void LeafCutting::set_own_sides(Sides& sides) const {
+void LeafCutting::set_sides(Sides& sides, const std::vector<int>& windings) const {
     const LeafItem& item = work_->item(item_);
+    sides.above.resize(formula_->row_size());
+    std::copy(windings.begin(), windings.end(), sides.above.begin());
+    sides.below = sides.above;
     sides.above[u(item.operand)] = item.orientation > 0 ? 0 : 1;
     sides.below[u(item.operand)] = item.orientation > 0 ? 1 : 0;
+    formula_->fill(sides.above);
+    formula_->fill(sides.below);
 }
 
 // Winding numbers of the other operands at some point of the item.
@@ -70,8 +75,8 @@ void LeafCutting::set_start(const WorkPolygon& part) {
 }
 
 bool LeafCutting::may_bound(const Part& part) {
-    const int above = formula_->bound_at(part.sides.above);
-    return above < 0 || above != formula_->bound_at(part.sides.below);
+    const int above = formula_->value(part.sides.above);
+    return above < 0 || above != formula_->value(part.sides.below);
 }
 
 // Drops what lies in a coincident facet that speaks for both. That comes first: a part may be known
@@ -105,9 +110,9 @@ void LeafCutting::leave_to_speakers() {
 }
 
 void LeafCutting::settle(Part& part) {
-    const int above = formula_->bound_at(part.sides.above);
+    const int above = formula_->value(part.sides.above);
     if (above < 0) return;
-    const int below = formula_->bound_at(part.sides.below);
+    const int below = formula_->value(part.sides.below);
     if (below < 0) return;
     part.state = above == below ? Part::State::Dropped : Part::State::Kept;
     part.inside_above = above == 1;
@@ -135,9 +140,7 @@ LeafRemains LeafCutting::whole(LeafIndex i) {
     }
     count_ = 0;
     Part& part = add_part();
-    part.sides.above = start_.windings;
-    part.sides.below = start_.windings;
-    set_own_sides(part.sides);
+    set_sides(part.sides, start_.windings);
     settle(part);
     LeafRemains remains;
     if (part.state == Part::State::Kept) remains = {LeafRemains::Kind::Uncut, part.inside_above};
@@ -160,13 +163,12 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
                 work_->bench.clipped(std::move(part.shape), item.ref.box(), work_->problem->cell);
         if (part.shape.is_empty()) return {};
         set_start(part.shape);
-        part.sides.above = start_.windings;
         const std::span<const LeafContact> contacts = work_->contacts(i);
+        known_windings_ = start_.windings;
         for (const LeafContact& c : contacts)
             if (c.cuts || c.covers)
-                part.sides.above[u(work_->item(c.other).operand)] = unknown_winding;
-        part.sides.below = part.sides.above;
-        set_own_sides(part.sides);
+                known_windings_[u(work_->item(c.other).operand)] = unknown_winding;
+        set_sides(part.sides, known_windings_);
         if (!may_bound(part)) return {};
     }
     leave_to_speakers();
@@ -211,8 +213,8 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
     const std::size_t before = count_;
     for (std::size_t k = 0; k < before; ++k) {
         if (parts_[k].state != Part::State::Open) continue;
-        const bool above_matters = formula_->bound_at(parts_[k].sides.above) < 0;
-        const bool below_matters = formula_->bound_at(parts_[k].sides.below) < 0;
+        const bool above_matters = formula_->value(parts_[k].sides.above) < 0;
+        const bool below_matters = formula_->value(parts_[k].sides.below) < 0;
         const std::size_t first = count_;
         (void)add_part();
         parts_[first].shape = parts_[k].shape;
@@ -222,8 +224,9 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
         if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
             // Undone, if anything was cut.
             Part& part = parts_[k];
-            if (above_matters) part.sides.above[u(operand)] = parts_[first].sides.above[u(operand)];
-            if (below_matters) part.sides.below[u(operand)] = parts_[first].sides.below[u(operand)];
+            const Sides& found = parts_[first].sides;
+            if (above_matters) formula_->set(part.sides.above, u(operand), found.above[u(operand)]);
+            if (below_matters) formula_->set(part.sides.below, u(operand), found.below[u(operand)]);
             if (count_ > first + 1) ++work_->stats->cuts_undone;
             count_ = first;
             settle(part);
@@ -286,8 +289,8 @@ void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const Leaf
         const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
                                            work_->bench.plane_at(other.shape.support));
         const bool faces_up = (other.orientation > 0) == same;
-        part.sides.above[u(operand)] = faces_up ? 0 : 1;
-        part.sides.below[u(operand)] = faces_up ? 1 : 0;
+        formula_->set(part.sides.above, u(operand), faces_up ? 0 : 1);
+        formula_->set(part.sides.below, u(operand), faces_up ? 1 : 0);
         return;
     }
     int winding = start_.windings[u(operand)];
@@ -296,8 +299,8 @@ void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const Leaf
         winding = change ? winding + *change : unknown_winding;
     }
     if (winding == unknown_winding) winding = traced_winding(part.shape, operand);
-    part.sides.above[u(operand)] = winding;
-    part.sides.below[u(operand)] = winding;
+    formula_->set(part.sides.above, u(operand), winding);
+    formula_->set(part.sides.below, u(operand), winding);
 }
 
 std::optional<int> LeafCutting::change_to(const WorkPolygon& part,

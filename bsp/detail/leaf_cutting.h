@@ -48,7 +48,7 @@ public:
     [[nodiscard]] std::span<const LeafPart> parts() const { return kept_; }
 
 private:
-    // Winding numbers above and below a part; unknown where they have not been looked for.
+    // Rows of the formula above and below a part; unknown where they have not been looked for.
     struct Sides {
         std::vector<int> above;
         std::vector<int> below;
@@ -67,7 +67,8 @@ private:
     };
 
     void set_start(const WorkPolygon& part);
-    void set_own_sides(Sides& sides) const;
+    /// Of an embedded operand's item whose other operands have these winding numbers.
+    void set_sides(Sides& sides, const std::vector<int>& windings) const;
     [[nodiscard]] bool may_bound(const Part& part);
     void settle(Part& part);
     void leave_to_speakers();
@@ -102,6 +103,7 @@ private:
     std::vector<char> known_;
     std::vector<int> step_;
     std::vector<int> traced_;
+    std::vector<int> known_windings_;
 };
 
 }  // namespace trisect::detail

@@ -3,8 +3,11 @@
 // The formula of a leaf as a function of winding numbers.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <unordered_map>
+#include <vector>
 
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/residual.h>
@@ -13,27 +16,61 @@ namespace trisect::detail {
 
 inline constexpr int unknown_winding = std::numeric_limits<int>::min();
 
-/// Evaluates the formula; `values` is scratch with an entry for every slot.
+/// Evaluates the formula for rows: winding numbers by operand, and behind them how many terms of
+/// every operation are inside or unknown. A row follows the change of one winding number in the
+/// time of the operations above that operand whose values change, usually one or two; walking the
+/// formula would take the time of all operands, for every part and every operand that cuts it.
+/// Keeps its memory from leaf to leaf.
 class LeafFormula {
 public:
-    LeafFormula(const LeafProblem& problem, SlotValues& values)
-        : problem_(problem), values_(values) {}
+    void start(const LeafProblem& problem);
 
-    /// 0 or 1; -1 when the winding numbers that are known do not decide it.
-    [[nodiscard]] int bound_at(std::span<const int> windings) {
-        for (std::size_t o = 0; o < windings.size(); ++o) {
-            const LeafOperand& operand = problem_.operands[o];
-            std::int8_t& value = values_[static_cast<std::size_t>(operand.slot)];
-            value = -1;
-            if (windings[o] != unknown_winding)
-                value = is_inside(windings[o], problem_.options->winding) ? 1 : 0;
-        }
-        return bounded_value_of(*problem_.formula, values_);
-    }
+    [[nodiscard]] std::size_t row_size() const { return operands_ + 3 * nodes_.size(); }
+    /// Completes a row whose winding numbers are set.
+    void fill(std::span<int> row);
+    /// Changes the winding number of an operand in a complete row.
+    void set(std::span<int> row, std::size_t operand, int winding);
+    /// 0 or 1; -1 when the winding numbers that are known do not decide it: then as in
+    /// bounded_value_of().
+    [[nodiscard]] int value(std::span<const int> row) const;
 
 private:
-    const LeafProblem& problem_;
-    SlotValues& values_;
+    struct Node {
+        Residual::Kind kind = Residual::Kind::Constant;
+        std::int32_t first_parent = -1;  // place in parents_
+        int terms = 0;
+        int inside = 0;  // while nothing is known
+        int unknown = 0;
+        int value = -1;
+    };
+    struct Parent {
+        std::int32_t node = 0;
+        std::int32_t next = -1;  // the next parent of the same term
+    };
+    [[nodiscard]] std::int32_t compile(const Residual& formula);
+    void add_parent(std::int32_t& first, std::int32_t node);
+    [[nodiscard]] int value_of(int winding) const {
+        return winding == unknown_winding ? -1 : (is_inside(winding, rule_) ? 1 : 0);
+    }
+    [[nodiscard]] static int value_of(const Node& node, int inside, int unknown);
+    void tell_parents(std::span<int> row, std::int32_t first, int before, int after);
+    void update(std::span<int> row);
+    [[nodiscard]] int* counts(std::span<int> row, std::size_t node) const {
+        return &row[operands_ + 3 * node];
+    }
+
+    std::size_t operands_ = 0;
+    EvaluateOptions::Winding rule_ = EvaluateOptions::Winding::Positive;
+    std::int32_t root_ = 0;  // a node, or an operand as ~number
+    int constant_ = -1;      // of a formula that is one
+    std::vector<std::int32_t> operand_of_slot_;
+    std::vector<Node> nodes_;  // terms before what they are terms of
+    std::vector<Parent> parents_;
+    std::vector<std::int32_t> first_parent_;  // by operand
+    std::unordered_map<const Residual*, std::int32_t> known_;
+    bool remembers_ = false;
+    std::vector<std::uint64_t> dirty_;  // a bit for every node
+    std::size_t first_dirty_ = 0;
 };
 
 }  // namespace trisect::detail

@@ -50,6 +50,7 @@ void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWind
     formula_ = &formula;
     stats_ = &stats;
     n_ = facets.operand_count();
+    row_ = formula.row_size();
     last_windings_ = -1;
 }
 
@@ -58,18 +59,14 @@ PlainPart& PlainCutting::add_part() {
     PlainPart& p = parts_[count_++];
     p.state = PlainPart::State::Open;
     p.sides = sides_.size();
-    sides_.resize(sides_.size() + 2 * n_);
+    sides_.resize(sides_.size() + 2 * row_);
     return p;
 }
 
-// The whole facet as its only part.
-bool PlainCutting::start_item(LeafIndex item) {
-    item_ = item;
-    contacts_ = pairs_->contacts(item);
+// The whole facet.
+bool PlainCutting::make_shape() {
     vertices_.clear();
-    sides_.clear();
-    count_ = 0;
-    const PlainFacet& f = (*facets_)[item];
+    const PlainFacet& f = (*facets_)[item_];
     clipped_.size = 0;
     clipped_.above = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -79,7 +76,7 @@ bool PlainCutting::start_item(LeafIndex item) {
         clipped_.add(static_cast<std::int16_t>(c), static_cast<PlainLine>(c), false);
     }
     was_clipped_ = false;
-    return contacts_.size() <= many_contacts && join_coplanar();
+    return contacts_.size() <= many_contacts;
 }
 
 bool PlainCutting::join_coplanar() {
@@ -383,7 +380,7 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
     }
     PlainPart& upper = add_part();
     PlainPart& lower = parts_[part];
-    std::copy_n(sides_.begin() + static_cast<std::ptrdiff_t>(from.sides), 2 * n_,
+    std::copy_n(sides_.begin() + static_cast<std::ptrdiff_t>(from.sides), 2 * row_,
                 sides_.begin() + static_cast<std::ptrdiff_t>(upper.sides));
     divide(from, line_of(contact), signs, cuts, lower, upper);
     return Split::Done;
@@ -474,18 +471,15 @@ bool PlainCutting::trace_start() {
     return false;
 }
 
-// Winding numbers of the other operands at some point of the item.
-bool PlainCutting::set_start() {
-    const PlainWindings::Anchor anchor = windings_->anchor_of(item_, *stats_);
-    if (anchor.windings < 0) return trace_start();
+// Starts at a corner of the item that lies in the cell.
+void PlainCutting::start_at(const PlainWindings::Anchor& anchor) {
     const auto known = windings_->windings(anchor.windings);
     start_windings_.assign(known.begin(), known.end());
     const auto corner = static_cast<std::size_t>(anchor.corner);
-    start_ = vertices_[corner].at;
+    start_ = {(*facets_)[item_].corners[corner], 0.0};
     start_sides_.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c)
         start_sides_.push_back(crossing_of(c).sides[contacts_[c].is_second ? 1 : 0][corner]);
-    return true;
 }
 
 // How winding numbers change on the straight way from the start to a point of the item.
@@ -520,17 +514,28 @@ bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::siz
         int change = 0;
         if (!change_to(part, attempt, begin, end, change)) continue;
         const int w = start_windings_[LeafWork::u(operand)] + change;
-        above(part)[LeafWork::u(operand)] = w;
-        below(part)[LeafWork::u(operand)] = w;
+        formula_->set(above(part), LeafWork::u(operand), w);
+        formula_->set(below(part), LeafWork::u(operand), w);
         return true;
     }
     return false;
 }
 
+// An embedded operand has 0 outside its own facets and 1 inside.
+void PlainCutting::set_sides(const PlainPart& part, std::span<const int> windings) {
+    const PlainFacet& f = (*facets_)[item_];
+    std::copy(windings.begin(), windings.end(), above(part).begin());
+    std::copy(windings.begin(), windings.end(), below(part).begin());
+    above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
+    below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
+    formula_->fill(above(part));
+    formula_->fill(below(part));
+}
+
 void PlainCutting::settle(PlainPart& part) {
-    const int over = formula_->bound_at(above(part));
+    const int over = formula_->value(above(part));
     if (over < 0) return;
-    const int under = formula_->bound_at(below(part));
+    const int under = formula_->value(below(part));
     if (under < 0) return;
     part.state = over == under ? PlainPart::State::Dropped : PlainPart::State::Kept;
     part.inside_above = over == 1;
@@ -538,7 +543,15 @@ void PlainCutting::settle(PlainPart& part) {
 
 // --- Items.
 
+void PlainCutting::start_item(LeafIndex item) {
+    item_ = item;
+    contacts_ = pairs_->contacts(item);
+    sides_.clear();
+    count_ = 0;
+}
+
 PlainCutting::Result PlainCutting::whole(LeafIndex item) {
+    start_item(item);
     const PlainFacet& f = (*facets_)[item];
     LeafIndex windings = windings_->anchor_of(item, *stats_).windings;
     const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
@@ -546,19 +559,14 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     if (windings < 0) {
         if (!f.contained && certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
             return {};
-        if (!start_item(item) || !clip_to_cell()) return {Remains::Doubtful, false};
+        if (!make_shape() || !clip_to_cell()) return {Remains::Doubtful, false};
         if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
         if (!trace_start()) return {Remains::Doubtful, false};
         windings = windings_->remember(item, start_windings_);
     }
-    sides_.clear();
-    count_ = 0;
     PlainPart& part = add_part();
     const auto known = windings_->windings(windings);
-    std::copy(known.begin(), known.end(), above(part).begin());
-    std::copy(known.begin(), known.end(), below(part).begin());
-    above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
-    below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
+    set_sides(part, known);
     settle(part);
     last_windings_ = windings;
     last_key_ = key;
@@ -567,29 +575,38 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     return last_result_;
 }
 
+// Makes the item its first part, without a shape. False when it cannot bound the result.
+bool PlainCutting::add_item() {
+    known_windings_.assign(start_windings_.begin(), start_windings_.end());
+    for (const PlainContact& c : contacts_)
+        known_windings_[LeafWork::u((*facets_)[c.other].operand)] = unknown_winding;
+    const PlainPart& part = add_part();
+    set_sides(part, known_windings_);
+    const int over = formula_->value(above(part));
+    return over < 0 || over != formula_->value(below(part));
+}
+
 PlainCutting::Result PlainCutting::cut(LeafIndex item) {
     constexpr Result doubtful{Remains::Doubtful, false};
-    if (!start_item(item) || !clip_to_cell()) return doubtful;
-    if (clipped_.size == 0) return {};
-    if (!set_start()) return doubtful;
+    start_item(item);
     const auto operand_at = [&](std::size_t c) { return (*facets_)[contacts_[c].other].operand; };
-    {
-        const PlainFacet& f = (*facets_)[item];
-        PlainPart& part = add_part();
-        const std::size_t sides = part.sides;
-        part = clipped_;
-        part.state = PlainPart::State::Open;
-        part.sides = sides;
-        std::copy(start_windings_.begin(), start_windings_.end(), above(part).begin());
-        for (std::size_t c = 0; c < contacts_.size(); ++c)
-            above(part)[LeafWork::u(operand_at(c))] = unknown_winding;
-        std::copy_n(above(part).begin(), n_, below(part).begin());
-        above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
-        below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
-        const int over = formula_->bound_at(above(part));
-        if (over >= 0 && over == formula_->bound_at(below(part))) return {};
-        settle(part);
+    // Winding numbers at a corner may show at once that the item lies within some other solid.
+    const PlainWindings::Anchor anchor = windings_->anchor_of(item, *stats_);
+    if (anchor.windings >= 0) {
+        start_at(anchor);
+        if (!add_item()) return {};
     }
+    if (!make_shape() || !join_coplanar() || !clip_to_cell()) return doubtful;
+    if (clipped_.size == 0) return {};
+    if (anchor.windings < 0) {
+        if (!trace_start()) return doubtful;
+        if (!add_item()) return {};
+    }
+    const std::size_t sides = parts_[0].sides;
+    parts_[0] = clipped_;
+    parts_[0].state = PlainPart::State::Open;
+    parts_[0].sides = sides;
+    settle(parts_[0]);
     for (std::size_t begin = 0; begin < contacts_.size();) {
         std::size_t end = begin + 1;
         while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
@@ -605,14 +622,14 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
     const std::size_t before = count_;
     for (std::size_t k = 0; k < before; ++k) {
         if (parts_[k].state != PlainPart::State::Open) continue;
-        const bool above_matters = formula_->bound_at(above(parts_[k])) < 0;
-        const bool below_matters = formula_->bound_at(below(parts_[k])) < 0;
+        const bool above_matters = formula_->value(above(parts_[k])) < 0;
+        const bool below_matters = formula_->value(below(parts_[k])) < 0;
         const std::size_t first = count_;
         {
             const std::size_t sides = add_part().sides;
             parts_[first] = parts_[k];
             parts_[first].sides = sides;
-            std::copy_n(above(parts_[k]).begin(), 2 * n_, above(parts_[first]).begin());
+            std::copy_n(above(parts_[k]).begin(), 2 * row_, above(parts_[first]).begin());
         }
         // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
         bool sure = first == 1 && (*facets_)[item_].contained;
@@ -627,8 +644,8 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
         if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
             // Undone, if anything was cut.
             PlainPart& part = parts_[k];
-            if (above_matters) above(part)[o] = above(parts_[first])[o];
-            if (below_matters) below(part)[o] = below(parts_[first])[o];
+            if (above_matters) formula_->set(above(part), o, above(parts_[first])[o]);
+            if (below_matters) formula_->set(below(part), o, below(parts_[first])[o]);
             if (count_ > first + 1) ++stats_->cuts_undone;
             count_ = first;
             settle(part);
@@ -647,7 +664,7 @@ bool PlainCutting::same_sides(std::size_t first, LeafIndex operand, bool above_m
                               bool below_matters) const {
     const std::size_t o = LeafWork::u(operand);
     const auto over = [&](std::size_t j) { return sides_[parts_[j].sides + o]; };
-    const auto under = [&](std::size_t j) { return sides_[parts_[j].sides + n_ + o]; };
+    const auto under = [&](std::size_t j) { return sides_[parts_[j].sides + row_ + o]; };
     for (std::size_t j = first + 1; j < count_; ++j)
         if ((above_matters && over(j) != over(first)) ||
             (below_matters && under(j) != under(first)))

@@ -86,10 +86,12 @@ private:
     using Signs = std::array<std::int8_t, PlainPart::max_size>;
     enum class Split : std::uint8_t { Doubtful, Missed, Done };
 
-    [[nodiscard]] bool start_item(LeafIndex item);
+    void start_item(LeafIndex item);
+    [[nodiscard]] bool make_shape();
     [[nodiscard]] bool clip_to_cell();
     [[nodiscard]] bool clip_at(std::size_t axis, bool high);
-    [[nodiscard]] bool set_start();
+    void start_at(const PlainWindings::Anchor& anchor);
+    [[nodiscard]] bool add_item();
     [[nodiscard]] bool trace_start();
     [[nodiscard]] bool cut_by(LeafIndex operand, std::size_t begin, std::size_t end);
     [[nodiscard]] Split split(std::size_t part, std::size_t contact, bool sure);
@@ -101,6 +103,7 @@ private:
                                  std::size_t end, int& change);
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;
+    void set_sides(const PlainPart& part, std::span<const int> windings);
     void settle(PlainPart& part);
     [[nodiscard]] Result remains() const;
 
@@ -136,8 +139,10 @@ private:
                               const PlainEnd& end) const;
     void name_pierced_edge(PlainVertex& vertex) const;
     [[nodiscard]] Approximation middle_of(const PlainPart& part, int attempt) const;
-    [[nodiscard]] std::span<int> above(const PlainPart& p) { return {&sides_[p.sides], n_}; }
-    [[nodiscard]] std::span<int> below(const PlainPart& p) { return {&sides_[p.sides + n_], n_}; }
+    [[nodiscard]] std::span<int> above(const PlainPart& p) { return {&sides_[p.sides], row_}; }
+    [[nodiscard]] std::span<int> below(const PlainPart& p) {
+        return {&sides_[p.sides + row_], row_};
+    }
     PlainPart& add_part();
 
     PlainFacets* facets_ = nullptr;
@@ -145,18 +150,20 @@ private:
     PlainWindings* windings_ = nullptr;
     LeafFormula* formula_ = nullptr;
     EvaluateStats* stats_ = nullptr;
-    std::size_t n_ = 0;  // operands
+    std::size_t n_ = 0;    // operands
+    std::size_t row_ = 0;  // of the formula
     LeafIndex item_ = -1;
     std::span<const PlainContact> contacts_;
     std::vector<std::int16_t> line_;  // of a contact: the first one in the same plane
     std::vector<PlainVertex> vertices_;
     std::vector<PlainPart> parts_;  // the first count_ are in use
     std::size_t count_ = 0;
-    std::vector<int> sides_;  // above and below of one part after the other
+    std::vector<int> sides_;  // rows above and below one part after the other
     PlainPart clipped_;
     bool was_clipped_ = false;
     // Where the item's windings are known, and on which side of every contact that is.
     std::vector<int> start_windings_;
+    std::vector<int> known_windings_;
     Approximation start_;
     std::vector<std::int8_t> start_sides_;
     // The last answer of whole(): most items hang together with the one before.

@@ -13,11 +13,9 @@
 
 #include <trisect/bsp/detail/plain_leaf.h>
 
-#include <trisect/bsp/detail/leaf_formula.h>
-
 namespace trisect::detail {
 
-bool PlainLeaf::arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
     const EvaluateStats before = stats;
@@ -30,7 +28,7 @@ bool PlainLeaf::arrange(const LeafProblem& problem, SlotValues& values, Evaluate
         out.resize(first);
     };
     try {
-        done = arrange_listed(problem, values, stats, out);
+        done = arrange_listed(problem, stats, out);
     } catch (...) {
         undo();
         throw;
@@ -39,12 +37,12 @@ bool PlainLeaf::arrange(const LeafProblem& problem, SlotValues& values, Evaluate
     return done;
 }
 
-bool PlainLeaf::arrange_listed(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+bool PlainLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out) {
     if (!pairs_.relate_all(facets_, stats)) return false;
     windings_.start(facets_, pairs_);
-    LeafFormula formula(problem, values);
-    cutting_.start(facets_, pairs_, windings_, formula, stats);
+    formula_.start(problem);
+    cutting_.start(facets_, pairs_, windings_, formula_, stats);
     for (LeafIndex i = 0; i < facets_.size(); ++i) {
         const bool crossed = !pairs_.contacts(i).empty();
         if (crossed) {

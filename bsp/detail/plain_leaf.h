@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include <trisect/bsp/detail/leaf_formula.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/plain_cutting.h>
 #include <trisect/bsp/detail/plain_facets.h>
@@ -20,19 +21,20 @@ namespace trisect::detail {
 class PlainLeaf {
 public:
     /// Appends what bounds the result. False when the leaf is of another kind or doubles cannot
-    /// tell; then `out` and `stats` are as before. `values` is scratch as in LeafArranger.
-    [[nodiscard]] bool arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats,
+    /// tell; then `out` and `stats` are as before.
+    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
 
 private:
-    [[nodiscard]] bool arrange_listed(const LeafProblem& problem, SlotValues& values,
-                                      EvaluateStats& stats, std::vector<PolygonRef>& out);
+    [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats,
+                                      std::vector<PolygonRef>& out);
     void emit(LeafIndex item, const PlainCutting::Result& result, std::vector<PolygonRef>& out);
 
     PlainFacets facets_;
     PlainPairs pairs_;
     PlainWindings windings_;
     PlainCutting cutting_;
+    LeafFormula formula_;
 };
 
 }  // namespace trisect::detail
