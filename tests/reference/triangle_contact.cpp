@@ -20,6 +20,14 @@ constexpr std::size_t next(std::size_t i) { return (i + 1) % 3; }
 
 Point3 normal(const Triangle3& t) { return cross(subtracted(t[1], t[0]), subtracted(t[2], t[0])); }
 
+// Whether all of s is strictly on one side of the plane of t.
+bool is_beyond(const Triangle3& s, const Triangle3& t) {
+    const Point3 n = normal(t);
+    int sum = 0;
+    for (const Point3& p : s) sum += sign(Rational(dot(n, subtracted(p, t[0]))));
+    return sum == 3 || sum == -3;
+}
+
 // from + s (to - from)
 Point3 along(const Point3& from, const Point3& to, const Rational& s) {
     const Point3 d = subtracted(to, from);
@@ -45,6 +53,7 @@ std::optional<int> part_at(const Triangle3& t, const Point3& p) {
 
 std::map<Point3, std::pair<int, int>> contact(const Triangle3& a, const Triangle3& b) {
     std::map<Point3, std::pair<int, int>> found;
+    if (is_beyond(a, b) || is_beyond(b, a)) return found;
     const auto note = [&](const Point3& p) {
         const auto in_a = part_at(a, p);
         const auto in_b = part_at(b, p);
