@@ -31,6 +31,7 @@ struct Request {
     SectionOptions section;
     RenderOptions render;
     TreeOptions tree;
+    InterfereOptions interfere;
 };
 
 constexpr const char* exit_code_help =
@@ -148,6 +149,7 @@ void declare(CLI::App& app, Request& request) {
     add_section_command(app, request.section);
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
+    add_interfere_command(app, request.interfere);
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
     }
@@ -162,6 +164,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "section") return run_section(session, request.section);
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);
+    if (name == "interfere") return run_interfere(session, request.interfere);
     BooleanOptions options = request.boolean;
     options.operation = name;
     return run_boolean(session, options);

@@ -40,6 +40,9 @@ void add_render_command(CLI::App& app, RenderOptions& options);
 void add_tree_command(CLI::App& app, TreeOptions& options);
 [[nodiscard]] Outcome run_tree(Session& session, const TreeOptions& options);
 
+void add_interfere_command(CLI::App& app, InterfereOptions& options);
+[[nodiscard]] Outcome run_interfere(Session& session, const InterfereOptions& options);
+
 /// --assume-embedded and --winding.
 void add_operand_options(CLI::App& command, OperandOptions& options);
 

@@ -69,6 +69,10 @@ std::array<double, 12> parse_matrix(std::string_view text, const std::string& na
 }
 
 std::array<double, 12> read_matrix(const std::string& file) {
+    if (file == "-") {
+        const std::string name = "standard input";
+        return parse_matrix(read_descriptor(0, name, matrix_file_limit).view(), name);
+    }
     return parse_matrix(read_file(file, matrix_file_limit).view(), file);
 }
 

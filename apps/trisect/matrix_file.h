@@ -10,7 +10,7 @@
 
 namespace trisect::app {
 
-/// \throw InputError with the line and column.
+/// "-" is the standard input. \throw InputError with the line and column.
 [[nodiscard]] std::array<double, 12> read_matrix(const std::string& file);
 
 /// The same from text; `name` stands for the file in messages.

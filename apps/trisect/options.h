@@ -108,6 +108,13 @@ struct RenderOptions {
     PictureStyle style;
 };
 
+struct InterfereOptions {
+    std::array<std::string, 2> inputs;
+    std::array<std::string, 2> poses;  ///< files; empty: where the mesh is
+    OperandOptions operands;
+    bool contacts = false;
+};
+
 struct ConvertOptions {
     std::string input;
     std::string output;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// interfere A B: how two solids lie to each other, each under a pose: disjoint, touching,
+// overlapping, one inside the other, or equal; and which faces, edges and vertices of the two meet.
+// The numbers of a pose are taken exactly as given, and the solids are not moved, so nothing is
+// rounded on the way.
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference.h>
+#include <trisect/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "commands.h"
+#include "matrix_file.h"
+#include "mesh_files.h"
+#include "operand.h"
+
+namespace trisect::app {
+namespace {
+
+struct PosedOperand {
+    Operand operand;
+    std::array<double, 12> rows{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    Pose pose;
+    InterferenceModel model;
+};
+
+Pose pose_of(const std::array<double, 12>& rows, const std::string& file) {
+    try {
+        return Pose::from_doubles(rows);
+    } catch (const UsageError& e) {
+        throw InputError(FilePlace{file, 1, 1, 0}, e.what());
+    }
+}
+
+/// Without self-intersection, under the limits of the command line.
+Solid resolved(const Session& session, const Solid& solid, const OperandOptions& options) {
+    if (options.assume_embedded) return solid;
+    return evaluate(Expression(solid), session.evaluation_options(options));
+}
+
+const char* kind_name(const BoundaryEntity& entity) {
+    if (entity.is_vertex()) return "vertex";
+    return entity.is_edge() ? "edge" : "face";
+}
+
+constexpr std::array<const char*, 3> dimension_names{"points", "segments", "area"};
+
+/// Where the entity is, in the coordinates of the file.
+Json entity_json(const BoundaryEntity& entity, const InterferenceModel& model) {
+    const Brep& brep = model.brep();
+    const auto point = [&](VertexId v) {
+        const std::array<double, 3> p = brep.point(v).nearest();
+        const Lattice lattice = model.lattice();
+        return Json{lattice.to_double(p[0]), lattice.to_double(p[1]), lattice.to_double(p[2])};
+    };
+    Json out;
+    out[kind_name(entity)] = entity.index();
+    if (entity.is_vertex()) out["point"] = point(entity.vertex());
+    if (entity.is_edge()) {
+        const HalfedgeId h = brep.halfedge(entity.edge());
+        out["from"] = point(brep.origin(h));
+        out["to"] = point(brep.target(h));
+    }
+    if (entity.is_face()) out["source"] = brep.source(entity.face()).face;
+    return out;
+}
+
+Json contact_json(const Contact& contact, const PosedOperand& a, const PosedOperand& b) {
+    Json out;
+    out["a"] = entity_json(contact.a, a.model);
+    out["b"] = entity_json(contact.b, b.model);
+    out["dimension"] = contact.dimension;
+    if (contact.dimension == 2) out["opposite"] = contact.opposite;
+    return out;
+}
+
+std::string contact_text(const Contact& contact) {
+    std::string out =
+        fmt::format("{} {} of A, {} {} of B: {}", kind_name(contact.a), contact.a.index(),
+                    kind_name(contact.b), contact.b.index(), dimension_names.at(contact.dimension));
+    if (contact.dimension == 2) out += contact.opposite ? ", face to face" : ", on one side";
+    return out + "\n";
+}
+
+PosedOperand posed(Operand operand, const std::string& pose_file) {
+    PosedOperand out;
+    out.operand = std::move(operand);
+    if (!pose_file.empty()) {
+        out.rows = read_matrix(pose_file);
+        out.pose = pose_of(out.rows, pose_file);
+    }
+    return out;
+}
+
+}  // namespace
+
+void add_interfere_command(CLI::App& app, InterfereOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "interfere", "how two solids under poses lie to each other; exit code 1 if they meet");
+    command->add_option("A", options.inputs[0], "mesh file")->required();
+    command->add_option("B", options.inputs[1], "mesh file")->required();
+    command
+        ->add_option("--pose-a", options.poses[0],
+                     "file of twelve numbers: the 3x4 matrix of A's pose, row by row; '-' is the "
+                     "standard input")
+        ->type_name("FILE");
+    command->add_option("--pose-b", options.poses[1], "the same for B")->type_name("FILE");
+    command->add_flag("--contacts", options.contacts,
+                      "list the faces, edges and vertices that meet (with --json always)");
+    add_operand_options(*command, options.operands);
+}
+
+Outcome run_interfere(Session& session, const InterfereOptions& options) {
+    check_standard_input(
+        std::array{options.inputs[0], options.inputs[1], options.poses[0], options.poses[1]});
+    session.plan(4);
+    std::array<PosedOperand, 2> solids;
+    session.stage("read", [&] {
+        std::vector<Operand> read = read_operands(session, options.inputs, options.operands);
+        for (std::size_t i = 0; i < 2; ++i) solids[i] = posed(std::move(read[i]), options.poses[i]);
+    });
+    auto& [a, b] = solids;
+    session.interruptible_stage("resolve", [&] {
+        for (PosedOperand& s : solids)
+            s.operand.solid = resolved(session, s.operand.solid, options.operands);
+        return true;
+    });
+    session.stage("prepare", [&] {
+        for (PosedOperand& s : solids) s.model = InterferenceModel(s.operand.solid);
+    });
+    InterferenceOptions query;
+    query.contacts = options.contacts || session.options().json;
+    const InterferenceResult result = session.stage(
+        "interfere", [&] { return interfere(a.model, a.pose, b.model, b.pose, query); });
+
+    Outcome out;
+    out.code = result.relation == Relation::Disjoint ? exit_done : exit_findings;
+    out.document["schema"] = "trisect.interfere/1";
+    out.document["inputs"] = {a.operand.facts, b.operand.facts};
+    out.document["poses"] = {a.rows, b.rows};
+    out.document["relation"] = to_string(result.relation);
+    out.document["contacts"] = Json::array();
+    for (const Contact& contact : result.contacts)
+        out.document["contacts"].push_back(contact_json(contact, a, b));
+    out.answer = std::string(to_string(result.relation)) + "\n";
+    if (options.contacts)
+        for (const Contact& contact : result.contacts) out.answer += contact_text(contact);
+    out.document["seconds"] = session.seconds();
+    return out;
+}
+
+}  // namespace trisect::app
