@@ -12,6 +12,7 @@
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/brep/winding_number.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/cell_tree_view.h>
@@ -24,6 +25,7 @@
 #include <trisect/bsp/moving_points.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/bsp/verify.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/point.h>

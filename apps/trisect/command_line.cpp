@@ -26,6 +26,7 @@ struct Request {
     InfoOptions info;
     CheckOptions check;
     DiffOptions diff;
+    VerifyCommandOptions verify;
     ConvertOptions convert;
     LocateOptions locate;
     SectionOptions section;
@@ -144,6 +145,7 @@ void declare(CLI::App& app, Request& request) {
     add_info_command(app, request.info);
     add_check_command(app, request.check);
     add_diff_command(app, request.diff);
+    add_verify_command(app, request.verify);
     add_convert_command(app, request.convert);
     add_locate_command(app, request.locate);
     add_section_command(app, request.section);
@@ -159,6 +161,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "info") return run_info(session, request.info);
     if (name == "check") return run_check(session, request.check);
     if (name == "diff") return run_diff(session, request.diff);
+    if (name == "verify") return run_verify(session, request.verify);
     if (name == "convert") return run_convert(session, request.convert);
     if (name == "locate") return run_locate(session, request.locate);
     if (name == "section") return run_section(session, request.section);

@@ -25,6 +25,9 @@ void add_check_command(CLI::App& app, CheckOptions& options);
 void add_diff_command(CLI::App& app, DiffOptions& options);
 [[nodiscard]] Outcome run_diff(Session& session, const DiffOptions& options);
 
+void add_verify_command(CLI::App& app, VerifyCommandOptions& options);
+[[nodiscard]] Outcome run_verify(Session& session, const VerifyCommandOptions& options);
+
 void add_convert_command(CLI::App& app, ConvertOptions& options);
 [[nodiscard]] Outcome run_convert(Session& session, const ConvertOptions& options);
 

@@ -73,6 +73,13 @@ struct DiffOptions {
     bool exact = false;
 };
 
+struct VerifyCommandOptions {
+    std::string operation;
+    std::vector<std::string> files;  ///< operands, and last the result
+    std::optional<double> within;
+    std::uint64_t pieces = 10000;
+};
+
 /// A set to be looked at: one mesh, or several combined.
 struct QueryOptions {
     std::vector<std::string> inputs;

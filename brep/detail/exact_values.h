@@ -38,6 +38,12 @@ inline ExactRational to_rational(const mpz_class& numerator, const mpz_class& de
     return ExactRational::from_limbs(sgn(numerator) < 0, limbs(numerator), limbs(denominator));
 }
 
+inline mpq_class to_fraction(const ExactRational& v) {
+    mpq_class q(v.to_string());
+    q.canonicalize();
+    return q;
+}
+
 // A point in lowest terms.
 struct Corner {
     std::array<mpz_class, 3> x;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The winding number of a triangle mesh about a rational point: the definition of "inside", worked
+// out without a tree. It is what certificates are checked with: slow, short, and independent of
+// everything that finds them.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/lattice_mesh.h>
+
+namespace trisect {
+
+/// A point with rational coordinates in the user's units.
+using ExactPoint = std::array<ExactRational, 3>;
+
+/// How often the triangles wind around the point, counter-clockwise seen from outside counting 1;
+/// nothing when the point lies on a triangle. Exact. The mesh may intersect and cover itself. For a
+/// mesh that is not closed the answer is the crossing number of the ray towards +x.
+/// O(n), about 5 ns for a triangle that the ray passes by.
+[[nodiscard]] std::optional<int> winding_number(const LatticeMesh& mesh, const ExactPoint& point);
+
+}  // namespace trisect

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "process.h"
+#include "scratch.h"
+
+namespace {
+
+using nlohmann::json;
+using trisect::test::Finished;
+using trisect::test::trisect;
+
+class VerifyCommand : public trisect::test::Scratch {
+protected:
+    std::string a_ = box("a.obj", {0, 0, 0}, {4, 4, 4});
+    std::string b_ = box("b.obj", {2, 2, 2}, {6, 6, 6});
+};
+
+TEST_F(VerifyCommand, RightResultsEndWithZero) {
+    const Finished good =
+        trisect({"verify", "intersection", a_, b_, box("i.obj", {2, 2, 2}, {4, 4, 4}), "--json"});
+    EXPECT_EQ(good.code, 0) << good.err;
+    const json report = good.json();
+    EXPECT_EQ(report["schema"], "trisect.verify/1");
+    EXPECT_EQ(report["verdict"], "equal");
+    EXPECT_EQ(report["radius"]["upper"], 0.0);
+    EXPECT_TRUE(report["witness"].is_null());
+}
+
+TEST_F(VerifyCommand, OurOwnResultsAreRight) {
+    for (const char* op : {"union", "intersection", "difference", "xor"}) {
+        const std::string out = path("out.off");
+        ASSERT_EQ(trisect({op, a_, b_, "-o", out}).code, 0);
+        EXPECT_EQ(trisect({"verify", op, a_, b_, out}).code, 0) << op;
+    }
+}
+
+TEST_F(VerifyCommand, WrongResultsHaveAWitness) {
+    const Finished bad =
+        trisect({"verify", "intersection", a_, b_, box("i.obj", {2, 2, 2}, {4, 4, 3}), "--json"});
+    EXPECT_EQ(bad.code, 1);
+    const json report = bad.json();
+    EXPECT_EQ(report["verdict"], "different");
+    const json witness = report["witness"];
+    EXPECT_EQ(witness["point"].size(), 3U);
+    EXPECT_EQ(witness["in_exact"], true);
+    EXPECT_EQ(witness["in_result"], false);
+    EXPECT_EQ(witness["winding_numbers"], json({1, 1, 0}));
+    EXPECT_FALSE(witness["faces"].empty());
+    const Finished text =
+        trisect({"verify", "intersection", a_, b_, path("i.obj"), "--within", "0.5"});
+    EXPECT_EQ(text.code, 1);
+    EXPECT_NE(text.out.find("witness"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, WithinADistance) {
+    const std::string near = box("i.obj", {2, 2, 2}, {4, 4, 3});
+    EXPECT_EQ(trisect({"verify", "intersection", a_, b_, near, "--within", "1.01"}).code, 0);
+    EXPECT_EQ(trisect({"verify", "intersection", a_, b_, near, "--within", "0.99"}).code, 1);
+    EXPECT_EQ(trisect({"verify", "intersection", a_, b_, near, "--within", "-1"}).code, 2);
+}
+
+TEST_F(VerifyCommand, OpenResultsAreFindings) {
+    const Finished open = trisect({"verify", "union", a_, b_, open_box("open.obj"), "--json"});
+    EXPECT_EQ(open.code, 1);
+    EXPECT_EQ(open.json()["verdict"], "not_closed");
+    EXPECT_FALSE(open.json()["defects"].empty());
+}
+
+TEST_F(VerifyCommand, OpenOperandsAreNoSolids) {
+    EXPECT_EQ(trisect({"verify", "union", open_box("open.obj"), b_, a_}).code, 4);
+    EXPECT_EQ(trisect({"verify", "minkowski", a_, b_, a_}).code, 2);
+    EXPECT_EQ(trisect({"verify", "union", a_, b_}).code, 2);
+}
+
+}  // namespace
