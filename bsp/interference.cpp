@@ -127,7 +127,8 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
                              const InterferenceOptions& options) {
     InterferenceResult result;
     if (a.is_empty() || b.is_empty()) return result;
-    if (!options.contacts) {
+    const bool all = options.contacts || options.regions;
+    if (!all) {
         detail::ObbWalk::Stack stack;
         stack.reserve(256);
         if (const auto quick = detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack)) {
@@ -138,7 +139,6 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
     const PosedModels models{a.data(), b.data(),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
     BoundaryFlags flags;
-    const bool all = options.contacts || options.regions;
     const std::vector<MeetingPair> pairs = meeting_pairs(models, all, flags);
     if (!flags.is_decided()) add_flags_at_contacts(models, pairs, flags);
     if (!flags.is_decided()) add_flags_of_shells(models, pairs, flags);

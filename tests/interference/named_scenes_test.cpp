@@ -390,6 +390,10 @@ TEST(NamedScenes, RegionsHaveExactCorners) {
     std::vector<std::array<std::string, 3>> corners;
     for (const auto& p : found.regions[0].loops[0])
         corners.push_back({p.exact[0].to_string(), p.exact[1].to_string(), p.exact[2].to_string()});
+    const auto regions_only = interfere(
+        a, Pose(), b, Pose::from_quaternion({2, 0, 0, 1}, {1.5, 1, 1}), {.regions = true});
+    EXPECT_EQ(regions_only.regions.size(), 1U);
+    EXPECT_TRUE(regions_only.contacts.empty());
     const auto first = std::ranges::find(corners, std::array<std::string, 3>{"3/2", "1", "1"});
     ASSERT_NE(first, corners.end());
     std::ranges::rotate(corners, first);
