@@ -209,13 +209,16 @@ private:
 
 void Scene::Implementation::relate(Answer& answer, const SceneBody& a, const SceneBody& b,
                                    const SceneQueryOptions& options) {
-    thread_local detail::ObbWalk::Stack stack;
     answer.contacts.clear();
-    const auto quick =
-        detail::quick_relation(a.model.data(), a.pose, b.model.data(), b.pose, stack);
-    if (quick && (*quick == Relation::Disjoint || !options.contacts)) {
-        answer.relation = *quick;
-        return;
+    if (options.contacts) {
+        // Only boundaries that meet have contacts, and most do not.
+        thread_local detail::ObbWalk::Stack stack;
+        const auto quick =
+            detail::quick_relation(a.model.data(), a.pose, b.model.data(), b.pose, stack);
+        if (quick && *quick != Relation::Overlapping) {
+            answer.relation = *quick;
+            return;
+        }
     }
     InterferenceOptions query;
     query.contacts = options.contacts;
