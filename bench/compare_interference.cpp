@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -25,6 +26,7 @@
 #include <nlohmann/json.hpp>
 
 #include <trisect/bsp/detail/boundary_pairs.h>
+#include <trisect/bsp/detail/distance_search.h>
 #include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/solid.h>
@@ -42,6 +44,7 @@ using trisect::InterferenceModel;
 using trisect::Pose;
 using trisect::Solid;
 using trisect::detail::BoundaryPairs;
+using trisect::detail::DistanceSearch;
 using trisect::detail::ObbWalk;
 using trisect::detail::WalkCounters;
 
@@ -81,6 +84,13 @@ public:
         });
         counters += pairs.counters();
         return n;
+    }
+    [[nodiscard]] std::optional<double> distance(std::size_t i) override {
+        DistanceSearch search(a_.data(), home_, b_.data(), poses_[i]);
+        search.run();
+        counters.node_tests += search.counters().node_tests;
+        counters.triangle_pairs += search.counters().triangle_pairs;
+        return search.upper();
     }
     [[nodiscard]] json build_stages() const {
         const auto s = a_.stats();
@@ -155,7 +165,9 @@ void ask(const interference_scenes::Scene& scene, const std::string& what, std::
         if (!question(*p, 0)) continue;
         Column c;
         c.peer = p;
-        const std::size_t step = p->is_slow() && what == "collide" ? 50 : p->is_slow() ? 0 : 1;
+        // Distances of these volumes are not slow.
+        const bool slow = p->is_slow() && what != "distance";
+        const std::size_t step = !slow ? 1 : what == "collide" ? 50 : 0;
         if (step == 0) continue;
         for (std::size_t i = 0; i < scene.placements.size(); i += step) c.placements.push_back(i);
         c.best.assign(c.placements.size(), std::numeric_limits<double>::infinity());
@@ -165,7 +177,7 @@ void ask(const interference_scenes::Scene& scene, const std::string& what, std::
     WalkCounters counted;
     for (int round = 0; round < rounds; ++round)
         for (Column& c : columns) {
-            if (c.peer->is_slow() && round > 0) continue;
+            if (c.peer->is_slow() && what != "distance" && round > 0) continue;
             ours.counters = {};
             for (std::size_t k = 0; k < c.placements.size(); ++k) {
                 const double start = now();
@@ -186,8 +198,11 @@ void ask(const interference_scenes::Scene& scene, const std::string& what, std::
             const double own = first.answer[c.placements[k]];
             (own > 0 ? hit : miss).push_back(c.best[k]);
             total += c.answer[k];
-            if ((c.answer[k] > 0) != (own > 0) && disagree.size() < 20)
-                disagree.push_back(c.placements[k]);
+            // Distances agree up to rounding; 0 and next to it are the same.
+            const bool differs = what == "distance"
+                                     ? std::abs(c.answer[k] - own) > 1e-9 * (1 + std::abs(own))
+                                     : (c.answer[k] > 0) != (own > 0);
+            if (differs && disagree.size() < 20) disagree.push_back(c.placements[k]);
         }
         json line{{"scene", scene.name},
                   {"what", what},
@@ -229,6 +244,12 @@ void run(const std::string& name, const Options& options) {
             const auto n = p.contacts(i);
             if (!n) return {};
             return static_cast<double>(*n);
+        });
+    ask(scene, "distance", all, options.rounds, ours,
+        [](Peer& p, std::size_t i) -> std::optional<double> {
+            const auto d = p.distance(i);
+            if (!d) return {};
+            return std::max(*d, 0.0);
         });
 }
 

@@ -13,6 +13,7 @@
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/brep/winding_number.h>
+#include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/cell_tree_view.h>

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// DistanceSearch: the closest triangles of two posed models, by certified bounds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/bsp/detail/approximate_map.h>
+#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/obb_pose.h>
+#include <trisect/bsp/detail/triangle_distance.h>
+#include <trisect/kernel/pose.h>
+
+namespace trisect::detail {
+
+/// What a search did.
+struct DistanceCounters {
+    std::uint64_t node_tests = 0;      ///< bounds of one box against four
+    std::uint64_t triangle_pairs = 0;  ///< distances of triangles in doubles
+};
+
+/// For one thread; models must outlive it. Distances are in the user's units.
+class DistanceSearch {
+public:
+    /// \pre both models have triangles.
+    DistanceSearch(const InterferenceModelData& a, const Pose& pose_a,
+                   const InterferenceModelData& b, const Pose& pose_b);
+
+    /// A pair of triangles that may be the closest.
+    struct Candidate {
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        DistanceBounds bounds;
+        ClosestPoints closest;
+        bool crossing = false;  ///< certainly: the distance is 0
+    };
+    /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
+    /// `stop` the search ends as soon as something is certainly nearer. Triangles of an earlier
+    /// answer may be given as a start.
+    void run(double limit = std::numeric_limits<double>::infinity(), bool stop = false,
+             std::optional<std::array<std::uint32_t, 2>> start = {});
+
+    /// Bounds on the distance, if it is below the limit. `lower` is infinite when nothing was
+    /// found.
+    [[nodiscard]] double lower() const { return lower_; }
+    [[nodiscard]] double upper() const { return upper_; }
+    /// All pairs that may be the closest, the one with the least upper bound first.
+    [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+    [[nodiscard]] const DistanceCounters& counters() const { return counters_; }
+
+private:
+    struct Entry {
+        float bound;
+        ObbId a;
+        ObbId b;
+    };
+    [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const;
+    void note(const Candidate& c);
+    void expand(const Entry& e);
+    void push(float bound, ObbId a, ObbId b);
+    void finish();
+
+    const InterferenceModelData* a_;
+    const InterferenceModelData* b_;
+    ApproximateMap map_;
+    std::optional<ObbPose> pose_;
+    std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
+    double row_ = 0;                                  // largest sum of a row's magnitudes
+    double error_ = 0;                                // of a position of A and one of moved B
+    double unit_ = 0;                                 // gaps of boxes to lower bounds in the world
+    double limit_ = 0;
+    double lower_ = 0;
+    double upper_ = 0;
+    std::vector<Entry> heap_;
+    std::vector<Candidate> candidates_;
+    DistanceCounters counters_;
+};
+
+/// The exact squared distance of two triangles of posed models, in the user's units.
+[[nodiscard]] ExactRational exact_squared_distance(const InterferenceModelData& a,
+                                                   const Pose& pose_a, std::uint32_t triangle_a,
+                                                   const InterferenceModelData& b,
+                                                   const Pose& pose_b, std::uint32_t triangle_b);
+
+}  // namespace trisect::detail
