@@ -10,6 +10,7 @@
 #include <trisect/bsp/detail/leaf_cutting.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <trisect/bsp/detail/facet_in_cell.h>
@@ -86,18 +87,16 @@ void LeafCutting::leave_to_speakers() {
     if (!item.covered) return;
     for (const LeafContact& c : work_->contacts(item_)) {
         if (!c.covers || !speaks_before(*work_, c.other, item_)) continue;
-        const WorkPolygon& cover = work_->with_edges(c.other);
         const std::size_t before = count_;
         for (std::size_t k = 0; k < before; ++k) {
-            if (parts_[k].state != Part::State::Open) continue;
+            if (parts_[k].state != Part::State::Open || !is_near(parts_[k], c.other)) continue;
             // Moved to the end and split there; its place is taken by the first of the new parts.
             const std::size_t first = count_;
             (void)add_part();
-            parts_[first].shape = parts_[k].shape;
-            parts_[first].sides = parts_[k].sides;
-            split_along_edges(first, cover);
+            parts_[first] = parts_[k];
+            split_along_edges(first, c.other);
             for (std::size_t j = first; j < count_; ++j) {
-                if (!covered_by(work_->bench, parts_[j].shape, cover)) continue;
+                if (!is_covered(parts_[j], c.other)) continue;
                 parts_[j].state = Part::State::Dropped;
                 if (!item.contained)
                     work_->incomplete.push_back({item.ref.source->serial(), item.ref.facet});
@@ -162,6 +161,7 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
             part.shape =
                 work_->bench.clipped(std::move(part.shape), item.ref.box(), work_->problem->cell);
         if (part.shape.is_empty()) return {};
+        set_box(part);
         set_start(part.shape);
         const std::span<const LeafContact> contacts = work_->contacts(i);
         known_windings_ = start_.windings;
@@ -176,14 +176,18 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
         if (parts_[k].state == Part::State::Open) settle(parts_[k]);
     const std::span<const LeafContact> contacts = work_->contacts(i);
     const auto operand_at = [&](std::size_t k) { return work_->item(contacts[k].other).operand; };
-    for (std::size_t begin = 0; begin < contacts.size();) {
-        std::size_t end = begin + 1;
-        while (end < contacts.size() && operand_at(end) == operand_at(begin)) ++end;
-        const auto group = contacts.subspan(begin, end - begin);
-        if (std::any_of(group.begin(), group.end(),
-                        [](const LeafContact& c) { return c.cuts || c.covers; }))
-            cut_by(operand_at(begin), group);
-        begin = end;
+    // First by those operands that the start lies in: they are likely to decide about large parts.
+    for (const bool around : {true, false}) {
+        for (std::size_t begin = 0; begin < contacts.size();) {
+            std::size_t end = begin + 1;
+            while (end < contacts.size() && operand_at(end) == operand_at(begin)) ++end;
+            const auto group = contacts.subspan(begin, end - begin);
+            if ((start_.windings[u(operand_at(begin))] > 0) == around &&
+                std::any_of(group.begin(), group.end(),
+                            [](const LeafContact& c) { return c.cuts || c.covers; }))
+                cut_by(operand_at(begin), group);
+            begin = end;
+        }
     }
     work_->stats->pieces += count_;
     return remains();
@@ -213,12 +217,18 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
     const std::size_t before = count_;
     for (std::size_t k = 0; k < before; ++k) {
         if (parts_[k].state != Part::State::Open) continue;
+        if (std::none_of(contacts.begin(), contacts.end(), [&](const LeafContact& c) {
+                return (c.cuts || c.covers) && is_near(parts_[k], c.other);
+            })) {
+            find_sides(parts_[k], operand, contacts);
+            settle(parts_[k]);
+            continue;
+        }
         const bool above_matters = formula_->value(parts_[k].sides.above) < 0;
         const bool below_matters = formula_->value(parts_[k].sides.below) < 0;
         const std::size_t first = count_;
         (void)add_part();
-        parts_[first].shape = parts_[k].shape;
-        parts_[first].sides = parts_[k].sides;
+        parts_[first] = parts_[k];
         split(first, contacts);
         for (std::size_t j = first; j < count_; ++j) find_sides(parts_[j], operand, contacts);
         if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
@@ -251,21 +261,53 @@ bool LeafCutting::same_sides(std::size_t first, LeafIndex operand, bool above_ma
     return true;
 }
 
-void LeafCutting::split_along_line(std::size_t first, PlaneId line, const WorkPolygon& cutter,
-                                   bool sure) {
+// With the errors of the points.
+void LeafCutting::set_box(Part& part) const {
+    part.lo.fill(std::numeric_limits<double>::infinity());
+    part.hi.fill(-std::numeric_limits<double>::infinity());
+    for (const PointId p : part.shape.points) {
+        const Approximation& a = work_->bench.approximation(p);
+        for (std::size_t k = 0; k < 3; ++k) {
+            part.lo[k] = std::min(part.lo[k], a.c[k] - 1.001 * a.error);
+            part.hi[k] = std::max(part.hi[k], a.c[k] + 1.001 * a.error);
+        }
+    }
+}
+
+// Whether the boxes of a part and an item meet, with a unit to spare for rounding.
+bool LeafCutting::is_near(const Part& part, LeafIndex item) const {
+    const Box& box = work_->item(item).box;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (part.lo[k] > static_cast<double>(box.hi[k]) + 1 ||
+            part.hi[k] < static_cast<double>(box.lo[k]) - 1)
+            return false;
+    return true;
+}
+
+bool LeafCutting::is_covered(const Part& part, LeafIndex cover) {
+    return is_near(part, cover) && covered_by(work_->bench, part.shape, work_->with_edges(cover));
+}
+
+void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cutter, bool sure) {
     const std::size_t end = count_;
     for (std::size_t j = first; j < end; ++j) {
+        if (!is_near(parts_[j], cutter)) continue;
         WorkPolygon above;
-        if (!split_along(work_->bench, parts_[j].shape, line, cutter, sure, above)) continue;
+        if (!split_along(work_->bench, parts_[j].shape, line, work_->item(cutter).shape, sure,
+                         above))
+            continue;
+        set_box(parts_[j]);
         Part& other = add_part();
         other.shape = std::move(above);
         other.sides = parts_[j].sides;
+        set_box(other);
     }
 }
 
 // The edges of a covering facet are lines in the plane of the item.
-void LeafCutting::split_along_edges(std::size_t first, const WorkPolygon& cover) {
-    for (const WorkEdge& e : cover.edges) split_along_line(first, e.plane, cover, false);
+void LeafCutting::split_along_edges(std::size_t first, LeafIndex cover) {
+    for (const WorkEdge& e : work_->with_edges(cover).edges)
+        split_along_line(first, e.plane, cover, false);
 }
 
 void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
@@ -273,18 +315,16 @@ void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts
     bool sure = first == 1 && !work_->item(item_).covered && work_->item(item_).contained;
     for (const LeafContact& c : contacts) {
         if (!c.cuts) continue;
-        const WorkPolygon& cutter = work_->with_edges(c.other);
-        split_along_line(first, cutter.support, cutter, sure);
+        split_along_line(first, work_->with_edges(c.other).support, c.other, sure);
         sure = false;
     }
     for (const LeafContact& c : contacts)
-        if (c.covers) split_along_edges(first, work_->with_edges(c.other));
+        if (c.covers) split_along_edges(first, c.other);
 }
 
 void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts) {
     for (const LeafContact& c : contacts) {
-        if (!c.covers || !covered_by(work_->bench, part.shape, work_->with_edges(c.other)))
-            continue;
+        if (!c.covers || !is_covered(part, c.other)) continue;
         const LeafItem& other = work_->item(c.other);
         const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
                                            work_->bench.plane_at(other.shape.support));

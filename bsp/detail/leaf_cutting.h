@@ -3,6 +3,7 @@
 // Cutting the polygons of embedded operands, and no more than the result needs.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -56,6 +57,8 @@ private:
     struct Part {
         WorkPolygon shape;
         Sides sides;
+        std::array<double, 3> lo{};  // of a box that contains the shape
+        std::array<double, 3> hi{};
         enum class State : std::uint8_t { Open, Kept, Dropped } state = State::Open;
         bool inside_above = false;
     };
@@ -74,8 +77,11 @@ private:
     void leave_to_speakers();
     void cut_by(LeafIndex operand, std::span<const LeafContact> contacts);
     void split(std::size_t first, std::span<const LeafContact> contacts);
-    void split_along_edges(std::size_t first, const WorkPolygon& cover);
-    void split_along_line(std::size_t first, PlaneId line, const WorkPolygon& cutter, bool sure);
+    void split_along_edges(std::size_t first, LeafIndex cover);
+    void split_along_line(std::size_t first, PlaneId line, LeafIndex cutter, bool sure);
+    void set_box(Part& part) const;
+    [[nodiscard]] bool is_near(const Part& part, LeafIndex item) const;
+    [[nodiscard]] bool is_covered(const Part& part, LeafIndex cover);
     void find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts);
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;

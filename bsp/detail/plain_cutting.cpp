@@ -607,11 +607,16 @@ PlainCutting::Result PlainCutting::cut(LeafIndex item) {
     parts_[0].state = PlainPart::State::Open;
     parts_[0].sides = sides;
     settle(parts_[0]);
-    for (std::size_t begin = 0; begin < contacts_.size();) {
-        std::size_t end = begin + 1;
-        while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
-        if (!cut_by(operand_at(begin), begin, end)) return doubtful;
-        begin = end;
+    // First by those operands that the start lies in: they are likely to decide about large parts.
+    for (const bool around : {true, false}) {
+        for (std::size_t begin = 0; begin < contacts_.size();) {
+            std::size_t end = begin + 1;
+            while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
+            if ((start_windings_[LeafWork::u(operand_at(begin))] > 0) == around &&
+                !cut_by(operand_at(begin), begin, end))
+                return doubtful;
+            begin = end;
+        }
     }
     stats_->pieces += count_;
     return remains();
