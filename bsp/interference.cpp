@@ -37,11 +37,8 @@ using detail::PosedModels;
 using detail::RelativePose;
 using detail::TriangleContact;
 
-namespace {
-
-// All pairs of triangles that meet, and the flags that they set by themselves. Unless `all` is set
-// it stops when the relation is decided.
-std::vector<MeetingPair> meeting_pairs(const PosedModels& models, bool all, BoundaryFlags& flags) {
+std::vector<MeetingPair> detail::meeting_pairs(const PosedModels& models, bool all,
+                                               BoundaryFlags& flags) {
     std::vector<MeetingPair> pairs;
     detail::TrianglePairTest test(models.poses);
     for_candidate_pairs(models, [&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
@@ -59,6 +56,8 @@ std::vector<MeetingPair> meeting_pairs(const PosedModels& models, bool all, Boun
     });
     return pairs;
 }
+
+namespace {
 
 std::vector<bool> shells_in_contact(const InterferenceModelData& model,
                                     const std::vector<MeetingPair>& pairs,

@@ -20,6 +20,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/first_contact.h>
 #include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference_certificate.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/interference_scene.h>
 #include <trisect/bsp/joint.h>

@@ -51,6 +51,11 @@ bool for_candidate_pairs(const PosedModels& models, Visit&& visit) {
     return false;
 }
 
+/// All pairs of triangles that meet, and the flags that they set by themselves. Unless `all` is set
+/// it stops when the relation is decided. In interference.cpp.
+[[nodiscard]] std::vector<MeetingPair> meeting_pairs(const PosedModels& models, bool all,
+                                                     BoundaryFlags& flags);
+
 /// All contacts of entities, in ascending order.
 [[nodiscard]] std::vector<Contact> contacts_of(const PosedModels& models,
                                                const std::vector<MeetingPair>& pairs);

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The checker shares nothing with what decides: it has the vertices, loops and shells of the two
+// boundaries, the numbers of the poses, and fractions. Points are located by the parity of a ray's
+// crossings with faces (even-odd in the face's plane); a ray that meets an edge is given up for
+// another one. That is slow and plain on purpose.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/interference_certificate.h>
+
+namespace trisect {
+
+namespace {
+
+using Vector = RationalPoint;
+
+Vector minus(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
+Vector cross(const Vector& u, const Vector& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+ExactRational dot(const Vector& u, const Vector& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+bool is_zero(const Vector& v) { return v[0].sign() == 0 && v[1].sign() == 0 && v[2].sign() == 0; }
+
+enum class Where { Inside, Outside, Boundary, Unknown };
+
+// A boundary in the world.
+class PlacedBoundary {
+public:
+    PlacedBoundary(const Brep& brep, const Pose& pose) : brep_(&brep) {
+        for (const Point& p : brep.points()) {
+            const HomogeneousPoint h = p.homogeneous();
+            Vector x;
+            for (std::size_t i = 0; i < 3; ++i)
+                x[i] =
+                    (ExactRational(h.xyz[i]) / ExactRational(h.w)).scaled(brep.lattice().exponent);
+            Vector y;
+            for (std::size_t i = 0; i < 3; ++i) {
+                y[i] = ExactRational(pose.translation(i));
+                for (std::size_t j = 0; j < 3; ++j) y[i] += ExactRational(pose.matrix(i, j)) * x[j];
+                y[i] /= ExactRational(pose.denominator());
+            }
+            points_.push_back(std::move(y));
+        }
+        for (const FaceId f : brep.faces()) normals_.push_back(normal_of(f));
+    }
+
+    [[nodiscard]] const Brep& brep() const { return *brep_; }
+    [[nodiscard]] const std::vector<Vector>& points() const { return points_; }
+    [[nodiscard]] const Vector& at(VertexId v) const { return points_[v.index]; }
+
+    [[nodiscard]] Where locate(const Vector& p) const {
+        for (const FaceId f : brep_->faces())
+            if (dot(normals_[f.index], minus(at(corner(f)), p)).sign() == 0 &&
+                in_face(f, p) != Where::Outside)
+                return Where::Boundary;
+        // Directions of no special meaning; one that meets no edge is found soon.
+        std::int64_t seed = 1;
+        const auto number = [&seed] {
+            seed = (seed * 48271) % 2147483647;
+            return ExactRational(seed % 2001 - 1000);
+        };
+        for (int attempt = 0; attempt < 50; ++attempt) {
+            const Vector d{number(), number(), number()};
+            if (const Where w = along_ray(p, d); w != Where::Unknown) return w;
+        }
+        return Where::Unknown;
+    }
+
+    // The segments of every face's loops, without direction: they tell the face, and all faces
+    // together a bounded solid.
+    [[nodiscard]] std::vector<std::set<std::pair<Vector, Vector>>> outlines() const {
+        std::vector<std::set<std::pair<Vector, Vector>>> all;
+        for (const FaceId f : brep_->faces()) {
+            auto& outline = all.emplace_back();
+            for (const HalfedgeId h : brep_->halfedges(f))
+                outline.insert(std::minmax(at(brep_->origin(h)), at(brep_->target(h))));
+        }
+        std::ranges::sort(all);
+        return all;
+    }
+
+    // Whether triangles fill all faces: in each face their sides, cancelled, are its halfedges. Two
+    // bounded chains in a plane with one boundary are the same.
+    [[nodiscard]] bool is_filled_by(const std::vector<CertifiedTriangle>& triangles) const {
+        std::map<std::uint32_t, std::map<std::pair<Vector, Vector>, int>> sides;
+        const auto add = [&](std::uint32_t face, const Vector& p, const Vector& q, int sign) {
+            if (p < q)
+                sides[face][{p, q}] += sign;
+            else
+                sides[face][{q, p}] -= sign;
+        };
+        for (const CertifiedTriangle& t : triangles) {
+            if (t.face.index >= brep_->faces().size()) return false;
+            const Vector& n = normals_[t.face.index];
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (t.vertex[i].index >= points_.size()) return false;
+                if (dot(n, minus(at(t.vertex[i]), at(corner(t.face)))).sign() != 0) return false;
+            }
+            if (dot(n, cross(minus(at(t.vertex[1]), at(t.vertex[0])),
+                             minus(at(t.vertex[2]), at(t.vertex[0]))))
+                    .sign() <= 0)
+                return false;
+            for (std::size_t i = 0; i < 3; ++i)
+                add(t.face.index, at(t.vertex[i]), at(t.vertex[(i + 1) % 3]), 1);
+        }
+        for (const FaceId f : brep_->faces())
+            for (const HalfedgeId h : brep_->halfedges(f))
+                add(f.index, at(brep_->origin(h)), at(brep_->target(h)), -1);
+        return std::ranges::all_of(sides, [](const auto& face) {
+            return std::ranges::all_of(face.second, [](const auto& s) { return s.second == 0; });
+        });
+    }
+
+private:
+    [[nodiscard]] VertexId corner(FaceId f) const {
+        return brep_->origin(brep_->halfedges(brep_->outer_loop(f))[0]);
+    }
+    // Twice the vector area of the outer loop: counter-clockwise about it, mirrored or not.
+    [[nodiscard]] Vector normal_of(FaceId f) const {
+        Vector n;
+        for (const HalfedgeId h : brep_->halfedges(brep_->outer_loop(f))) {
+            const Vector c = cross(at(brep_->origin(h)), at(brep_->target(h)));
+            for (std::size_t i = 0; i < 3; ++i) n[i] += c[i];
+        }
+        return n;
+    }
+    // Of a point in the face's plane.
+    [[nodiscard]] Where in_face(FaceId f, const Vector& p) const {
+        const Vector& n = normals_[f.index];
+        std::size_t k = 0;
+        while (n[k].sign() == 0) ++k;
+        const std::size_t x = (k + 1) % 3;
+        const std::size_t y = (k + 2) % 3;
+        bool inside = false;
+        for (const HalfedgeId h : brep_->halfedges(f)) {
+            const Vector& u = at(brep_->origin(h));
+            const Vector& v = at(brep_->target(h));
+            const ExactRational turn =
+                (v[x] - u[x]) * (p[y] - u[y]) - (v[y] - u[y]) * (p[x] - u[x]);
+            const bool within = std::min(u[x], v[x]) <= p[x] && p[x] <= std::max(u[x], v[x]) &&
+                                std::min(u[y], v[y]) <= p[y] && p[y] <= std::max(u[y], v[y]);
+            if (turn.sign() == 0 && within) return Where::Boundary;
+            if ((u[y] > p[y]) == (v[y] > p[y])) continue;
+            if ((turn.sign() > 0) == (v[y] > u[y])) inside = !inside;
+        }
+        return inside ? Where::Inside : Where::Outside;
+    }
+    [[nodiscard]] Where along_ray(const Vector& p, const Vector& d) const {
+        bool inside = false;
+        for (const FaceId f : brep_->faces()) {
+            const Vector& n = normals_[f.index];
+            const ExactRational speed = dot(n, d);
+            if (speed.sign() == 0) return Where::Unknown;
+            const ExactRational t = dot(n, minus(at(corner(f)), p)) / speed;
+            if (t.sign() <= 0) continue;
+            const Vector hit{p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
+            const Where w = in_face(f, hit);
+            if (w == Where::Boundary) return Where::Unknown;
+            if (w == Where::Inside) inside = !inside;
+        }
+        return inside ? Where::Inside : Where::Outside;
+    }
+
+    const Brep* brep_;
+    std::vector<Vector> points_;
+    std::vector<Vector> normals_;
+};
+
+ExactRational value_at(const SeparatingPlane& plane, const Vector& p) {
+    return dot(plane.normal, p) + plane.offset;
+}
+
+class Checker {
+public:
+    Checker(const InterferenceCertificate& c, const Brep& a, const Pose& pose_a, const Brep& b,
+            const Pose& pose_b)
+        : c_(c), a_(a, pose_a), b_(b, pose_b) {}
+
+    std::string run() {
+        if (a_.brep().is_empty() || b_.brep().is_empty())
+            return c_.relation == Relation::Disjoint ? "" : "an empty solid is disjoint";
+        if (std::string wrong = wrong_points(); !wrong.empty()) return wrong;
+        if (c_.plane && !separates(*c_.plane)) return "the plane does not separate the solids";
+        if (!c_.apart.empty())
+            if (std::string wrong = wrong_tree(); !wrong.empty()) return wrong;
+        if (std::string wrong = contradiction(); !wrong.empty()) return wrong;
+        return c_.is_complete ? missing() : "";
+    }
+
+private:
+    static bool is(const PlacedBoundary& boundary, const std::optional<Vector>& p, Where where) {
+        return !p || boundary.locate(*p) == where;
+    }
+    std::string wrong_points() const {
+        if (!is(a_, c_.in_both, Where::Inside) || !is(b_, c_.in_both, Where::Inside))
+            return "a point is not inside both";
+        if (!is(a_, c_.only_in_a, Where::Inside) || !is(b_, c_.only_in_a, Where::Outside))
+            return "a point is not inside A alone";
+        if (!is(a_, c_.only_in_b, Where::Outside) || !is(b_, c_.only_in_b, Where::Inside))
+            return "a point is not inside B alone";
+        if (!is(a_, c_.on_both, Where::Boundary) || !is(b_, c_.on_both, Where::Boundary))
+            return "a point is not on both boundaries";
+        return {};
+    }
+    bool separates(const SeparatingPlane& plane) const {
+        return !is_zero(plane.normal) && std::ranges::all_of(a_.points(), [&](const Vector& p) {
+            return value_at(plane, p).sign() <= 0;
+        }) && std::ranges::all_of(b_.points(), [&](const Vector& p) {
+            return value_at(plane, p).sign() >= 0;
+        });
+    }
+
+    std::string wrong_tree() {
+        if (!a_.is_filled_by(c_.triangles_a) || !b_.is_filled_by(c_.triangles_b))
+            return "the triangles do not fill the faces";
+        struct Range {
+            std::size_t node, a0, a1, b0, b1;
+        };
+        std::vector<Range> open{{0, 0, c_.triangles_a.size(), 0, c_.triangles_b.size()}};
+        std::vector<bool> seen(c_.apart.size(), false);
+        while (!open.empty()) {
+            const Range r = open.back();
+            open.pop_back();
+            if (r.node >= c_.apart.size() || seen[r.node]) return "the tree is no tree";
+            seen[r.node] = true;
+            const ApartNode& n = c_.apart[r.node];
+            if (n.kind == ApartNode::Kind::Separated) {
+                if (!are_apart(r.a0, r.a1, r.b0, r.b1, n.plane))
+                    return "a plane of the tree does not separate";
+                continue;
+            }
+            const bool of_a = n.kind == ApartNode::Kind::SplitA;
+            if ((of_a ? r.a1 - r.a0 : r.b1 - r.b0) < 2) return "the tree splits a single triangle";
+            const std::size_t ma = (r.a0 + r.a1) / 2;
+            const std::size_t mb = (r.b0 + r.b1) / 2;
+            open.push_back({r.node + 1, r.a0, of_a ? ma : r.a1, r.b0, of_a ? r.b1 : mb});
+            open.push_back({n.other, of_a ? ma : r.a0, r.a1, of_a ? r.b0 : mb, r.b1});
+        }
+        return {};
+    }
+    bool are_apart(std::size_t a0, std::size_t a1, std::size_t b0, std::size_t b1,
+                   const SeparatingPlane& plane) const {
+        const auto all = [&](const PlacedBoundary& boundary,
+                             const std::vector<CertifiedTriangle>& triangles, std::size_t from,
+                             std::size_t to, int sign) {
+            for (std::size_t i = from; i < to; ++i)
+                for (const VertexId v : triangles[i].vertex)
+                    if (value_at(plane, boundary.at(v)).sign() != sign) return false;
+            return true;
+        };
+        return all(a_, c_.triangles_a, a0, a1, -1) && all(b_, c_.triangles_b, b0, b1, 1);
+    }
+
+    // What the parts say together, against the relation claimed.
+    std::string contradiction() const {
+        const Relation r = c_.relation;
+        const bool interiors_meet = r != Relation::Disjoint && r != Relation::Touching;
+        if (c_.in_both && !interiors_meet) return "interiors meet";
+        if (c_.plane && interiors_meet) return "a plane separates the solids";
+        if (c_.only_in_a && (r == Relation::Inside || r == Relation::Equal))
+            return "a point of A is outside B";
+        if (c_.only_in_b && (r == Relation::Contains || r == Relation::Equal))
+            return "a point of B is outside A";
+        if (c_.on_both && r == Relation::Disjoint) return "the boundaries meet";
+        if (!c_.apart.empty() && c_.on_both) return "the boundaries meet and are apart";
+        return {};
+    }
+
+    std::string missing() {
+        switch (c_.relation) {
+            case Relation::Touching:
+                return c_.on_both && c_.plane ? "" : "no plane and common point";
+            case Relation::Overlapping:
+                return c_.in_both && c_.only_in_a && c_.only_in_b ? "" : "points are missing";
+            case Relation::Equal:
+                return a_.outlines() == b_.outlines() ? "" : "the boundaries are different";
+            default:
+                return shells_say();
+        }
+    }
+    // Boundaries that are apart: each shell is inside or outside as a whole.
+    std::string shells_say() {
+        if (c_.apart.empty()) return "no proof that the boundaries are apart";
+        bool a_in = false;
+        bool a_out = false;
+        bool b_in = false;
+        const auto look = [](const PlacedBoundary& these, const PlacedBoundary& other, bool& in,
+                             bool& out) {
+            const Brep& brep = these.brep();
+            for (const ShellId s : brep.shells()) {
+                const FaceId f = brep.faces(s).front();
+                const Where w =
+                    other.locate(these.at(brep.origin(brep.halfedges(brep.outer_loop(f))[0])));
+                in = in || w == Where::Inside;
+                out = out || w == Where::Outside;
+                if (w == Where::Boundary || w == Where::Unknown) return false;
+            }
+            return true;
+        };
+        bool b_out = false;
+        if (!look(a_, b_, a_in, a_out) || !look(b_, a_, b_in, b_out))
+            return "a shell that could not be located";
+        Relation found = Relation::Overlapping;
+        if (!a_in && !b_in)
+            found = Relation::Disjoint;
+        else if (!a_out && !b_in)
+            found = Relation::Inside;
+        else if (!b_out && !a_in)
+            found = Relation::Contains;
+        return found == c_.relation ? "" : "the shells lie otherwise";
+    }
+
+    const InterferenceCertificate& c_;
+    PlacedBoundary a_;
+    PlacedBoundary b_;
+};
+
+}  // namespace
+
+std::string check_certificate(const InterferenceCertificate& certificate, const Brep& a,
+                              const Pose& pose_a, const Brep& b, const Pose& pose_b) {
+    return Checker(certificate, a, pose_a, b, pose_b).run();
+}
+
+}  // namespace trisect
