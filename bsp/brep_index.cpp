@@ -56,13 +56,17 @@ const detail::Source* only_source(const Solid& solid) {
     return source;
 }
 
+// Of a point on these polygons.
+Place named(const IndexCore& core, const IndexPoint& point, std::vector<PolygonId>& on) {
+    Place place = detail::place_on(core.polygons(), on, point);
+    if (core.handles) core.handles->name(core, place, on, point);
+    return place;
+}
+
 Place located(const IndexCore& core, const IndexPoint& point, std::vector<PolygonId>& on) {
     Place place;
     place.location = detail::locate_polygons(*core.base, point, on);
-    if (!place.is_on_boundary()) return place;
-    place = detail::place_on(core.polygons(), on, point);
-    if (core.handles) core.handles->name(core, place, on, point);
-    return place;
+    return place.is_on_boundary() ? named(core, point, on) : place;
 }
 
 template <class T>
@@ -71,9 +75,9 @@ void sort_unique(std::vector<T>& v) {
     v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 
-IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Node& n,
+IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Cell& c,
                   const detail::DoubleBox& cell) {
-    return {cell.lo, cell.hi, core.tree().leaf(n.next).count, false};
+    return {cell.lo, cell.hi, core.tree().leaf(c.leaf).count, false};
 }
 
 // Calls work(begin, end) for all i below n, in parts, on so many threads.
@@ -141,6 +145,8 @@ BrepIndex BrepIndex::with_brep() const {
     return BrepIndex(std::shared_ptr<const IndexCore>(std::move(core)));
 }
 
+void BrepIndex::refine() const { core_->tree().divide_all(); }
+
 const Solid& BrepIndex::solid() const { return core_->base->solid; }
 bool BrepIndex::has_brep() const { return core_->handles != nullptr; }
 
@@ -153,12 +159,14 @@ IndexStats BrepIndex::stats() const {
     const detail::IndexTree& tree = core_->tree();
     IndexStats s;
     s.polygons = core_->polygons().size();
-    s.nodes = tree.nodes().size();
-    s.mixed_leaves = tree.leaves().size();
-    s.empty_leaves = tree.empty_leaves();
-    for (const auto& l : tree.leaves()) s.listed += l.count;
-    s.depth = tree.depth();
-    s.bytes = tree.bytes() + core_->polygons().bytes();
+    const detail::IndexTree::Stats t = tree.stats();
+    s.nodes = t.nodes;
+    s.mixed_leaves = t.mixed;
+    s.empty_leaves = t.empty;
+    s.pending_cells = t.pending;
+    s.listed = t.listed;
+    s.depth = t.depth;
+    s.bytes = t.bytes + core_->polygons().bytes();
     if (core_->handles) s.bytes += core_->handles->bytes();
     if (s.polygons != 0)
         s.bytes_per_polygon = static_cast<double>(s.bytes) / static_cast<double>(s.polygons);
@@ -192,13 +200,14 @@ Place BrepIndex::locate(const std::array<ExactRational, 3>& point) const {
 std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> points,
                                      unsigned threads) const {
     std::vector<Place> places(points.size());
-    const Lattice lattice = solid().lattice();
     const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<PolygonId> on;
-        for (std::size_t i = begin; i < end; ++i)
-            places[order[i]] =
-                located(*core_, IndexPoint::from_user(points[order[i]], lattice), on);
+        detail::locate_batch(
+            *core_->base, points, std::span(order).subspan(begin, end - begin),
+            [&](std::uint32_t i, Location l, const IndexPoint* p, std::vector<PolygonId>& on) {
+                places[i].location = l;
+                if (l == Location::OnFace) places[i] = named(*core_, *p, on);
+            });
     });
     return places;
 }
@@ -206,16 +215,14 @@ std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> poin
 void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::span<Location> results,
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
-    const Lattice lattice = solid().lattice();
     const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<PolygonId> on;
-        for (std::size_t i = begin; i < end; ++i) {
-            const IndexPoint p = IndexPoint::from_user(points[order[i]], lattice);
-            Location l = detail::locate_polygons(*core_->base, p, on);
-            if (l == Location::OnFace) l = detail::place_on(core_->polygons(), on).location;
-            results[order[i]] = l;
-        }
+        detail::locate_batch(
+            *core_->base, points, std::span(order).subspan(begin, end - begin),
+            [&](std::uint32_t i, Location l, const IndexPoint*, std::vector<PolygonId>& on) {
+                if (l == Location::OnFace) l = detail::location_on(core_->polygons(), on);
+                results[i] = l;
+            });
     });
 }
 
@@ -224,6 +231,12 @@ std::optional<RayHit> BrepIndex::first_hit(const Ray& ray) const {
 }
 std::optional<RayHit> BrepIndex::first_hit(const Segment& segment) const {
     return detail::first_hit(*core_, IndexLine(segment, solid().lattice()));
+}
+std::optional<FacetHit> BrepIndex::first_facet(const Ray& ray) const {
+    return detail::first_facet(*core_, IndexLine(ray, solid().lattice()));
+}
+std::optional<FacetHit> BrepIndex::first_facet(const Segment& segment) const {
+    return detail::first_facet(*core_, IndexLine(segment, solid().lattice()));
 }
 std::vector<RayHit> BrepIndex::all_hits(const Ray& ray) const {
     return detail::all_hits(*core_, IndexLine(ray, solid().lattice()));
@@ -243,6 +256,10 @@ std::optional<Nearest> BrepIndex::nearest_edge(const std::array<double, 3>& poin
 std::optional<Nearest> BrepIndex::nearest_vertex(const std::array<double, 3>& point) const {
     return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
                            detail::NearestKind::Vertex);
+}
+
+std::optional<DistanceBounds> BrepIndex::distance(const std::array<double, 3>& point) const {
+    return detail::distance(*core_, IndexPoint::from_user(point, solid().lattice()));
 }
 
 std::optional<SignedDistance> BrepIndex::signed_distance(const std::array<double, 3>& point) const {
@@ -306,12 +323,12 @@ std::vector<IndexCell> BrepIndex::cells(FaceId face) const {
                 return cell.overlaps(detail::to_doubles(core_->polygons().box(id)));
             });
         },
-        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
-            if (!n.is_mixed()) return;
-            const auto listed = core_->tree().listed(core_->tree().leaf(n.next));
+        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
+            if (!c.is_mixed()) return;
+            const auto listed = core_->tree().listed(core_->tree().leaf(c.leaf));
             if (std::any_of(listed.begin(), listed.end(),
                             [&](PolygonId id) { return core_->handles->face_of(id) == face; }))
-                out.push_back(to_cell(*core_, n, cell));
+                out.push_back(to_cell(*core_, c, cell));
         });
     return out;
 }
@@ -324,11 +341,11 @@ std::vector<IndexCell> BrepIndex::cells(EdgeId edge) const {
     std::vector<IndexCell> out;
     detail::for_leaves(
         core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
-            if (!n.is_mixed()) return;
-            const auto edges = core_->handles->edges_in(n.next);
+        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
+            if (!c.is_mixed()) return;
+            const auto edges = core_->handles->edges_in(c.leaf);
             if (std::find(edges.begin(), edges.end(), edge) != edges.end())
-                out.push_back(to_cell(*core_, n, cell));
+                out.push_back(to_cell(*core_, c, cell));
         });
     return out;
 }
@@ -340,11 +357,11 @@ std::vector<IndexCell> BrepIndex::cells(VertexId vertex) const {
     std::vector<IndexCell> out;
     detail::for_leaves(
         core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const detail::IndexTree::Node& n, const detail::DoubleBox& cell) {
-            if (!n.is_mixed()) return;
-            const auto vertices = core_->handles->vertices_in(n.next);
+        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
+            if (!c.is_mixed()) return;
+            const auto vertices = core_->handles->vertices_in(c.leaf);
             if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
-                out.push_back(to_cell(*core_, n, cell));
+                out.push_back(to_cell(*core_, c, cell));
         });
     return out;
 }

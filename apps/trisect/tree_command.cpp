@@ -176,6 +176,7 @@ Outcome run_tree(Session& session, const TreeOptions& options) {
     session.plan(5);
     const QueriedSet set = read_set(session, options.set);
     const BrepIndex index = session.stage("index", [&] { return BrepIndex(set.solid); });
+    index.refine();  // so that its figures are those of all of it
     const CellTreeStats cells = cell_tree_stats(set.solid);
     Outcome out;
     out.document["schema"] = "trisect.tree/1";

@@ -108,9 +108,9 @@ std::vector<PolygonId> polygons_in_box(const IndexBase& index, const IndexPoint&
     std::vector<PolygonId> ids;
     for_leaves(
         index.tree, [&](const DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const IndexTree::Node& n, const DoubleBox&) {
-            if (!n.is_mixed()) return;
-            const auto listed = index.tree.listed(index.tree.leaf(n.next));
+        [&](const IndexTree::Cell& c, const DoubleBox&) {
+            if (!c.is_mixed()) return;
+            const auto listed = index.tree.listed(index.tree.leaf(c.leaf));
             ids.insert(ids.end(), listed.begin(), listed.end());
         });
     std::sort(ids.begin(), ids.end());

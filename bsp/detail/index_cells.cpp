@@ -38,13 +38,13 @@ DoubleBox child_cell(const DoubleBox& cell, const IndexTree::Node& n, bool above
     return c;
 }
 
-DoubleBox grid_cell(const DoubleBox& cell, const IndexGrid& g, std::uint32_t x, std::uint32_t y,
-                    std::uint32_t z) {
+DoubleBox block_cell(const DoubleBox& cell, const IndexBlock& block, std::uint32_t x,
+                     std::uint32_t y, std::uint32_t z) {
     const std::array<std::uint32_t, 3> at{x, y, z};
     DoubleBox c = cell;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (at[k] != 0) c.lo[k] = g.wall(k, at[k]);
-        if (at[k] + 1 != g.n[k]) c.hi[k] = g.wall(k, at[k] + 1);
+        if (at[k] != 0) c.lo[k] = block.wall(k, at[k]);
+        if (at[k] + 1 != block.n[k]) c.hi[k] = block.wall(k, at[k] + 1);
     }
     return c;
 }
@@ -53,23 +53,28 @@ IndexCell cell_at(const IndexBase& index, const IndexPoint& point) {
     const IndexTree& tree = index.tree;
     DoubleBox box = root_cell();
     const IndexTree::Node* n = &tree.node(0);
-    while (!n->is_leaf()) {
-        if (n->is_grid()) {
-            const IndexGrid& g = tree.grid(*n);
-            const std::array at{g.index(0, point), g.index(1, point), g.index(2, point)};
-            box = grid_cell(box, g, at[0], at[1], at[2]);
-            const std::uint32_t next = tree.cell(g, g.number(at[0], at[1], at[2]));
-            n = next < IndexGrid::outside ? &tree.node(next)
-                                          : &IndexTree::empty_leaf(next == IndexGrid::inside);
-            continue;
-        }
+    while (n->has_wall()) {
         const bool above = IndexTree::side_of_wall(*n, point) > 0;
         box = child_cell(box, *n, above);
         n = &tree.node(n->next + (above ? 1U : 0U));
     }
-    IndexCell cell{box.lo, box.hi, 0, n->is_inside()};
-    if (n->is_mixed()) cell.polygons = tree.leaf(n->next).count;
-    return cell;
+    IndexCell out{box.lo, box.hi, 0, n->is_inside()};
+    if (n->is_leaf()) {
+        if (n->is_mixed()) out.polygons = tree.leaf(n->next).count;
+        return out;
+    }
+    const IndexGrid& g = tree.grid(*n);
+    const IndexGrid::Position at = g.position(point);
+    const IndexTree::Cell cell = tree.cell_at(g, at);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t i = at.fine[k] >> cell.shift;
+        if (i != 0) out.lo[k] = g.wall(k, i << cell.shift);
+        if ((i + 1) << cell.shift != g.n[k] << g.shift())
+            out.hi[k] = g.wall(k, (i + 1) << cell.shift);
+    }
+    out.inside = cell.is_inside();
+    if (cell.is_mixed()) out.polygons = tree.leaf(cell.leaf).count;
+    return out;
 }
 
 }  // namespace trisect::detail

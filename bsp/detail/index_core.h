@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,6 +46,16 @@ using PolygonId = IndexPolygons::Id;
 [[nodiscard]] Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                                        std::vector<PolygonId>& on);
 
+/// Of one of many points: its number, where it is, and when it is on the boundary the point itself
+/// and the polygons that contain it.
+using FoundPoint = std::function<void(std::uint32_t number, Location location,
+                                      const IndexPoint* point, std::vector<PolygonId>& on)>;
+
+/// Many points, in the user's units, in this order; the same as one by one but for the time that is
+/// spent waiting for memory.
+void locate_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
+                  std::span<const std::uint32_t> order, const FoundPoint& found);
+
 /// An order of points in which neighbours come after each other: along the cells of a grid over the
 /// solid's box. Points are in the user's units; fewer than 2^32.
 [[nodiscard]] std::vector<std::uint32_t> query_order(const IndexBase& index,
@@ -55,7 +66,11 @@ using PolygonId = IndexPolygons::Id;
 [[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on,
                              const IndexPoint& point);
 
-/// The same, for what is not a point: the rank is that of the normals, and no corner is looked for.
+/// Its location alone, which doubles mostly tell.
+[[nodiscard]] Location location_on(const IndexPolygons& polygons, std::vector<PolygonId>& on);
+
+/// The same as place_on, for what is not a point: the rank is that of the normals, and no corner is
+/// looked for.
 [[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on);
 
 }  // namespace trisect::detail

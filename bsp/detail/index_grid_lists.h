@@ -10,63 +10,53 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/detail/index_item.h>
+#include <trisect/bsp/detail/index_grid.h>
+#include <trisect/bsp/detail/index_windings.h>
 
 namespace trisect::detail {
 
-/// A grid over a box with lists of the items in its cells, for the time in which an index is built.
-/// There are about as many cells as items: most cells are then empty and most others hold a
-/// handful. The last cells along an axis take the rest of the box.
+/// The undivided cells of a grid with their lists and the winding numbers at their lower corners,
+/// kept until all cells are divided. Lists are sorted by counting.
 class IndexGridLists {
 public:
-    /// `finest`: walls are odd multiples of it where floats have the bits. The arguments must
-    /// outlive the lists.
-    IndexGridLists(const std::array<double, 3>& middle, const FloatBox& box,
-                   const std::vector<IndexItem>& items, const IndexPolygons& polygons,
-                   float finest);
+    using Id = IndexPolygons::Id;
 
-    [[nodiscard]] const std::array<std::uint32_t, 3>& n() const { return n_; }
-    [[nodiscard]] float size() const { return size_; }
-    [[nodiscard]] const std::array<float, 3>& origin() const { return origin_; }
-    [[nodiscard]] std::size_t cell_count() const { return std::size_t{n_[0]} * n_[1] * n_[2]; }
-    [[nodiscard]] std::size_t number(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
-        return (std::size_t{z} * n_[1] + y) * n_[0] + x;
-    }
-    [[nodiscard]] std::array<std::uint32_t, 3> place_of(std::size_t cell) const {
-        return {static_cast<std::uint32_t>(cell % n_[0]),
-                static_cast<std::uint32_t>(cell / n_[0] % n_[1]),
-                static_cast<std::uint32_t>(cell / n_[0] / n_[1])};
-    }
-    [[nodiscard]] FloatBox box_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) const;
+    /// `margin`: by how much cells are enlarged, in lattice units. The polygons must outlive the
+    /// lists.
+    IndexGridLists(const IndexPolygons& polygons, const IndexGrid& grid, double margin);
 
-    /// Fills the lists. Small items go to all cells that their box meets, large triangles to those
-    /// that they may meet themselves.
-    void list();
-    [[nodiscard]] std::span<const std::uint32_t> items_in(std::size_t cell) const {
+    /// False when a corner lies on a polygon. Small polygons go to all cells that their box meets,
+    /// large triangles to those that they may meet themselves.
+    [[nodiscard]] bool list(std::span<const Id> ids);
+    [[nodiscard]] std::span<const Id> in(std::size_t cell) const {
         return std::span(listed_).subspan(begin_[cell], begin_[cell + 1] - begin_[cell]);
     }
+    [[nodiscard]] IndexWindings& windings() { return windings_; }
+    [[nodiscard]] const IndexWindings& windings() const { return windings_; }
+    [[nodiscard]] std::size_t bytes() const;
 
 private:
     struct Range {
-        std::array<std::uint32_t, 3> lo{};
-        std::array<std::uint32_t, 3> hi{};
+        std::array<std::uint16_t, 3> lo{};
+        std::array<std::uint16_t, 3> hi{};
     };
-    [[nodiscard]] Range range_of(const IndexItem& item) const;
+    [[nodiscard]] BlockItem item(Id id) const;
+    [[nodiscard]] Range range_of(const BlockItem& item) const;
     [[nodiscard]] static bool is_large(const Range& r);
+    void list_large(const BlockItem& item, const Range& r);
     template <class F>
     void for_range(const Range& r, const F& f) const;
-    void list_large(std::uint32_t i, const Range& r,
-                    std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const;
 
-    const std::array<double, 3>& middle_;
-    FloatBox whole_;
-    const std::vector<IndexItem>& items_;
     const IndexPolygons& polygons_;
-    float size_ = 1;
-    std::array<float, 3> origin_{};
-    std::array<std::uint32_t, 3> n_{};
+    IndexGrid grid_;
+    IndexBlock block_;
+    std::array<double, 3> scale_{};
+    std::array<double, 3> margin_{};  // in cells
+    IndexWindings windings_;
+    std::vector<Range> ranges_;
+    std::vector<std::pair<std::uint32_t, Id>> large_;  // cell, polygon
     std::vector<std::uint32_t> begin_;
-    std::vector<std::uint32_t> listed_;
+    std::vector<Id> listed_;
 };
 
 }  // namespace trisect::detail

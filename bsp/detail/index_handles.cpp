@@ -14,6 +14,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include <trisect/bsp/detail/index_cells.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -141,6 +142,7 @@ bool is_same(const IndexPoint& a, const IndexPoint& b) {
 
 IndexHandles::IndexHandles(const IndexBase& base) {
     const auto start = std::chrono::steady_clock::now();
+    base.tree.divide_all();
     brep_ = base.solid.to_brep();
     find_faces(base);
     list_edges(base);
@@ -231,12 +233,9 @@ void IndexHandles::list_edges(const IndexBase& base) {
                     line.direction[k] = b.c[k] - a.c[k];
                     line.direction_error += std::fabs(line.direction[k]) * 0x1p-52;
                 }
-                for_cells_along(
-                    g, line, p.lo, p.hi, [](double) { return true; },
-                    [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, double lo, double hi) {
-                        const std::uint32_t next = tree.cell(g, g.number(x, y, z));
-                        if (next < IndexGrid::outside) pending.push_back({next, lo, hi});
-                    });
+                for_grid_leaves_along(
+                    tree, g, line, p.lo, p.hi, [](double) { return true; },
+                    [&](std::uint32_t leaf, double, double) { found.emplace_back(leaf, e); });
                 continue;
             }
             if (n.is_leaf()) {
@@ -271,7 +270,7 @@ void IndexHandles::list_edges(const IndexBase& base) {
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    edges_begin_.assign(tree.leaves().size() + 1, 0);
+    edges_begin_.assign(tree.leaf_count() + 1, 0);
     edges_.reserve(found.size());
     for (const auto& [leaf, e] : found) {
         ++edges_begin_[leaf + 1];
@@ -283,11 +282,12 @@ void IndexHandles::list_edges(const IndexBase& base) {
 void IndexHandles::list_vertices(const IndexBase& base) {
     std::vector<std::pair<std::uint32_t, VertexId>> found;
     for (const VertexId v : brep_.vertices())
-        base.tree.for_leaves_at(IndexPoint(brep_.point(v)), [&](const IndexTree::Node& n) {
-            if (n.is_mixed()) found.emplace_back(n.next, v);
-        });
+        base.tree.for_leaves_at(IndexPoint(brep_.point(v)),
+                                [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
+                                    if (c.is_mixed()) found.emplace_back(c.leaf, v);
+                                });
     std::sort(found.begin(), found.end());
-    vertices_begin_.assign(base.tree.leaves().size() + 1, 0);
+    vertices_begin_.assign(base.tree.leaf_count() + 1, 0);
     vertices_.reserve(found.size());
     for (const auto& [leaf, v] : found) {
         ++vertices_begin_[leaf + 1];
@@ -311,9 +311,9 @@ bool IndexHandles::is_on(EdgeId edge, const IndexPoint& point) const {
 
 EdgeId IndexHandles::edge_at(const IndexTree& tree, const IndexPoint& point) const {
     EdgeId best;
-    tree.for_leaves_at(point, [&](const IndexTree::Node& n) {
-        if (!n.is_mixed()) return;
-        for (const EdgeId e : edges_in(n.next))
+    tree.for_leaves_at(point, [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
+        if (!c.is_mixed()) return;
+        for (const EdgeId e : edges_in(c.leaf))
             if (e < best && is_on(e, point)) best = e;
     });
     return best;
@@ -321,9 +321,9 @@ EdgeId IndexHandles::edge_at(const IndexTree& tree, const IndexPoint& point) con
 
 VertexId IndexHandles::vertex_at(const IndexTree& tree, const IndexPoint& point) const {
     VertexId best;
-    tree.for_leaves_at(point, [&](const IndexTree::Node& n) {
-        if (!n.is_mixed()) return;
-        for (const VertexId v : vertices_in(n.next))
+    tree.for_leaves_at(point, [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
+        if (!c.is_mixed()) return;
+        for (const VertexId v : vertices_in(c.leaf))
             if (v < best && is_same(IndexPoint(brep_.point(v)), point)) best = v;
     });
     return best;

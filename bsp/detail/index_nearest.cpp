@@ -16,6 +16,7 @@
 #include <trisect/bsp/detail/index_nearest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -135,6 +136,16 @@ public:
         return finished();
     }
 
+    // The distance in doubles only.
+    [[nodiscard]] std::optional<DistanceBounds> run_in_doubles() {
+        only_bounds_ = true;
+        walk(0, root_cell());
+        if (best_ == IndexPolygons::none) return std::nullopt;
+        const int e = core_.base->solid.lattice().exponent;
+        return DistanceBounds{polygons_.face_source(best_), std::ldexp(std::min(least_, limit_), e),
+                              std::ldexp(limit_, e)};
+    }
+
 private:
     struct Pending {
         std::uint32_t node = 0;
@@ -168,8 +179,7 @@ private:
                 continue;
             }
             if (n.is_leaf()) {
-                if (n.is_mixed())
-                    for (const PolygonId id : tree.listed(tree.leaf(n.next))) visit(id);
+                if (n.is_mixed()) visit_leaf(n.next);
                 continue;
             }
             Pending near{n.next, child_cell(at.cell, n, false), 0};
@@ -184,13 +194,55 @@ private:
         }
     }
 
+    void visit_leaf(std::uint32_t leaf) {
+        for (const PolygonId id : core_.tree().listed(core_.tree().leaf(leaf))) visit(id);
+    }
+
+    // What is in a cell of a grid: of a brick the near cells first.
+    void walk_slot(const IndexGrid& g, std::uint32_t slot, const std::array<std::uint32_t, 3>& low,
+                   int level, const DoubleBox& whole) {
+        if (IndexSlot::is_empty(slot)) return;
+        if (!IndexSlot::is_brick(slot)) {
+            visit_leaf(slot);
+            return;
+        }
+        const IndexTree& tree = core_.tree();
+        const IndexBrick& brick = tree.brick(slot);
+        const IndexBlock block = g.brick(low, level);
+        struct Near {
+            double distance = 0;
+            unsigned bit = 0;
+        };
+        std::array<Near, 64> near;
+        std::size_t count = 0;
+        for (std::uint64_t left = brick.mixed; left != 0; left &= left - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(left));
+            const DoubleBox box = block_cell(whole, block, bit & 3U, bit >> 2U & 3U, bit >> 4U);
+            const double d = distance_to(box);
+            if (!(d > limit_)) near[count++] = {d, bit};
+        }
+        std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
+                  [](const Near& a, const Near& b) { return a.distance < b.distance; });
+        const unsigned shift = 2U * static_cast<unsigned>(level - 1);
+        for (std::size_t i = 0; i < count && !(near[i].distance > limit_); ++i) {
+            const unsigned bit = near[i].bit;
+            const std::array at{bit & 3U, bit >> 2U & 3U, bit >> 4U};
+            walk_slot(
+                g, tree.slot(brick.slot(bit)),
+                {low[0] + (at[0] << shift), low[1] + (at[1] << shift), low[2] + (at[2] << shift)},
+                level - 1, block_cell(whole, block, at[0], at[1], at[2]));
+        }
+    }
+
     // Shell by shell around the cell that the point is in or next to. A shell of number r is at
     // least r - 2 cells away (one for rounding).
     void walk_grid(const IndexGrid& g, const DoubleBox& whole) {
+        const IndexBlock block = g.block();
+        const double least = std::min({block.size[0], block.size[1], block.size[2]});
         std::array<std::int64_t, 3> middle{};
         std::int64_t last = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            middle[k] = g.clamped(k, p_[k]);
+            middle[k] = block.clamped(k, p_[k]);
             last = std::max<std::int64_t>(
                 {last, middle[k], static_cast<std::int64_t>(g.n[k]) - 1 - middle[k]});
         }
@@ -202,13 +254,14 @@ private:
             const auto i = static_cast<std::uint32_t>(x);
             const auto j = static_cast<std::uint32_t>(y);
             const auto l = static_cast<std::uint32_t>(z);
-            const std::uint32_t node = core_.tree().cell(g, g.number(i, j, l));
-            if (node >= IndexGrid::outside) return;
-            const DoubleBox box = grid_cell(whole, g, i, j, l);
-            if (!(distance_to(box) > limit_)) walk(node, box);
+            const DoubleBox box = block_cell(whole, block, i, j, l);
+            if (distance_to(box) > limit_) return;
+            const std::uint32_t slot = core_.tree().slot(g, g.cell(i, j, l));
+            const unsigned shift = g.shift();
+            walk_slot(g, slot, {i << shift, j << shift, l << shift}, g.levels, box);
         };
         for (std::int64_t r = 0; r <= last; ++r) {
-            if (static_cast<double>(r - 2) * g.size > limit_) return;
+            if (static_cast<double>(r - 2) * least > limit_) return;
             const auto [z0, z1] = range(2, r);
             const auto [y0, y1] = range(1, r);
             const auto [x0, x1] = range(0, r);
@@ -226,17 +279,23 @@ private:
         }
     }
 
+    [[nodiscard]] std::array<Vector, 3> relative_triangle(PolygonId id) const {
+        std::array<Vector, 3> out{};
+        for (int i = 0; i < 3; ++i) {
+            const LatticePoint& c = polygons_.corner(id, i);
+            out[static_cast<std::size_t>(i)] = minus(
+                {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)},
+                p_.approximate());
+        }
+        return out;
+    }
+
     [[nodiscard]] std::vector<Vector> relative_corners(PolygonId id, double& error) const {
         std::vector<Vector> out;
         error = p_.error();
         if (polygons_.is_triangle(id)) {
-            for (int i = 0; i < 3; ++i) {
-                const LatticePoint& c = polygons_.corner(id, i);
-                out.push_back(minus(
-                    {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)},
-                    p_.approximate()));
-            }
-            return out;
+            const auto c = relative_triangle(id);
+            return {c.begin(), c.end()};
         }
         for (const Point& c : polygons_.corners(id)) {
             out.push_back(minus(c.approximation().c, p_.approximate()));
@@ -245,9 +304,31 @@ private:
         return out;
     }
 
+    // Whether the box of a triangle is surely farther than what is known.
+    [[nodiscard]] bool is_box_beyond(const std::array<Vector, 3>& c) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double lo = std::min(std::min(c[0][k], c[1][k]), c[2][k]);
+            const double hi = std::max(std::max(c[0][k], c[1][k]), c[2][k]);
+            const double d = std::max(std::max(lo, -hi), 0.0);
+            sum += d * d;
+        }
+        const double limit = (limit_ + 2 * p_.error()) * (1 + 0x1p-44);
+        return sum > limit * limit;
+    }
+
     void visit(PolygonId id) {
         if (polygons_.is_unbounded(id)) {
             if (kind_ == NearestKind::Boundary) offer({id, -1, -1, {}});
+            return;
+        }
+        if (kind_ == NearestKind::Boundary && polygons_.is_triangle(id)) {
+            // Neighbouring cells list the same triangles.
+            PolygonId& recent = recent_[id % recent_.size()];
+            if (recent == id) return;
+            recent = id;
+            const std::array<Vector, 3> c = relative_triangle(id);
+            if (!is_box_beyond(c)) offer({id, -1, -1, bounds_of(c, p_.error())});
             return;
         }
         double error = 0;
@@ -267,6 +348,10 @@ private:
 
     void offer(const Feature& f) {
         if (f.bounds.lo > limit_) return;
+        if (only_bounds_) {
+            least_ = std::min(least_, f.bounds.lo);
+            if (f.bounds.hi < limit_ || best_ == IndexPolygons::none) best_ = f.polygon;
+        }
         if (kind_ == NearestKind::Boundary) {
             limit_ = std::min(limit_, f.bounds.hi);
         } else if (f.bounds.hi < limit_) {
@@ -274,7 +359,7 @@ private:
             decide(f);
             return;
         }
-        features_.push_back(f);
+        if (!only_bounds_) features_.push_back(f);
     }
 
     // The exact point of a feature, and whether it is the best so far.
@@ -371,6 +456,14 @@ private:
     NearestKind kind_;
     double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
     std::vector<Feature> features_;
+    bool only_bounds_ = false;
+    double least_ = HUGE_VAL;
+    PolygonId best_ = IndexPolygons::none;
+    std::array<PolygonId, 64> recent_ = [] {
+        std::array<PolygonId, 64> none{};
+        none.fill(IndexPolygons::none);
+        return none;
+    }();
     bool found_ = false;
     Exact q_;
     ExactRational squared_;
@@ -401,6 +494,10 @@ double nearest_root(const ExactRational& square) {
     const auto below = square <=> low * low;
     if (below < 0 || (below == 0 && even(down))) return down;
     return r;
+}
+
+std::optional<DistanceBounds> distance(const IndexCore& core, const IndexPoint& point) {
+    return Search(core, point, NearestKind::Boundary).run_in_doubles();
 }
 
 std::optional<Nearest> nearest(const IndexCore& core, const IndexPoint& point, NearestKind kind) {

@@ -36,19 +36,22 @@ public:
     explicit IndexPoint(Rational p);
     /// Doubles in the user's units. \throw UsageError when they are not finite.
     [[nodiscard]] static IndexPoint from_user(const Vector& p, Lattice lattice) {
+        Vector c{};
+        return to_lattice(p, lattice, c) ? IndexPoint(c) : from_user_slowly(p, lattice);
+    }
+    /// Doubles in lattice units where these are exact; else false.
+    [[nodiscard]] static bool to_lattice(const Vector& p, Lattice lattice, Vector& c) {
         // Multiplying by a power of two is exact within the range of normal doubles.
-        if (lattice.exponent > -900 && lattice.exponent < 900) {
-            const double scale =
-                std::bit_cast<double>(static_cast<std::uint64_t>(1023 - lattice.exponent) << 52U);
-            const Vector c{p[0] * scale, p[1] * scale, p[2] * scale};
-            bool exact = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double m = c[k] < 0 ? -c[k] : c[k];
-                exact = exact && (m < 0x1p600) && (m > 0x1p-900 || p[k] == 0);
-            }
-            if (exact) return IndexPoint(c);
+        if (lattice.exponent <= -900 || lattice.exponent >= 900) return false;
+        const double scale =
+            std::bit_cast<double>(static_cast<std::uint64_t>(1023 - lattice.exponent) << 52U);
+        bool exact = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = p[k] * scale;
+            const double m = c[k] < 0 ? -c[k] : c[k];
+            exact = exact && (m < 0x1p600) && (m > 0x1p-900 || p[k] == 0);
         }
-        return from_user_slowly(p, lattice);
+        return exact;
     }
 
     [[nodiscard]] double operator[](std::size_t k) const { return c_[k]; }

@@ -14,11 +14,15 @@
 #include <trisect/bsp/detail/index_ray.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include <trisect/bsp/detail/index_cells.h>
 #include <trisect/bsp/detail/index_handles.h>
+#include <trisect/bsp/detail/index_path.h>
+#include <trisect/kernel/counters.h>
 
 namespace trisect::detail {
 
@@ -110,27 +114,27 @@ private:
     }
 
     void walk_grid(const IndexGrid& g, const Range& range) {
+        const auto more = [&](double t) { return !first_only_ || !(t > nearest_); };
+        // Faces without an end may be hit beyond the grid.
+        const auto path = index_.tree.is_bounded() ? GridPath::make(g, line_, range) : std::nullopt;
+        if (path) {
+            path->walk(index_.tree, more, [&](std::uint32_t leaf, const GridPath::Span& span) {
+                visit(index_.tree.leaf(leaf), span);
+            });
+            return;
+        }
         const ApproximateLine line{line_.origin().approximate(), line_.direction(),
                                    line_.origin().error(), line_.direction_error()};
-        for_cells_along(
-            g, line, range.lo, range.hi, [&](double t) { return !first_only_ || !(t > nearest_); },
-            [&](std::uint32_t x, std::uint32_t y, std::uint32_t z, double lo, double hi) {
-                const std::uint32_t cell = index_.tree.cell(g, g.number(x, y, z));
-                if (cell >= IndexGrid::outside) return;
-                const IndexTree::Node& n = index_.tree.node(cell);
-                if (n.is_leaf()) {
-                    if (n.is_mixed()) visit(index_.tree.leaf(n.next));
-                } else {
-                    walk(cell, {lo, hi});
-                }
-            });
+        for_grid_leaves_along(
+            index_.tree, g, line, range.lo, range.hi, more,
+            [&](std::uint32_t leaf, double, double) { visit(index_.tree.leaf(leaf)); });
     }
 
     // Goes to the child that the line is in first; the other one waits, if the line gets there.
     void step(const IndexTree::Node& n, Pending& at) {
         const std::size_t axis = n.axis();
         const double wall = n.rounded_wall();
-        const double wall_error = n.is_inherited() ? std::fabs(wall) * 0x1p-52 : 0;
+        const double wall_error = std::fabs(wall) * 0x1p-52;
         if (line_.is_parallel(axis)) {
             const double d = line_.origin()[axis] - wall;
             const double slack = wall_error + 2 * line_.origin().error();
@@ -159,24 +163,44 @@ private:
         }
     }
 
-    void visit(const IndexTree::Leaf& leaf) {
-        for (const PolygonId id : index_.tree.listed(leaf)) {
-            // Neighbouring cells list the same polygons; most repetitions are recent ones.
-            PolygonId& recent = recent_[id % recent_.size()];
-            if (recent == id) continue;
-            recent = id;
-            const LineContact c = meet(index_.polygons, id, line_);
-            if (c.kind == LineContact::Kind::None) continue;
-            if (first_only_) {
-                if (c.lo > nearest_) continue;
-                // An interval begins before it ends.
-                const double latest = c.kind == LineContact::Kind::Interval
-                                          ? std::nextafter(std::nextafter(c.lo, HUGE_VAL), HUGE_VAL)
-                                          : c.hi;
-                nearest_ = std::min(nearest_, latest);
-            }
-            found_.push_back({id, c});
+    // A polygon has something in common with the part of the line in its cell only if the ends of
+    // that are not surely on one side of its plane.
+    void visit(const IndexLeaf& leaf, const GridPath::Span& span) {
+        if (!leaf.has_planes() || leaf.count > 32 || !span.is_near()) {
+            visit(leaf);
+            return;
         }
+        predicate_counters().filtered += 2 * std::uint64_t{leaf.count};
+        const LeafPlanes planes = index_.tree.planes(leaf);
+        const PlaneSides a = sides_of(planes, leaf.count, span.enter);
+        const PlaneSides b = sides_of(planes, leaf.count, span.leave);
+        const auto listed = index_.tree.listed(leaf);
+        std::uint32_t left = ~((a.above & b.above) | (a.below & b.below));
+        if (leaf.count < 32) left &= (std::uint32_t{1} << leaf.count) - 1;
+        for (; left != 0; left &= left - 1)
+            test(listed[static_cast<std::size_t>(std::countr_zero(left))]);
+    }
+
+    void visit(const IndexLeaf& leaf) {
+        for (const PolygonId id : index_.tree.listed(leaf)) test(id);
+    }
+
+    void test(PolygonId id) {
+        // Neighbouring cells list the same polygons; most repetitions are recent ones.
+        PolygonId& recent = recent_[id % recent_.size()];
+        if (recent == id) return;
+        recent = id;
+        const LineContact c = meet(index_.polygons, id, line_);
+        if (c.kind == LineContact::Kind::None) return;
+        if (first_only_) {
+            if (c.lo > nearest_) return;
+            // An interval begins before it ends.
+            const double latest = c.kind == LineContact::Kind::Interval
+                                      ? std::nextafter(std::nextafter(c.lo, HUGE_VAL), HUGE_VAL)
+                                      : c.hi;
+            nearest_ = std::min(nearest_, latest);
+        }
+        found_.push_back({id, c});
     }
 
     const IndexBase& index_;
@@ -311,6 +335,20 @@ std::vector<RayHit> all_hits(const IndexCore& core, const IndexLine& line) {
     return Pieces(core, line, Walk(core, line, false).contacts()).hits();
 }
 
+namespace {
+
+RayHit first_of(const IndexCore& core, const IndexLine& line,
+                const std::vector<Contact>& contacts) {
+    // Where the line runs in a face or along an edge from the start, the end may be far away.
+    const bool may_run = std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) {
+        return c.contact.kind == LineContact::Kind::Interval;
+    });
+    auto hits = may_run ? all_hits(core, line) : Pieces(core, line, contacts).hits();
+    return std::move(hits.front());
+}
+
+}  // namespace
+
 std::optional<RayHit> first_hit(const IndexCore& core, const IndexLine& line) {
     const auto contacts = Walk(core, line, true).contacts();
     if (contacts.empty()) return std::nullopt;
@@ -326,12 +364,20 @@ std::optional<RayHit> first_hit(const IndexCore& core, const IndexLine& line) {
         if (core.handles) h.place.face = core.handles->face_of(id);
         return h;
     }
-    // Where the line runs in a face or along an edge from the start, the end may be far away.
-    const bool may_run = std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) {
-        return c.contact.kind == LineContact::Kind::Interval;
-    });
-    auto hits = may_run ? all_hits(core, line) : Pieces(core, line, contacts).hits();
-    return std::move(hits.front());
+    return first_of(core, line, contacts);
+}
+
+std::optional<FacetHit> first_facet(const IndexCore& core, const IndexLine& line) {
+    const auto contacts = Walk(core, line, true).contacts();
+    if (contacts.empty()) return std::nullopt;
+    if (contacts.size() == 1 && contacts.front().contact.kind == LineContact::Kind::Crossing) {
+        const auto& [id, c] = contacts.front();
+        return FacetHit{core.polygons().face_source(id), c.lo, c.hi};
+    }
+    const RayHit h = first_of(core, line, contacts);
+    const double t = h.enter.approximate();
+    const double e = h.enter.error() + std::fabs(t) * 0x1p-52;
+    return FacetHit{h.place.faces[0], t - e, t + e};
 }
 
 }  // namespace trisect::detail

@@ -16,4 +16,7 @@ namespace trisect::detail {
 [[nodiscard]] std::optional<RayHit> first_hit(const IndexCore& core, const IndexLine& line);
 [[nodiscard]] std::vector<RayHit> all_hits(const IndexCore& core, const IndexLine& line);
 
+/// The first hit's face and bounds of its parameter only.
+[[nodiscard]] std::optional<FacetHit> first_facet(const IndexCore& core, const IndexLine& line);
+
 }  // namespace trisect::detail

@@ -127,9 +127,9 @@ private:
         for_leaves(
             tree,
             [&](const DoubleBox& cell) { return side_of_box(bounded(cell, tree), plane_) == 0; },
-            [&](const IndexTree::Node& n, const DoubleBox&) {
-                if (!n.is_mixed()) return;
-                const auto listed = tree.listed(tree.leaf(n.next));
+            [&](const IndexTree::Cell& leaf, const DoubleBox&) {
+                if (!leaf.is_mixed()) return;
+                const auto listed = tree.listed(tree.leaf(leaf.leaf));
                 ids.insert(ids.end(), listed.begin(), listed.end());
             });
         std::sort(ids.begin(), ids.end());
@@ -342,9 +342,9 @@ PlaneRelation relation_to(const IndexCore& core, const Plane& plane) {
             const int s = side_of_box(bounded(cell, tree), plane);
             return !(s > 0 && above) && !(s < 0 && below);
         },
-        [&](const IndexTree::Node& n, const DoubleBox&) {
-            if (!n.is_mixed()) return;
-            for (const PolygonId id : tree.listed(tree.leaf(n.next))) {
+        [&](const IndexTree::Cell& leaf, const DoubleBox&) {
+            if (!leaf.is_mixed()) return;
+            for (const PolygonId id : tree.listed(tree.leaf(leaf.leaf))) {
                 if (above && below) return;
                 if (polygons.is_triangle(id)) {
                     for (int i = 0; i < 3; ++i)

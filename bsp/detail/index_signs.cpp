@@ -326,6 +326,11 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
         const LatticePoint& b = s.corner(f, 1);
         const LatticePoint& c = s.corner(f, 2);
         const Vector fa = to_doubles(a);
+        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_doubles(b) ||
+                               p.approximate() == to_doubles(c))) {
+            ++predicate_counters().symbolic;
+            return true;
+        }
         const Vector u = minus(to_doubles(b), fa);
         const Vector v = minus(to_doubles(c), fa);
         const Vector w = minus(p.approximate(), fa);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How points were located: which of the short ways was taken how often, per thread.
+#pragma once
+
+#include <cstdint>
+
+namespace trisect::detail {
+
+struct IndexCounters {
+    std::uint64_t empty = 0;   ///< in a cell without polygons, or beyond the solid's box
+    std::uint64_t side = 0;    ///< above or below all planes of a cell
+    std::uint64_t sheet = 0;   ///< beyond a plane of the cell that has all polygons on one side
+    std::uint64_t region = 0;  ///< in a region of a cell that was traced before
+    std::uint64_t corner = 0;  ///< on the sides of all planes on which a corner of the cell is
+    std::uint64_t traced = 0;  ///< by a segment to a known point
+    std::uint64_t on = 0;      ///< on a polygon
+};
+
+inline constinit thread_local IndexCounters index_counters_of_thread;
+
+[[nodiscard]] inline IndexCounters& index_counters() noexcept { return index_counters_of_thread; }
+
+}  // namespace trisect::detail
