@@ -5,7 +5,10 @@
 // through such points. Models are spheres, blocks, sponges and random solids on a small grid, fresh
 // and as results of booleans. Prints a line for every model; exits with 1 at the first difference.
 //
-//     query_campaign [--points 1000] [--rays 200] [--models 24] [--seed 1]
+// Files are added as fresh solids; those that are not closed are passed over. A run that was
+// interrupted goes on with --first.
+//
+//     query_campaign [--points 1000] [--rays 200] [--models 24] [--first 0] [--seed 1] [FILE]...
 
 #include <array>
 #include <cmath>
@@ -19,6 +22,7 @@
 #include <vector>
 
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/read_mesh.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
 
@@ -38,7 +42,9 @@ struct Options {
     int points = 1000;
     int rays = 200;
     std::uint64_t models = 24;
+    std::uint64_t first = 0;
     std::uint64_t seed = 1;
+    std::vector<std::string> files;
 };
 
 struct Model {
@@ -63,6 +69,60 @@ Model result(std::uint64_t seed) {
             std::move(r.boundary), false};
 }
 
+LatticeMesh turned_inside_out(LatticeMesh mesh) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+void append(LatticeMesh& mesh, const LatticeMesh& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (const auto& [a, b, c] : other.triangles)
+        mesh.triangles.push_back({a + first, b + first, c + first});
+}
+
+LatticeMesh block(const std::array<int, 3>& lo, const std::array<int, 3>& hi) {
+    const auto point = [](const std::array<int, 3>& p) {
+        return trisect::Point3d{static_cast<double>(p[0]), static_cast<double>(p[1]),
+                                static_cast<double>(p[2])};
+    };
+    LatticeMesh mesh = imported(shapes::block(point(lo), point(hi), 3));
+    // In the common unit of all blocks here.
+    for (auto& p : mesh.points)
+        for (int k = 0; k < 3; ++k) {
+            const double v = std::ldexp(static_cast<double>(p[k]), mesh.lattice.exponent) * 8;
+            (k == 0 ? p.x : (k == 1 ? p.y : p.z)) = static_cast<std::int64_t>(v);
+        }
+    return mesh;
+}
+
+LatticeMesh with_cavities() {
+    LatticeMesh mesh = block({0, 0, 0}, {12, 12, 12});
+    append(mesh, turned_inside_out(block({3, 3, 3}, {6, 6, 6})));
+    append(mesh, turned_inside_out(block({6, 6, 6}, {9, 9, 9})));
+    return mesh;
+}
+
+LatticeMesh touching_blocks() {
+    LatticeMesh mesh = block({0, 0, 0}, {3, 3, 3});
+    append(mesh, block({3, 3, 0}, {6, 6, 3}));
+    append(mesh, block({6, 6, 3}, {9, 9, 6}));
+    append(mesh, block({0, 3, 3}, {3, 6, 6}));
+    return mesh;
+}
+
+/// Nothing for a file that is no closed mesh.
+std::optional<Model> of_file(const std::string& path) {
+    try {
+        const std::size_t slash = path.rfind('/');
+        return fresh(slash == std::string::npos ? path : path.substr(slash + 1),
+                     imported(trisect::read_mesh(path)));
+    } catch (const std::exception& e) {
+        std::printf("%s: passed over: %s\n", path.c_str(), e.what());
+        return std::nullopt;
+    }
+}
+
 Model make_model(std::uint64_t i, std::uint64_t seed) {
     switch (i) {
         case 0:
@@ -76,6 +136,10 @@ Model make_model(std::uint64_t i, std::uint64_t seed) {
                          imported(shapes::turned(shapes::block({0, 0, 0}, {7, 5, 3}, 6))));
         case 4:
             return fresh("bars", imported(shapes::menger_bars(2, 0)));
+        case 5:
+            return fresh("block with two cavities that touch", with_cavities());
+        case 6:
+            return fresh("blocks that touch in an edge and a corner", touching_blocks());
         default:
             break;
     }
@@ -138,12 +202,17 @@ bool run(const Model& m, const Options& o, std::uint64_t seed) {
         const auto expected =
             m.boundary.hits(brute::point(from), brute::point(ray.direction), false);
         const auto first = index.first_hit(ray);
+        const auto facet = index.first_facet(ray);
         for (const auto& h : found) {
             ++hits;
             intervals += h.is_interval ? 1 : 0;
         }
         if (same_hits(found, expected, m.named) && first.has_value() == !expected.empty() &&
-            (!first || same_hits({*first}, {expected.front()}, m.named)))
+            (!first || same_hits({*first}, {expected.front()}, m.named)) &&
+            facet.has_value() == first.has_value() &&
+            (!facet || (facet->face == first->place.faces[0] &&
+                        brute::Rational(facet->lo) <= expected.front().enter &&
+                        expected.front().enter <= brute::Rational(facet->hi))))
             continue;
         print_point("ray from", from);
         print_point("direction", ray.direction);
@@ -160,15 +229,22 @@ bool run(const Model& m, const Options& o, std::uint64_t seed) {
 
 Options parse(int argc, char** argv) {
     Options o;
-    for (int i = 1; i + 1 < argc; i += 2) {
+    for (int i = 1; i < argc; ++i) {
         const std::string arg = argv[i];
-        const long value = std::atol(argv[i + 1]);
+        if (!arg.starts_with("--")) {
+            o.files.push_back(arg);
+            continue;
+        }
+        if (i + 1 == argc) throw std::runtime_error("value missing after " + arg);
+        const long value = std::atol(argv[++i]);
         if (arg == "--points") {
             o.points = static_cast<int>(value);
         } else if (arg == "--rays") {
             o.rays = static_cast<int>(value);
         } else if (arg == "--models") {
             o.models = static_cast<std::uint64_t>(value);
+        } else if (arg == "--first") {
+            o.first = static_cast<std::uint64_t>(value);
         } else if (arg == "--seed") {
             o.seed = static_cast<std::uint64_t>(value);
         } else {
@@ -183,10 +259,12 @@ Options parse(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         const Options o = parse(argc, argv);
-        for (std::uint64_t i = 0; i < o.models; ++i) {
-            const Model m = make_model(i, o.seed);
-            if (!run(m, o, o.seed + i)) {
-                std::printf("%s: DIFFERENT\n", m.name.c_str());
+        for (std::uint64_t i = o.first; i < o.models + o.files.size(); ++i) {
+            const std::optional<Model> m =
+                i < o.models ? make_model(i, o.seed)
+                             : of_file(o.files[static_cast<std::size_t>(i - o.models)]);
+            if (m && !run(*m, o, o.seed + i)) {
+                std::printf("%s: DIFFERENT\n", m->name.c_str());
                 return 1;
             }
         }

@@ -82,6 +82,45 @@ Rational squared_distance_to(const Polygon& g, const Point3& p) {
     return *best;
 }
 
+// A line against a box, in doubles and on the safe side: half-spaces that the line does not enter,
+// and the line seen along each axis. Only what surely misses is left out.
+class LineFilter {
+public:
+    LineFilter(const Point3& o, const Point3& d) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            o_[k] = o[k].get_d();
+            d_[k] = d[k].get_d();
+        }
+    }
+    [[nodiscard]] bool may_meet(const Polygon& g) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double slack =
+                1e-12 * (std::fabs(o_[k]) + std::fabs(g.lo[k]) + std::fabs(g.hi[k]));
+            if (d_[k] >= 0 && g.hi[k] < o_[k] - slack) return false;
+            if (d_[k] <= 0 && g.lo[k] > o_[k] + slack) return false;
+            const std::size_t j = (k + 1) % 3;
+            double lo = 0;
+            double hi = 0;
+            double terms = 0;
+            const auto add = [&](double f, double from, double to, double origin) {
+                const double a = f * (from - origin);
+                const double b = f * (to - origin);
+                lo += std::min(a, b);
+                hi += std::max(a, b);
+                terms += std::fabs(f) * (std::fabs(from) + std::fabs(to) + std::fabs(origin));
+            };
+            add(d_[j], g.lo[k], g.hi[k], o_[k]);
+            add(-d_[k], g.lo[j], g.hi[j], o_[j]);
+            if (lo > 1e-12 * terms || hi < -1e-12 * terms) return false;
+        }
+        return true;
+    }
+
+private:
+    std::array<double, 3> o_{};
+    std::array<double, 3> d_{};
+};
+
 }  // namespace
 
 void Boundary::add(std::vector<Point3> corners, FaceSource name) {
@@ -121,7 +160,7 @@ Boundary Boundary::of_mesh(const trisect::LatticeMesh& mesh, std::uint32_t opera
             const trisect::LatticePoint& p = mesh.points[v];
             corners.push_back(reference::to_point({p.x, p.y, p.z}));
         }
-        b.add(std::move(corners), {operand, i});
+        b.add(std::move(corners), {operand, mesh.face_of(i)});
     }
     return b;
 }
@@ -207,7 +246,9 @@ std::vector<Hit> Boundary::hits(const Point3& o, const Point3& d, bool segment) 
     const auto at = [&](const Rational& t) -> Point3 {
         return {o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]};
     };
+    const LineFilter filter(o, d);
     for (const Polygon& g : polygons_) {
+        if (!filter.may_meet(g)) continue;
         const Rational s = slope(g, d);
         const Rational v = value(g, o);
         Part part{&g, 0, 0};
