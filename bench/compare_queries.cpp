@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Queries beside CGAL (Side_of_triangle_mesh, AABB_tree) and Embree (single precision) on identical
-// doubles, in one process and on one thread; times are what the thread had of a processor. Prints a
+// doubles, in one process and on one thread but for one row; times are what the thread had of a
+// processor. No point is asked twice of a row. Prints a
 // line of JSON for every scene, kind of point and engine. Every answer is compared with CGAL's,
 // which is exact for these predicates.
 //
-//     compare_queries [--runs 3] [--points 300000] [--scene NAME]... [--no-peers]
+//     compare_queries [--runs 3] [--points 300000] [--scene NAME]... [--what KIND]... [--no-peers]
 //
 // Scenes: bunny, armadillo (100k triangles, folder large/ of TRISECT_MODELS), part (a tray with
 // pockets, folder cad/), sphere (1.3 million triangles) and cubes (the union of 10 x 10 x 10 cubes
 // with gaps, 12,000 triangles). Points: uniform in the box, near the surface (a facet's point moved
 // by up to a thousandth of the box), and exactly on corners, edges and faces. Rays: from points
-// around the box to points in it.
+// around the box to points in it. Kinds: uniform, near, on, rays, distances.
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +25,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/detail/index_counters.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
 
@@ -56,18 +60,46 @@ struct Options {
     int runs = 3;
     std::size_t points = 300000;
     std::vector<std::string> scenes;
+    std::vector<std::string> what;  // all when empty
     bool peers = true;
+
+    [[nodiscard]] bool wants(const std::string& kind) const {
+        return what.empty() || std::ranges::find(what, kind) != what.end();
+    }
 };
 
-double median_seconds(int runs, const std::function<void()>& work) {
-    std::vector<double> times;
-    for (int i = 0; i < runs; ++i) {
-        const double start = thread_seconds();
-        work();
-        times.push_back(thread_seconds() - start);
-    }
+double median(std::vector<double> times) {
     std::ranges::sort(times);
     return times[times.size() / 2];
+}
+
+double wall_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+/// work(run) several times.
+double median_seconds(int runs, const std::function<void(int)>& work,
+                      double (*clock)() = thread_seconds) {
+    std::vector<double> times;
+    for (int i = 0; i < runs; ++i) {
+        const double start = clock();
+        work(i);
+        times.push_back(clock() - start);
+    }
+    return median(times);
+}
+
+/// What is asked in one run after the other: never the same twice, since the index learns.
+template <class T>
+std::span<const T> part_of(const std::vector<T>& all, int run, int runs) {
+    const std::size_t n = all.size() / static_cast<std::size_t>(runs);
+    return std::span(all).subspan(static_cast<std::size_t>(run) * n, n);
+}
+template <class T>
+std::span<T> part_of(std::vector<T>& all, int run, int runs) {
+    const std::size_t n = all.size() / static_cast<std::size_t>(runs);
+    return std::span(all).subspan(static_cast<std::size_t>(run) * n, n);
 }
 
 /// The triangles of a mesh with its points on the lattice that import chooses.
@@ -199,6 +231,16 @@ json counted(const trisect::PredicateCounters& c, std::size_t count) {
             {"exact_wide", each(c.exact_wide)}};
 }
 
+/// What part of the points was located how.
+json ways(const trisect::detail::IndexCounters& c, std::size_t count) {
+    const auto part = [&](std::uint64_t n) {
+        return static_cast<double>(n) / static_cast<double>(count);
+    };
+    return {{"empty", part(c.empty)},   {"side", part(c.side)},     {"sheet", part(c.sheet)},
+            {"region", part(c.region)}, {"corner", part(c.corner)}, {"traced", part(c.traced)},
+            {"on", part(c.on)}};
+}
+
 Side to_side(Location l) {
     if (l == Location::Inside) return 1;
     return l == Location::Outside ? 0 : 2;
@@ -214,40 +256,74 @@ std::size_t different(const std::vector<Side>& truth, const std::vector<Side>& s
 }
 
 void compare_points(const std::string& scene, const std::string& what,
-                    const std::vector<Point>& points, const BrepIndex& index,
+                    const std::vector<Point>& points, const Solid& solid,
                     const std::vector<std::unique_ptr<Peer>>& peers, const Options& options) {
+    const int runs = options.runs;
+    const std::size_t each = points.size() / static_cast<std::size_t>(runs);
     std::vector<Side> truth(points.size());
     std::vector<Side> sides(points.size());
     for (std::size_t i = 0; i < peers.size(); ++i) {
         auto& out = i == 0 ? truth : sides;
-        const double t = median_seconds(options.runs, [&] { peers[i]->locate(points, out); });
-        json row = row_of(scene, what, peers[i]->name(), points.size(), t);
+        const double t = median_seconds(runs, [&](int run) {
+            peers[i]->locate(part_of(points, run, runs), part_of(out, run, runs));
+        });
+        json row = row_of(scene, what, peers[i]->name(), each, t);
         if (i != 0) row["different"] = different(truth, sides, true);
         print(row);
     }
     std::vector<Location> locations(points.size());
-    std::vector<trisect::Place> places;
     const auto finish = [&](const char* name, double t) {
         for (std::size_t i = 0; i < points.size(); ++i) sides[i] = to_side(locations[i]);
-        json row = row_of(scene, what, name, points.size(), t);
+        json row = row_of(scene, what, name, each, t);
         if (!peers.empty()) row["different"] = different(truth, sides, false);
         return row;
     };
-    const double batch = median_seconds(options.runs, [&] { index.classify(points, locations); });
+    // Indices of their own, since they learn from what they are asked.
+    const auto refined = [&] {
+        BrepIndex fresh(solid);
+        fresh.refine();
+        return fresh;
+    };
+    const double first = median_seconds(1, [&](int) {
+        const BrepIndex fresh(solid);
+        fresh.classify(part_of(points, 0, runs), part_of(locations, 0, runs));
+    });
+    print(row_of(scene, what, "Trisect build and first batch", each, first));
+    const BrepIndex index = refined();
+    const double batch = median_seconds(runs, [&](int run) {
+        index.classify(part_of(points, run, runs), part_of(locations, run, runs));
+    });
     print(finish("Trisect batch", batch));
+    for (const unsigned threads : {1U, 2U}) {
+        const BrepIndex other = refined();
+        print(finish(threads == 1 ? "Trisect batch, wall" : "Trisect batch, wall, 2 threads",
+                     median_seconds(
+                         runs,
+                         [&](int run) {
+                             other.classify(part_of(points, run, runs),
+                                            part_of(locations, run, runs), threads);
+                         },
+                         wall_seconds)));
+    }
     trisect::predicate_counters() = {};
-    const double single = median_seconds(options.runs, [&] {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            locations[i] = index.locate(points[i]).location;
+    trisect::detail::index_counters() = {};
+    const BrepIndex other = refined();
+    const double single = median_seconds(runs, [&](int run) {
+        const auto asked = part_of(points, run, runs);
+        const auto out = part_of(locations, run, runs);
+        for (std::size_t i = 0; i < asked.size(); ++i) out[i] = other.locate(asked[i]).location;
     });
     json row = finish("Trisect locate", single);
-    row["signs"] = counted(trisect::predicate_counters(),
-                           points.size() * static_cast<std::size_t>(options.runs));
+    const std::size_t asked = each * static_cast<std::size_t>(runs);
+    row["signs"] = counted(trisect::predicate_counters(), asked);
+    row["ways"] = ways(trisect::detail::index_counters(), asked);
     print(row);
 }
 
 void compare_rays(const std::string& scene, const std::vector<Ray>& rays, const BrepIndex& index,
                   const std::vector<std::unique_ptr<Peer>>& peers, const Options& options) {
+    const int runs = options.runs;
+    const std::size_t each = rays.size() / static_cast<std::size_t>(runs);
     std::vector<std::int64_t> truth(rays.size());
     std::vector<std::int64_t> hits(rays.size());
     const auto differ = [&] {
@@ -258,38 +334,55 @@ void compare_rays(const std::string& scene, const std::vector<Ray>& rays, const 
     };
     for (std::size_t i = 0; i < peers.size(); ++i) {
         auto& out = i == 0 ? truth : hits;
-        const double t = median_seconds(options.runs, [&] { peers[i]->first_hits(rays, out); });
-        json row = row_of(scene, "first hit", peers[i]->name(), rays.size(), t);
+        const double t = median_seconds(runs, [&](int run) {
+            peers[i]->first_hits(part_of(rays, run, runs), part_of(out, run, runs));
+        });
+        json row = row_of(scene, "first hit", peers[i]->name(), each, t);
         if (i != 0) row["different"] = differ();
         print(row);
     }
-    trisect::predicate_counters() = {};
-    const double t = median_seconds(options.runs, [&] {
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            hits[i] = index.first_hit(trisect::Ray{rays[i].origin, rays[i].direction}) ? 0 : -1;
-    });
-    json row = row_of(scene, "first hit", "Trisect", rays.size(), t);
-    if (!peers.empty()) row["different"] = differ();
-    row["signs"] = counted(trisect::predicate_counters(),
-                           rays.size() * static_cast<std::size_t>(options.runs));
-    print(row);
+    const auto ask = [&](const char* name, const auto& hit) {
+        trisect::predicate_counters() = {};
+        const double t = median_seconds(runs, [&](int run) {
+            const auto asked = part_of(rays, run, runs);
+            const auto out = part_of(hits, run, runs);
+            for (std::size_t i = 0; i < asked.size(); ++i)
+                out[i] = hit(trisect::Ray{asked[i].origin, asked[i].direction}) ? 0 : -1;
+        });
+        json row = row_of(scene, "first hit", name, each, t);
+        if (!peers.empty()) row["different"] = differ();
+        row["signs"] =
+            counted(trisect::predicate_counters(), each * static_cast<std::size_t>(runs));
+        print(row);
+    };
+    ask("Trisect", [&](const trisect::Ray& r) { return index.first_hit(r).has_value(); });
+    ask("Trisect facet", [&](const trisect::Ray& r) { return index.first_facet(r).has_value(); });
 }
 
 void compare_distances(const std::string& scene, const std::vector<Point>& points,
                        const BrepIndex& index, const std::vector<std::unique_ptr<Peer>>& peers,
                        const Options& options) {
+    const int runs = options.runs;
+    const std::size_t each = points.size() / static_cast<std::size_t>(runs);
     std::vector<double> out(points.size());
     for (const auto& peer : peers) {
         if (peer->name() != "CGAL") continue;
-        const double t =
-            median_seconds(options.runs, [&] { peer->squared_distances(points, out); });
-        print(row_of(scene, "distance", peer->name(), points.size(), t));
+        const double t = median_seconds(runs, [&](int run) {
+            peer->squared_distances(part_of(points, run, runs), part_of(out, run, runs));
+        });
+        print(row_of(scene, "distance", peer->name(), each, t));
     }
-    const double t = median_seconds(options.runs, [&] {
-        for (std::size_t i = 0; i < points.size(); ++i)
-            out[i] = index.nearest(points[i])->squared_rounded;
+    const double t = median_seconds(runs, [&](int run) {
+        const auto asked = part_of(points, run, runs);
+        for (std::size_t i = 0; i < asked.size(); ++i)
+            out[i] = index.nearest(asked[i])->squared_rounded;
     });
-    print(row_of(scene, "distance", "Trisect", points.size(), t));
+    print(row_of(scene, "distance", "Trisect", each, t));
+    const double b = median_seconds(runs, [&](int run) {
+        const auto asked = part_of(points, run, runs);
+        for (std::size_t i = 0; i < asked.size(); ++i) out[i] = index.distance(asked[i])->hi;
+    });
+    print(row_of(scene, "distance", "Trisect bounds", each, b));
 }
 
 void run(const std::string& name, const Options& options) {
@@ -311,13 +404,19 @@ void run(const std::string& name, const Options& options) {
                    {"ms", p->build_seconds() * 1e3}});
     }
     std::optional<BrepIndex> index;
-    const double build = median_seconds(options.runs, [&] { index.emplace(solid); });
+    const double build = median_seconds(options.runs, [&](int) { index.emplace(solid); });
+    std::vector<double> refine;
+    for (int i = 0; i < options.runs; ++i) {
+        index.emplace(solid);
+        refine.push_back(median_seconds(1, [&](int) { index->refine(); }));
+    }
     const trisect::IndexStats s = index->stats();
     print({{"scene", name},
            {"what", "build"},
            {"engine", "Trisect"},
            {"triangles", s.polygons},
            {"ms", build * 1e3},
+           {"refine_ms", median(refine) * 1e3},
            {"nodes", s.nodes},
            {"mixed", s.mixed_leaves},
            {"empty", s.empty_leaves},
@@ -325,19 +424,19 @@ void run(const std::string& name, const Options& options) {
            {"depth", s.depth},
            {"bytes_per_triangle", s.bytes_per_polygon}});
     Maker make(*mesh);
-    std::vector<Point> points(options.points);
+    std::vector<Point> points(options.points * static_cast<std::size_t>(options.runs));
     for (Point& p : points) p = make.uniform();
-    compare_points(name, "uniform", points, *index, peers, options);
+    if (options.wants("uniform")) compare_points(name, "uniform", points, solid, peers, options);
     for (Point& p : points) p = make.near_surface();
-    compare_points(name, "near", points, *index, peers, options);
+    if (options.wants("near")) compare_points(name, "near", points, solid, peers, options);
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = make.exactly_on(i);
-    compare_points(name, "on", points, *index, peers, options);
-    std::vector<Ray> rays(options.points / 3);
+    if (options.wants("on")) compare_points(name, "on", points, solid, peers, options);
+    std::vector<Ray> rays(points.size() / 3);
     for (Ray& r : rays) r = make.ray();
-    compare_rays(name, rays, *index, peers, options);
-    points.resize(options.points / 100);
+    if (options.wants("rays")) compare_rays(name, rays, *index, peers, options);
+    points.resize(points.size() / 100);
     for (Point& p : points) p = make.uniform();
-    compare_distances(name, points, *index, peers, options);
+    if (options.wants("distances")) compare_distances(name, points, *index, peers, options);
 }
 
 Options parse(int argc, char** argv) {
@@ -354,6 +453,8 @@ Options parse(int argc, char** argv) {
             options.runs = std::stoi(value);
         } else if (arg == "--points") {
             options.points = std::stoul(value);
+        } else if (arg == "--what") {
+            options.what.push_back(value);
         } else if (arg == "--scene") {
             options.scenes.push_back(value);
         } else {
@@ -369,8 +470,8 @@ Options parse(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         const Options options = parse(argc, argv);
-        const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism,
-                                              1);
+        const oneapi::tbb::global_control two(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              2);
         for (const std::string& scene : options.scenes) run(scene, options);
         return 0;
     } catch (const std::exception& e) {
