@@ -22,6 +22,7 @@
 #include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_certificate.h>
 #include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference_overlap.h>
 #include <trisect/bsp/interference_scene.h>
 #include <trisect/bsp/joint.h>
 #include <trisect/bsp/motion.h>
