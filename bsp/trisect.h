@@ -5,6 +5,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/certificate.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/io/write_mesh.h>

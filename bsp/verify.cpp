@@ -30,21 +30,20 @@ using detail::GridTriangles;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The coarsest lattice without loss, or the finest that holds the largest coordinate.
+/// The finest that holds the largest coordinate: without loss wherever some lattice is, and cuts
+/// through its points come close to every edge.
 Lattice common_lattice(std::span<const PolygonMesh> operands, const PolygonMesh& result) {
     std::vector<Point3d> all;
     for (const PolygonMesh& m : operands) all.insert(all.end(), m.points.begin(), m.points.end());
     all.insert(all.end(), result.points.begin(), result.points.end());
-    const Lattice coarse = choose_lattice(all);
-    LatticeReport report;
-    static_cast<void>(to_lattice(all, coarse, report));
-    if (report.lossless) return coarse;
     double most = 0;
     for (const Point3d& p : all)
         for (const double c : p) most = std::max(most, std::fabs(c));
-    int exponent = coarse.exponent;
-    while (most < std::ldexp(1.0, coordinate_bits - 1 + exponent - 8)) exponent -= 8;
-    return {std::max(exponent, -1200)};
+    int exponent = choose_lattice(all).exponent;
+    if (most == 0) return {exponent};
+    while (exponent > -1000 && most < std::ldexp(1.0, coordinate_bits - 1 + exponent - 8))
+        exponent -= 8;
+    return {exponent};
 }
 
 ImportedMesh placed(const PolygonMesh& mesh, Lattice lattice) {

@@ -32,15 +32,14 @@
 // The certified radius is an interval [lower, upper]: some point of the closure of D is at least
 // `lower` away from one of the boundaries, no point of D more than `upper` from either. Pieces are
 // cut along the edges of the triangles that they are compared with, until `upper` is at most 3/2 of
-// `lower` or `piece_limit` is reached.
+// `lower` and three units of the lattice, or `piece_limit` is reached.
 //
-// Placement. All meshes are placed on one lattice, without loss where there is one that holds all
-// of them; otherwise on the finest that holds the largest coordinate, and coordinates are rounded
-// by at most half of its unit. Verdict and bounds are about the placed meshes; `moved` says how far
-// each was rounded. A mesh whose corners move by at most m keeps its winding number about every
-// point farther than m from its faces (nothing sweeps over the point while the corners move
-// linearly), so a witness farther than that from all faces is also one for the meshes as given:
-// `Witness::holds_as_given`.
+// Placement. All meshes are placed on one lattice, the finest that holds the largest coordinate:
+// its unit is 2^-45 to 2^-52 of that. Finer bits are rounded away, by at most half a unit. Verdict
+// and bounds are about the placed meshes; `moved` says how far each was rounded. A mesh whose
+// corners move by at most m keeps its winding number about every point farther than m from its
+// faces (nothing sweeps over the point while the corners move linearly), so a witness farther than
+// that from all faces is also one for the meshes as given: `Witness::holds_as_given`.
 #pragma once
 
 #include <array>

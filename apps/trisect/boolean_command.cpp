@@ -44,7 +44,7 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         result.description.lattice = result.stats.lattice;
     });
     if (options.certificate) {
-        session.stage("certify", [&] { result.certificate = certify(brep, mesh, format); });
+        session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
     }
     session.stage("write", [&] {
         result.written = write_output_mesh(session, options.output, format, mesh);

@@ -20,6 +20,8 @@ namespace {
 
 constexpr double grid_unit = 0x1p-40;
 constexpr double upward = 1 + 0x1p-48;
+/// Coordinates below 2^53 are rounded by at most one unit, those of points and those of boxes.
+constexpr double slack = 2;
 
 Int128 to_int128(const mpz_class& v) {
     const mpz_class magnitude = abs(v);
@@ -192,8 +194,6 @@ std::uint32_t GridTriangles::build(std::uint32_t begin, std::uint32_t end,
 
 GridTriangles::Nearest GridTriangles::nearest(const GridPoint& p) const {
     const auto at = rounded(p);
-    // Coordinates below 2^53 are rounded by at most one unit, the point's and the box's.
-    constexpr double slack = 2;
     Nearest best;
     std::vector<std::uint32_t> stack{0};
     while (!stack.empty()) {
@@ -229,7 +229,7 @@ void GridTriangles::near(const GridPoint& p, double radius, std::size_t limit,
         const std::uint32_t i = stack.back();
         stack.pop_back();
         const Node& node = nodes_[i];
-        if (node.box.distance(at) > radius) continue;
+        if (node.box.distance(at) - slack > radius) continue;
         if (node.right == 0) {
             for (std::uint32_t k = node.begin; k < node.end && out.size() < limit; ++k)
                 if (triangles_[order_[k]].upper_distance(p, radius) <= radius)

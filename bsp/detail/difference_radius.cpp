@@ -28,6 +28,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// How much larger than the lower bound the upper bound may be.
 constexpr double looseness = 1.5;
+/// And by how much beyond that: cuts are planes through lattice points, which miss an edge between
+/// other points by up to a unit or two.
+constexpr double cut_error = 3;
 /// Triangles tried for one piece.
 constexpr std::size_t candidate_limit = 48;
 
@@ -150,19 +153,27 @@ public:
     CuttingPlanes(const Component& component, const Piece& piece)
         : component_(component), piece_(piece) {}
 
-    /// Along the edges of the triangle that the component is nearest to.
-    [[nodiscard]] std::optional<Plane> along(const GridTriangles& surface,
-                                             const Closeness& close) const {
-        const GridTriangle& t = surface[close.triangle];
-        const GridPoint& worst = component_.points[close.worst];
-        const GridTriangle& other = surface[surface.nearest(worst).triangle];
-        for (std::size_t i = 0; i < 3; ++i) {
-            const GridPoint& a = t.corners()[i];
-            const GridPoint& b = t.corners()[(i + 1) % 3];
-            if (!has_corner(other, a) || !has_corner(other, b)) continue;
-            if (const auto plane = halving(t, other, a, b); plane && parts(*plane)) return plane;
+    /// Along an edge of the surface: the one beyond which the component goes on if it is known, or
+    /// of all edges between two triangles that vertices of the component are nearest to, the one
+    /// that parts it best; or else beside the triangle that the component is nearest to. Nothing
+    /// when no such plane leaves more than `margin` on both sides.
+    [[nodiscard]] std::optional<Plane> along(const GridTriangles& surface, const Closeness& close,
+                                             double margin) const {
+        const std::vector<std::uint32_t> triangles = triangles_at(surface, close);
+        // The nearest triangle, and the one that is nearest to where it is farthest.
+        const auto first = between(surface[triangles[0]], surface[triangles[1]]);
+        if (first && first->depth > margin) return first->plane;
+        std::optional<Plane> best;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            for (std::size_t k = i + 1; k < triangles.size(); ++k) {
+                const auto cut = between(surface[triangles[i]], surface[triangles[k]]);
+                if (!cut || cut->depth <= margin) continue;
+                margin = cut->depth;
+                best = cut->plane;
+            }
         }
-        return beside(t, worst);
+        if (best) return best;
+        return beside(surface[close.triangle], component_.points[close.worst], margin);
     }
 
     /// Across the longest extent.
@@ -189,6 +200,53 @@ public:
     }
 
 private:
+    /// A plane and how far the component reaches to both sides of it, the lesser of the two.
+    struct Cut {
+        Plane plane;
+        double depth = 0;
+    };
+
+    [[nodiscard]] std::vector<std::uint32_t> triangles_at(const GridTriangles& surface,
+                                                          const Closeness& close) const {
+        constexpr std::size_t most = 16;
+        std::vector<std::uint32_t> out{close.triangle,
+                                       surface.nearest(component_.points[close.worst]).triangle};
+        for (const GridPoint& p : component_.points) {
+            if (out.size() >= most) break;
+            const std::uint32_t t = surface.nearest(p).triangle;
+            if (std::find(out.begin(), out.end(), t) == out.end()) out.push_back(t);
+        }
+        return out;
+    }
+
+    /// Through the edge that two triangles share, if they do.
+    [[nodiscard]] std::optional<Cut> between(const GridTriangle& s, const GridTriangle& t) const {
+        const auto& c = s.corners();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const GridPoint& a = c[i];
+            const GridPoint& b = c[(i + 1) % 3];
+            if (!has_corner(t, a) || !has_corner(t, b) || has_corner(t, c[(i + 2) % 3])) continue;
+            const auto plane = halving(s, t, a, b);
+            if (!plane || !parts(*plane)) return std::nullopt;
+            return Cut{*plane, depth(*plane, to_vector(a))};
+        }
+        return std::nullopt;
+    }
+
+    /// \pre the point is on the plane
+    [[nodiscard]] double depth(const Plane& plane, const Vector& on) const {
+        const Vector n =
+            scaled_to({plane.approx_normal(0), plane.approx_normal(1), plane.approx_normal(2)}, 1);
+        double above = 0;
+        double below = 0;
+        for (const GridPoint& p : component_.points) {
+            const double height = dot(minus(to_vector(p), on), n);
+            above = std::max(above, height);
+            below = std::max(below, -height);
+        }
+        return std::min(above, below);
+    }
+
     static bool has_corner(const GridTriangle& t, const GridPoint& p) {
         return std::find(t.corners().begin(), t.corners().end(), p) != t.corners().end();
     }
@@ -214,7 +272,8 @@ private:
     }
 
     /// Through the edge beyond which the point is farthest, steep to the triangle.
-    [[nodiscard]] std::optional<Plane> beside(const GridTriangle& t, const GridPoint& point) const {
+    [[nodiscard]] std::optional<Plane> beside(const GridTriangle& t, const GridPoint& point,
+                                              double margin) const {
         const Vector n = normal_of(t);
         const Vector at = to_vector(point);
         int axis = 0;
@@ -236,7 +295,7 @@ private:
             (axis == 0 ? above.x : (axis == 1 ? above.y : above.z)) += 1;
             if (are_collinear(*p, *q, above)) continue;
             const Plane plane = Plane::along_axis(*p, *q, axis);
-            if (!parts(plane)) continue;
+            if (!parts(plane) || depth(plane, a) <= margin) continue;
             most = beyond;
             best = plane;
         }
@@ -288,7 +347,7 @@ private:
         return options_.within && out_.lower > *options_.within;
     }
     [[nodiscard]] double target() const {
-        return options_.within ? *options_.within : looseness * reach_ + 4 * grid_error;
+        return options_.within ? *options_.within : looseness * reach_ + cut_error;
     }
 
     void look_at_vertices(const Piece& piece) {
@@ -373,7 +432,7 @@ private:
                 const bool near_first = a_.radius <= target();
                 const CuttingPlanes planes(c, piece);
                 const auto along =
-                    planes.along(near_first ? second_ : first_, near_first ? b_ : a_);
+                    planes.along(near_first ? second_ : first_, near_first ? b_ : a_, cut_error);
                 if (cut(piece.solid(), along) || cut(piece.solid(), planes.across())) return;
             }
             accept(c);

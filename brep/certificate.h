@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Certificate: what rounding did to an exact result when it became a mesh of doubles or floats.
+//
+// The result of a boolean has no self-intersection, but its corners are rounded to doubles (or to
+// the floats of binary STL) and faces closer than that may then meet. Whether they do is decided
+// exactly, on the coordinates as written.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/polygon_mesh.h>
+
+namespace trisect {
+
+struct Certificate {
+    bool closed = false;    ///< the written faces' boundaries cancel
+    bool oriented = false;  ///< and the volume they enclose is not negative
+    /// Pairs of written faces that meet beyond the corners and edges they share; nothing when the
+    /// written coordinates span too many bits for an exact check.
+    std::optional<std::size_t> self_intersecting_pairs;
+    double max_move = 0;               ///< largest change of one coordinate, user's units
+    std::size_t rounded_vertices = 0;  ///< vertices with a changed coordinate
+
+    /// The mesh bounds a solid, and this is proved.
+    [[nodiscard]] bool holds() const {
+        return closed && oriented && self_intersecting_pairs.value_or(1) == 0;
+    }
+};
+
+/// How coordinates are written.
+enum class Precision : std::uint8_t { Double, Float };
+
+/// \pre `mesh` is to_polygon_mesh(brep): the same vertices. Costs a validation of the mesh.
+[[nodiscard]] Certificate certify(const Brep& brep, PolygonMesh mesh,
+                                  Precision precision = Precision::Double);
+
+}  // namespace trisect
