@@ -24,6 +24,7 @@
 #include <trisect/bsp/interference_certificate.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/interference_overlap.h>
+#include <trisect/bsp/interference_query.h>
 #include <trisect/bsp/interference_scene.h>
 #include <trisect/bsp/joint.h>
 #include <trisect/bsp/motion.h>

@@ -84,6 +84,11 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     way_error = 1.0001 * way_error / a.unit;
     matrix_error += 0x1p-50 * largest;
 
+    matrix_ = m;
+    way_ = t;
+    reach_ = b.reach;
+    inexact_ = 2 * way_error + 3 * matrix_error * b.reach;
+
     // The squares of lengths of images, and how far they are from one number.
     std::array<Double3, 3> gram{};
     double rows = 0;
@@ -119,6 +124,20 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     const bool in_range = scale < 0x1p100 && lambda < 0x1p100;
     margin_ =
         in_range ? static_cast<float>(1.0001 * margin) : std::numeric_limits<float>::infinity();
+}
+
+double ObbPose::displacement_from(const ObbPose& other) const {
+    // |ΔM x + Δt| <= |ΔM| |x| + |Δt| with the Frobenius norm; the factor takes the roundings.
+    double squares = 0;
+    double way = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double d = matrix_[i][j] - other.matrix_[i][j];
+            squares += d * d;
+        }
+        way += (way_[i] - other.way_[i]) * (way_[i] - other.way_[i]);
+    }
+    return 1.0001 * (std::sqrt(squares) * reach_ + std::sqrt(way)) + inexact_ + other.inexact_;
 }
 
 }  // namespace trisect::detail

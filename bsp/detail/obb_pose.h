@@ -36,11 +36,21 @@ public:
     /// may meet.
     /// For lanes that are not used it means nothing.
     [[nodiscard]] Float4 gaps(const OrientedBox& a, const ObbNode& b) const {
-        return gap(lanes_of(a, b));
+        return gap<false>(lanes_of(a, b));
     }
     [[nodiscard]] Float4 gaps(const ObbNode& a, const OrientedBox& b) const {
-        return gap(lanes_of(a, b));
+        return gap<false>(lanes_of(a, b));
     }
+    /// The same, positive wherever `overlaps` finds boxes apart.
+    [[nodiscard]] Float4 all_gaps(const OrientedBox& a, const ObbNode& b) const {
+        return gap<true>(lanes_of(a, b));
+    }
+    [[nodiscard]] Float4 all_gaps(const ObbNode& a, const OrientedBox& b) const {
+        return gap<true>(lanes_of(a, b));
+    }
+    /// Bound on how far any point of a box of B is from where another pose of the same trees puts
+    /// it, in units of A.
+    [[nodiscard]] double displacement_from(const ObbPose& other) const;
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
 
@@ -56,10 +66,15 @@ private:
     [[nodiscard]] Lanes lanes_of(const ObbNode& a, const OrientedBox& b) const;
     template <bool Rigid>
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
+    template <bool Edges>
     [[nodiscard]] Float4 gap(const Lanes& l) const;
 
     std::array<std::array<float, 3>, 3> m_{};  // divided by scale
     std::array<float, 3> t_{};
+    std::array<std::array<double, 3>, 3> matrix_{};
+    std::array<double, 3> way_{};
+    double inexact_ = 0;  // bound on the distance of a point of B from where these doubles put it
+    double reach_ = 0;    // of B's boxes, in its units
     float scale_ = 1;
     float margin_ = 0;
     bool rigid_ = true;
@@ -114,7 +129,8 @@ unsigned ObbPose::may_meet(const Lanes& l) const {
 }
 
 // Along six normals and along the line of centres, the best direction for boxes far apart.
-inline Float4 ObbPose::gap(const Lanes& l) const {
+template <bool Edges>
+Float4 ObbPose::gap(const Lanes& l) const {
     const auto& r = l.r;
     const auto& t = l.t;
     const Float4 margin = all_lanes(margin_) + all_lanes(0x1p-18F) * ((l.b[0] + l.b[1]) + l.b[2]);
@@ -142,6 +158,22 @@ inline Float4 ObbPose::gap(const Lanes& l) const {
                     l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) + r[2][k] * r[2][j]);
         }
         best = larger(along - reach, best);
+    }
+    if (Edges && rigid_) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t i1 = (i + 1) % 3;
+            const std::size_t i2 = (i + 2) % 3;
+            for (std::size_t j = 0; j < 3; ++j) {
+                const std::size_t j1 = (j + 1) % 3;
+                const std::size_t j2 = (j + 2) % 3;
+                const Float4 along = t[i2] * r[i1][j] - t[i1] * r[i2][j];
+                const Float4 reach =
+                    (((margin + l.a[i1] * magnitude(r[i2][j])) + l.a[i2] * magnitude(r[i1][j])) +
+                     l.b[j1] * magnitude(r[i][j2])) +
+                    l.b[j2] * magnitude(r[i][j1]);
+                best = larger(magnitude(along) - reach, best);
+            }
+        }
     }
     best = larger((square - across) / larger(length, all_lanes(1e-30F)) - margin, best);
     return best * all_lanes(1 - 0x1p-18F);

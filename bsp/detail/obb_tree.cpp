@@ -78,6 +78,12 @@ public:
         put(0, 0, all);
         tree_.nodes[0].child[0] = below(all, 1);
         tree_.order.reserve(items_.size());
+        tree_.parent.assign(tree_.nodes.size(), 0);
+        for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n)
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const ObbChild child = tree_.nodes[n].child[k];
+                if (!child.is_leaf()) tree_.parent[child.node()] = ObbId::of(n, k).index;
+            }
         tree_.corners.reserve(items_.size());
         for (const Item& i : items_) {
             tree_.order.push_back(i.triangle);

@@ -95,7 +95,8 @@ struct ObbTree {
     }
 
     std::vector<ObbNode> nodes;
-    std::vector<std::uint32_t> order;                   ///< triangles as leaves name them
+    std::vector<std::uint32_t> parent;  ///< the box (index of its id) above each node; of node 0: 0
+    std::vector<std::uint32_t> order;   ///< triangles as leaves name them
     std::vector<std::array<std::uint32_t, 3>> corners;  ///< of these triangles
     std::array<double, 3> origin{};
     double unit = 1;   ///< a power of two

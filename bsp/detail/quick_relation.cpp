@@ -71,6 +71,25 @@ std::optional<bool> is_certainly_inside(const InterferenceModelData& model, Vert
     return other.index().locate(place).location == Location::Inside;
 }
 
+std::optional<Relation> relation_of_apart(const InterferenceModelData& a, const Pose& pose_a,
+                                          const InterferenceModelData& b, const Pose& pose_b,
+                                          const ApproximateMap& to_a) {
+    const ApproximateMap to_b = approximate_map(pose_b, b.brep.lattice(), pose_a, a.brep.lattice());
+    if (!to_b.is_usable()) return std::nullopt;
+    BoundaryFlags flags;
+    for (const VertexId v : a.shell_vertex) {
+        const auto inside = is_certainly_inside(a, v, to_b, b);
+        if (!inside) return std::nullopt;
+        (*inside ? flags.a_in : flags.a_out) = true;
+    }
+    for (const VertexId v : b.shell_vertex) {
+        const auto inside = is_certainly_inside(b, v, to_a, a);
+        if (!inside) return std::nullopt;
+        (*inside ? flags.b_in : flags.b_out) = true;
+    }
+    return flags.relation();
+}
+
 std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pose& pose_a,
                                        const InterferenceModelData& b, const Pose& pose_b,
                                        ObbWalk::Stack& stack, WalkCounters* counters) {
@@ -86,21 +105,7 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
     if (crossing) return Relation::Overlapping;
     if (walk.counters().unknown != 0) return std::nullopt;
 
-    // The boundaries have no common point.
-    const ApproximateMap to_b = approximate_map(pose_b, b.brep.lattice(), pose_a, a.brep.lattice());
-    if (!to_b.is_usable()) return std::nullopt;
-    BoundaryFlags flags;
-    for (const VertexId v : a.shell_vertex) {
-        const auto inside = is_certainly_inside(a, v, to_b, b);
-        if (!inside) return std::nullopt;
-        (*inside ? flags.a_in : flags.a_out) = true;
-    }
-    for (const VertexId v : b.shell_vertex) {
-        const auto inside = is_certainly_inside(b, v, to_a, a);
-        if (!inside) return std::nullopt;
-        (*inside ? flags.b_in : flags.b_out) = true;
-    }
-    return flags.relation();
+    return relation_of_apart(a, pose_a, b, pose_b, to_a);
 }
 
 }  // namespace trisect::detail

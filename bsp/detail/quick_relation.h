@@ -23,6 +23,13 @@ namespace trisect::detail {
                                                      const Pose& pose_b, ObbWalk::Stack& stack,
                                                      WalkCounters* counters = nullptr);
 
+/// The same for boundaries known to have no common point; `to_a` is the map from B into A.
+[[nodiscard]] std::optional<Relation> relation_of_apart(const InterferenceModelData& a,
+                                                        const Pose& pose_a,
+                                                        const InterferenceModelData& b,
+                                                        const Pose& pose_b,
+                                                        const ApproximateMap& to_a);
+
 /// Whether a vertex of a model is inside of another solid; nothing when doubles cannot tell.
 /// \pre it is not on the boundary of the other solid.
 [[nodiscard]] std::optional<bool> is_certainly_inside(const InterferenceModelData& model,

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/interference_query.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <thread>
+#include <vector>
+
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/detail/obb_walk.h>
+#include <trisect/bsp/detail/quick_relation.h>
+#include <trisect/bsp/expression.h>
+
+#include "reference/random_solids.h"
+
+namespace {
+
+using reference::Random;
+using trisect::interfere;
+using trisect::InterferenceModel;
+using trisect::InterferenceQuery;
+using trisect::Pose;
+using trisect::Relation;
+using trisect::Solid;
+
+Pose turned(double degrees, const std::array<double, 3>& by) {
+    const double c = std::cos(degrees * std::numbers::pi / 180);
+    const double s = std::sin(degrees * std::numbers::pi / 180);
+    return Pose::from_doubles({c, 0, s, by[0], 0, 1, 0, by[1], -s, 0, c, by[2]});
+}
+
+// Two linked tori; the second one turns and swings so that the gap between the tubes goes from wide
+// to less than nothing. No point moves by more than a hundredth of the diameter, 2.5, from one pose
+// to the next.
+std::vector<Pose> swing(int frames) {
+    std::vector<Pose> poses;
+    for (int i = 0; i < frames; ++i) {
+        const double t = static_cast<double>(i);
+        poses.push_back(turned(90 + 10 * std::sin(0.01 * t),
+                               {1 + 0.3 * std::cos(0.013 * t), 0, 0.3 * std::sin(0.019 * t)}));
+    }
+    return poses;
+}
+
+std::uint64_t fresh_node_tests(const InterferenceModel& a, const InterferenceModel& b,
+                               const Pose& pose, Relation expected) {
+    trisect::detail::ObbWalk::Stack stack;
+    trisect::detail::WalkCounters counters;
+    EXPECT_EQ(trisect::detail::quick_relation(a.data(), Pose(), b.data(), pose, stack, &counters),
+              expected);
+    return counters.node_tests;
+}
+
+TEST(InterferenceQuery, MotionOfAHundredthOfTheDiameterVisitsAThirdOfTheNodes) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 100, 64)));
+    InterferenceQuery query(torus, torus);
+    std::uint64_t fresh = 0;
+    std::map<Relation, int> seen;
+    for (const Pose& pose : swing(600)) {
+        const Relation r = query.relation(Pose(), pose);
+        ++seen[r];
+        fresh += fresh_node_tests(torus, torus, pose, r);
+    }
+    EXPECT_GT(seen[Relation::Disjoint], 50);
+    EXPECT_GT(seen[Relation::Overlapping], 50);
+    EXPECT_LT(3 * query.counters().node_tests, fresh);
+    EXPECT_GT(query.counters().kept, 0U);
+    EXPECT_EQ(query.counters().exact, 0U);
+}
+
+// Small steps, jumps, touching and flush poses in any order: always what a fresh question says.
+TEST(InterferenceQuery, AnswersAreThoseOfFreshQuestions) {
+    const InterferenceModel box(Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2})));
+    const InterferenceModel small(Solid::from_mesh(trisect::make_box({0, 0, 0}, {1, 1, 1})));
+    const InterferenceModel hollow(
+        evaluate(trisect::Expression(Solid::from_mesh(trisect::make_box({-3, -3, -3}, {3, 3, 3}))) -
+                 Solid::from_mesh(trisect::make_box({-2, -2, -2}, {2, 2, 2}))));
+    std::map<Relation, int> seen;
+    for (const auto& [a, b] : {std::pair(&box, &small), std::pair(&hollow, &small),
+                               std::pair(&small, &hollow), std::pair(&box, &box)}) {
+        InterferenceQuery query(*a, *b);
+        Random random(51);
+        std::array<double, 3> at{4, 0.25, 0.125};
+        for (int i = 0; i < 400; ++i) {
+            if (random.chance(1, 20)) {
+                for (double& c : at) c = static_cast<double>(random.between(-4, 4));
+            } else {
+                for (double& c : at) c += 0.03125 * static_cast<double>(random.between(-2, 2));
+            }
+            const Pose pose = random.chance(1, 8)
+                                  ? Pose::from_quaternion({20, random.between(-1, 1), 1, 0}, at)
+                                  : Pose::from_translation(at);
+            const Relation r = query.relation(Pose(), pose);
+            EXPECT_EQ(r, interfere(*a, Pose(), *b, pose).relation) << i;
+            ++seen[r];
+        }
+    }
+    for (const Relation r : {Relation::Disjoint, Relation::Touching, Relation::Overlapping,
+                             Relation::Inside, Relation::Contains})
+        EXPECT_GT(seen[r], 5) << to_string(r);
+}
+
+// A body that jumps through a wall between two questions is on the other side.
+TEST(InterferenceQuery, ThinWallPassedBetweenTwoQuestions) {
+    const InterferenceModel shell(
+        evaluate(trisect::Expression(Solid::from_mesh(trisect::make_icosphere(1, 3))) -
+                 Solid::from_mesh(trisect::make_icosphere(0.999, 3))));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 3)));
+    const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.01, 1)));
+    InterferenceQuery in_shell(shell, speck);
+    InterferenceQuery in_ball(ball, speck);
+    for (int i = 0; i < 40; ++i) {
+        const Pose pose = Pose::from_translation({0.8 + 0.0078125 * i, 0.1, 0.05});
+        EXPECT_EQ(in_shell.relation(Pose(), pose), interfere(shell, Pose(), speck, pose).relation);
+        EXPECT_EQ(in_ball.relation(Pose(), pose), interfere(ball, Pose(), speck, pose).relation);
+    }
+    const Pose in = Pose::from_translation({0.95, 0, 0});
+    const Pose out = Pose::from_translation({1.05, 0, 0});
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(in_ball.relation(Pose(), in), Relation::Contains);
+        EXPECT_EQ(in_ball.relation(Pose(), out), Relation::Disjoint);
+    }
+}
+
+// Bodies that grow and shrink change which of two boxes is the larger one.
+TEST(InterferenceQuery, PosesThatChangeTheSizeOfABody) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 24, 12)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 2)));
+    InterferenceQuery query(torus, ball);
+    std::map<Relation, int> seen;
+    for (int i = 0; i < 400; ++i) {
+        const double scale = 0.6 + 0.5 * std::sin(0.02 * i);
+        const Pose pose = Pose::from_doubles(
+            {scale, 0, 0, 0.01, 0, scale, 0, 0.4 * std::sin(0.05 * i), 0, 0, scale, 0.02});
+        const Relation r = query.relation(Pose(), pose);
+        EXPECT_EQ(r, interfere(torus, Pose(), ball, pose).relation) << i;
+        ++seen[r];
+    }
+    EXPECT_GT(seen[Relation::Disjoint], 20);
+    EXPECT_GT(seen[Relation::Overlapping], 20);
+}
+
+TEST(InterferenceQuery, ModelsAreSharedByManyThreads) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 32, 16)));
+    const auto poses = swing(100);
+    std::vector<std::vector<Relation>> answers(4);
+    std::vector<std::thread> threads;
+    for (auto& mine : answers)
+        threads.emplace_back([&] {
+            InterferenceQuery query(torus, torus);
+            for (const Pose& p : poses) mine.push_back(query.relation(Pose(), p));
+        });
+    for (auto& t : threads) t.join();
+    for (const auto& mine : answers) EXPECT_EQ(mine, answers.front());
+}
+
+TEST(InterferenceQuery, EmptyModelsAndForgetting) {
+    const InterferenceModel box(Solid::from_mesh(trisect::make_box({0, 0, 0}, {1, 1, 1})));
+    InterferenceQuery empty(box, InterferenceModel{});
+    EXPECT_EQ(empty.relation(Pose(), Pose()), Relation::Disjoint);
+    InterferenceQuery query(box, box);
+    EXPECT_EQ(query.relation(Pose(), Pose::from_translation({3, 0, 0})), Relation::Disjoint);
+    query.forget();
+    EXPECT_EQ(query.relation(Pose(), Pose()), Relation::Equal);
+    EXPECT_EQ(query.counters().asked, 2U);
+}
+
+}  // namespace
