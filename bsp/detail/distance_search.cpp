@@ -102,11 +102,17 @@ DistanceSearch::Candidate DistanceSearch::compare(std::uint32_t i, std::uint32_t
         in_world_p[k] = placed(p[k]);
         in_world_q[k] = placed(q[k]);
     }
+    const double error = row_ * (1.01 * error_ + 0x1p-49 * g);
     Candidate c;
     c.a = i;
     c.b = j;
+    const double nearest = std::min(upper_, limit_);
+    if (are_certainly_farther(in_world_p, in_world_q, nearest, error)) {
+        c.bounds = {nearest * (1 + 0x1p-50), std::numeric_limits<double>::infinity()};
+        return c;
+    }
     c.closest = closest_points(in_world_p, in_world_q);
-    c.bounds = certify(in_world_p, in_world_q, c.closest, row_ * (1.01 * error_ + 0x1p-49 * g));
+    c.bounds = certify(in_world_p, in_world_q, c.closest, error);
     if (c.bounds.lower <= 0 && compare_triangles(p, q, error_) == PairVerdict::Crossing) {
         c.crossing = true;
         c.bounds = {0, 0};
@@ -145,8 +151,8 @@ void DistanceSearch::expand(const Entry& e) {
     const bool open_b =
         ca.is_leaf() || (!cb.is_leaf() && pose_->scale() * size(tb, e.b) > size(ta, e.a));
     ++counters_.node_tests;
-    const Float4 gaps = open_b ? pose_->gaps(ta.box(e.a), tb.nodes[cb.node()])
-                               : pose_->gaps(ta.nodes[ca.node()], tb.box(e.b));
+    const Float4 gaps = open_b ? pose_->all_gaps(ta.box(e.a), tb.nodes[cb.node()])
+                               : pose_->all_gaps(ta.nodes[ca.node()], tb.box(e.b));
     const ObbNode& opened = open_b ? tb.nodes[cb.node()] : ta.nodes[ca.node()];
     for (std::uint32_t k = 0; k < 4; ++k) {
         if (!(opened.half[0][k] >= 0)) continue;

@@ -106,6 +106,28 @@ private:
 
 }  // namespace
 
+bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, double limit,
+                           double error) {
+    double g = 0;
+    for (const auto* t : {&p, &q})
+        for (const Double3& c : *t)
+            for (const double v : c) g = std::max(g, std::abs(v));
+    const double wanted = (limit + 4 * error + 0x1p-48 * g) * (1 + 0x1p-40);
+    Double3 centres{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) centres[k] += q[i][k] - p[i][k];
+    for (const Double3& n : {centres, cross(minus(p[1], p[0]), minus(p[2], p[0])),
+                             cross(minus(q[1], q[0]), minus(q[2], q[0]))}) {
+        const std::array<double, 3> a{dot(n, p[0]), dot(n, p[1]), dot(n, p[2])};
+        const std::array<double, 3> b{dot(n, q[0]), dot(n, q[1]), dot(n, q[2])};
+        const auto [a_low, a_high] = std::minmax({a[0], a[1], a[2]});
+        const auto [b_low, b_high] = std::minmax({b[0], b[1], b[2]});
+        const double gap = std::max(b_low - a_high, a_low - b_high);
+        if (gap > 0 && gap * gap > wanted * wanted * dot(n, n)) return true;
+    }
+    return false;
+}
+
 ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q) {
     return Search(p, q).run();
 }

@@ -17,6 +17,11 @@ struct ClosestPoints {
     std::array<double, 3> on_q{};
 };
 
+/// Whether the triangles are certainly farther than `limit` from each other, by three directions:
+/// both normals and the line of centres. A quarter of the cost of closest points. `error` as below.
+[[nodiscard]] bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q,
+                                         double limit, double error);
+
 /// Up to rounding, for triangles that do not meet.
 [[nodiscard]] ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q);
 

@@ -86,6 +86,30 @@ TEST(BoundaryDistance, RandomSolidsOnASmallGridAgainstAllPairsInRationals) {
     }
 }
 
+// What is called certainly farther is farther, at limits next to the distance, too.
+TEST(TriangleDistance, CertainlyFartherIsNeverWrong) {
+    using trisect::detail::are_certainly_farther;
+    Random random(61);
+    int certain = 0;
+    for (int i = 0; i < 4000; ++i) {
+        trisect::detail::TriangleCorners p;
+        trisect::detail::TriangleCorners q;
+        for (auto* t : {&p, &q})
+            for (auto& c : *t)
+                for (double& v : c)
+                    v = static_cast<double>(random.between(0, 12)) + (t == &q ? 6 : 0);
+        const auto closest = trisect::detail::closest_points(p, q);
+        const auto bounds = trisect::detail::certify(p, q, closest, 0);
+        for (const double limit : {0.25 * bounds.upper, 0.9 * bounds.upper, bounds.lower,
+                                   std::nextafter(bounds.upper, 1e9), 2 * bounds.upper}) {
+            if (!are_certainly_farther(p, q, limit, 0)) continue;
+            ++certain;
+            EXPECT_LT(limit, bounds.upper);
+        }
+    }
+    EXPECT_GT(certain, 2000);
+}
+
 TEST(BoundaryDistance, FeaturesOfBoxesAreNamed) {
     const InterferenceModel a = box(1, 1, 1);
     const auto corner = boundary_distance(a, Pose(), a, Pose::from_translation({2, 2, 2}));
