@@ -80,7 +80,9 @@ public:
     /// The boundary. Assembled anew at every call; costs O(n log n) in the faces.
     /// \throw UnsupportedError when the boundary is unbounded (a half-space).
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
-    /// Triangles with correctly rounded coordinates. Untouched facets are copied.
+    /// Triangles with correctly rounded coordinates. Facets that nothing changed are copied; what
+    /// is left of others is joined with its coplanar neighbours first. No vertex lies inside an
+    /// edge (before rounding).
     [[nodiscard]] PolygonMesh to_mesh() const;
 
     [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const { return state_; }

@@ -250,6 +250,27 @@ private:
     std::vector<IndexLoop> outline_;
 };
 
+// The corners of facets that pass through: vertices, whatever the others do there.
+std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
+    std::vector<std::vector<bool>> used;
+    for (const FacetMarks& marks : parts.sources) {
+        const LatticeMesh& mesh = marks.source()->mesh();
+        auto& is_used = used.emplace_back(mesh.points.size(), false);
+        marks.for_each_whole([&](std::uint32_t facet, bool) {
+            for (const std::uint32_t v : mesh.triangles[facet]) is_used[v] = true;
+        });
+    }
+    std::vector<PointId> out;
+    for (std::size_t p = 0; p < parts.bench.point_count(); ++p) {
+        if (!parts.bench.is_corner(static_cast<PointId>(p))) continue;
+        const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
+        // No table: a corner of a facet that only named the point.
+        const std::int32_t t = parts.table_ids.find(BoundaryParts::key_of(source));
+        if (t >= 0 && used[u(t)][v]) out.push_back(parts.representatives[p]);
+    }
+    return out;
+}
+
 }  // namespace
 
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats) {
@@ -258,6 +279,12 @@ PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats) {
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     join_facets(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);
+    // Facets that nothing changed are left alone, so that it does not show which of them the tree
+    // has looked at.
+    mark_unchanged_facets(parts, edges);
+    parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+    if (parts.stats.joined_facets != 0)
+        remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
     if (stats != nullptr) *stats = parts.stats;
     return MeshWriter(solid, parts).write(edges);
 }

@@ -49,6 +49,7 @@ public:
         for (Leaf& leaf : leaves_) make_parts(leaf);
         merge_equal_points();
         conform_edges();
+        out_.representatives = std::move(same_);
         out_.stats.leaves = leaves_.size();
         out_.stats.worked_facets = out_.facets.size();
         out_.stats.edges = out_.edges.size();

@@ -27,6 +27,7 @@ struct BoundaryFacet {
     std::int32_t leaf = -1;         ///< where parts of it were found
     bool in_several_cells = false;  ///< its parts were not all conformed in one leaf
     std::uint32_t parts = 0;        ///< how many; the edges of one come in the order of its loop
+    bool unchanged = false;         ///< see mark_unchanged_facets
 };
 
 /// An edge of a part of a facet, directed so that the part lies to its left seen from outside.
@@ -140,6 +141,8 @@ struct BoundaryParts {
     FlatMap table_ids;
     std::vector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
     std::vector<BoundaryEdge> edges;    ///< of these facets
+    /// By point: the one that stands for all that equal it. Edges have no others.
+    std::vector<PointId> representatives;
     AssemblyStats stats;
 };
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <iterator>
 #include <numeric>
 #include <tuple>
@@ -150,55 +151,121 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     conform_walls(parts, edges);
 }
 
-void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                          std::vector<BoundaryEdge>& edges) {
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
+    for (std::size_t i = 0; i < edges.size();) {
+        BoundaryFacet& f = parts.facets[u(edges[i].facet)];
+        std::size_t j = i;
+        bool own = !f.source->is_half_space();
+        for (; j < edges.size() && edges[j].facet == edges[i].facet; ++j) {
+            const PointId p = edges[j].from;
+            own = own && parts.bench.is_corner(p);
+            bool found = false;
+            for (int c = 0; own && c < 3; ++c)
+                found = found || parts.bench.lattice(p) == f.source->corner(f.facet, c);
+            own = own && found;
+        }
+        f.unchanged = own && j - i == 3;
+        i = j;
+    }
+}
+
+namespace {
+
+// Finds for every edge the one that runs the other way between the same ends, bounds the region on
+// its other side, and is joined with it.
+class CoplanarPairs {
+public:
+    CoplanarPairs(const BoundaryParts& parts, bool within_faces,
+                  const std::vector<BoundaryEdge>& edges)
+        : parts_(parts),
+          within_faces_(within_faces),
+          edges_(edges),
+          table_(std::bit_ceil(2 * edges.size() + 1), none),
+          gone_(edges.size(), false) {}
+
+    /// Calls join(f, g) for the facets of every pair.
+    template <class Join>
+    void run(Join&& join) {
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            if (parts_.facets[u(edges_[e].facet)].unchanged) continue;
+            std::size_t slot = mix64(ends_of(edges_[e])) & (table_.size() - 1);
+            for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
+                if (are_pair(edges_[table_[slot]], edges_[e]) && !gone_[table_[slot]]) break;
+            if (table_[slot] == none) {
+                table_[slot] = e;
+            } else {
+                gone_[e] = gone_[table_[slot]] = true;
+                join(edges_[table_[slot]].facet, edges_[e].facet);
+            }
+        }
+    }
+    [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge]; }
+
+private:
+    [[nodiscard]] bool are_pair(const BoundaryEdge& e, const BoundaryEdge& f) const {
+        return e.from == f.to && e.to == f.from && belong_together(e.facet, f.facet);
+    }
+    [[nodiscard]] bool belong_together(std::int32_t f, std::int32_t g) const {
+        const BoundaryFacet& a = parts_.facets[u(f)];
+        const BoundaryFacet& b = parts_.facets[u(g)];
+        if (!may_join(a, b, within_faces_)) return false;
+        const Plane& p = parts_.bench.plane_at(a.support);
+        const Plane& q = parts_.bench.plane_at(b.support);
+        return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
+    }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    const BoundaryParts& parts_;
+    bool within_faces_;
+    const std::vector<BoundaryEdge>& edges_;
+    std::vector<std::uint32_t> table_;  // of edges by their ends, open addressing
+    std::vector<bool> gone_;
+};
+
+// Edges of facets that were joined come one facet after the other.
+void arrange_all(std::span<BoundaryEdge> edges) {
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t j = i;
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        EdgeChains::arrange(edges.subspan(i, j - i));
+        i = j;
+    }
+}
+
+}  // namespace
+
+std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                                 std::vector<BoundaryEdge>& edges) {
     std::vector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
     const auto root = [&](std::int32_t f) {
         while (cluster[u(f)] != f) f = cluster[u(f)] = cluster[u(cluster[u(f)])];
         return f;
     };
-    const auto belong_together = [&](std::int32_t f, std::int32_t g) {
-        const BoundaryFacet& a = parts.facets[u(f)];
-        const BoundaryFacet& b = parts.facets[u(g)];
-        if (!may_join(a, b, within_faces)) return false;
-        const Plane& p = parts.bench.plane_at(a.support);
-        const Plane& q = parts.bench.plane_at(b.support);
-        return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
-    };
-    std::vector<std::pair<std::uint64_t, std::size_t>> order(edges.size());  // (ends, edge)
-    for (std::size_t i = 0; i < edges.size(); ++i) order[i] = {ends_of(edges[i]), i};
-    std::sort(order.begin(), order.end());
-    std::vector<bool> gone(edges.size(), false);
-    for (std::size_t i = 0; i < order.size();) {
-        std::size_t j = i + 1;
-        while (j < order.size() && order[j].first == order[i].first) ++j;
-        for (std::size_t a = i; a < j; ++a) {
-            for (std::size_t b = a + 1; b < j && !gone[order[a].second]; ++b) {
-                const BoundaryEdge& e = edges[order[a].second];
-                const BoundaryEdge& f = edges[order[b].second];
-                if (gone[order[b].second] || e.from == f.from) continue;
-                if (!belong_together(e.facet, f.facet)) continue;
-                gone[order[a].second] = gone[order[b].second] = true;
-                const std::int32_t x = root(e.facet);
-                const std::int32_t y = root(f.facet);
-                cluster[u(std::max(x, y))] = std::min(x, y);
-            }
+    std::size_t joined = 0;
+    CoplanarPairs pairs(parts, within_faces, edges);
+    pairs.run([&](std::int32_t f, std::int32_t g) {
+        const std::int32_t x = root(f);
+        const std::int32_t y = root(g);
+        if (x != y) ++joined;
+        cluster[u(std::max(x, y))] = std::min(x, y);
+    });
+    if (joined != 0) {
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            if (pairs.is_gone(i)) continue;
+            edges[left] = edges[i];
+            edges[left].facet = root(edges[i].facet);
+            ++left;
         }
-        i = j;
+        edges.resize(left);
     }
-    std::vector<BoundaryEdge> left;
-    left.reserve(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (gone[i]) continue;
-        left.push_back(edges[i]);
-        left.back().facet = root(edges[i].facet);
-    }
-    edges.swap(left);
     sort_by_facet(parts.facets.size(), edges);
+    if (joined != 0) arrange_all(edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
         TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
                             "an edge on a cell wall survived joining");
+    return joined;
 }
 
 namespace {

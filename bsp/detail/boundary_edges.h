@@ -16,11 +16,17 @@ namespace trisect::detail {
 /// of space (an unbounded face).
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
+/// Marks the facets whose edges are those of their source's facet: touched in vain. Whether such a
+/// facet has edges at all depends on the tree. \pre edges sorted by facet, straight vertices
+/// removed.
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges);
+
 /// Renumbers `facet` of every edge to the smallest facet of its face: facets in one oriented plane
 /// that share an edge are joined and the edge vanishes. With `within_faces` only facets of the same
-/// face of the same operand are. The edges come out sorted by facet.
-void join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                          std::vector<BoundaryEdge>& edges);
+/// face of the same operand are, and facets marked as unchanged never. The edges come out sorted by
+/// facet. Returns how many facets became part of another one's face.
+std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                                 std::vector<BoundaryEdge>& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
 /// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by

@@ -5,6 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
@@ -75,6 +80,132 @@ TEST(AssemblyWork, OnlyCoplanarNeighboursAreJoined) {
     const Solid sphere = Solid::from_mesh(trisect::make_icosphere(1, 3));
     (void)trisect::detail::assemble_brep(*sphere.state(), {}, &stats);
     EXPECT_EQ(stats.joined_facets, 0U);
+}
+
+// Every edge runs once each way, and no vertex lies inside an edge. Coordinates are small integers.
+void expect_matching_edges(const PolygonMesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> runs;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        for (std::size_t i = 0; i < 3; ++i) ++runs[{mesh.face(f)[i], mesh.face(f)[(i + 1) % 3]}];
+    for (const auto& [edge, count] : runs) {
+        const auto back = runs.find({edge.second, edge.first});
+        ASSERT_TRUE(back != runs.end() && back->second == count);
+        const auto& a = mesh.points[edge.first];
+        const auto& b = mesh.points[edge.second];
+        for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+            double along = 0;
+            double length = 0;
+            bool on_line = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t j = (k + 1) % 3;
+                const auto& c = mesh.points[p];
+                on_line = on_line && (c[k] - a[k]) * (b[j] - a[j]) == (c[j] - a[j]) * (b[k] - a[k]);
+                along += (c[k] - a[k]) * (b[k] - a[k]);
+                length += (b[k] - a[k]) * (b[k] - a[k]);
+            }
+            EXPECT_FALSE(on_line && along > 0 && along < length);
+        }
+    }
+}
+
+Solid box(const trisect::Point3d& low, const trisect::Point3d& high) {
+    return Solid::from_mesh(make_box(low, high));
+}
+
+TEST(CoplanarFacetsOfAMesh, TwoCrossingBarsOfOneHeightHaveTwoSidesOfTwelveCorners) {
+    const PolygonMesh mesh =
+        evaluate(box({0, 1, 0}, {3, 2, 1}) | box({1, 0, 0}, {2, 3, 1})).to_mesh();
+    EXPECT_EQ(mesh.face_count(), 2U * 10 + 12 * 2);
+    EXPECT_EQ(mesh.points.size(), 24U);
+    expect_matching_edges(mesh);
+}
+
+// Which facets the tree has looked at must not show.
+TEST(CoplanarFacetsOfAMesh, FacetsThatNothingChangesStay) {
+    const PolygonMesh mesh =
+        evaluate(box({0, 0, 0}, {1, 2, 2}) | box({1, 0, 0}, {3, 2, 2})).to_mesh();
+    EXPECT_EQ(mesh.face_count(), 20U);
+    expect_matching_edges(mesh);
+}
+
+TEST(CoplanarFacetsOfAMesh, ASideWithASquareHoleHasEightTriangles) {
+    const Solid drilled = evaluate(box({0, 0, 0}, {3, 3, 3}) - box({1, 1, -1}, {2, 2, 4}));
+    const PolygonMesh mesh = drilled.to_mesh();
+    EXPECT_EQ(mesh.face_count(), 2U * 8 + 4 * 2 + 4 * 2);
+    EXPECT_EQ(mesh.points.size(), 16U);
+    expect_matching_edges(mesh);
+}
+
+// A plate whose top has n by n squares; the other sides have the vertices that this needs.
+Solid plate(int n) {
+    PolygonMesh mesh;
+    const auto at = [&](int i, int j, int k) {
+        return static_cast<std::uint32_t>((k * (n + 1) + j) * (n + 1) + i);
+    };
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) mesh.points.push_back({4.0 * i, 4.0 * j, 4.0 * k});
+    const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        mesh.add_triangle(a, b, c);
+        mesh.add_triangle(a, c, d);
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            quad(at(i, j, 1), at(i + 1, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1));
+            quad(at(i, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0), at(i + 1, j, 0));
+        }
+        quad(at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 0, 1), at(i, 0, 1));
+        quad(at(i + 1, n, 0), at(i, n, 0), at(i, n, 1), at(i + 1, n, 1));
+        quad(at(0, i + 1, 0), at(0, i, 0), at(0, i, 1), at(0, i + 1, 1));
+        quad(at(n, i, 0), at(n, i + 1, 0), at(n, i + 1, 1), at(n, i, 1));
+    }
+    return Solid::from_mesh(mesh);
+}
+
+TEST(CoplanarFacetsOfAMesh, WhatIsFarFromAPocketKeepsItsVertices) {
+    const Solid pocket = evaluate(plate(12) - box({18, 18, 2}, {31, 31, 6}));
+    const AssemblyStats stats = stats_of(pocket);
+    EXPECT_GT(stats.whole_facets, 400U);
+    EXPECT_GT(stats.joined_facets, 20U);
+    const PolygonMesh mesh = pocket.to_mesh();
+    expect_matching_edges(mesh);
+    EXPECT_EQ(evaluate(box({0, 0, 0}, {48, 48, 4}) | pocket).to_mesh().points.size(), 8U);
+}
+
+// Faces, edges and corners coincide all the time; or no two operands have a plane in common.
+void random_boxes(int rounds, bool coincident) {
+    std::mt19937 random(5);
+    const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<Expression> terms;
+        for (int i = 0; i < 6; ++i) {
+            trisect::Point3d low{below(5), below(5), below(5)};
+            trisect::Point3d high{low[0] + 1 + below(4), low[1] + 1 + below(4),
+                                  low[2] + 1 + below(4)};
+            for (std::size_t k = 0; !coincident && k < 3; ++k) {
+                low[k] = 6 * low[k] + i;
+                high[k] = 6 * high[k] + i;
+            }
+            terms.emplace_back(box(low, high));
+        }
+        const Expression formula =
+            (terms[0] | terms[1] | terms[2]) - (terms[3] & terms[4]) - terms[5];
+        const PolygonMesh first = evaluate(formula).to_mesh();
+        expect_matching_edges(first);
+        for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
+            EvaluateOptions options;
+            options.leaf_polygons = leaf;
+            options.wall_offset = leaf == 4 ? 1 : 83;
+            const PolygonMesh other = evaluate(formula, options).to_mesh();
+            expect_matching_edges(other);
+            EXPECT_TRUE(coincident || other == first) << round << ' ' << leaf;
+        }
+    }
+}
+
+TEST(CoplanarFacetsOfAMesh, RandomBoxesOfAGridMatch) { random_boxes(40, true); }
+TEST(CoplanarFacetsOfAMesh, RandomBoxesInGeneralPositionDoNotShowTheTree) {
+    random_boxes(40, false);
 }
 
 TEST(AssemblyOrder, TrianglesDoNotDependOnTheTree) {
