@@ -13,16 +13,19 @@ namespace trisect {
 
 namespace {
 
-// The integer equal to x/w if there is one within the lattice's range. The candidate is the nearest
-// integer to the correctly rounded quotient; equality is then checked exactly.
-std::optional<std::int64_t> integer_quotient(const WideInt<7>& x, const WideInt<6>& w,
-                                             double nearest) {
-    if (std::fabs(nearest) >= static_cast<double>(coordinate_limit)) return std::nullopt;
-    const double r = std::nearbyint(nearest);
-    if (r != nearest) return std::nullopt;
-    const auto i = static_cast<std::int64_t>(r);
-    if (multiply<7>(w, WideInt<1>(i)) != x) return std::nullopt;
-    return i;
+// The lattice point on all three planes, if there is one: their common point. Its coordinates are
+// then the correctly rounded ones.
+std::optional<LatticePoint> lattice_point_on(const std::array<double, 3>& nearest, const Plane& p,
+                                             const Plane& q, const Plane& r) {
+    for (const double c : nearest)
+        if (std::fabs(c) >= static_cast<double>(coordinate_limit) || std::nearbyint(c) != c)
+            return std::nullopt;
+    const LatticePoint point{static_cast<std::int64_t>(nearest[0]),
+                             static_cast<std::int64_t>(nearest[1]),
+                             static_cast<std::int64_t>(nearest[2])};
+    for (const Plane* plane : {&p, &q, &r})
+        if (side_of(point, *plane) != Side::On) return std::nullopt;
+    return point;
 }
 
 // Correctly rounded coordinates are off by half a unit in the last place of the largest one.
@@ -35,17 +38,15 @@ Approximation certified(const std::array<double, 3>& nearest) {
 }  // namespace
 
 Point::Point(const Plane& p, const Plane& q, const Plane& r) {
-    const auto exact = intersect(p, q, r);
-    TRISECT_EXPECTS(exact.has_value(), "point of three planes that do not meet in one point");
-    approximation_ = certified(nearest_doubles(approximate(p, q, r), p, q, r));
-    const auto x = integer_quotient(exact->xyz[0], exact->w, approximation_.c[0]);
-    const auto y = integer_quotient(exact->xyz[1], exact->w, approximation_.c[1]);
-    const auto z = integer_quotient(exact->xyz[2], exact->w, approximation_.c[2]);
-    if (x && y && z) {
-        lattice_ = {*x, *y, *z};
+    const std::array<double, 3> nearest = nearest_doubles(approximate(p, q, r), p, q, r);
+    if (const auto point = lattice_point_on(nearest, p, q, r)) {
+        lattice_ = *point;
         approximation_ = approximate(lattice_);
         return;
     }
+    approximation_ = certified(nearest);
+    const auto exact = intersect(p, q, r);
+    TRISECT_EXPECTS(exact.has_value(), "point of three planes that do not meet in one point");
     planes_ = std::make_shared<const PlanePoint>(PlanePoint{{p, q, r}, *exact});
 }
 

@@ -100,21 +100,22 @@ private:
     // Facets in their order, whether they pass through or have edges.
     void write_source(std::size_t t) {
         const Source* source = parts_.sources[t].source();
-        const auto next_worked = [&]() -> const BoundaryFacet* {
-            if (rest_.empty()) return nullptr;
-            const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
-            return f.source == source ? &f : nullptr;
+        // The place in the order of the facet whose edges come next.
+        constexpr std::uint64_t never = ~std::uint64_t{0};
+        const auto place = [](std::uint32_t facet, bool flipped) {
+            return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
         };
-        const BoundaryFacet* worked = next_worked();
+        const auto next_worked = [&] {
+            if (rest_.empty()) return never;
+            const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
+            return f.source == source ? place(f.facet, f.flipped) : never;
+        };
+        std::uint64_t next = next_worked();
         parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool flipped) {
-            while (worked != nullptr &&
-                   std::pair(worked->facet, worked->flipped) < std::pair(facet, flipped)) {
-                write_worked(*worked);
-                worked = next_worked();
-            }
+            for (; next < place(facet, flipped); next = next_worked()) write_worked();
             copy(t, facet, flipped);
         });
-        for (; worked != nullptr; worked = next_worked()) write_worked(*worked);
+        for (; next != never; next = next_worked()) write_worked();
     }
 
     void copy(std::size_t t, std::uint32_t facet, bool flipped) {
@@ -132,7 +133,8 @@ private:
     }
 
     // The facet whose edges come next.
-    void write_worked(const BoundaryFacet& f) {
+    void write_worked() {
+        const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
         std::size_t n = 1;
         while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
         make_room(n);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include <trisect/bsp/detail/near_points.h>
@@ -360,6 +361,22 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
     return from == to && from != 0;
 }
 
+// Where a plane across the axis names b, or b is a corner and a is one too, the order is that of
+// small integers or the side of a plane: models with axis parallel faces ask little else.
+std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b, int axis) {
+    if (bench.is_corner(b)) {
+        if (!bench.is_corner(a)) return std::nullopt;
+        const auto order = bench.lattice(a)[axis] <=> bench.lattice(b)[axis];
+        return order < 0 ? -1 : (order > 0 ? 1 : 0);
+    }
+    for (const PlaneId p : bench.planes_of(b)) {
+        const Plane& plane = bench.plane_at(p);
+        if (plane.normal((axis + 1) % 3) != 0 || plane.normal((axis + 2) % 3) != 0) continue;
+        return plane.normal(axis) > 0 ? bench.side(a, p) : -bench.side(a, p);
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
@@ -368,6 +385,8 @@ int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
     const double gap = pa.c[static_cast<std::size_t>(axis)] - pb.c[static_cast<std::size_t>(axis)];
     if (std::fabs(gap) > 1.0000001 * (pa.error + pb.error)) return gap < 0 ? -1 : 1;
     if (a == b) return 0;
+    if (const auto order = compare_by_plane(bench, a, b, axis)) return *order;
+    if (const auto order = compare_by_plane(bench, b, a, axis)) return -*order;
     const auto order = compare_coordinate(bench.homogeneous(a), bench.homogeneous(b), axis);
     return order < 0 ? -1 : (order > 0 ? 1 : 0);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every point has an enclosure, its doubles with their error. Enclosures of equal points overlap
-// along all three axes. Nearly all overlap with no other, and a hash table over the cells of a fine
-// grid tells which, without sorting anything. For the rest: sort along an axis and cut where a gap
+// along all three axes. A hash table over the cells of a fine grid finds what may overlap: nearly
+// all points are alone in their cell, and most others have a few equal ones for company. Only where
+// many points share cells: sort along an axis and cut where a gap
 // shows; enclosures that chain together stay in one group. Go on with the next axis within each
 // group, until no axis cuts.
 //
@@ -16,7 +17,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace trisect::detail {
@@ -30,24 +33,41 @@ double reach(const Approximation& a, std::size_t axis) {
     return 1.0000001 * a.error + 0x1p-50 * std::fabs(a.c[axis]);
 }
 
-// Finds the points that share a cell of a grid with others. An enclosure belongs to all cells that
-// it meets, so those that overlap have a cell in common. Cells are some dozens of times larger than
-// the largest enclosure, so nearly all enclosures meet one cell, and still far smaller than what
-// models are made of, so that few points share one without need. Cells of equal hashes count as
-// one; that costs time only.
-class Crowded {
+// Connects the points that share a cell of a grid. An enclosure belongs to all cells that it meets,
+// so those that overlap have a cell in common. Cells are some dozens of times larger than the
+// largest enclosure, so nearly all enclosures meet one cell, and still far smaller than what models
+// are made of, so that few points share one without need. Cells of equal hashes count as one; that
+// costs time only.
+class Neighbours {
 public:
-    explicit Crowded(const Workbench& bench)
-        : bench_(bench), per_unit_(1 / size_of_cell(bench)), is_near_(bench.point_count(), false) {
+    explicit Neighbours(const Workbench& bench)
+        : bench_(bench), per_unit_(1 / size_of_cell(bench)), root_(bench.point_count()) {
         entries_.reserve(bench.point_count() + bench.point_count() / 4);
         for (std::size_t p = 0; p < bench.point_count(); ++p) add(static_cast<PointId>(p));
-        mark();
+        std::iota(root_.begin(), root_.end(), PointId{0});
+        connect();
     }
-    [[nodiscard]] std::vector<PointId> points() const {
+
+    /// The groups of two and more, one after the other, each in the order of ids.
+    [[nodiscard]] std::vector<PointId> grouped() {
+        std::vector<std::pair<PointId, PointId>> order;  // smallest of the group, point
+        for (std::size_t p = 0; p < root_.size(); ++p) {
+            const PointId r = root(static_cast<PointId>(p));
+            if (u(r) == p) continue;
+            order.emplace_back(r, static_cast<PointId>(p));
+        }
+        std::sort(order.begin(), order.end());
         std::vector<PointId> out;
-        for (std::size_t p = 0; p < is_near_.size(); ++p)
-            if (is_near_[p]) out.push_back(static_cast<PointId>(p));
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (i == 0 || order[i].first != order[i - 1].first) out.push_back(order[i].first);
+            out.push_back(order[i].second);
+        }
         return out;
+    }
+    /// The smallest point of a point's group.
+    [[nodiscard]] PointId root(PointId p) {
+        while (root_[u(p)] != p) p = root_[u(p)] = root_[u(root_[u(p)])];
+        return p;
     }
 
 private:
@@ -92,7 +112,7 @@ private:
     }
 
     // The table holds numbers of entries, one for each cell.
-    void mark() {
+    void connect() {
         std::vector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
         for (std::uint32_t e = 0; e < entries_.size(); ++e) {
             std::size_t i = entries_[e].cell & (table.size() - 1);
@@ -101,7 +121,9 @@ private:
             if (table[i] == none) {
                 table[i] = e;
             } else {
-                is_near_[u(entries_[table[i]].point)] = is_near_[u(entries_[e].point)] = true;
+                const PointId a = root(entries_[table[i]].point);
+                const PointId b = root(entries_[e].point);
+                root_[u(std::max(a, b))] = std::min(a, b);
             }
         }
     }
@@ -110,7 +132,7 @@ private:
     const Workbench& bench_;
     double per_unit_;
     std::vector<Entry> entries_;
-    std::vector<bool> is_near_;
+    std::vector<PointId> root_;
 };
 
 struct Range {
@@ -122,11 +144,15 @@ struct Range {
 class Groups {
 public:
     Groups(const Workbench& bench, const std::function<void(std::span<const PointId>)>& visit)
-        : bench_(bench), visit_(visit) {
-        for (const PointId p : Crowded(bench).points()) ranges_.push_back({0, 0, p});
-    }
+        : bench_(bench), visit_(visit) {}
 
-    void run() { part(ranges_, 0, 0); }
+    /// Points that may be equal only among themselves, in the order of ids.
+    void divide(std::span<const PointId> points) {
+        if (points.size() <= few) return visit_(points);
+        ranges_.clear();
+        for (const PointId p : points) ranges_.push_back({0, 0, p});
+        part(ranges_, 0, 0);
+    }
 
 private:
     // `uncut`: how many axes before this one left the group as it is.
@@ -134,6 +160,7 @@ private:
     void measure(std::span<Range> group, std::size_t axis) const;
     void emit(std::span<const Range> group);
 
+    static constexpr std::size_t few = 16;
     const Workbench& bench_;
     const std::function<void(std::span<const PointId>)>& visit_;
     std::vector<Range> ranges_;
@@ -177,7 +204,15 @@ void Groups::emit(std::span<const Range> group) {
 
 void for_each_near_group(const Workbench& bench,
                          const std::function<void(std::span<const PointId>)>& visit) {
-    Groups(bench, visit).run();
+    Neighbours neighbours(bench);
+    Groups groups(bench, visit);
+    const std::vector<PointId> points = neighbours.grouped();
+    for (std::size_t i = 0; i < points.size();) {
+        std::size_t j = i + 1;
+        while (j < points.size() && neighbours.root(points[j]) == points[i]) ++j;
+        groups.divide(std::span(points).subspan(i, j - i));
+        i = j;
+    }
 }
 
 }  // namespace trisect::detail
