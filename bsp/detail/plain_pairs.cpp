@@ -12,6 +12,7 @@
 #include <trisect/bsp/detail/plain_pairs.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -111,7 +112,7 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate = o != LeafWork::u(f.operand) && f.meets(reach_[o].first, reach_[o].second);
         if (!candidate) continue;
-        candidates_.push_back({0, 0, i, f.operand});
+        candidates_.push_back({0, i});
         for (std::size_t k = 0; k < 3; ++k) {
             lengths[k] += f.hi[k] - f.lo[k];
             low[k] = std::min(low[k], f.lo[k]);
@@ -122,13 +123,18 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     for (std::size_t k = 1; k < 3; ++k)
         if (lengths[k] * (high[axis] - low[axis] + 1) < lengths[axis] * (high[k] - low[k] + 1))
             axis = k;
-    for (Candidate& c : candidates_) {
-        c.lo = facets[c.item].lo[axis];
-        c.hi = facets[c.item].hi[axis];
-    }
+    for (Candidate& c : candidates_) c.lo = facets[c.item].lo[axis];
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
         return a.lo != b.lo ? a.lo < b.lo : a.item < b.item;
     });
+    boxes_.clear();
+    const auto turned = [&](const Vector3& v) {
+        return Vector3{v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3]};
+    };
+    for (const Candidate& c : candidates_) {
+        const PlainFacet& f = facets[c.item];
+        boxes_.add(turned(f.lo), turned(f.hi), f.operand);
+    }
 }
 
 bool PlainPairs::relate_all(PlainFacets& facets, EvaluateStats& stats) {
@@ -136,26 +142,34 @@ bool PlainPairs::relate_all(PlainFacets& facets, EvaluateStats& stats) {
     list_candidates(facets);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         check_budget(*facets.problem().options, stats);
-        const Candidate& a = candidates_[i];
-        const PlainFacet& f = facets[a.item];
-        for (std::size_t j = i + 1; j < candidates_.size() && candidates_[j].lo <= a.hi; ++j) {
-            const Candidate& b = candidates_[j];
-            if (a.operand == b.operand || !f.meets(facets[b.item].lo, facets[b.item].hi)) continue;
-            ++stats.pairs_boxes;
-            PlainCrossing crossing;
-            const Relation r =
-                relate(facets, std::min(a.item, b.item), std::max(a.item, b.item), crossing);
-            if (r == Relation::Doubtful) return false;
-            if (r == Relation::Apart) continue;
-            if (is_outside_cell(facets, crossing.ends[0].at, crossing.ends[1].at))
-                continue;  // in this cell the two are as if they did not meet
-            crossings_.push_back(crossing);
+        const BoxRows::Probe probe = boxes_.probe(i);
+        const std::size_t first = (i + 1) / 4;
+        for (std::size_t row = first;
+             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0]; ++row) {
+            unsigned met = boxes_.meeting(row, probe);
+            if (row == first) met &= ~0U << (i + 1) % 4;
+            for (; met != 0; met &= met - 1) {
+                const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
+                if (!compare(facets, candidates_[i].item, candidates_[j].item, stats)) return false;
+            }
         }
     }
     stats.pairs_touching += crossings_.size();
     stats.pairs_cutting += crossings_.size();
     list_contacts(facets.size());
     return true;
+}
+
+bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats) {
+    if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
+    ++stats.pairs_boxes;
+    PlainCrossing crossing;
+    const Relation r = relate(facets, std::min(s, t), std::max(s, t), crossing);
+    // Outside the cell is as good as nowhere.
+    if (r == Relation::Crossing &&
+        !is_outside_cell(facets, crossing.ends[0].at, crossing.ends[1].at))
+        crossings_.push_back(crossing);
+    return r != Relation::Doubtful;
 }
 
 PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIndex t,

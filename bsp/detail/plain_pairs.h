@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/box_rows.h>
 #include <trisect/bsp/detail/plain_facets.h>
 
 namespace trisect::detail {
@@ -52,18 +53,18 @@ public:
 private:
     enum class Relation : std::uint8_t { Apart, Crossing, Doubtful };
     struct Candidate {
-        double lo = 0;
-        double hi = 0;
+        double lo = 0;  // along the axis of the sweep
         LeafIndex item = 0;
-        LeafIndex operand = 0;
     };
     void list_candidates(const PlainFacets& facets);
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                   PlainCrossing& out) const;
+    [[nodiscard]] bool compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats);
     void list_contacts(LeafIndex count);
 
     std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
     std::vector<Candidate> candidates_;
+    BoxRows boxes_;  // of the candidates, the axis of the sweep first
     std::vector<PlainCrossing> crossings_;
     std::vector<PlainContact> contacts_;
     std::vector<std::size_t> first_contact_;
