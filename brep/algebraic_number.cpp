@@ -76,7 +76,9 @@ double AlgebraicNumber::to_double() const {
 std::vector<ExactRational> AlgebraicNumber::polynomial() const {
     std::vector<ExactRational> result;
     if (const detail::IntegerPolynomial* p = root_->polynomial()) {
-        for (const mpz_class& c : p->coefficients()) result.push_back(detail::from_gmp(c));
+        const int sign = sgn(p->leading());
+        for (const mpz_class& c : p->coefficients())
+            result.push_back(detail::from_gmp(mpz_class(sign * c)));
     } else {
         result.push_back(detail::from_gmp(mpq_class(-root_->lower().get_num())));
         result.push_back(detail::from_gmp(mpq_class(root_->lower().get_den())));

@@ -29,6 +29,7 @@ struct Request {
     VerifyCommandOptions verify;
     ConvertOptions convert;
     LocateOptions locate;
+    SweepOptions sweep;
     SectionOptions section;
     RenderOptions render;
     TreeOptions tree;
@@ -148,6 +149,7 @@ void declare(CLI::App& app, Request& request) {
     add_verify_command(app, request.verify);
     add_convert_command(app, request.convert);
     add_locate_command(app, request.locate);
+    add_sweep_command(app, request.sweep);
     add_section_command(app, request.section);
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
@@ -164,6 +166,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "verify") return run_verify(session, request.verify);
     if (name == "convert") return run_convert(session, request.convert);
     if (name == "locate") return run_locate(session, request.locate);
+    if (name == "sweep") return run_sweep(session, request.sweep);
     if (name == "section") return run_section(session, request.section);
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);

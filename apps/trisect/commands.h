@@ -34,6 +34,9 @@ void add_convert_command(CLI::App& app, ConvertOptions& options);
 void add_locate_command(CLI::App& app, LocateOptions& options);
 [[nodiscard]] Outcome run_locate(Session& session, const LocateOptions& options);
 
+void add_sweep_command(CLI::App& app, SweepOptions& options);
+[[nodiscard]] Outcome run_sweep(Session& session, const SweepOptions& options);
+
 void add_section_command(CLI::App& app, SectionOptions& options);
 [[nodiscard]] Outcome run_section(Session& session, const SectionOptions& options);
 

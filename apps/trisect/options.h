@@ -7,6 +7,7 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/mesh_format.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/first_contact.h>
 
 #include <array>
 #include <cstdint>
@@ -91,6 +92,15 @@ struct LocateOptions {
     QueryOptions set;
     std::string points_file;                    ///< empty: none; "-": standard input
     std::vector<std::array<double, 3>> points;  ///< of the command line
+};
+
+struct SweepOptions {
+    std::array<std::string, 2> inputs;
+    std::string motion;       ///< a file: how the second one moves
+    std::string motion_of_a;  ///< a file; empty: the first one stands still
+    ContactEvent event = ContactEvent::Touch;
+    double width = 0x1p-40;  ///< of the interval that is printed
+    OperandOptions operands;
 };
 
 struct SectionOptions {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion_file.h"
+
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/kernel/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+constexpr std::uint64_t motion_file_limit = std::uint64_t{64} << 20;
+constexpr std::size_t pose_words = 12;
+constexpr std::size_t screw_words = 11;  // with the word itself
+
+struct Word {
+    std::string_view text;
+    std::size_t column = 0;
+};
+
+bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
+
+std::vector<Word> words_of(std::string_view line) {
+    std::vector<Word> words;
+    for (std::size_t i = 0; i < line.size();) {
+        if (is_separator(line[i])) {
+            ++i;
+            continue;
+        }
+        const std::size_t begin = i;
+        while (i < line.size() && !is_separator(line[i])) ++i;
+        words.push_back({line.substr(begin, i - begin), begin + 1});
+    }
+    return words;
+}
+
+/// The motion as far as it has been read.
+class MotionReader {
+public:
+    explicit MotionReader(std::string file) : place_{std::move(file), 0, 0, 0} {}
+
+    void line(std::string_view text) {
+        ++place_.line;
+        place_.column = 1;
+        const std::vector<Word> words = words_of(text.substr(0, text.find('#')));
+        if (words.empty()) return;
+        if (words.front().text == "screw")
+            screw(words);
+        else
+            pose(words);
+    }
+
+    Motion finish() {
+        if (motion_) return std::move(*motion_);
+        if (pose_) return Motion(*pose_);
+        place_.column = 0;
+        throw InputError(place_, "a motion needs a pose or a screw");
+    }
+
+private:
+    /// Errors of the library get the place in the file.
+    template <class Work>
+    auto checked(Work&& work) {
+        try {
+            return work();
+        } catch (const InputError&) {
+            throw;
+        } catch (const Error& e) {
+            throw InputError(place_, e.what());
+        }
+    }
+    double number(const Word& word) {
+        place_.column = word.column;
+        return checked([&] { return parse_number(word.text, "motion"); });
+    }
+    std::int64_t integer(const Word& word) {
+        place_.column = word.column;
+        return checked([&] { return parse_integer(word.text, "motion"); });
+    }
+    void expect(bool condition, const char* message) {
+        if (!condition) throw InputError(place_, message);
+    }
+
+    void pose(const std::vector<Word>& words) {
+        expect(words.size() == pose_words, "a line is twelve numbers, or 'screw' and ten numbers");
+        std::array<double, pose_words> rows{};
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = number(words[i]);
+        place_.column = 1;
+        const Pose next = checked([&] { return Pose::from_doubles(rows); });
+        if (pose_) append(checked([&] { return Motion::blend(*pose_, next); }));
+        pose_ = next;
+    }
+
+    void screw(const std::vector<Word>& words) {
+        expect(words.size() == screw_words, "a screw is ten numbers");
+        Screw screw;
+        for (std::size_t i = 0; i < 4; ++i) screw.turn[i] = integer(words[1 + i]);
+        for (std::size_t i = 0; i < 3; ++i) screw.center[i] = number(words[5 + i]);
+        for (std::size_t i = 0; i < 3; ++i) screw.shift[i] = number(words[8 + i]);
+        place_.column = 1;
+        const Motion piece = checked([&] { return Motion::screw(pose_.value_or(Pose()), screw); });
+        append(piece);
+        pose_ = checked([&] { return piece.pose_at(1); });
+    }
+
+    void append(const Motion& piece) {
+        motion_ = motion_ ? checked([&] { return motion_->then(piece); }) : piece;
+    }
+
+    FilePlace place_;
+    std::optional<Pose> pose_;  // where the motion is
+    std::optional<Motion> motion_;
+};
+
+}  // namespace
+
+Motion parse_motion(std::string_view text, const std::string& name) {
+    MotionReader reader(name);
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        reader.line(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return reader.finish();
+}
+
+Motion read_motion(const std::string& file) {
+    return parse_motion(read_file(file, motion_file_limit).view(), file);
+}
+
+}  // namespace trisect::app
