@@ -5,9 +5,10 @@
 // their doubles must be is on the safe side.
 //
 // What stays between frames (Cohen, Lin, Manocha and Ponamgi 1995 call it coherence): the order of
-// the boxes, and for each pair of boxes that meet its answer. A pair of which neither body has
-// moved keeps its answer. Answers are told apart by placements, numbers that no two poses of a
-// scene share, so that a body that came in the place of a removed one is never mistaken for it.
+// the boxes, and for each pair of boxes that meet its answer and, of large bodies, what its query
+// remembers. A pair of which neither body has moved keeps its answer. Answers are told apart by
+// placements, numbers that no two poses of a scene share, so that a body that came in the place of
+// a removed one is never mistaken for it.
 //
 // Pairs are independent of each other and of the order in which they are asked, and each writes to
 // a place of its own; so threads cannot change the outcome, not even which of two errors is thrown.
@@ -24,8 +25,8 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <trisect/bsp/detail/broad_phase.h>
-#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/bsp/detail/scene_bodies.h>
+#include <trisect/bsp/interference_query.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -47,8 +48,15 @@ struct Answer {
     bool has_contacts = false;
     Relation relation = Relation::Disjoint;
     std::vector<Contact> contacts;
+    /// Of large models only, and those for which it was made; it keeps them alive.
+    std::unique_ptr<InterferenceQuery> query;
+    const detail::InterferenceModelData* query_a = nullptr;
+    const detail::InterferenceModelData* query_b = nullptr;
     std::exception_ptr error;
 };
+
+/// Of both models together. Below that a walk from the roots takes no longer than remembering.
+constexpr std::size_t worth_remembering = 1024;
 
 void for_each_in_parallel(std::size_t n, std::uint32_t threads, std::size_t grain,
                           const auto& work) {
@@ -189,6 +197,7 @@ private:
 
     static void relate(Answer& answer, const SceneBody& a, const SceneBody& b,
                        const SceneQueryOptions& options);
+    [[nodiscard]] static Relation relation(Answer& answer, const SceneBody& a, const SceneBody& b);
 
     [[nodiscard]] std::vector<ScenePair> answers(bool contacts) const {
         std::vector<ScenePair> out;
@@ -210,21 +219,24 @@ private:
 void Scene::Implementation::relate(Answer& answer, const SceneBody& a, const SceneBody& b,
                                    const SceneQueryOptions& options) {
     answer.contacts.clear();
-    if (options.contacts) {
-        // Only boundaries that meet have contacts, and most do not.
-        thread_local detail::ObbWalk::Stack stack;
-        const auto quick =
-            detail::quick_relation(a.model.data(), a.pose, b.model.data(), b.pose, stack);
-        if (quick && *quick != Relation::Overlapping) {
-            answer.relation = *quick;
-            return;
-        }
-    }
+    answer.relation = relation(answer, a, b);
+    // Only boundaries that meet have contacts, and most do not.
+    if (!options.contacts || answer.relation == Relation::Disjoint) return;
     InterferenceOptions query;
-    query.contacts = options.contacts;
-    InterferenceResult result = interfere(a.model, a.pose, b.model, b.pose, query);
-    answer.relation = result.relation;
-    answer.contacts = std::move(result.contacts);
+    query.contacts = true;
+    answer.contacts = interfere(a.model, a.pose, b.model, b.pose, query).contacts;
+}
+
+Relation Scene::Implementation::relation(Answer& answer, const SceneBody& a, const SceneBody& b) {
+    if (a.model.triangle_count() + b.model.triangle_count() < worth_remembering)
+        return interfere(a.model, a.pose, b.model, b.pose).relation;
+    // Another body may have come into the slot of one that was removed.
+    if (!answer.query || answer.query_a != &a.model.data() || answer.query_b != &b.model.data()) {
+        answer.query = std::make_unique<InterferenceQuery>(a.model, b.model);
+        answer.query_a = &a.model.data();
+        answer.query_b = &b.model.data();
+    }
+    return answer.query->relation(a.pose, b.pose);
 }
 
 Scene::Scene(const SceneOptions& options)

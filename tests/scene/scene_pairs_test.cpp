@@ -2,6 +2,7 @@
 //
 // Against brute force: every pair asked by itself, with the filters written out again here.
 #include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/interference_scene.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
@@ -160,6 +161,23 @@ TEST_P(ScenePairs, ABodyInThePlaceOfARemovedOneIsAnother) {
     EXPECT_THROW((void)scene.pose(b), UsageError);
     EXPECT_THROW(scene.set_pose(b, at(1)), UsageError);
     EXPECT_THROW(scene.remove(b), UsageError);
+}
+
+TEST_P(ScenePairs, LargeBodiesThatMoveAreRemovedAndReplaced) {
+    // Large enough for pairs to remember things; what they remember goes with the bodies.
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 3)));
+    const InterferenceModel other(Solid::from_mesh(trisect::make_icosphere(2, 3)));
+    Watched watched(GetParam());
+    watched.add(ball, at(0));
+    BodyId second = watched.add(ball, at(1));
+    for (int frame = 0; frame < 60; ++frame) {
+        if (frame % 10 == 9) {
+            watched.remove(second);
+            second = watched.add(frame % 20 == 9 ? other : ball, at(0.5));
+        }
+        watched.scene.set_pose(second, at(0.5 + 0.05 * frame, 0.25));
+        ASSERT_EQ(found_by(watched.scene, 1, frame % 4 == 0), watched.brute_force()) << frame;
+    }
 }
 
 TEST_P(ScenePairs, WhatHasNotMovedIsNotAskedAgain) {
