@@ -56,7 +56,7 @@ struct Answer {
 };
 
 /// Of both models together. Below that a walk from the roots takes no longer than remembering.
-constexpr std::size_t worth_remembering = 1024;
+constexpr std::size_t worth_remembering = 4096;
 
 void for_each_in_parallel(std::size_t n, std::uint32_t threads, std::size_t grain,
                           const auto& work) {

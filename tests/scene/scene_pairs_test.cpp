@@ -165,8 +165,8 @@ TEST_P(ScenePairs, ABodyInThePlaceOfARemovedOneIsAnother) {
 
 TEST_P(ScenePairs, LargeBodiesThatMoveAreRemovedAndReplaced) {
     // Large enough for pairs to remember things; what they remember goes with the bodies.
-    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 3)));
-    const InterferenceModel other(Solid::from_mesh(trisect::make_icosphere(2, 3)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 4)));
+    const InterferenceModel other(Solid::from_mesh(trisect::make_icosphere(2, 4)));
     Watched watched(GetParam());
     watched.add(ball, at(0));
     BodyId second = watched.add(ball, at(1));
