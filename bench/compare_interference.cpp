@@ -27,8 +27,10 @@
 
 #include <trisect/bsp/detail/boundary_pairs.h>
 #include <trisect/bsp/detail/distance_search.h>
+#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference_query.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 
@@ -53,6 +55,22 @@ double now() {
         .count();
 }
 
+json quantiles(std::vector<double> times) {
+    if (times.empty()) return nullptr;
+    std::ranges::sort(times);
+    double sum = 0;
+    for (const double t : times) sum += t;
+    const auto at = [&times](double q) {
+        return times[std::min(times.size() - 1,
+                              static_cast<std::size_t>(q * static_cast<double>(times.size())))];
+    };
+    const auto us = [](double t) { return std::round(1e8 * t) / 1e2; };
+    return {{"n", times.size()},
+            {"mean", us(sum / static_cast<double>(times.size()))},
+            {"p50", us(at(0.5))},
+            {"p99", us(at(0.99))}};
+}
+
 // Boundaries of two solids, as the peers see them: surfaces.
 class Trisect : public Peer {
 public:
@@ -63,6 +81,7 @@ public:
         build_ = now() - start;
         b_ = InterferenceModel(Solid::from_mesh(scene.b));
         for (const Placement& p : scene.placements) poses_.push_back(Pose::from_doubles(p));
+        for (const Placement& p : scene.path) path_.push_back(Pose::from_doubles(p));
     }
     [[nodiscard]] std::string name() const override { return "Trisect"; }
     [[nodiscard]] double build_seconds() const override { return build_; }
@@ -100,6 +119,42 @@ public:
                 {"megabytes", 1e-6 * static_cast<double>(s.bytes)}};
     }
 
+    // The path twice over: asked anew for each pose, and by an object that remembers.
+    [[nodiscard]] json follow(int rounds) const {
+        std::vector<double> fresh(path_.size(), std::numeric_limits<double>::infinity());
+        std::vector<double> kept = fresh;
+        std::size_t different = 0;
+        WalkCounters walks;
+        trisect::InterferenceQueryCounters query_counters;
+        for (int round = 0; round < rounds; ++round) {
+            trisect::InterferenceQuery query(a_, b_);
+            different = 0;
+            walks = {};
+            for (std::size_t i = 0; i < path_.size(); ++i) {
+                double start = now();
+                const auto answer = trisect::interfere(a_, home_, b_, path_[i]).relation;
+                fresh[i] = std::min(fresh[i], now() - start);
+                start = now();
+                const auto again = query.relation(home_, path_[i]);
+                kept[i] = std::min(kept[i], now() - start);
+                different += answer == again ? 0 : 1;
+                ObbWalk::Stack stack;
+                (void)trisect::detail::quick_relation(a_.data(), home_, b_.data(), path_[i], stack,
+                                                      &walks);
+            }
+            query_counters = query.counters();
+        }
+        const double n = static_cast<double>(path_.size());
+        return {{"us_fresh", quantiles(fresh)},
+                {"us_coherent", quantiles(kept)},
+                {"node_tests_fresh", static_cast<double>(walks.node_tests) / n},
+                {"node_tests_coherent", static_cast<double>(query_counters.node_tests) / n},
+                {"kept", query_counters.kept},
+                {"fresh_walks", query_counters.fresh_walks},
+                {"different", different}};
+    }
+    [[nodiscard]] bool has_path() const { return !path_.empty(); }
+
     WalkCounters counters;
 
 private:
@@ -107,6 +162,7 @@ private:
     InterferenceModel b_;
     Pose home_;
     std::vector<Pose> poses_;
+    std::vector<Pose> path_;
     ObbWalk::Stack stack_;
     double build_ = 0;
 };
@@ -139,22 +195,6 @@ struct Column {
     std::vector<double> best;
     std::vector<double> answer;
 };
-
-json quantiles(std::vector<double> times) {
-    if (times.empty()) return nullptr;
-    std::ranges::sort(times);
-    double sum = 0;
-    for (const double t : times) sum += t;
-    const auto at = [&times](double q) {
-        return times[std::min(times.size() - 1,
-                              static_cast<std::size_t>(q * static_cast<double>(times.size())))];
-    };
-    const auto us = [](double t) { return std::round(1e8 * t) / 1e2; };
-    return {{"n", times.size()},
-            {"mean", us(sum / static_cast<double>(times.size()))},
-            {"p50", us(at(0.5))},
-            {"p99", us(at(0.99))}};
-}
 
 using Question = std::function<std::optional<double>(Peer&, std::size_t)>;
 
@@ -226,6 +266,16 @@ void ask(const interference_scenes::Scene& scene, const std::string& what, std::
     }
 }
 
+void follow(const std::string& scene, const Trisect& ours, int rounds) {
+    if (!ours.has_path()) return;
+    json line = ours.follow(rounds);
+    line["scene"] = scene;
+    line["what"] = "coherent motion";
+    line["engine"] = ours.name();
+    std::printf("%s\n", line.dump().c_str());
+    std::fflush(stdout);
+}
+
 void run(const std::string& name, const Options& options) {
     const auto scene = interference_scenes::make(name, options.most);
     Trisect ours(scene);
@@ -239,6 +289,7 @@ void run(const std::string& name, const Options& options) {
     for (const auto& p : peers) all.push_back(p.get());
     ask(scene, "collide", all, options.rounds, ours,
         [](Peer& p, std::size_t i) -> std::optional<double> { return p.collide(i) ? 1 : 0; });
+    follow(scene.name, ours, options.rounds);
     ask(scene, "contacts", all, options.rounds, ours,
         [](Peer& p, std::size_t i) -> std::optional<double> {
             const auto n = p.contacts(i);

@@ -129,6 +129,9 @@ Scene tori(const std::string& name, std::size_t n) {
         const Matrix m = product(up, shapes::rotation({0, 0, 1}, 360 * 5 * t));
         s.placements.push_back(placement(m, {1 + rho * std::cos(phi), rho * std::sin(phi), 0}));
     }
+    for (int i = 0; i < 1000; ++i)
+        s.path.push_back(placement(shapes::rotation({0, 1, 0}, 90 + 10 * std::sin(0.01 * i)),
+                                   {1 + 0.3 * std::cos(0.013 * i), 0, 0.3 * std::sin(0.019 * i)}));
     return s;
 }
 
@@ -143,6 +146,12 @@ Scene against_itself(const std::string& name, const std::string& file, std::size
         const double d = (0.35 + 0.5 * random.uniform()) * diagonal;
         for (double& c : by) c *= d;
         s.placements.push_back(placement(m, by));
+    }
+    // Tumbling around each other, now closer, now farther.
+    for (int i = 0; i < 1000; ++i) {
+        const double d = (0.55 + 0.2 * std::sin(0.02 * i)) * diagonal;
+        s.path.push_back(placement(shapes::rotation({1, 2, 3}, 0.3 * i),
+                                   {d * std::cos(0.004 * i), d * std::sin(0.004 * i), 0}));
     }
     return s;
 }

@@ -19,6 +19,8 @@ struct Scene {
     trisect::PolygonMesh a;
     trisect::PolygonMesh b;
     std::vector<interference_peers::Placement> placements;
+    /// A motion: no point moves by more than a hundredth of the diameter from one to the next.
+    std::vector<interference_peers::Placement> path;
 };
 
 /// The names of all scenes.
