@@ -30,6 +30,7 @@ public:
         }
         pose.s_ = map.s.to_wide<7>();
         pose.mirror_ = orientation < 0;
+        pose.approximate_ = pose.rounded();
         return pose;
     }
 };
@@ -147,7 +148,7 @@ bool Pose::is_translation() const {
     return true;
 }
 
-std::array<double, 12> Pose::approximate() const {
+std::array<double, 12> Pose::rounded() const {
     const BoundedInt::Scaled s = BoundedInt(s_).scaled();
     const auto quotient = [&s](const Number& v) {
         const BoundedInt::Scaled n = BoundedInt(v).scaled();

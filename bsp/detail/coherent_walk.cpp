@@ -175,7 +175,7 @@ bool CoherentWalk::cross_below(ObbId a, ObbId b, std::uint64_t budget) {
 bool CoherentWalk::crosses_near_witness() {
     const Witness w = *witness_;
     if (cross_below(w.a, w.b, 1)) return true;
-    for (const int levels : {1, 3})
+    for (const int levels : {1, 2, 4})
         if (cross_below(above(a_->boxes, w.a, levels), above(b_->boxes, w.b, levels), 24))
             return true;
     witness_.reset();
