@@ -89,7 +89,7 @@ void for_each_part(std::size_t n, unsigned threads, const Work& work) {
     }
     const auto all = [&] {
         oneapi::tbb::parallel_for(
-            oneapi::tbb::blocked_range<std::size_t>(0, n, 256),
+            oneapi::tbb::blocked_range<std::size_t>(0, n, 4096),
             [&](const oneapi::tbb::blocked_range<std::size_t>& r) { work(r.begin(), r.end()); });
     };
     if (threads == 0) {
@@ -200,10 +200,9 @@ Place BrepIndex::locate(const std::array<ExactRational, 3>& point) const {
 std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> points,
                                      unsigned threads) const {
     std::vector<Place> places(points.size());
-    const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
         detail::locate_batch(
-            *core_->base, points, std::span(order).subspan(begin, end - begin),
+            *core_->base, points, begin, end,
             [&](std::uint32_t i, Location l, const IndexPoint* p, std::vector<PolygonId>& on) {
                 places[i].location = l;
                 if (l == Location::OnFace) places[i] = named(*core_, *p, on);
@@ -215,10 +214,9 @@ std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> poin
 void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::span<Location> results,
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
-    const std::vector<std::uint32_t> order = detail::query_order(*core_->base, points);
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
         detail::locate_batch(
-            *core_->base, points, std::span(order).subspan(begin, end - begin),
+            *core_->base, points, begin, end,
             [&](std::uint32_t i, Location l, const IndexPoint*, std::vector<PolygonId>& on) {
                 if (l == Location::OnFace) l = detail::location_on(core_->polygons(), on);
                 results[i] = l;
@@ -258,7 +256,7 @@ std::optional<Nearest> BrepIndex::nearest_vertex(const std::array<double, 3>& po
                            detail::NearestKind::Vertex);
 }
 
-std::optional<DistanceBounds> BrepIndex::distance(const std::array<double, 3>& point) const {
+std::optional<NearestBounds> BrepIndex::distance(const std::array<double, 3>& point) const {
     return detail::distance(*core_, IndexPoint::from_user(point, solid().lattice()));
 }
 

@@ -191,7 +191,7 @@ struct Nearest {
 };
 
 /// The distance to the boundary in doubles with a proved error, mostly of the thirteenth digit.
-struct DistanceBounds {
+struct NearestBounds {
     FaceSource face;  ///< of a polygon that is nearest up to that error
     double lo = 0;    ///< the exact distance is between these, in the user's units
     double hi = 0;    ///< may be infinite for an unbounded boundary
@@ -303,7 +303,7 @@ public:
     [[nodiscard]] std::optional<Nearest> nearest_edge(const std::array<double, 3>& point) const;
     [[nodiscard]] std::optional<Nearest> nearest_vertex(const std::array<double, 3>& point) const;
     /// For who does not need the exact point: no rational number is made.
-    [[nodiscard]] std::optional<DistanceBounds> distance(const std::array<double, 3>& point) const;
+    [[nodiscard]] std::optional<NearestBounds> distance(const std::array<double, 3>& point) const;
     [[nodiscard]] std::optional<SignedDistance> signed_distance(
         const std::array<double, 3>& point) const;
 

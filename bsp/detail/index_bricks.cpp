@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/bsp/detail/index_sheets.h>
 #include <trisect/bsp/detail/triangle_in_boxes.h>
 
 namespace trisect::detail {
@@ -185,6 +186,8 @@ bool IndexBrickBuilder::is_worth_it(const Work& w) {
         squares += n * n;
     }
     const auto whole = static_cast<double>(w.items.size());
+    // Short lists are good enough where long polygons would be listed again and again.
+    if (whole <= LeafSheets::polygons && w.begin[64] > 2.5 * whole) return false;
     return squares <= 0.66 * whole * static_cast<double>(w.begin[64]);
 }
 

@@ -22,7 +22,7 @@ public:
 
     /// Up to so many polygons a cell of the grid is not divided; twice as many at each level below,
     /// where fewer queries come and polygons crowd for a reason.
-    static constexpr std::size_t leaf_polygons = 24;
+    static constexpr std::size_t leaf_polygons = 48;
 
     /// `margin`: in lattice units, by how much the grid's first and last cells may reach beyond it.
     /// `open`: polygons may go on beyond the grid, so its far corners are not known. All arguments

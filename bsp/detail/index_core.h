@@ -51,15 +51,10 @@ using PolygonId = IndexPolygons::Id;
 using FoundPoint = std::function<void(std::uint32_t number, Location location,
                                       const IndexPoint* point, std::vector<PolygonId>& on)>;
 
-/// Many points, in the user's units, in this order; the same as one by one but for the time that is
-/// spent waiting for memory.
+/// Many points in the user's units, those from `begin` to `end`, in an order of its own; the same
+/// as one by one but for the time that is spent waiting for memory. Fewer than 2^32 altogether.
 void locate_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
-                  std::span<const std::uint32_t> order, const FoundPoint& found);
-
-/// An order of points in which neighbours come after each other: along the cells of a grid over the
-/// solid's box. Points are in the user's units; fewer than 2^32.
-[[nodiscard]] std::vector<std::uint32_t> query_order(const IndexBase& index,
-                                                     std::span<const std::array<double, 3>> points);
+                  std::size_t begin, std::size_t end, const FoundPoint& found);
 
 /// Location and names of a point from the polygons that contain it, in any order, not none.
 /// Handles are not set.

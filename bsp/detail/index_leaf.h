@@ -30,8 +30,9 @@ struct IndexLeaf {
     std::uint8_t above = unknown;
     std::uint8_t below = unknown;
 
-    mutable std::uint64_t sheets = 0;  ///< see LeafSheets; 0 while not known
-    /// Regions that were traced: the planes below which they are not, see LeafRegion; 0 for none.
+    mutable std::uint64_t outside_above = 0;  ///< see LeafSheets; 0 while not known
+    mutable std::uint64_t inside_below = 0;
+    /// Regions that were traced, see `remembered`; 0 for none.
     mutable std::array<std::uint64_t, 2> regions{};
 
     static constexpr std::uint8_t unknown = 2;
@@ -68,21 +69,21 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
     std::memcpy(&v, p, sizeof v);
     return v;
 }
-/// On which planes' sure sides a point is, a bit each for the first 32.
+/// On which planes' sure sides a point is, a bit each.
 struct PlaneSides {
-    std::uint32_t above = 0;
-    std::uint32_t below = 0;
+    std::uint64_t above = 0;
+    std::uint64_t below = 0;
 };
 
-[[nodiscard]] inline std::uint32_t signs4(Int4 v) {
+[[nodiscard]] inline std::uint64_t signs4(Int4 v) {
 #if defined(__SSE2__)
-    return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(v)));
+    return static_cast<std::uint64_t>(_mm_movemask_ps(reinterpret_cast<__m128>(v)));
 #else
-    return (v[0] & 1U) | (v[1] & 2U) | (v[2] & 4U) | (v[3] & 8U);
+    return static_cast<std::uint64_t>((v[0] & 1) | (v[1] & 2) | (v[2] & 4) | (v[3] & 8));
 #endif
 }
 
-/// \pre count <= 32.
+/// \pre 0 < count <= 64.
 [[nodiscard]] inline PlaneSides sides_of(const LeafPlanes& planes, std::uint32_t count,
                                          const std::array<float, 3>& p) {
     const Float4 x = {p[0], p[0], p[0], p[0]};
@@ -103,7 +104,7 @@ struct PlaneSides {
         out.below |= signs4(v < down) << i;
         if (i + 4 >= s) break;
     }
-    const std::uint32_t all = 0xffffffffU >> (32 - count);
+    const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
     return {out.above & all, out.below & all};
 }
 

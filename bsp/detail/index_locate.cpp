@@ -53,11 +53,11 @@ bool find_place(const IndexTree::Cell& cell, const IndexGrid::Position& at,
 // A point's sides of the planes of a leaf.
 struct LeafSides {
     std::array<float, 3> place{};
-    PlaneSides of;  // of up to 31 polygons
-    std::uint32_t all = 0;
+    PlaneSides of;  // of up to LeafSheets::polygons
+    std::uint64_t all = 0;
 
     // Planes that may contain the point.
-    [[nodiscard]] std::uint32_t open() const { return all & ~(of.above | of.below); }
+    [[nodiscard]] std::uint64_t open() const { return all & ~(of.above | of.below); }
     [[nodiscard]] bool are_mixed() const { return of.above != 0 && of.below != 0; }
 };
 
@@ -70,7 +70,7 @@ bool find_sides(const IndexTree& tree, const IndexTree::Cell& cell, const IndexG
     predicate_counters().filtered += leaf.count;
     if (leaf.count > LeafSheets::polygons) return true;
     sides.of = sides_of(tree.planes(leaf), leaf.count, sides.place);
-    sides.all = (std::uint32_t{1} << leaf.count) - 1;
+    sides.all = (std::uint64_t{1} << leaf.count) - 1;
     return true;
 }
 
@@ -87,7 +87,7 @@ int decided_by_sides(const IndexBase& index, const IndexTree::Cell& cell,
         return common;
     }
     const LeafSheets sheets = sheets_of(index, cell, at);
-    const std::uint32_t inside = sides.of.below & sheets.inside_below;
+    const std::uint64_t inside = sides.of.below & sheets.inside_below;
     if (((sides.of.above & sheets.outside_above) | inside) != 0) {
         ++index_counters().sheet;
         return inside != 0 ? 1 : 0;
@@ -120,7 +120,7 @@ public:
         if (sides == nullptr) return trace_to_reference();
         place_ = sides->place;
         if (leaf_.count > LeafSheets::polygons) return to_corner_of_many();
-        if (const std::uint32_t open = sides->open(); open != 0)
+        if (const std::uint64_t open = sides->open(); open != 0)
             return !note_if_on(open) && to_corner();
         const bool inside = to_corner();
         remember(leaf_, sides->of.above, inside);
@@ -189,7 +189,7 @@ private:
     }
 
     // The polygons whose planes are not surely off the point, exactly.
-    [[nodiscard]] bool note_if_on(std::uint32_t open) {
+    [[nodiscard]] bool note_if_on(std::uint64_t open) {
         const std::size_t before = on_.size();
         for (; open != 0; open &= open - 1)
             note_polygon_if_on(static_cast<std::uint32_t>(std::countr_zero(open)));
@@ -299,7 +299,7 @@ Location locate_polygons(const IndexBase& index, const IndexPoint& point,
 
 namespace {
 
-// Points that follow each other, for a solid whose index is one grid. Every step is done for all of
+// Points of a solid whose index is one grid. Of those in mixed cells every step is done for 32 of
 // them before the next one, and asks for the memory that the next one needs.
 class Batch {
 public:
@@ -312,6 +312,43 @@ public:
           grid_(tree_.grid(tree_.node(0))),
           points_(points),
           found_(found) {}
+
+    // Points from begin on: those in cells without polygons are found at once, in their own order;
+    // the others are left in mixed(), with their leaves.
+    void find_empty(std::uint32_t begin, std::uint32_t end) {
+        mixed_.clear();
+        Descent& d = all_[0];
+        for (std::uint32_t i = begin; i < end; ++i) {
+            descend(d, i);
+            if (d.state == State::Known) {
+                finish(d);
+            } else {
+                mixed_.emplace_back(d.state == State::Mixed ? d.cell.leaf : 0, i);
+            }
+        }
+    }
+
+    // The others by leaf, so that neighbours come after each other.
+    void find_mixed() {
+        const std::vector<std::uint32_t> order = mixed_in_order();
+        for (std::size_t i = 0; i < order.size(); i += together)
+            locate(std::span(order).subspan(i, std::min(together, order.size() - i)));
+    }
+
+private:
+    // A counting sort by the leading bits of the leaf.
+    [[nodiscard]] std::vector<std::uint32_t> mixed_in_order() const {
+        std::vector<std::uint32_t> order(mixed_.size());
+        std::uint32_t last = 0;
+        for (const auto& [leaf, i] : mixed_) last = std::max(last, leaf);
+        const int width = std::bit_width(last);
+        const auto shift = static_cast<unsigned>(std::max(width - 14, 0));
+        std::vector<std::uint32_t> begin((std::size_t{last} >> shift) + 2, 0);
+        for (const auto& [leaf, i] : mixed_) ++begin[(leaf >> shift) + 1];
+        for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
+        for (const auto& [leaf, i] : mixed_) order[begin[leaf >> shift]++] = i;
+        return order;
+    }
 
     void locate(std::span<const std::uint32_t> order) {
         count_ = order.size();
@@ -329,14 +366,13 @@ public:
         for (std::size_t i = 0; i < count_; ++i) finish(all_[i]);
     }
 
-private:
     enum class State : std::uint8_t { Known, Mixed, Open, Alone };
     struct Descent {
         std::uint32_t number = 0;
         State state = State::Known;
         bool inside = false;
         bool helps = false;
-        std::uint32_t wanted = 0;  // polygons whose corners will be looked at
+        std::uint64_t wanted = 0;  // polygons whose corners will be looked at
         IndexGrid::Position at;
         IndexTree::Cell cell;
         LeafSides sides;
@@ -373,7 +409,7 @@ private:
         d.state = quick >= 0 ? State::Known : State::Open;
         d.inside = quick > 0;
         // Those that may contain the point, or all for a trace.
-        const std::uint32_t open = d.sides.open();
+        const std::uint64_t open = d.sides.open();
         d.wanted = quick >= 0 || !d.helps ? 0 : (open != 0 ? open : d.sides.all);
     }
     void finish(const Descent& d) {
@@ -405,7 +441,7 @@ private:
             const Descent& d = all_[i];
             if (d.state == State::Alone || d.wanted == 0) continue;
             const auto listed = tree_.listed(tree_.leaf(d.cell.leaf));
-            for (std::uint32_t left = d.wanted; left != 0; left &= left - 1)
+            for (std::uint64_t left = d.wanted; left != 0; left &= left - 1)
                 work(listed[static_cast<std::size_t>(std::countr_zero(left))]);
         }
     }
@@ -425,65 +461,29 @@ private:
     const FoundPoint& found_;
     std::array<Descent, together> all_;
     std::size_t count_ = 0;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> mixed_;  // leaf, point
     std::vector<PolygonId> on_;
 };
 
 }  // namespace
 
 void locate_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
-                  std::span<const std::uint32_t> order, const FoundPoint& found) {
+                  std::size_t begin, std::size_t end, const FoundPoint& found) {
+    if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
+    const auto first = static_cast<std::uint32_t>(begin);
+    const auto last = static_cast<std::uint32_t>(end);
     if (index.tree.node(0).is_grid() && index.tree.is_bounded()) {
         Batch batch(index, points, found);
-        for (std::size_t begin = 0; begin < order.size(); begin += Batch::together)
-            batch.locate(order.subspan(begin, std::min(Batch::together, order.size() - begin)));
+        batch.find_empty(first, last);
+        batch.find_mixed();
         return;
     }
     std::vector<PolygonId> on;
-    for (const std::uint32_t i : order) {
+    for (std::uint32_t i = first; i < last; ++i) {
         const IndexPoint p = IndexPoint::from_user(points[i], index.solid.lattice());
         const Location l = locate_polygons(index, p, on);
         found(i, l, &p, on);
     }
-}
-
-std::vector<std::uint32_t> query_order(const IndexBase& index,
-                                       std::span<const std::array<double, 3>> points) {
-    if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    constexpr std::size_t worth_it = 2000;  // fewer points are not many to a cell
-    if (points.size() < worth_it) return order;
-    // Five bits of each coordinate in the box, interleaved: a Morton curve.
-    const double unit = std::ldexp(1.0, index.solid.lattice().exponent);
-    std::array<double, 3> origin{};
-    std::array<double, 3> scale{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        origin[k] = index.tree.lo()[k] * unit;
-        const double extent = index.tree.hi()[k] * unit - origin[k];
-        scale[k] = 32 / extent;
-    }
-    const auto spread = [](std::uint32_t v) {  // abcde to a00b00c00d00e
-        v = (v | (v << 8)) & 0x300fU;
-        v = (v | (v << 4)) & 0x30c3U;
-        return (v | (v << 2)) & 0x9249U;
-    };
-    std::vector<std::uint32_t> keys(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        std::uint32_t key = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double t = (points[i][k] - origin[k]) * scale[k];
-            const std::uint32_t v =
-                t > 0 ? (t < 32 ? static_cast<std::uint32_t>(t) : 31U) : 0U;  // also for no number
-            key |= spread(v) << k;
-        }
-        keys[i] = key;
-    }
-    // A counting sort.
-    std::vector<std::uint32_t> begin((1U << 15U) + 1, 0);
-    for (const std::uint32_t key : keys) ++begin[key + 1];
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    for (std::uint32_t i = 0; i < keys.size(); ++i) order[begin[keys[i]]++] = i;
-    return order;
 }
 
 namespace {

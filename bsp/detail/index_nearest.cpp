@@ -137,13 +137,13 @@ public:
     }
 
     // The distance in doubles only.
-    [[nodiscard]] std::optional<DistanceBounds> run_in_doubles() {
+    [[nodiscard]] std::optional<NearestBounds> run_in_doubles() {
         only_bounds_ = true;
         walk(0, root_cell());
         if (best_ == IndexPolygons::none) return std::nullopt;
         const int e = core_.base->solid.lattice().exponent;
-        return DistanceBounds{polygons_.face_source(best_), std::ldexp(std::min(least_, limit_), e),
-                              std::ldexp(limit_, e)};
+        return NearestBounds{polygons_.face_source(best_), std::ldexp(std::min(least_, limit_), e),
+                             std::ldexp(limit_, e)};
     }
 
 private:
@@ -496,7 +496,7 @@ double nearest_root(const ExactRational& square) {
     return r;
 }
 
-std::optional<DistanceBounds> distance(const IndexCore& core, const IndexPoint& point) {
+std::optional<NearestBounds> distance(const IndexCore& core, const IndexPoint& point) {
     return Search(core, point, NearestKind::Boundary).run_in_doubles();
 }
 

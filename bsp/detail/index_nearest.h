@@ -16,8 +16,7 @@ enum class NearestKind : std::uint8_t { Boundary, Edge, Vertex };
                                              NearestKind kind);
 
 /// Bounds of the distance.
-[[nodiscard]] std::optional<DistanceBounds> distance(const IndexCore& core,
-                                                     const IndexPoint& point);
+[[nodiscard]] std::optional<NearestBounds> distance(const IndexCore& core, const IndexPoint& point);
 
 /// The double nearest to the square root of a number >= 0.
 [[nodiscard]] double nearest_root(const ExactRational& square);

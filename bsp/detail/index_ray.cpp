@@ -166,7 +166,7 @@ private:
     // A polygon has something in common with the part of the line in its cell only if the ends of
     // that are not surely on one side of its plane.
     void visit(const IndexLeaf& leaf, const GridPath::Span& span) {
-        if (!leaf.has_planes() || leaf.count > 32 || !span.is_near()) {
+        if (!leaf.has_planes() || leaf.count > 64 || !span.is_near()) {
             visit(leaf);
             return;
         }
@@ -175,8 +175,8 @@ private:
         const PlaneSides a = sides_of(planes, leaf.count, span.enter);
         const PlaneSides b = sides_of(planes, leaf.count, span.leave);
         const auto listed = index_.tree.listed(leaf);
-        std::uint32_t left = ~((a.above & b.above) | (a.below & b.below));
-        if (leaf.count < 32) left &= (std::uint32_t{1} << leaf.count) - 1;
+        std::uint64_t left = ~((a.above & b.above) | (a.below & b.below));
+        left &= ~std::uint64_t{0} >> (64 - leaf.count);
         for (; left != 0; left &= left - 1)
             test(listed[static_cast<std::size_t>(std::countr_zero(left))]);
     }

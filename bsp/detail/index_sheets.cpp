@@ -37,7 +37,7 @@ public:
 
     [[nodiscard]] LeafSheets find() {
         LeafSheets out;
-        // A few hundred polygons in a cell are no smooth piece of a surface.
+        // Many polygons in a cell are no smooth piece of a surface.
         if (leaf_.count > LeafSheets::polygons || !find_corners()) return out;
         for (std::uint32_t i = 0; i < leaf_.count; ++i) {
             // Planes without good coefficients are in the leaf as 0.
@@ -50,8 +50,8 @@ public:
                 above = above || v > allowed;
                 below = below || v < -allowed;
             }
-            if (!above && farthest(1) == 0) out.outside_above |= 1U << i;
-            if (!below && farthest(-1) == 1) out.inside_below |= 1U << i;
+            if (!above && farthest(1) == 0) out.outside_above |= std::uint64_t{1} << i;
+            if (!below && farthest(-1) == 1) out.inside_below |= std::uint64_t{1} << i;
         }
         return out;
     }
@@ -143,18 +143,20 @@ private:
 }  // namespace
 
 // A region is one word, so that threads never see half of one.
-std::optional<bool> remembered(const IndexLeaf& leaf, std::uint32_t above) {
+constexpr std::uint64_t region_inside = std::uint64_t{1} << 62U;
+
+std::optional<bool> remembered(const IndexLeaf& leaf, std::uint64_t above) {
     for (std::uint64_t& word : leaf.regions) {
         const std::uint64_t v =
             std::atomic_ref<std::uint64_t>(word).load(std::memory_order_relaxed);
-        if (v >> 33U == 1 && static_cast<std::uint32_t>(v) == above) return (v >> 32U & 1U) != 0;
+        if ((v | region_inside) == (LeafSheets::known | region_inside | above))
+            return (v & region_inside) != 0;
     }
     return std::nullopt;
 }
 
-void remember(const IndexLeaf& leaf, std::uint32_t above, bool inside) {
-    const std::uint64_t v =
-        std::uint64_t{1} << 33U | std::uint64_t{inside ? 1U : 0U} << 32U | above;
+void remember(const IndexLeaf& leaf, std::uint64_t above, bool inside) {
+    const std::uint64_t v = LeafSheets::known | (inside ? region_inside : 0) | above;
     const std::atomic_ref<std::uint64_t> first(leaf.regions[0]);
     const std::atomic_ref<std::uint64_t> second(leaf.regions[1]);
     second.store(first.load(std::memory_order_relaxed), std::memory_order_relaxed);
@@ -162,17 +164,21 @@ void remember(const IndexLeaf& leaf, std::uint32_t above, bool inside) {
 }
 
 bool has_unknown_sheets(const IndexLeaf& leaf) {
-    return std::atomic_ref<std::uint64_t>(leaf.sheets).load(std::memory_order_relaxed) == 0;
+    return std::atomic_ref<std::uint64_t>(leaf.outside_above).load(std::memory_order_relaxed) == 0;
 }
 
 LeafSheets sheets_of(const IndexBase& index, const IndexTree::Cell& cell,
                      const IndexGrid::Position& at) {
-    // The word is all there is to publish, so no order with other memory is needed.
-    const std::atomic_ref<std::uint64_t> known(index.tree.leaf(cell.leaf).sheets);
-    if (const std::uint64_t v = known.load(std::memory_order_relaxed); v != 0)
-        return LeafSheets::unpacked(v);
+    // Each word is good by itself, so no order between them is needed.
+    const IndexLeaf& leaf = index.tree.leaf(cell.leaf);
+    const std::atomic_ref<std::uint64_t> above(leaf.outside_above);
+    const std::atomic_ref<std::uint64_t> below(leaf.inside_below);
+    const std::uint64_t a = above.load(std::memory_order_relaxed);
+    const std::uint64_t b = below.load(std::memory_order_relaxed);
+    if (a != 0 && b != 0) return {a & ~LeafSheets::known, b & ~LeafSheets::known};
     const LeafSheets found = Sheets(index, cell, at).find();
-    known.store(found.packed(), std::memory_order_relaxed);
+    above.store(found.outside_above | LeafSheets::known, std::memory_order_relaxed);
+    below.store(found.inside_below | LeafSheets::known, std::memory_order_relaxed);
     return found;
 }
 

@@ -14,30 +14,23 @@ namespace trisect::detail {
 /// whatever is above it in the cell is outside. Likewise from below. On a convex or concave piece
 /// of the surface all planes do one of the two. Bits of the first polygons of a leaf.
 struct LeafSheets {
-    static constexpr unsigned polygons = 31;
-    std::uint32_t outside_above = 0;
-    std::uint32_t inside_below = 0;
-
-    [[nodiscard]] std::uint64_t packed() const {
-        return std::uint64_t{1} << 63U | std::uint64_t{inside_below} << polygons | outside_above;
-    }
-    [[nodiscard]] static LeafSheets unpacked(std::uint64_t v) {
-        constexpr std::uint64_t mask = (std::uint64_t{1} << polygons) - 1;
-        return {static_cast<std::uint32_t>(v & mask),
-                static_cast<std::uint32_t>(v >> polygons & mask)};
-    }
+    static constexpr unsigned polygons = 62;
+    /// Marks a word that is known.
+    static constexpr std::uint64_t known = std::uint64_t{1} << 63U;
+    std::uint64_t outside_above = 0;
+    std::uint64_t inside_below = 0;
 };
 
 /// What was found by a trace about the points that are above these planes of a leaf and below all
 /// others; the last two such regions are kept.
-[[nodiscard]] std::optional<bool> remembered(const IndexLeaf& leaf, std::uint32_t above);
-void remember(const IndexLeaf& leaf, std::uint32_t above, bool inside);
+[[nodiscard]] std::optional<bool> remembered(const IndexLeaf& leaf, std::uint64_t above);
+void remember(const IndexLeaf& leaf, std::uint64_t above, bool inside);
 
 /// Whether a leaf's sheets are not known yet.
 [[nodiscard]] bool has_unknown_sheets(const IndexLeaf& leaf);
 
-/// Worked out when a leaf is first asked for it and then kept with the leaf, in one word: threads
-/// that come at the same time write the same. O(n^2) for n polygons.
+/// Worked out when a leaf is first asked for it and then kept with the leaf, each kind in one
+/// word: threads that come at the same time write the same. O(n^2) for n polygons.
 [[nodiscard]] LeafSheets sheets_of(const IndexBase& index, const IndexTree::Cell& cell,
                                    const IndexGrid::Position& at);
 
