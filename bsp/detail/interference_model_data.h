@@ -87,9 +87,9 @@ struct InterferenceModelData {
     }
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
-    /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that the
-    /// B-rep knows: a corner in a face, say. Found out at the first call (pairs of near triangles).
-    /// Safe to call from several threads. In self_contact.cpp.
+    /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that
+    /// the B-rep knows: a corner in a face, say. Found out at the first call (pairs of near
+    /// triangles). Safe to call from several threads. In self_contact.cpp.
     [[nodiscard]] bool touches_itself() const;
     [[nodiscard]] std::size_t bytes() const;
 
