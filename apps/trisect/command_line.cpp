@@ -27,6 +27,7 @@ struct Request {
     CheckOptions check;
     DiffOptions diff;
     VerifyCommandOptions verify;
+    CorpusOptions corpus;
     ConvertOptions convert;
     LocateOptions locate;
     SweepOptions sweep;
@@ -147,6 +148,7 @@ void declare(CLI::App& app, Request& request) {
     add_check_command(app, request.check);
     add_diff_command(app, request.diff);
     add_verify_command(app, request.verify);
+    add_corpus_command(app, request.corpus);
     add_convert_command(app, request.convert);
     add_locate_command(app, request.locate);
     add_sweep_command(app, request.sweep);
@@ -164,6 +166,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "check") return run_check(session, request.check);
     if (name == "diff") return run_diff(session, request.diff);
     if (name == "verify") return run_verify(session, request.verify);
+    if (name == "corpus") return run_corpus(session, request.corpus);
     if (name == "convert") return run_convert(session, request.convert);
     if (name == "locate") return run_locate(session, request.locate);
     if (name == "sweep") return run_sweep(session, request.sweep);

@@ -28,6 +28,9 @@ void add_diff_command(CLI::App& app, DiffOptions& options);
 void add_verify_command(CLI::App& app, VerifyCommandOptions& options);
 [[nodiscard]] Outcome run_verify(Session& session, const VerifyCommandOptions& options);
 
+void add_corpus_command(CLI::App& app, CorpusOptions& options);
+[[nodiscard]] Outcome run_corpus(Session& session, const CorpusOptions& options);
+
 void add_convert_command(CLI::App& app, ConvertOptions& options);
 [[nodiscard]] Outcome run_convert(Session& session, const ConvertOptions& options);
 

@@ -81,6 +81,13 @@ struct VerifyCommandOptions {
     std::uint64_t pieces = 10000;
 };
 
+struct CorpusOptions {
+    std::string folder;
+    std::vector<std::string> families;  ///< empty: all
+    std::uint64_t seed = 1;
+    std::string results;  ///< folder; empty: write
+};
+
 /// A set to be looked at: one mesh, or several combined.
 struct QueryOptions {
     std::vector<std::string> inputs;
