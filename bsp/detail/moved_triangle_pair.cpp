@@ -16,6 +16,8 @@
 
 #include <trisect/bsp/detail/moved_triangle_pair.h>
 
+#include <trisect/kernel/counters.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -58,11 +60,8 @@ public:
         contact_.coplanar = true;
         contact_.opposite = sense < 0;
         std::array<Signs, 3> of_b;  // corner k of B to the sides of A
-        for (std::size_t k = 0; k < 3; ++k) of_b[k] = signs_of_b(k);
-        if (is_beyond_a_side(of_b)) return;
         std::array<Signs, 3> of_a;
-        for (std::size_t k = 0; k < 3; ++k) of_a[k] = signs_of_a(k);
-        if (is_beyond_a_side(of_a)) return;
+        if (is_beyond_a_side(a_, moved_b_, of_b) || is_beyond_a_side(b_, moved_a_, of_a)) return;
         for (std::size_t k = 0; k < 3; ++k) {
             note(Feature::corner(k), feature_from_signs(of_a[k]));
             note(feature_from_signs(of_b[k]), Feature::corner(k));
@@ -78,9 +77,18 @@ public:
 private:
     static constexpr int unknown = 2;
 
-    static bool is_beyond_a_side(const std::array<Signs, 3>& corners) {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (corners[0][i] < 0 && corners[1][i] < 0 && corners[2][i] < 0) return true;
+    // Signs of points in the triangle's plane towards its sides; stops with true at a side that has
+    // all of them beyond it.
+    static bool is_beyond_a_side(const PosedTriangle& t, const std::array<MovedPoint, 3>& points,
+                                 std::array<Signs, 3>& signs) {
+        const int axis = t.plane->dominant_axis();
+        const int up = t.plane->normal(axis) > 0 ? 1 : -1;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                signs[k][i] =
+                    up * planar_orientation(*t.corner[i], *t.corner[next(i)], points[k], axis);
+            if (signs[0][i] < 0 && signs[1][i] < 0 && signs[2][i] < 0) return true;
+        }
         return false;
     }
 
@@ -169,25 +177,37 @@ std::optional<Feature> feature_from_signs(const std::array<int, 3>& s) {
     return Feature::interior();
 }
 
-TriangleContact TrianglePairTest::operator()(const PosedTriangle& a, const PosedTriangle& b) {
-    if (last_a_ != a.plane) {
-        plane_a_.emplace(*a.plane, poses_->to_a);
-        last_a_ = a.plane;
+const PulledPlane& TrianglePairTest::Planes::get(const Plane& plane, const RelativePose& pose) {
+    Entry& e = entries_[reinterpret_cast<std::uintptr_t>(&plane) / sizeof(Plane) % entries_.size()];
+    if (e.plane != &plane) {
+        e.pulled.emplace(plane, pose);
+        e.plane = &plane;
     }
-    Signs of_b{};
-    for (std::size_t k = 0; k < 3; ++k) of_b[k] = plane_a_->side_of(*b.corner[k]);
-    if (all_of_one_side(of_b)) return {};
-    if (of_b == Signs{}) {
+    return *e.pulled;
+}
+
+TriangleContact TrianglePairTest::operator()(const PosedTriangle& a, const PosedTriangle& b) {
+    if (a.plane == coplanar_a_ && b.plane == coplanar_b_) {
+        predicate_counters().symbolic += 3;
         Pair pair(a, b, *poses_);
-        pair.meet_in_plane(plane_a_->sense_of(*b.plane));
+        pair.meet_in_plane(sense_);
         return pair.contact();
     }
-    if (last_b_ != b.plane) {
-        plane_b_.emplace(*b.plane, poses_->to_b);
-        last_b_ = b.plane;
+    const PulledPlane& plane_a = planes_a_.get(*a.plane, poses_->to_a);
+    Signs of_b{};
+    for (std::size_t k = 0; k < 3; ++k) of_b[k] = plane_a.side_of(*b.corner[k]);
+    if (all_of_one_side(of_b)) return {};
+    if (of_b == Signs{}) {
+        coplanar_a_ = a.plane;
+        coplanar_b_ = b.plane;
+        sense_ = plane_a.sense_of(*b.plane);
+        Pair pair(a, b, *poses_);
+        pair.meet_in_plane(sense_);
+        return pair.contact();
     }
+    const PulledPlane& plane_b = planes_b_.get(*b.plane, poses_->to_b);
     Signs of_a{};
-    for (std::size_t k = 0; k < 3; ++k) of_a[k] = plane_b_->side_of(*a.corner[k]);
+    for (std::size_t k = 0; k < 3; ++k) of_a[k] = plane_b.side_of(*a.corner[k]);
     if (all_of_one_side(of_a)) return {};
     Pair pair(a, b, *poses_);
     pair.meet_across(of_a, of_b);
