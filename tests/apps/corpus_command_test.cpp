@@ -22,7 +22,8 @@ protected:
         const std::string folder = path("corpus");
         const Finished written = trisect({"corpus", folder, "--family", family, "--json"});
         EXPECT_EQ(written.code, 0) << written.err;
-        for (const json& name : written.json()["cases"]) {
+        const json document = written.json();
+        for (const json& name : document["cases"]) {
             const json scene = json::parse(read(folder + "/" + name.get<std::string>() + ".json"));
             std::vector<std::string> arguments{scene["op"].get<std::string>()};
             for (const json& file : scene["operands"])
