@@ -4,6 +4,7 @@
 // overlapping, one inside the other, or equal; and which faces, edges and vertices of the two meet.
 // The numbers of a pose are taken exactly as given, and the solids are not moved, so nothing is
 // rounded on the way.
+#include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference.h>
 #include <trisect/kernel/error.h>
@@ -17,6 +18,7 @@
 #include "matrix_file.h"
 #include "mesh_files.h"
 #include "operand.h"
+#include "values.h"
 
 namespace trisect::app {
 namespace {
@@ -86,6 +88,46 @@ std::string contact_text(const Contact& contact) {
     return out + "\n";
 }
 
+Json distance_json(const BoundaryDistance& distance, const PosedOperand& a, const PosedOperand& b) {
+    Json out;
+    out["lower"] = distance.lower;
+    out["upper"] = distance.upper;
+    out["a"] = entity_json(distance.a, a.model);
+    out["b"] = entity_json(distance.b, b.model);
+    out["on_a"] = distance.on_a;
+    out["on_b"] = distance.on_b;
+    return out;
+}
+
+std::string distance_text(const BoundaryDistance& distance) {
+    return fmt::format("distance from {} to {}: {} {} of A, {} {} of B\n",
+                       number_text(distance.lower), number_text(distance.upper),
+                       kind_name(distance.a), distance.a.index(), kind_name(distance.b),
+                       distance.b.index());
+}
+
+/// --distance and --nearer-than.
+void add_distances(Session& session, const InterfereOptions& options, const PosedOperand& a,
+                   const PosedOperand& b, Outcome& out) {
+    if (options.distance) {
+        const auto distance = session.stage(
+            "distance", [&] { return boundary_distance(a.model, a.pose, b.model, b.pose); });
+        out.document["distance"] = distance ? distance_json(*distance, a, b) : Json();
+        if (distance) out.answer += distance_text(*distance);
+    }
+    if (options.nearer_than) {
+        const double limit = *options.nearer_than;
+        const bool nearer = session.stage("nearer", [&] {
+            return out.code == exit_findings ||
+                   are_nearer_than(a.model, a.pose, b.model, b.pose, limit);
+        });
+        out.code = nearer ? exit_findings : exit_done;
+        out.document["nearer"] = nearer;
+        out.answer +=
+            fmt::format("{} than {}\n", nearer ? "nearer" : "not nearer", number_text(limit));
+    }
+}
+
 PosedOperand posed(Operand operand, const std::string& pose_file) {
     PosedOperand out;
     out.operand = std::move(operand);
@@ -111,13 +153,25 @@ void add_interfere_command(CLI::App& app, InterfereOptions& options) {
     command->add_option("--pose-b", options.poses[1], "the same for B")->type_name("FILE");
     command->add_flag("--contacts", options.contacts,
                       "list the faces, edges and vertices that meet (with --json always)");
+    command->add_flag("--distance", options.distance,
+                      "also the distance of the boundaries, as an interval that holds it");
+    command
+        ->add_option_function<std::string>(
+            "--nearer-than",
+            [&options](const auto& text) {
+                options.nearer_than = parse_number(text, "--nearer-than");
+                if (*options.nearer_than < 0)
+                    throw UsageError("--nearer-than: must not be negative");
+            },
+            "also whether they are nearer than D; then exit code 1 if they are")
+        ->type_name("D");
     add_operand_options(*command, options.operands);
 }
 
 Outcome run_interfere(Session& session, const InterfereOptions& options) {
     check_standard_input(
         std::array{options.inputs[0], options.inputs[1], options.poses[0], options.poses[1]});
-    session.plan(4);
+    session.plan(4 + (options.distance ? 1 : 0) + (options.nearer_than ? 1 : 0));
     std::array<PosedOperand, 2> solids;
     session.stage("read", [&] {
         std::vector<Operand> read = read_operands(session, options.inputs, options.operands);
@@ -149,6 +203,7 @@ Outcome run_interfere(Session& session, const InterfereOptions& options) {
     out.answer = std::string(to_string(result.relation)) + "\n";
     if (options.contacts)
         for (const Contact& contact : result.contacts) out.answer += contact_text(contact);
+    add_distances(session, options, a, b, out);
     out.document["seconds"] = session.seconds();
     return out;
 }

@@ -137,6 +137,8 @@ struct InterfereOptions {
     std::array<std::string, 2> poses;  ///< files; empty: where the mesh is
     OperandOptions operands;
     bool contacts = false;
+    bool distance = false;
+    std::optional<double> nearer_than;
 };
 
 struct ConvertOptions {

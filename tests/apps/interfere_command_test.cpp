@@ -110,6 +110,37 @@ TEST_F(InterfereCommand, SelfIntersectingInputsAreResolvedFirst) {
     EXPECT_EQ(trisect({"interfere", both, whole}).out, "equal\n");
 }
 
+TEST_F(InterfereCommand, DistanceIsAnIntervalWithTheClosestFeatures) {
+    const json document = trisect({"interfere", cube_, cube_, "--pose-b",
+                                   shifted("p", "5", "6", "0.5"), "--distance", "--json"})
+                              .json();
+    // Edges (2, 2, z) and (5, 6, z) are 5 apart.
+    const json distance = document["distance"];
+    EXPECT_LE(distance["lower"].get<double>(), 5);
+    EXPECT_GE(distance["upper"].get<double>(), 5);
+    EXPECT_LT(distance["upper"].get<double>() - distance["lower"].get<double>(), 1e-12);
+    EXPECT_EQ(document["relation"], "disjoint");
+    EXPECT_NEAR(distance["on_a"][0].get<double>(), 2, 1e-9);
+    EXPECT_NEAR(distance["on_b"][1].get<double>(), 6, 1e-9);
+}
+
+TEST_F(InterfereCommand, NearerThanIsDecidedExactly) {
+    const std::string pose = shifted("p", "5", "6");
+    const auto nearer = [&](const char* than) {
+        const Finished result =
+            trisect({"interfere", cube_, cube_, "--pose-b", pose, "--nearer-than", than, "--json"});
+        EXPECT_EQ(result.code, result.json()["nearer"] == true ? 1 : 0);
+        return result.json()["nearer"];
+    };
+    EXPECT_EQ(nearer("5"), false);
+    EXPECT_EQ(nearer("5.000000000000001"), true);
+    EXPECT_EQ(nearer("0"), false);
+    // Solids that meet are nearer than anything.
+    EXPECT_EQ(trisect({"interfere", cube_, cube_, "--nearer-than", "0"}).out,
+              "equal\nnearer than 0\n");
+    EXPECT_EQ(trisect({"interfere", cube_, cube_, "--nearer-than", "-1"}).code, 2);
+}
+
 TEST_F(InterfereCommand, MistakesInPoseFilesHavePlaces) {
     struct Mistake {
         std::string text;
