@@ -12,7 +12,7 @@
 //
 // Pairs are independent of each other and of the order in which they are asked, and each writes to
 // a place of its own; so threads cannot change the outcome, not even which of two errors is thrown.
-#include "interference_scene.h"
+#include <trisect/bsp/interference_scene.h>
 
 #include <algorithm>
 #include <chrono>

@@ -6,7 +6,7 @@
 // axis k they are (q, p k): one fraction p/q says all. They lie densely, so what is lost is only
 // that an angle like one degree is met within 2^-20 or whatever one pays for in bits, never that
 // the motion is not rigid.
-#include "joint.h"
+#include <trisect/bsp/joint.h>
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 // of them for a value, partial sums are at most Q = sum |m_k| (|c_k| + h_k) + |t|. So both ends are
 // within Q (2^-50 + 10 2^-53)(1 + 2^-49) < 2^-48 Q of their exact values, Q as computed included.
 // Beyond that an underflow may lose a smallest double a few times; `tiny` covers that.
-#include "body_bounds.h"
+#include <trisect/bsp/detail/body_bounds.h>
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-#include "broad_phase.h"
+#include <trisect/bsp/detail/broad_phase.h>
 
 namespace trisect::detail {
 namespace {

@@ -2,7 +2,7 @@
 //
 // A pose that does not fit (LimitError) may turn up deep in a chain after the links below it have
 // been placed. So new poses are computed beside the old ones and taken over together.
-#include "scene_bodies.h"
+#include <trisect/bsp/detail/scene_bodies.h>
 
 #include <algorithm>
 #include <functional>

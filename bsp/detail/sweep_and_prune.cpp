@@ -16,7 +16,7 @@
 #include <limits>
 #include <utility>
 
-#include "broad_phase.h"
+#include <trisect/bsp/detail/broad_phase.h>
 
 namespace trisect::detail {
 namespace {
