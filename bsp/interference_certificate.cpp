@@ -69,7 +69,7 @@ struct Placed {
         for (std::size_t i = from; i < to; ++i)
             for (const VertexId v : triangles[i].vertex) out.push_back(v.index);
         std::ranges::sort(out);
-        out.erase(std::ranges::unique(out).begin(), out.end());
+        out.erase(std::unique(out.begin(), out.end()), out.end());
         return out;
     }
 

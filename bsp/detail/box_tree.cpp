@@ -48,7 +48,7 @@ public:
     }
 
     void pairs(std::vector<BodyPair>& out) override {
-        work_ = {};
+        counts = {};
         if (stale_) pack();
         out.clear();
         for (std::uint32_t slot = 0; slot < boxes_.size(); ++slot) {
@@ -68,7 +68,7 @@ private:
         std::vector<TreeEntry> entries;
         for (std::uint32_t slot = 0; slot < boxes_.size(); ++slot)
             if (boxes_[slot]) entries.emplace_back(tree_box(*boxes_[slot]), slot);
-        work_.moves = entries.size();
+        counts.moves = entries.size();
         tree_ = Tree(entries);
         stale_ = false;
     }

@@ -54,10 +54,10 @@ public:
     /// boxes alone, not on their history.
     virtual void pairs(std::vector<BodyPair>& out) = 0;
 
-    [[nodiscard]] const BroadPhaseWork& work() const { return work_; }
+    [[nodiscard]] const BroadPhaseWork& work() const { return counts; }
 
 protected:
-    BroadPhaseWork work_;
+    BroadPhaseWork counts;
 };
 
 /// Boxes in order along an axis, swept. A call costs O(n) when the order has hardly changed, and

@@ -125,8 +125,7 @@ void add_flags_by_place(const PosedModels& models, const std::vector<MeetingPair
         places.push_back(place_of(models, pair, pair.contact.points[all[i].point]));
     }
     std::ranges::sort(places);
-    const auto rest = std::ranges::unique(places);
-    places.erase(rest.begin(), rest.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     ConeParts parts(models);
     for (const ExactPlace& place : places) {
         if (flags.is_decided()) return;

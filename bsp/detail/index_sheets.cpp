@@ -42,11 +42,11 @@ public:
         for (std::uint32_t i = 0; i < leaf_.count; ++i) {
             // Planes without good coefficients are in the leaf as 0.
             const PolygonId id = tree_.listed(leaf_)[i];
-            if (!polygons_.is_triangle(id) || !find_plane(id, first_[i])) continue;
+            if (!polygons_.is_triangle(id) || !find_plane(id, kept_starts[i])) continue;
             bool above = false;
             bool below = false;
-            for (std::size_t c = 0; c < corners_.size() && !(above && below); ++c) {
-                const double v = at(corners_[c]);
+            for (std::size_t c = 0; c < kept_corners.size() && !(above && below); ++c) {
+                const double v = at(kept_corners[c]);
                 above = above || v > allowed;
                 below = below || v < -allowed;
             }
@@ -68,12 +68,12 @@ private:
 
     [[nodiscard]] bool find_corners() {
         largest_ = 4;
-        corners_.clear();
-        first_.clear();
+        kept_corners.clear();
+        kept_starts.clear();
         for (const PolygonId id : tree_.listed(leaf_)) {
-            first_.push_back(corners_.size());
+            kept_starts.push_back(kept_corners.size());
             if (polygons_.is_triangle(id)) {
-                for (int i = 0; i < 3; ++i) corners_.push_back(local(polygons_.corner(id, i)));
+                for (int i = 0; i < 3; ++i) kept_corners.push_back(local(polygons_.corner(id, i)));
                 continue;
             }
             if (polygons_.is_unbounded(id)) return false;
@@ -81,10 +81,10 @@ private:
                 const Approximation& a = c.approximation();
                 for (const double s : scale_)
                     if (!(a.error * s < 0x1p-24)) return false;
-                corners_.push_back(local(a.c));
+                kept_corners.push_back(local(a.c));
             }
         }
-        for (const Vector& p : corners_)
+        for (const Vector& p : kept_corners)
             for (const double v : p) largest_ = std::max(largest_, std::fabs(v));
         return largest_ < 0x1p20;
     }
@@ -92,9 +92,9 @@ private:
     // The outward plane in the cell's coordinates, its largest coefficient 1. With M the largest
     // coordinate and L that of edges, values err by less than 2^-42 L M^2 before the division.
     [[nodiscard]] bool find_plane(PolygonId id, std::size_t first) {
-        const Vector& a = corners_[first];
-        const Vector& b = corners_[first + 1];
-        const Vector& c = corners_[first + 2];
+        const Vector& a = kept_corners[first];
+        const Vector& b = kept_corners[first + 1];
+        const Vector& c = kept_corners[first + 2];
         const Vector u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
         const Vector v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
         normal_ = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
@@ -133,8 +133,8 @@ private:
     Vector origin_{};
     Vector scale_{};
     // Kept by the thread, so that nothing is allocated.
-    static inline thread_local std::vector<Vector> corners_;
-    static inline thread_local std::vector<std::size_t> first_;
+    static inline thread_local std::vector<Vector> kept_corners;
+    static inline thread_local std::vector<std::size_t> kept_starts;
     double largest_ = 0;
     Vector normal_{};
     double offset_ = 0;

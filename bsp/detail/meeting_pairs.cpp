@@ -49,9 +49,10 @@ std::vector<Contact> contacts_of(const PosedModels& models, const std::vector<Me
     std::ranges::sort(all, [](const Contact& x, const Contact& y) {
         return std::tie(x.a, x.b, y.dimension) < std::tie(y.a, y.b, x.dimension);
     });
-    const auto rest = std::ranges::unique(
-        all, [](const Contact& x, const Contact& y) { return x.a == y.a && x.b == y.b; });
-    all.erase(rest.begin(), rest.end());
+    const auto same_pair = [](const Contact& x, const Contact& y) {
+        return x.a == y.a && x.b == y.b;
+    };
+    all.erase(std::unique(all.begin(), all.end(), same_pair), all.end());
     return all;
 }
 

@@ -55,7 +55,7 @@ struct Ends {
 // The wall is below rounded position `first_above`. Every entry is written to both ends, and those
 // are advanced by the outcome of the comparisons. Entries that cross the wall and are longer than
 // `long_facet` are left to `add_long`; without a limit the loop has no branch.
-template <bool limited, class AddLong>
+template <bool Limited, class AddLong>
 Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_above, int long_facet,
                 Ends ends, const AddLong& add_long) {
     const auto q = static_cast<std::int16_t>(first_above);
@@ -63,7 +63,7 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
     for (const PackedBox& e : list) {
         const std::size_t below = e.lo[axis] < q ? 1 : 0;
         const std::size_t above = e.minus_hi[axis] <= minus_q ? 1 : 0;
-        if (limited && (below & above) != 0 && e.high(axis) - e.low(axis) > long_facet)
+        if (Limited && (below & above) != 0 && e.high(axis) - e.low(axis) > long_facet)
             [[unlikely]] {
             ends = add_long(e, ends);
             continue;
