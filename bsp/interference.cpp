@@ -41,15 +41,21 @@ std::vector<MeetingPair> detail::meeting_pairs(const PosedModels& models, bool a
                                                BoundaryFlags& flags) {
     std::vector<MeetingPair> pairs;
     detail::TrianglePairTest test(models.poses);
+    // Where a boundary touches itself, an edge may lie in one of its faces, and another solid's
+    // face may pass through that face just there, with nothing but itself on the far side.
+    const auto tells = [&](std::uint32_t i, std::uint32_t j) {
+        return (models.a.is_clear(i) && models.b.is_clear(j)) ||
+               (!models.a.touches_itself() && !models.b.touches_itself());
+    };
     for_candidate_pairs(models, [&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
-        if (verdict == PairVerdict::Crossing && !all) {
+        if (verdict == PairVerdict::Crossing && !all && tells(i, j)) {
             flags.set_crossing();
             return true;
         }
         const TriangleContact c = test(posed_triangle(models.a, i), posed_triangle(models.b, j));
         if (!c.meets()) return false;
         flags.meet = true;
-        if (c.crossing) flags.set_crossing();
+        if (c.crossing && tells(i, j)) flags.set_crossing();
         if (c.dimension() == 2) (c.opposite ? flags.opposite : flags.same) = true;
         pairs.push_back({i, j, c});
         return !all && flags.is_decided();

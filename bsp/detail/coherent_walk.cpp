@@ -88,6 +88,11 @@ bool CoherentWalk::visit(Entry e) {
     return false;
 }
 
+// Whether two triangles, by their places in the trees, tell the relation where they cross.
+bool CoherentWalk::are_clear(std::uint32_t i, std::uint32_t j) const {
+    return a_->is_clear(a_->boxes.order[i]) && b_->is_clear(b_->boxes.order[j]);
+}
+
 bool CoherentWalk::visit_leaves(Entry e) {
     const ObbChild ca = a_->boxes.child(e.a);
     const ObbChild cb = b_->boxes.child(e.b);
@@ -102,12 +107,12 @@ bool CoherentWalk::visit_leaves(Entry e) {
                 p[k] = a_->positions[a_->boxes.corners[ca.first() + i][k]];
             ++counters_.triangle_pairs;
             const PairVerdict verdict = compare_triangles(p, q, error_);
-            if (verdict == PairVerdict::Crossing) {
+            if (verdict == PairVerdict::Crossing && are_clear(ca.first() + i, cb.first() + j)) {
                 ++counters_.crossing;
                 witness_ = Witness{e.a, e.b};
                 return true;
             }
-            if (verdict == PairVerdict::Unknown) {
+            if (verdict != PairVerdict::Apart) {
                 ++counters_.unknown;
                 ++unknown_;
                 least = 0;
@@ -152,7 +157,9 @@ bool CoherentWalk::cross_below(ObbId a, ObbId b, std::uint64_t budget) {
                         tq[k] = map_(b_->positions[b_->boxes.corners[cb.first() + j][k]]);
                     }
                     ++counters_.triangle_pairs;
-                    if (compare_triangles(tp, tq, error_) != PairVerdict::Crossing) continue;
+                    if (compare_triangles(tp, tq, error_) != PairVerdict::Crossing ||
+                        !are_clear(ca.first() + i, cb.first() + j))
+                        continue;
                     ++counters_.crossing;
                     witness_ = Witness{p.a, p.b};
                     return true;

@@ -24,7 +24,7 @@ public:
     CoherentWalk(const InterferenceModelData& a, const InterferenceModelData& b) : a_(&a), b_(&b) {}
 
     enum class Answer : std::uint8_t {
-        Crossing,  ///< certainly an edge passes through a face
+        Crossing,  ///< certainly an edge passes through a face, and both are clear there
         Apart,     ///< certainly no common point
         Unknown    ///< doubles cannot tell
     };
@@ -55,6 +55,7 @@ private:
 
     [[nodiscard]] bool opens_b(const Entry& e) const;
     bool visit(Entry e);
+    [[nodiscard]] bool are_clear(std::uint32_t i, std::uint32_t j) const;
     bool visit_leaves(Entry e);
     bool cross_below(ObbId a, ObbId b, std::uint64_t budget);
     bool crosses_near_witness();

@@ -256,15 +256,30 @@ private:
 
     // Two arcs cross if the ends of each are strictly on both sides of the other's plane, and the
     // crossing is not on the far side of the sphere: det(u, v, x) and det(x, y, u) differ in sign.
-    [[nodiscard]] bool arcs_cross() const {
+    [[nodiscard]] bool arcs_cross() {
         for (const Arc& s : a_.arcs())
             for (const Arc& t : b_.arcs()) {
                 const int x = sign(true, s.plane, t.from);
                 const int u = sign(false, t.plane, s.from);
                 if (x * sign(true, s.plane, t.to) < 0 && u * sign(false, t.plane, s.to) < 0 &&
-                    x == -turn_b_ * u)
+                    x == -turn_b_ * u && !(thorough_ && has_direction_at(s, t)))
                     return true;
             }
+        return false;
+    }
+    // Whether some direction is where two arcs cross. There another part of the same boundary
+    // begins, so that the crossing alone tells nothing.
+    [[nodiscard]] bool has_direction_at(const Arc& s, const Arc& t) {
+        for (std::uint32_t z = 0; z < a_.direction_count(); ++z)
+            if (sign(false, t.plane, z) == 0 && a_.side(s.plane, z) == 0 &&
+                a_.place_on(s, a_.direction(z).exact()) == On::Inside &&
+                b_.place_on(t, a_.moved(z)) == On::Inside)
+                return true;
+        for (std::uint32_t z = 0; z < b_.direction_count(); ++z)
+            if (sign(true, s.plane, z) == 0 && b_.side(t.plane, z) == 0 &&
+                b_.place_on(t, b_.direction(z).exact()) == On::Inside &&
+                a_.place_on(s, b_.moved(z)) == On::Inside)
+                return true;
         return false;
     }
 

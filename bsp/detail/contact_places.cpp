@@ -31,7 +31,9 @@ namespace {
 
 // The name of a contact vertex.
 struct PlaceKey {
-    std::uint8_t kind = 0;  // 0: vertex of A, 1: vertex of B, 2: edge of A and edge of B
+    // 0: vertex of A, 1: vertex of B, 2: edge of A and edge of B, 3: edge of A and face of B, 4:
+    // face of A and edge of B
+    std::uint8_t kind = 0;
     std::uint32_t first = 0;
     std::uint32_t second = 0;
     friend auto operator<=>(const PlaceKey&, const PlaceKey&) = default;
@@ -43,8 +45,9 @@ struct Incidence {
     std::uint8_t point = 0;
 };
 
+// `edges_in_faces`: also the places where an edge passes through a face.
 std::vector<Incidence> incidences_of(const PosedModels& models,
-                                     const std::vector<MeetingPair>& pairs) {
+                                     const std::vector<MeetingPair>& pairs, bool edges_in_faces) {
     std::vector<Incidence> all;
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
         const MeetingPair& pair = pairs[i];
@@ -58,6 +61,10 @@ std::vector<Incidence> incidences_of(const PosedModels& models,
                 all.push_back({{1, b.index(), 0}, i, k});
             else if (a.is_edge() && b.is_edge())
                 all.push_back({{2, a.index(), b.index()}, i, k});
+            else if (edges_in_faces && a.is_edge())
+                all.push_back({{3, a.index(), b.index()}, i, k});
+            else if (edges_in_faces && b.is_edge())
+                all.push_back({{4, a.index(), b.index()}, i, k});
         }
     }
     std::ranges::sort(all, {}, &Incidence::key);
@@ -147,8 +154,10 @@ void add_flags_by_place(const PosedModels& models, const std::vector<MeetingPair
 
 void add_flags_at_contacts(const PosedModels& models, const std::vector<MeetingPair>& pairs,
                            BoundaryFlags& flags) {
-    const std::vector<Incidence> all = incidences_of(models, pairs);
-    if (models.a.touches_itself() || models.b.touches_itself())
+    // An edge that passes through a face is a crossing, unless the boundary touches itself there.
+    const bool by_place = models.a.touches_itself() || models.b.touches_itself();
+    const std::vector<Incidence> all = incidences_of(models, pairs, by_place);
+    if (by_place)
         add_flags_by_place(models, pairs, all, flags);
     else
         add_flags_by_name(models, pairs, all, flags);

@@ -160,6 +160,7 @@ void InterferenceModelData::build() {
         corners.push_back({t.vertex[0].index, t.vertex[1].index, t.vertex[2].index});
     boxes = ObbTree(positions, position_error, corners);
     boxes_seconds = seconds_since(boxes_start);
+    clear_ = std::vector<std::atomic<std::uint8_t>>(triangles.size());
     for (const ShellId s : brep.shells())
         shell_vertex.push_back(
             brep.origin(brep.halfedges(brep.outer_loop(brep.faces(s).front()))[0]));
@@ -175,7 +176,7 @@ const BrepIndex& InterferenceModelData::index() const {
 std::size_t InterferenceModelData::bytes() const {
     return triangles.size() * sizeof(ModelTriangle) +
            first_triangle.size() * sizeof(std::uint32_t) + positions.size() * sizeof(positions[0]) +
-           boxes.bytes() + (place.size() + shell_vertex.size()) * sizeof(VertexId);
+           boxes.bytes() + clear_.size() + (place.size() + shell_vertex.size()) * sizeof(VertexId);
 }
 
 }  // namespace trisect::detail

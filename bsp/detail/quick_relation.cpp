@@ -98,12 +98,15 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
     // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
-    const bool crossing = walk.run([](std::uint32_t, std::uint32_t, PairVerdict verdict) {
-        return verdict == PairVerdict::Crossing;
+    bool doubtful = false;
+    const bool crossing = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
+        if (verdict == PairVerdict::Crossing && a.is_clear(i) && b.is_clear(j)) return true;
+        doubtful = true;
+        return false;
     });
     if (counters != nullptr) *counters += walk.counters();
     if (crossing) return Relation::Overlapping;
-    if (walk.counters().unknown != 0) return std::nullopt;
+    if (doubtful) return std::nullopt;
 
     return relation_of_apart(a, pose_a, b, pose_b, to_a);
 }

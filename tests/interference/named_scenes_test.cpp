@@ -18,6 +18,7 @@
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
 
 #include "kernel/pose_oracle.h"
@@ -344,6 +345,50 @@ TEST(NamedScenes, NutOnItsBolt) {
               Relation::Touching);
     EXPECT_EQ(relation(nut, bolt, Pose::from_quaternion({100, 0, 0, 1}, {0, 0, -5})),
               Relation::Overlapping);
+}
+
+// ---------------------------------------------------------------- boundaries that touch themselves
+
+trisect::PolygonMesh tetrahedron(const std::array<trisect::Point3d, 4>& corners) {
+    trisect::PolygonMesh mesh;
+    mesh.points.assign(corners.begin(), corners.end());
+    mesh.add_triangle(0, 2, 1);
+    mesh.add_triangle(0, 1, 3);
+    mesh.add_triangle(1, 2, 3);
+    mesh.add_triangle(2, 0, 3);
+    return mesh;
+}
+
+// A tunnel whose edge lies in the outer face of its block, along a diagonal of that face's
+// triangulation.
+TEST(NamedScenes, EdgeOfATunnelInTheFloorOfItsBlock) {
+    const auto block = solid(make_box({3, 3, 0}, {13, 12, 5})) -
+                       solid(trisect::make_prism({{5, 3}, {12, 8}, {7, 10}}, 5));
+    const auto tunnelled = model(block);
+    EXPECT_TRUE(tunnelled.data().touches_itself());
+    const auto slab = [&](double low, double high) { return box({3, low, -1}, {8, high, 4}); };
+    for (const Pose& frame : frames()) {
+        EXPECT_EQ(relation(tunnelled, slab(2, 3), frame, frame), Relation::Touching);
+        EXPECT_EQ(relation(slab(2, 3), tunnelled, frame, frame), Relation::Touching);
+        EXPECT_EQ(relation(tunnelled, slab(2, 3.5), frame, frame), Relation::Overlapping);
+    }
+}
+
+// A tetrahedron on a block, with an edge in the block's face. The wall of a channel that is cut
+// into both passes through that face just along this edge, where no crossing is.
+TEST(NamedScenes, TetrahedronStandingWithAnEdgeInABlocksFace) {
+    const auto block = solid(make_box({0, 0, 0}, {4, 4, 4}));
+    const auto tent = solid(tetrahedron({{{1, 3, 4}, {3, 3, 4}, {1, 4, 7}, {3, 0, 7}}}));
+    const auto channel = solid(make_box({2, 1, -1}, {5, 3, 5}));
+    const auto whole = model(block | tent);
+    const auto cut = model((block | tent) - channel);
+    EXPECT_TRUE(whole.data().touches_itself());
+    for (const Pose& frame : frames()) {
+        EXPECT_EQ(relation(cut, whole, frame, frame), Relation::Inside);
+        EXPECT_EQ(relation(whole, cut, frame, frame), Relation::Contains);
+        EXPECT_EQ(relation(whole, whole, frame, frame), Relation::Equal);
+    }
+    EXPECT_EQ(relation(cut, whole, Pose::from_translation({0, 0.5, 0})), Relation::Overlapping);
 }
 
 // ---------------------------------------------------------------- names
