@@ -26,6 +26,7 @@
 
 #include <trisect/bsp/detail/broad_phase.h>
 #include <trisect/bsp/detail/scene_bodies.h>
+#include <trisect/bsp/hierarchies/broad_phases.h>
 #include <trisect/bsp/interference_query.h>
 #include <trisect/kernel/error.h>
 
@@ -76,8 +77,21 @@ void for_each_in_parallel(std::size_t n, std::uint32_t threads, std::size_t grai
 }
 
 std::unique_ptr<detail::BroadPhase> make_broad_phase(SceneBroadPhase kind) {
-    return kind == SceneBroadPhase::BoxTree ? detail::make_box_tree()
-                                            : detail::make_sweep_and_prune();
+    switch (kind) {
+        case SceneBroadPhase::SweepAndPrune:
+            break;
+        case SceneBroadPhase::BoxTree:
+            return detail::make_box_tree();
+        case SceneBroadPhase::HashGrid:
+            return hierarchies::make_hash_grid();
+        case SceneBroadPhase::HierarchicalGrid:
+            return hierarchies::make_hierarchical_grid();
+        case SceneBroadPhase::Octree:
+            return hierarchies::make_octree_phase();
+        case SceneBroadPhase::KdTree:
+            return hierarchies::make_kd_tree_phase();
+    }
+    return detail::make_sweep_and_prune();
 }
 
 }  // namespace

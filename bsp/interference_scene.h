@@ -41,8 +41,12 @@ struct LinkOptions {
 
 /// How pairs of boxes that meet are found. The answers are the same.
 enum class SceneBroadPhase : std::uint8_t {
-    SweepAndPrune,  ///< faster up to some ten thousand bodies, see bench/results
-    BoxTree         ///< an R-tree
+    SweepAndPrune,     ///< faster up to some ten thousand bodies, see bench/results
+    BoxTree,           ///< an R-tree
+    HashGrid,          ///< a uniform grid: bodies of similar size (bsp/hierarchies/broad_phases.h)
+    HierarchicalGrid,  ///< grids of all sizes
+    Octree,            ///< a loose one
+    KdTree
 };
 
 struct SceneOptions {

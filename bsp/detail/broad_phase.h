@@ -34,7 +34,9 @@ struct BodyPair {
 /// What a broad phase did in its last call of `pairs`.
 struct BroadPhaseWork {
     std::size_t box_tests = 0;  ///< 0 where the implementation does not say
-    std::size_t moves = 0;      ///< entries that changed their place in the order
+    std::size_t moves = 0;      ///< entries that changed their place in the order or their cell
+    std::size_t cells = 0;      ///< entries in lists of cells, of all boxes together
+    std::size_t lookups = 0;    ///< cells looked at for boxes
 };
 
 /// Boxes by slots, which are small numbers that the caller gives and may use again after `remove`.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/bsp/detail/broad_phase.h>
+#include <trisect/bsp/hierarchies/broad_phases.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -130,9 +133,48 @@ TEST_P(BroadPhaseTest, BoxesThatAllJumpAsBruteForce) {
     }
 }
 
+TEST_P(BroadPhaseTest, SizesOverThirtyPowersOfTwoAsBruteForce) {
+    Random random(3);
+    const auto random_size_box = [&random] {
+        BodyBox box;
+        const double size = std::ldexp(1.0, static_cast<int>(random.between(-20, 10)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.lo[k] = std::ldexp(static_cast<double>(random.between(-4000, 4000)), -6) * 1.7;
+            box.hi[k] = box.lo[k] + size * static_cast<double>(random.between(0, 9)) / 8;
+        }
+        return box;
+    };
+    for (std::uint32_t i = 0; i < 150; ++i) insert(i, random_size_box());
+    for (int frame = 0; frame < 20; ++frame) {
+        for (std::uint32_t i = 0; i < 150; ++i)
+            if (random.chance(1, 3)) update(i, random_size_box());
+        ASSERT_EQ(pairs(), brute_force()) << frame;
+    }
+}
+
+TEST_P(BroadPhaseTest, UnboundedFlatAndFarBoxes) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    insert(0, {{0, 0, 0}, {1, 1, 1}});
+    insert(1, {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}});
+    insert(2, {{5, 5, 5}, {5, 5, 5}});
+    insert(3, {{5, 5, 5}, {5, 5, 5}});
+    insert(4, {{1e300, 0, 0}, {1e301, 1e-300, 1}});
+    insert(5, {{-infinity, 5, 5}, {5, 5, 5}});
+    insert(6, {{1e300, 1e-300, 1}, {1e300, 1e-300, 1}});
+    insert(7, {{1e18, 1e18, 1e18}, {1e18, 1e18, 1e18 + 256}});
+    EXPECT_EQ(pairs(), brute_force());
+    remove(1);
+    EXPECT_EQ(pairs(), brute_force());
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhaseTest,
                          testing::Values(Kind{"Sweep", trisect::detail::make_sweep_and_prune},
-                                         Kind{"Tree", trisect::detail::make_box_tree}),
+                                         Kind{"Tree", trisect::detail::make_box_tree},
+                                         Kind{"HashGrid", trisect::hierarchies::make_hash_grid},
+                                         Kind{"HierarchicalGrid",
+                                              trisect::hierarchies::make_hierarchical_grid},
+                                         Kind{"Octree", trisect::hierarchies::make_octree_phase},
+                                         Kind{"KdTree", trisect::hierarchies::make_kd_tree_phase}),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace

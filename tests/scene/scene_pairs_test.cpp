@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -261,10 +262,17 @@ TEST_P(ScenePairs, RandomScenesAsBruteForce) {
         EXPECT_GT(relations[relation], 0) << static_cast<int>(relation);
 }
 
+std::string name_of(const testing::TestParamInfo<SceneBroadPhase>& kind) {
+    constexpr std::array names{"Sweep",            "Tree",   "HashGrid",
+                               "HierarchicalGrid", "Octree", "KdTree"};
+    return names[static_cast<std::size_t>(kind.param)];
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, ScenePairs,
-                         testing::Values(SceneBroadPhase::SweepAndPrune, SceneBroadPhase::BoxTree),
-                         [](const auto& kind) {
-                             return kind.param == SceneBroadPhase::BoxTree ? "Tree" : "Sweep";
-                         });
+                         testing::Values(SceneBroadPhase::SweepAndPrune, SceneBroadPhase::BoxTree,
+                                         SceneBroadPhase::HashGrid,
+                                         SceneBroadPhase::HierarchicalGrid, SceneBroadPhase::Octree,
+                                         SceneBroadPhase::KdTree),
+                         name_of);
 
 }  // namespace
