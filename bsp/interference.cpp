@@ -18,6 +18,7 @@
 
 #include <trisect/bsp/interference.h>
 
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/detail/boundary_flags.h>
@@ -37,30 +38,33 @@ using detail::PosedModels;
 using detail::RelativePose;
 using detail::TriangleContact;
 
+// Where a boundary touches itself, an edge may lie in one of its faces, and another solid's face
+// may pass through that face just there, with nothing but itself on the far side.
+bool detail::MeetingCollector::tells(std::uint32_t a, std::uint32_t b) const {
+    return (models_.a.is_clear(a) && models_.b.is_clear(b)) ||
+           (!models_.a.touches_itself() && !models_.b.touches_itself());
+}
+
+bool detail::MeetingCollector::operator()(std::uint32_t a, std::uint32_t b, PairVerdict verdict) {
+    if (verdict == PairVerdict::Crossing && !all_ && tells(a, b)) {
+        flags.set_crossing();
+        return true;
+    }
+    const TriangleContact c = test_(posed_triangle(models_.a, a), posed_triangle(models_.b, b));
+    if (!c.meets()) return false;
+    flags.meet = true;
+    if (c.crossing && tells(a, b)) flags.set_crossing();
+    if (c.dimension() == 2) (c.opposite ? flags.opposite : flags.same) = true;
+    pairs.push_back({a, b, c});
+    return !all_ && flags.is_decided();
+}
+
 std::vector<MeetingPair> detail::meeting_pairs(const PosedModels& models, bool all,
                                                BoundaryFlags& flags) {
-    std::vector<MeetingPair> pairs;
-    detail::TrianglePairTest test(models.poses);
-    // Where a boundary touches itself, an edge may lie in one of its faces, and another solid's
-    // face may pass through that face just there, with nothing but itself on the far side.
-    const auto tells = [&](std::uint32_t i, std::uint32_t j) {
-        return (models.a.is_clear(i) && models.b.is_clear(j)) ||
-               (!models.a.touches_itself() && !models.b.touches_itself());
-    };
-    for_candidate_pairs(models, [&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
-        if (verdict == PairVerdict::Crossing && !all && tells(i, j)) {
-            flags.set_crossing();
-            return true;
-        }
-        const TriangleContact c = test(posed_triangle(models.a, i), posed_triangle(models.b, j));
-        if (!c.meets()) return false;
-        flags.meet = true;
-        if (c.crossing && tells(i, j)) flags.set_crossing();
-        if (c.dimension() == 2) (c.opposite ? flags.opposite : flags.same) = true;
-        pairs.push_back({i, j, c});
-        return !all && flags.is_decided();
-    });
-    return pairs;
+    MeetingCollector collect(models, all);
+    for_candidate_pairs(models, collect);
+    flags = collect.flags;
+    return std::move(collect.pairs);
 }
 
 namespace {
@@ -91,8 +95,10 @@ bool is_inside(const InterferenceModelData& model, VertexId v, const RelativePos
     return location == Location::Inside;
 }
 
-void add_flags_of_shells(const PosedModels& models, const std::vector<MeetingPair>& pairs,
-                         BoundaryFlags& flags) {
+}  // namespace
+
+void detail::add_flags_of_shells(const PosedModels& models, const std::vector<MeetingPair>& pairs,
+                                 BoundaryFlags& flags) {
     const auto touched_a = shells_in_contact(models.a, pairs, &MeetingPair::a);
     const auto touched_b = shells_in_contact(models.b, pairs, &MeetingPair::b);
     for (std::size_t s = 0; s < touched_a.size() && !flags.is_decided(); ++s)
@@ -106,8 +112,6 @@ void add_flags_of_shells(const PosedModels& models, const std::vector<MeetingPai
                  ? flags.b_in
                  : flags.b_out) = true;
 }
-
-}  // namespace
 
 const char* to_string(Relation relation) {
     switch (relation) {

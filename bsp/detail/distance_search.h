@@ -3,17 +3,16 @@
 // DistanceSearch: the closest triangles of two posed models, by certified bounds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
-#include <trisect/brep/exact_rational.h>
-#include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/obb_pose.h>
-#include <trisect/bsp/detail/triangle_distance.h>
+#include <trisect/bsp/detail/pair_distance.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::detail {
@@ -31,14 +30,7 @@ public:
     DistanceSearch(const InterferenceModelData& a, const Pose& pose_a,
                    const InterferenceModelData& b, const Pose& pose_b);
 
-    /// A pair of triangles that may be the closest.
-    struct Candidate {
-        std::uint32_t a = 0;
-        std::uint32_t b = 0;
-        DistanceBounds bounds;
-        ClosestPoints closest;
-        bool crossing = false;  ///< certainly: the distance is 0
-    };
+    using Candidate = DistanceCandidate;
     /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
     /// `stop` the search ends as soon as something is certainly nearer. Triangles of an earlier
     /// answer may be given as a start.
@@ -59,7 +51,9 @@ private:
         ObbId a;
         ObbId b;
     };
-    [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const {
+        return pairs_->compare(a, b, std::min(upper_, limit_));
+    }
     void note(const Candidate& c);
     void expand(const Entry& e);
     void push(float bound, ObbId a, ObbId b);
@@ -67,12 +61,9 @@ private:
 
     const InterferenceModelData* a_;
     const InterferenceModelData* b_;
-    ApproximateMap map_;
+    std::optional<PairDistance> pairs_;
     std::optional<ObbPose> pose_;
-    std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
-    double row_ = 0;                                  // largest sum of a row's magnitudes
-    double error_ = 0;                                // of a position of A and one of moved B
-    double unit_ = 0;                                 // gaps of boxes to lower bounds in the world
+    double unit_ = 0;  // gaps of boxes to lower bounds in the world
     double limit_ = 0;
     double lower_ = 0;
     double upper_ = 0;
@@ -80,11 +71,5 @@ private:
     std::vector<Candidate> candidates_;
     DistanceCounters counters_;
 };
-
-/// The exact squared distance of two triangles of posed models, in the user's units.
-[[nodiscard]] ExactRational exact_squared_distance(const InterferenceModelData& a,
-                                                   const Pose& pose_a, std::uint32_t triangle_a,
-                                                   const InterferenceModelData& b,
-                                                   const Pose& pose_b, std::uint32_t triangle_b);
 
 }  // namespace trisect::detail

@@ -51,6 +51,28 @@ bool for_candidate_pairs(const PosedModels& models, Visit&& visit) {
     return false;
 }
 
+/// What follows from pairs of triangles, one at a time, wherever they come from.
+class MeetingCollector {
+public:
+    /// With `all` every pair that meets is noted; otherwise only until the relation is decided.
+    MeetingCollector(const PosedModels& models, bool all)
+        : models_(models), all_(all), test_(models.poses) {}
+
+    /// Compares two triangles exactly, unless they cross and that is all that matters. Returns
+    /// whether no more need to come.
+    bool operator()(std::uint32_t a, std::uint32_t b, PairVerdict verdict);
+
+    std::vector<MeetingPair> pairs;
+    BoundaryFlags flags;
+
+private:
+    [[nodiscard]] bool tells(std::uint32_t a, std::uint32_t b) const;
+
+    const PosedModels& models_;
+    bool all_;
+    TrianglePairTest test_;
+};
+
 /// All pairs of triangles that meet, and the flags that they set by themselves. Unless `all` is set
 /// it stops when the relation is decided. In interference.cpp.
 [[nodiscard]] std::vector<MeetingPair> meeting_pairs(const PosedModels& models, bool all,
@@ -74,5 +96,10 @@ bool for_candidate_pairs(const PosedModels& models, Visit&& visit) {
 /// is decided.
 void add_flags_at_contacts(const PosedModels& models, const std::vector<MeetingPair>& pairs,
                            BoundaryFlags& flags);
+
+/// What the shells say that meet nothing. Stops early when the relation is decided. In
+/// interference.cpp.
+void add_flags_of_shells(const PosedModels& models, const std::vector<MeetingPair>& pairs,
+                         BoundaryFlags& flags);
 
 }  // namespace trisect::detail

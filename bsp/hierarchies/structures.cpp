@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/hierarchies/structures.h>
+
+#include <algorithm>
+#include <array>
+
+#include <trisect/bsp/hierarchies/all_pairs.h>
+#include <trisect/bsp/hierarchies/volume_hierarchies.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::hierarchies {
+
+namespace {
+
+using Make = std::unique_ptr<PairStructure> (*)(const InterferenceModel&, const InterferenceModel&);
+
+struct Entry {
+    StructureInfo info;
+    Make make;
+};
+
+// One line for each kind, in the order of the enumeration.
+constexpr std::array entries{
+    Entry{{StructureKind::AllPairs, "all-pairs", "no structure"}, make_all_pairs},
+    Entry{{StructureKind::Aabb, "aabb", "axis-parallel boxes, refitted to each pose"},
+          make_aabb_tree},
+    Entry{{StructureKind::Kdop6, "kdop6", "axis-parallel boxes, turned when met"}, make_kdop6_tree},
+    Entry{{StructureKind::Kdop14, "kdop14", "slabs of 7 directions"}, make_kdop14_tree},
+    Entry{{StructureKind::Kdop18, "kdop18", "slabs of 9 directions"}, make_kdop18_tree},
+    Entry{{StructureKind::Kdop26, "kdop26", "slabs of 13 directions"}, make_kdop26_tree},
+};
+
+constexpr auto infos = [] {
+    std::array<StructureInfo, entries.size()> r{};
+    for (std::size_t i = 0; i < entries.size(); ++i) r[i] = entries[i].info;
+    return r;
+}();
+
+}  // namespace
+
+std::span<const StructureInfo> all_structures() { return infos; }
+
+std::string_view to_string(StructureKind kind) {
+    return infos[static_cast<std::size_t>(kind)].name;
+}
+
+std::optional<StructureKind> structure_kind(std::string_view name) {
+    const auto found = std::ranges::find(infos, name, &StructureInfo::name);
+    if (found == infos.end()) return std::nullopt;
+    return found->kind;
+}
+
+std::unique_ptr<PairStructure> make_structure(StructureKind kind, const InterferenceModel& a,
+                                              const InterferenceModel& b) {
+    const auto found = std::ranges::find(entries, kind, [](const Entry& e) { return e.info.kind; });
+    TRISECT_EXPECTS(found != entries.end(), "a kind of structure has no entry");
+    return found->make(a, b);
+}
+
+}  // namespace trisect::hierarchies

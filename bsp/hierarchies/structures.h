@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The family: all structures over two models, by name.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <trisect/bsp/hierarchies/pair_structure.h>
+
+namespace trisect::hierarchies {
+
+/// docs/hierarchies.md has a paragraph on each.
+enum class StructureKind : std::uint8_t {
+    AllPairs,  ///< no structure; for tests and as a measure
+    Aabb,      ///< axis-parallel boxes, B's fitted anew to each pose
+    Kdop6,     ///< axis-parallel boxes, B's turned where they are met
+    Kdop14,
+    Kdop18,
+    Kdop26,
+};
+
+struct StructureInfo {
+    StructureKind kind;
+    std::string_view name;   ///< "aabb"
+    std::string_view brief;  ///< half a line, without full stop
+};
+
+/// All of them, AllPairs first.
+[[nodiscard]] std::span<const StructureInfo> all_structures();
+[[nodiscard]] std::string_view to_string(StructureKind kind);
+[[nodiscard]] std::optional<StructureKind> structure_kind(std::string_view name);
+
+/// \throw UsageError when one of the models is empty.
+[[nodiscard]] std::unique_ptr<PairStructure> make_structure(StructureKind kind,
+                                                            const InterferenceModel& a,
+                                                            const InterferenceModel& b);
+
+}  // namespace trisect::hierarchies

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bounding volume hierarchies of all kinds.
+#pragma once
+
+#include <memory>
+
+#include <trisect/bsp/hierarchies/pair_structure.h>
+
+namespace trisect::hierarchies {
+
+/// Axis-parallel boxes in A's frame. A pose fits all of B's again to the moved triangles, which is
+/// what it costs; the boxes are as tight as they can be.
+[[nodiscard]] std::unique_ptr<PairStructure> make_aabb_tree(const InterferenceModel& a,
+                                                            const InterferenceModel& b);
+
+/// k-DOPs. B's are turned when a walk comes to them; they are looser than fitted ones.
+[[nodiscard]] std::unique_ptr<PairStructure> make_kdop6_tree(const InterferenceModel& a,
+                                                             const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_kdop14_tree(const InterferenceModel& a,
+                                                              const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_kdop18_tree(const InterferenceModel& a,
+                                                              const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_kdop26_tree(const InterferenceModel& a,
+                                                              const InterferenceModel& b);
+
+}  // namespace trisect::hierarchies
