@@ -6,8 +6,10 @@
 // turns), apart and colliding placements separately, what was counted, and with whom the engine
 // disagrees.
 //
-//     compare_interference [--rounds 3] [--most 2000] [--scene NAME]... [--no-peers]
+//     compare_interference [--rounds 3] [--most 2000] [--scene NAME]... [--what QUESTION]...
+//                          [--no-peers]
 //
+// Questions: collide, coherent, contacts, distance; all of them when none is named.
 // Scenes: see interference_scene.h. Volumes with which FCL copies and refits a whole model for each
 // query are asked for every fiftieth placement only.
 
@@ -185,7 +187,11 @@ struct Options {
     int rounds = 3;
     std::size_t most = 2000;
     std::vector<std::string> scenes;
+    std::vector<std::string> questions;
     bool peers = true;
+    [[nodiscard]] bool asks(const std::string& question) const {
+        return questions.empty() || std::ranges::find(questions, question) != questions.end();
+    }
 };
 
 // The times of one engine for one question.
@@ -287,21 +293,22 @@ void run(const std::string& name, const Options& options) {
     Solids solids(ours);
     std::vector<Peer*> all{&ours, &solids};
     for (const auto& p : peers) all.push_back(p.get());
-    ask(scene, "collide", all, options.rounds, ours,
-        [](Peer& p, std::size_t i) -> std::optional<double> { return p.collide(i) ? 1 : 0; });
-    follow(scene.name, ours, options.rounds);
-    ask(scene, "contacts", all, options.rounds, ours,
-        [](Peer& p, std::size_t i) -> std::optional<double> {
-            const auto n = p.contacts(i);
-            if (!n) return {};
-            return static_cast<double>(*n);
-        });
-    ask(scene, "distance", all, options.rounds, ours,
-        [](Peer& p, std::size_t i) -> std::optional<double> {
-            const auto d = p.distance(i);
-            if (!d) return {};
-            return std::max(*d, 0.0);
-        });
+    const auto ask_all = [&](const std::string& what, const Question& question) {
+        if (options.asks(what)) ask(scene, what, all, options.rounds, ours, question);
+    };
+    ask_all("collide",
+            [](Peer& p, std::size_t i) -> std::optional<double> { return p.collide(i) ? 1 : 0; });
+    if (options.asks("coherent")) follow(scene.name, ours, options.rounds);
+    ask_all("contacts", [](Peer& p, std::size_t i) -> std::optional<double> {
+        const auto n = p.contacts(i);
+        if (!n) return {};
+        return static_cast<double>(*n);
+    });
+    ask_all("distance", [](Peer& p, std::size_t i) -> std::optional<double> {
+        const auto d = p.distance(i);
+        if (!d) return {};
+        return std::max(*d, 0.0);
+    });
 }
 
 Options parse(int argc, char** argv) {
@@ -316,10 +323,12 @@ Options parse(int argc, char** argv) {
             o.most = static_cast<std::size_t>(std::atoll(argv[++i]));
         } else if (word == "--scene" && i + 1 < argc) {
             o.scenes.emplace_back(argv[++i]);
+        } else if (word == "--what" && i + 1 < argc) {
+            o.questions.emplace_back(argv[++i]);
         } else {
             std::fprintf(stderr,
                          "usage: compare_interference [--rounds N] [--most N] [--scene NAME]... "
-                         "[--no-peers]\n");
+                         "[--what QUESTION]... [--no-peers]\n");
             std::exit(2);
         }
     }

@@ -4,20 +4,22 @@
 // little.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include <trisect/bsp/detail/approximate_map.h>
+#include <trisect/bsp/detail/due_list.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/obb_pose.h>
 #include <trisect/bsp/detail/obb_walk.h>
 
 namespace trisect::detail {
 
-/// Keeps, between questions, a crossing pair of triangles or the front of the walk that found the
-/// boundaries apart. Every answer is as good as that of a fresh walk. For one thread; models must
-/// outlive it.
+/// Keeps, between questions, a crossing pair of triangles and the front of the last walk that found
+/// the boundaries apart. Every answer is as good as that of a fresh walk. For one thread; models
+/// must outlive it.
 class CoherentWalk {
 public:
     /// \pre both models have triangles
@@ -37,48 +39,74 @@ public:
     [[nodiscard]] const WalkCounters& counters() const { return counters_; }
     /// How often a whole walk was made.
     [[nodiscard]] std::uint64_t fresh_walks() const { return fresh_; }
+    /// How often a front was gone on from after a crossing had been lost.
+    [[nodiscard]] std::uint64_t resumed_fronts() const { return resumed_; }
 
 private:
-    // One test of a box against four, or a pair of leaves. Lanes in `done` have entries of their
-    // own below them; the others were apart by so much that they stay apart until `expiry`.
-    struct Entry {
-        double expiry = 0;
+    enum class Opens : std::uint8_t { A, B, Neither };
+    // A pair of boxes that was opened: one test of a box against four lanes, or a pair of leaves.
+    // `open` lanes have visits of their own below; the others were apart by so much that they stay
+    // apart until the odometer is at `due`.
+    struct Visit {
+        double due = 0;    // not a number: not in use
+        double slack = 0;  // in this question: how far everything was apart before it
         ObbId a;
         ObbId b;
-        std::uint8_t done = 0;
-        std::optional<bool> open_b = std::nullopt;  // which side's children the lanes are
+        std::uint32_t parent = none;
+        float tried = 0;  // the gap with which the parent was last asked in vain
+        std::uint8_t open = 0;
+        Opens opens = Opens::Neither;
+        std::array<std::uint32_t, 4> below{};
     };
-    struct Witness {
-        ObbId a;
-        ObbId b;
-    };
+    static constexpr std::uint32_t none = 0xffffffffU;
 
-    [[nodiscard]] bool opens_b(const Entry& e) const;
-    bool visit(Entry e);
-    [[nodiscard]] bool are_clear(std::uint32_t i, std::uint32_t j) const;
-    bool visit_leaves(Entry e);
-    bool cross_below(ObbId a, ObbId b, std::uint64_t budget);
-    bool crosses_near_witness();
-    Answer walk_fresh();
+    [[nodiscard]] Opens opens(ObbId a, ObbId b) const;
+    [[nodiscard]] PairVerdict compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
+                                      TriangleCorners& q);
+
+    // Crossing pairs.
+    bool leaves_cross(ObbId a, ObbId b);
+    void push_lanes(const ObbWalk::Pair& p, Opens side, ObbWalk::Pair searched);
+    bool cross_below_stack();
+    [[nodiscard]] std::vector<ObbWalk::Pair> way_to(ObbId a, ObbId b) const;
+    Answer search_from_witness();
+
+    // The front.
+    std::uint32_t add_visit(ObbId a, ObbId b, std::uint32_t parent, double slack);
+    void remove(std::uint32_t v);
+    void keep(std::uint32_t v, double gap);
+    bool visit(std::uint32_t v);
+    void visit_lanes(std::uint32_t v);
+    bool visit_leaves(std::uint32_t v);
+    void begin(std::uint32_t v);
+    Answer visit_open();
+    Answer make_front();
     Answer renew_front();
     Answer answer() const { return unknown_ == 0 ? Answer::Apart : Answer::Unknown; }
-    void keep(const Entry& e);
 
     const InterferenceModelData* a_;
     const InterferenceModelData* b_;
     ApproximateMap map_;
     std::optional<ObbPose> pose_;
-    std::optional<ObbPose> last_;
     double error_ = 0;
-    std::optional<Witness> witness_;
-    std::vector<Entry> front_;  // a heap, the first to expire on top
-    std::vector<ObbWalk::Pair> open_;
-    bool has_front_ = false;
-    bool unmoved_ = false;
-    double odometer_ = 0;
-    std::size_t fresh_size_ = 0;
     std::uint64_t unknown_ = 0;  // pairs of triangles in this question
+
+    std::optional<ObbWalk::Pair> witness_;  // of leaves
+    ObbWalk::Stack stack_;
+
+    std::vector<Visit> visits_;
+    std::vector<std::uint32_t> unused_;
+    DueList due_;
+    std::vector<std::uint32_t> open_;    // visits to be made in this question
+    std::optional<ObbPose> front_pose_;  // where the odometer stands
+    double odometer_ = 0;  // bounds how far any point has moved since the front was made
+    double step_ = 0;      // the last addition to it
+    std::size_t fresh_size_ = 0;
+    bool unmoved_ = false;
+    bool last_from_front_ = false;  // the last answer was the front's, and not Crossing
+
     std::uint64_t fresh_ = 0;
+    std::uint64_t resumed_ = 0;
     WalkCounters counters_;
 };
 

@@ -61,8 +61,8 @@ void DistanceSearch::expand(const Entry& e) {
     const bool open_b =
         ca.is_leaf() || (!cb.is_leaf() && pose_->scale() * size(tb, e.b) > size(ta, e.a));
     ++counters_.node_tests;
-    const Float4 gaps = open_b ? pose_->all_gaps(ta.box(e.a), tb.nodes[cb.node()])
-                               : pose_->all_gaps(ta.nodes[ca.node()], tb.box(e.b));
+    const Float4 gaps = open_b ? pose_->best_gaps(ta.box(e.a), tb.nodes[cb.node()])
+                               : pose_->best_gaps(ta.nodes[ca.node()], tb.box(e.b));
     const ObbNode& opened = open_b ? tb.nodes[cb.node()] : ta.nodes[ca.node()];
     for (std::uint32_t k = 0; k < 4; ++k) {
         if (!(opened.half[0][k] >= 0)) continue;
