@@ -6,6 +6,7 @@
 #include <array>
 
 #include <trisect/bsp/hierarchies/all_pairs.h>
+#include <trisect/bsp/hierarchies/partitions.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/kernel/contract.h>
 
@@ -29,6 +30,14 @@ constexpr std::array entries{
     Entry{{StructureKind::Kdop14, "kdop14", "slabs of 7 directions"}, make_kdop14_tree},
     Entry{{StructureKind::Kdop18, "kdop18", "slabs of 9 directions"}, make_kdop18_tree},
     Entry{{StructureKind::Kdop26, "kdop26", "slabs of 13 directions"}, make_kdop26_tree},
+    Entry{{StructureKind::Octree, "octree", "cubes in eight"}, make_octree_partition},
+    Entry{{StructureKind::KdTree, "kd-tree", "cuts by the surface-area heuristic"},
+          make_kd_tree_partition},
+    Entry{{StructureKind::RTree, "r-tree", "packed nodes of eight boxes"}, make_r_tree_partition},
+    Entry{{StructureKind::HashGrid, "hash-grid", "one grid in a hash table"},
+          make_hash_grid_partition},
+    Entry{{StructureKind::HierarchicalGrid, "hierarchical-grid", "a grid for each size"},
+          make_hierarchical_grid_partition},
 };
 
 constexpr auto infos = [] {

@@ -21,6 +21,11 @@ enum class StructureKind : std::uint8_t {
     Kdop14,
     Kdop18,
     Kdop26,
+    Octree,    ///< A's space divided, B's triangles entered; and so on below
+    KdTree,
+    RTree,
+    HashGrid,
+    HierarchicalGrid,
 };
 
 struct StructureInfo {

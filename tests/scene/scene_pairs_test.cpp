@@ -263,8 +263,7 @@ TEST_P(ScenePairs, RandomScenesAsBruteForce) {
 }
 
 std::string name_of(const testing::TestParamInfo<SceneBroadPhase>& kind) {
-    constexpr std::array names{"Sweep",            "Tree",   "HashGrid",
-                               "HierarchicalGrid", "Octree", "KdTree"};
+    constexpr std::array names{"Sweep", "Tree", "HashGrid", "HierarchicalGrid", "Octree", "KdTree"};
     return names[static_cast<std::size_t>(kind.param)];
 }
 
