@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// BoundedDouble: a double that knows how wrong it may be; the filter stage of feature tracking.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace trisect::hierarchies::detail {
+
+/// The exact value is within `e` of `v`. Rounding to nearest assumed: a sum or product is off by at
+/// most 2^-53 of itself (and 2^-1075 where it underflows); the factor 1 + 2^-50 pays for the
+/// rounding of the bounds themselves. Where a bound is infinite or NaN no sign is ever known.
+struct BoundedDouble {
+    double v = 0;
+    double e = 0;
+
+    constexpr BoundedDouble() = default;
+    constexpr BoundedDouble(double value, double error) : v(value), e(error) {}
+
+    /// -1 or 1, when it is certain.
+    [[nodiscard]] std::optional<int> sign() const {
+        if (v > e) return 1;
+        if (v < -e) return -1;
+        return std::nullopt;
+    }
+
+    friend BoundedDouble operator-(const BoundedDouble& a) { return {-a.v, a.e}; }
+    friend BoundedDouble operator+(const BoundedDouble& a, const BoundedDouble& b) {
+        const double v = a.v + b.v;
+        return {v, ((a.e + b.e) + magnitude(v) * 0x1p-53) * (1 + 0x1p-50)};
+    }
+    friend BoundedDouble operator-(const BoundedDouble& a, const BoundedDouble& b) {
+        return a + -b;
+    }
+    friend BoundedDouble operator*(const BoundedDouble& a, const BoundedDouble& b) {
+        const double v = a.v * b.v;
+        const double e =
+            (magnitude(a.v) * b.e + magnitude(b.v) * a.e) + (a.e * b.e + magnitude(v) * 0x1p-53);
+        return {v, e * (1 + 0x1p-50) + 0x1p-1060};
+    }
+
+private:
+    static double magnitude(double x) { return x < 0 ? -x : x; }
+};
+
+/// Vectors over any number type with +, - and *.
+template <class N>
+using Vector = std::array<N, 3>;
+
+template <class N>
+[[nodiscard]] Vector<N> minus(const Vector<N>& a, const Vector<N>& b) {
+    return {N(a[0] - b[0]), N(a[1] - b[1]), N(a[2] - b[2])};
+}
+template <class N>
+[[nodiscard]] N dot(const Vector<N>& a, const Vector<N>& b) {
+    return N(N(N(a[0] * b[0]) + N(a[1] * b[1])) + N(a[2] * b[2]));
+}
+template <class N>
+[[nodiscard]] Vector<N> cross(const Vector<N>& a, const Vector<N>& b) {
+    return {N(N(a[1] * b[2]) - N(a[2] * b[1])), N(N(a[2] * b[0]) - N(a[0] * b[2])),
+            N(N(a[0] * b[1]) - N(a[1] * b[0]))};
+}
+template <class N>
+[[nodiscard]] Vector<N> scaled(const N& s, const Vector<N>& a) {
+    return {N(s * a[0]), N(s * a[1]), N(s * a[2])};
+}
+template <class N>
+[[nodiscard]] Vector<N> plus(const Vector<N>& a, const Vector<N>& b) {
+    return {N(a[0] + b[0]), N(a[1] + b[1]), N(a[2] + b[2])};
+}
+
+}  // namespace trisect::hierarchies::detail
