@@ -24,4 +24,17 @@ namespace trisect::hierarchies {
 [[nodiscard]] std::unique_ptr<PairStructure> make_kdop26_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
 
+/// Spheres around the triangles below.
+[[nodiscard]] std::unique_ptr<PairStructure> make_sphere_tree(const InterferenceModel& a,
+                                                              const InterferenceModel& b);
+
+/// Oriented boxes in doubles: a binary tree, one of four children, and the tree that models have
+/// anyway, in floats and four at a time.
+[[nodiscard]] std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
+                                                           const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_wide_obb_tree(const InterferenceModel& a,
+                                                                const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_packed_obb_tree(const InterferenceModel& a,
+                                                                  const InterferenceModel& b);
+
 }  // namespace trisect::hierarchies
