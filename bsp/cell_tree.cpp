@@ -3,6 +3,8 @@
 #include <trisect/bsp/cell_tree.h>
 
 #include <algorithm>
+#include <memory>
+#include <new>
 
 #include <trisect/kernel/contract.h>
 
@@ -14,15 +16,23 @@ Plane PlaneName::plane() const {
     return kind == Support ? s->support(facet) : s->edge_plane(facet, static_cast<int>(kind));
 }
 
-Fragment::Fragment(std::vector<EdgeName> edges, const Box& box)
-    : edges_(std::move(edges)), box_(box) {
-    for (const EdgeName& e : edges_)
+const Fragment* Fragment::make(std::span<const EdgeName> edges,
+                               std::span<const Approximation> vertices, const Box& box) {
+    void* memory = ::operator new(bytes_for(edges.size()));
+    const auto* out = new (memory) Fragment(edges.size(), box);
+    std::uninitialized_copy(edges.begin(), edges.end(), const_cast<EdgeName*>(out->edges().data()));
+    std::uninitialized_copy(vertices.begin(), vertices.end(),
+                            const_cast<Approximation*>(out->vertices().data()));
+    for (const EdgeName& e : edges)
         if (const Source* s = e.plane.source()) s->retain();
+    return out;
 }
 
-Fragment::~Fragment() {
-    for (const EdgeName& e : edges_)
+void Fragment::destroy() const {
+    for (const EdgeName& e : edges())
         if (const Source* s = e.plane.source()) s->release();
+    this->~Fragment();
+    ::operator delete(const_cast<Fragment*>(this));
 }
 
 PolygonList::PolygonList(std::vector<PolygonRef> refs)

@@ -19,6 +19,7 @@
 
 #include <trisect/bsp/detail/cell.h>
 #include <trisect/bsp/detail/source.h>
+#include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
 
@@ -59,28 +60,50 @@ struct EdgeName {
 };
 
 /// A convex part of a facet, cut out by an operation. Edges counter-clockwise seen from above the
-/// facet's support; consecutive edges lie on different lines. Immutable, reference-counted by the
-/// leaves that list it.
+/// facet's support; consecutive edges lie on different lines. Its vertices are what the edges'
+/// planes say; their doubles are kept, so that nobody has to compute them again. Immutable,
+/// reference-counted by the leaves that list it. One piece of memory.
 class Fragment {
 public:
-    Fragment(std::vector<EdgeName> edges, const Box& box);
+    /// A fragment that nobody has retained yet. `vertices[i]` is where edge i begins, in lattice
+    /// units.
+    [[nodiscard]] static const Fragment* make(std::span<const EdgeName> edges,
+                                              std::span<const Approximation> vertices,
+                                              const Box& box);
     Fragment(const Fragment&) = delete;
     Fragment& operator=(const Fragment&) = delete;
-    [[nodiscard]] std::span<const EdgeName> edges() const { return edges_; }
+    [[nodiscard]] std::span<const EdgeName> edges() const {
+        return {reinterpret_cast<const EdgeName*>(this + 1), size_};
+    }
+    [[nodiscard]] std::span<const Approximation> vertices() const {
+        return {reinterpret_cast<const Approximation*>(edges().data() + size_), size_};
+    }
     /// Contains the fragment, rounded outwards to lattice units.
     [[nodiscard]] const Box& box() const { return box_; }
+    /// Of memory.
+    [[nodiscard]] std::size_t bytes() const { return bytes_for(size_); }
 
     void retain() const { count_.fetch_add(1, std::memory_order_relaxed); }
     void release() const {
-        if (count_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+        if (count_.fetch_sub(1, std::memory_order_acq_rel) == 1) destroy();
     }
 
 private:
-    ~Fragment();
-    std::vector<EdgeName> edges_;
+    Fragment(std::size_t size, const Box& box)
+        : box_(box), size_(static_cast<std::uint32_t>(size)) {}
+    ~Fragment() = default;
+    [[nodiscard]] static constexpr std::size_t bytes_for(std::size_t size) {
+        return sizeof(Fragment) + size * (sizeof(EdgeName) + sizeof(Approximation));
+    }
+    void destroy() const;
+
     Box box_;
+    std::uint32_t size_;
     mutable std::atomic<std::uint32_t> count_{0};
+    // The edges follow, then the vertices.
 };
+static_assert(sizeof(Fragment) % alignof(EdgeName) == 0 &&
+              alignof(EdgeName) == alignof(Approximation));
 
 /// A polygon in a cell: a whole facet (its clipping by the cell is implied, not carried out) or a
 /// fragment. `flipped` turns its orientation. A whole facet that an arrangement listed is `touched`

@@ -71,7 +71,7 @@ void count_fragments(std::vector<const Fragment*>& fragments, CellTreeStats& sta
     fragments.erase(std::unique(fragments.begin(), fragments.end()), fragments.end());
     stats.fragments = fragments.size();
     for (const Fragment* fragment : fragments) {
-        stats.bytes += sizeof(Fragment) + fragment->edges().size_bytes();
+        stats.bytes += fragment->bytes();
     }
 }
 

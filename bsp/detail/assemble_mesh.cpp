@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// To triangles, facet by facet. Nearly all facets of a large result pass through: their corners get
-// numbers and coordinates as they are met, in one pass over the marks. Vertices keep their places
-// in tables of their own, one for each source and one for the points of the workbench; a hash map
-// from vertices to numbers costs more than everything else here together.
+// To triangles, facet by facet. Nearly all facets of a large result pass through. So corners get
+// their numbers first, in the order of their sources: which of them are in use is one pass over the
+// marks, their coordinates are one pass over the points, and then a facet is three look-ups in a
+// table. Vertices that cuts have made come after them, as they are met. A hash map from vertices to
+// numbers costs more than everything else here together.
 
 #include <algorithm>
 #include <utility>
@@ -34,14 +35,11 @@ public:
           loops_(parts.bench) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
-        reserve(edges.size());
-        tables_.resize(parts_.sources.size());
         number_.assign(bench_.point_count(), none);
-        for (std::size_t t = 0; t < tables_.size(); ++t)
-            tables_[t].assign(parts_.sources[t].source()->mesh().points.size(), none);
+        number_corners(edges);
+        mesh_.corners.resize(3 * (parts_.stats.whole_facets + edges.size()));
         rest_ = edges;
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
-        mesh_.points.resize(point_count_);
         mesh_.corners.resize(corner_count_);
         mesh_.face_begin.resize(corner_count_ / 3 + 1);
         std::uint32_t begin = 0;
@@ -50,14 +48,46 @@ public:
     }
 
 private:
-    // Of k edges come k - 2 triangles, and two more for each hole.
-    void reserve(std::size_t edges) {
-        const std::size_t whole = parts_.stats.whole_facets;
-        mesh_.corners.resize(3 * (whole + edges));
-        std::size_t corners = edges;
-        for (const FacetMarks& marks : parts_.sources)
-            corners += marks.source()->mesh().points.size();
-        mesh_.points.resize(std::min(corners, 3 * whole + edges));
+    // The corners of the result's facets, source by source, in the order of their vertices.
+    void number_corners(std::span<const BoundaryEdge> edges) {
+        constexpr std::uint32_t used = 0;
+        tables_.resize(parts_.sources.size());
+        for (std::size_t t = 0; t < tables_.size(); ++t) {
+            const LatticeMesh& mesh = parts_.sources[t].source()->mesh();
+            tables_[t].assign(mesh.points.size(), none);
+            std::uint32_t* const table = tables_[t].data();
+            parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : mesh.triangles[facet]) table[v] = used;
+            });
+        }
+        std::size_t made = 0;  // at most: vertices that are no corners
+        for (const BoundaryEdge& e : edges) {
+            if (std::exchange(number_[u(e.from)], used) != none) continue;
+            if (bench_.is_corner(e.from)) {
+                corner_of(e.from) = used;
+            } else {
+                ++made;
+            }
+        }
+        std::size_t count = made;
+        for (const auto& table : tables_)
+            count += table.size() - static_cast<std::size_t>(std::ranges::count(table, none));
+        mesh_.points.reserve(count);
+        for (std::size_t t = 0; t < tables_.size(); ++t) {
+            const LatticePoint* p = parts_.sources[t].source()->mesh().points.data();
+            for (std::uint32_t& number : tables_[t]) {
+                if (number != none) number = add_point(*p);
+                ++p;
+            }
+        }
+        for (const BoundaryEdge& e : edges)
+            number_[u(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : none;
+    }
+
+    // The place in the table of its source of a point that is a corner.
+    std::uint32_t& corner_of(PointId p) {
+        const auto [source, v] = bench_.corner_name(p);
+        return tables_[parts_.table_of(source)][v];
     }
 
     // For the triangles of so many edges beside those of the facets that pass through.
@@ -81,20 +111,13 @@ private:
     }
 
     std::uint32_t add_point(const std::array<double, 3>& p) {
-        mesh_.points[point_count_] = {in_units(p[0]), in_units(p[1]), in_units(p[2])};
-        return static_cast<std::uint32_t>(point_count_++);
+        mesh_.points.push_back({in_units(p[0]), in_units(p[1]), in_units(p[2])});
+        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
     }
 
     std::uint32_t add_point(const LatticePoint& p) {
         return add_point(std::array{static_cast<double>(p.x), static_cast<double>(p.y),
                                     static_cast<double>(p.z)});
-    }
-
-    // The table of a source: by vertex, its number in the mesh.
-    std::uint32_t corner(std::size_t table, std::uint32_t vertex) {
-        std::uint32_t& at = tables_[table][vertex];
-        if (at == none) at = add_point(parts_.sources[table].source()->mesh().points[vertex]);
-        return at;
     }
 
     // Facets in their order, whether they pass through or have edges.
@@ -119,17 +142,10 @@ private:
     }
 
     void copy(std::size_t t, std::uint32_t facet, bool flipped) {
-        const LatticeMesh& mesh = parts_.sources[t].source()->mesh();
-        const auto& corners = mesh.triangles[facet];
-        std::uint32_t* const numbers = tables_[t].data();
-        const auto number = [&](std::uint32_t vertex) {
-            if (numbers[vertex] == none) numbers[vertex] = add_point(mesh.points[vertex]);
-            return numbers[vertex];
-        };
-        const std::uint32_t a = number(corners[0]);
-        const std::uint32_t b = number(corners[flipped ? 2 : 1]);
-        const std::uint32_t c = number(corners[flipped ? 1 : 2]);
-        add_triangle(a, b, c);
+        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
+        const std::uint32_t* const numbers = tables_[t].data();
+        add_triangle(numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
+                     numbers[corners[flipped ? 1 : 2]]);
     }
 
     // The facet whose edges come next.
@@ -165,13 +181,7 @@ private:
 
     std::uint32_t vertex(PointId p) {
         std::uint32_t& at = number_[u(p)];
-        if (at != none) return at;
-        if (bench_.is_corner(p)) {
-            const auto [source, v] = bench_.corner_name(p);
-            at = corner(parts_.table_of(source), v);
-        } else {
-            at = add_point(bench_.nearest(p));
-        }
+        if (at == none) at = add_point(bench_.nearest(p));
         return at;
     }
 
@@ -238,12 +248,11 @@ private:
     double unit_;
     const BoundaryParts& parts_;
     const Workbench& bench_;
-    PolygonMesh mesh_;                                // longer than what is written so far:
-    std::size_t point_count_ = 0;                     // in mesh_.points
-    std::size_t corner_count_ = 0;                    // in mesh_.corners, and of these:
-    std::size_t worked_corners_ = 0;                  // those of facets that did not pass through
-    std::span<const BoundaryEdge> rest_;              // of facets not yet written
-    std::vector<std::vector<std::uint32_t>> tables_;  // by source
+    PolygonMesh mesh_;                    // its corners are longer than what is written so far:
+    std::size_t corner_count_ = 0;        // in mesh_.corners, and of these:
+    std::size_t worked_corners_ = 0;      // those of facets that did not pass through
+    std::span<const BoundaryEdge> rest_;  // of facets not yet written
+    std::vector<std::vector<std::uint32_t>> tables_;  // by source: the numbers of its corners
     std::vector<std::uint32_t> number_;               // by PointId
     FaceLoops loops_;
     std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated

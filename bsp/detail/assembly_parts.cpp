@@ -21,6 +21,7 @@
 #include <optional>
 #include <tuple>
 
+#include <trisect/bsp/detail/fragment_group.h>
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/kernel/contract.h>
 
@@ -62,8 +63,11 @@ private:
     void mark_list(const Leaf& leaf, FacetMarks& marks);
     void number_facets();
     void make_parts(Leaf& leaf);
+    void make_list_parts(const Leaf& leaf);
     void make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet);
-    void add_corners_near(const WorkPolygon& shape, const PolygonRef& ref);
+    void make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet);
+    void note_part(const Leaf& leaf, BoundaryFacet& facet);
+    void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
     void merge_equal_points();
     void conform_edges();
     [[nodiscard]] std::size_t table(const Source* source);
@@ -76,6 +80,11 @@ private:
     std::vector<BoundaryEdge> edges_;  // of the parts, leaf by leaf
     std::vector<PointId> same_;
     EdgeSplitter splitter_;
+    // Of the group of fragments in the making.
+    FragmentGroup fragments_;
+    std::vector<PolygonRef> group_;
+    std::vector<PlaneId> planes_;
+    std::vector<PointId> points_;
 };
 
 }  // namespace
@@ -161,8 +170,17 @@ void Gatherer::mark_list(const Leaf& leaf, FacetMarks& marks) {
     const std::span<const std::uint32_t> facets = polygons.facets();
     const std::size_t contained = polygons.contained();
     for (const std::uint32_t f : facets.first(contained)) marks.set_present(f, flipped);
-    for (const std::uint32_t f : facets.subspan(contained))
-        if (is_owned(leaf.cell, marks, f, flipped)) marks.set_present(f, flipped);
+    // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would
+    // wait for each of them.
+    const Box inside = leaf.cell.lattice_box();
+    const LatticeMesh& mesh = marks.source()->mesh();
+    for (const std::uint32_t f : facets.subspan(contained)) {
+        const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
+        const bool owned =
+            ((p.x >= inside.lo[0]) & (p.x <= inside.hi[0]) & (p.y >= inside.lo[1]) &
+             (p.y <= inside.hi[1]) & (p.z >= inside.lo[2]) & (p.z <= inside.hi[2])) != 0;
+        marks.add_present(f, flipped, owned);
+    }
 }
 
 void Gatherer::number_facets() {
@@ -180,6 +198,7 @@ void Gatherer::number_facets() {
             out_.facets.push_back({source, f, flipped});
         });
     }
+    out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
 }
 
 void Gatherer::make_parts(Leaf& leaf) {
@@ -199,14 +218,90 @@ void Gatherer::make_parts(Leaf& leaf) {
             for (const std::uint32_t f : polygons.facets()) make(f);
         }
     } else {
-        for (const PolygonRef r : polygons) {
-            const FacetMarks& marks = out_.sources[table(r.source)];
-            const bool flipped = r.flipped != leaf.complemented;
-            if (marks.takes_part(r.facet, flipped))
-                make_part(r, leaf, marks.number_of_worked(r.facet, flipped));
-        }
+        make_list_parts(leaf);
     }
     leaf.end_edge = edges_.size();
+}
+
+// Whether all that the cell's walls could cut off has been cut off: the box of a fragment is
+// rounded outwards and says too much where it ends at a wall.
+bool ends_at_walls(const Fragment& fragment, const Cell& cell) {
+    const auto ends_at = [&](std::size_t axis, std::int64_t wall, bool above) {
+        const EdgeName e{PlaneName::wall(static_cast<int>(axis), wall), above};
+        return std::ranges::find(fragment.edges(), e) != fragment.edges().end();
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (fragment.box().lo[k] <= (cell.lo[k] >> wall_bits) && !ends_at(k, cell.lo[k], true))
+            return false;
+        if (fragment.box().hi[k] > (cell.hi[k] >> wall_bits) && !ends_at(k, cell.hi[k], false))
+            return false;
+    }
+    return true;
+}
+
+// Fragments of one facet come one after the other.
+void Gatherer::make_list_parts(const Leaf& leaf) {
+    const PolygonList& polygons = leaf.node->polygons();
+    for (std::size_t i = 0; i < polygons.size();) {
+        const PolygonRef r = polygons[i++];
+        const FacetMarks& marks = out_.sources[table(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        if (!marks.takes_part(r.facet, flipped)) continue;
+        const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
+        if (r.fragment == nullptr || !ends_at_walls(*r.fragment, leaf.cell)) {
+            make_part(r, leaf, facet);
+            continue;
+        }
+        group_.assign(1, r);
+        for (; i < polygons.size() && group_.size() < FragmentGroup::max_parts; ++i) {
+            const PolygonRef next = polygons[i];
+            if (next.facet != r.facet || next.source != r.source || next.flipped != r.flipped ||
+                next.fragment == nullptr || !ends_at_walls(*next.fragment, leaf.cell))
+                break;
+            group_.push_back(next);
+        }
+        make_group(group_, leaf, facet);
+    }
+}
+
+// The number of parts decides what is left to join, and their leaves where.
+void Gatherer::note_part(const Leaf& leaf, BoundaryFacet& facet) {
+    const auto number = static_cast<std::int32_t>(&leaf - leaves_.data());
+    if (!leaf.node->is_mixed() || (facet.leaf >= 0 && facet.leaf != number))
+        facet.in_several_cells = true;
+    facet.leaf = number;
+    ++out_.stats.parts;
+    ++facet.parts;
+}
+
+void Gatherer::make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet) {
+    Workbench& bench = out_.bench;
+    const PolygonRef& ref = group[0];
+    BoundaryFacet& f = out_.facets[u(facet)];
+    f.support = bench.plane(PlaneName::support(ref.source, ref.facet));
+    if (!fragments_.join(group)) {
+        for (const PolygonRef& r : group) make_part(r, leaf, facet);
+        return;
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) note_part(leaf, f);
+    planes_.clear();
+    for (const PlaneName& n : fragments_.lines()) planes_.push_back(bench.plane(n));
+    points_.clear();
+    for (const FragmentGroup::Edge& e : fragments_.edges()) {
+        const auto& [p, q] = fragments_.lines_of(e.from);
+        points_.push_back(
+            bench.vertex(ref, f.support, planes_[p], planes_[q], fragments_.approximation(e.from)));
+    }
+    add_corners_near(points_, ref);
+    const auto point_at = [&](std::uint8_t vertex) {
+        return points_[fragments_.first_edge(vertex)];
+    };
+    for (const FragmentGroup::Edge& e : fragments_.edges()) {
+        PointId a = point_at(e.from);
+        PointId b = point_at(e.to);
+        if (f.flipped) std::swap(a, b);
+        edges_.push_back({a, b, facet, {planes_[e.line], e.above}});
+    }
 }
 
 void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet) {
@@ -218,12 +313,8 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
     if (!leaf.cell.contains(ref.box()) || shape.is_empty())
         shape = bench.clipped(shape, ref.box(), leaf.cell);
     if (shape.is_empty()) return;
-    const auto number = static_cast<std::int32_t>(&leaf - leaves_.data());
-    if (!leaf.node->is_mixed() || (f.leaf >= 0 && f.leaf != number)) f.in_several_cells = true;
-    f.leaf = number;
-    if (ref.fragment != nullptr) add_corners_near(shape, ref);
-    ++out_.stats.parts;
-    ++f.parts;
+    note_part(leaf, f);
+    if (ref.fragment != nullptr) add_corners_near({shape.points.data(), shape.points.size()}, ref);
     const std::size_t n = shape.points.size();
     for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = f.flipped ? n - 1 - k : k;
@@ -236,11 +327,11 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
 
 // A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
 // around the corner know it by the corner's name only, so that name must take part in merging.
-void Gatherer::add_corners_near(const WorkPolygon& shape, const PolygonRef& ref) {
+void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRef& ref) {
     if (ref.source->is_half_space()) return;
     std::array<std::array<double, 3>, 3> corners;
     for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(ref.source->corner(ref.facet, i)).c;
-    for (const PointId p : shape.points) {
+    for (const PointId p : points) {
         if (out_.bench.is_corner(p)) continue;
         const Approximation a = out_.bench.approximation(p);
         for (int i = 0; i < 3; ++i) {

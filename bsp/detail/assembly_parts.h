@@ -47,6 +47,12 @@ public:
 
     /// The facet bounds the result somewhere.
     void set_present(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(present, flipped); }
+    /// The same where it `is_owned` or worked on.
+    void add_present(std::uint32_t facet, bool flipped, bool is_owned) {
+        const unsigned m = marks_[facet];
+        const unsigned known = (m >> 2 >> (flipped ? 1 : 0) | (is_owned ? 1U : 0U)) & 1U;
+        marks_[facet] = static_cast<std::uint8_t>(m | known << (flipped ? 1 : 0));
+    }
     /// The facet is cut or touched somewhere: it does not pass through as it is.
     void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
     [[nodiscard]] bool is_present(std::uint32_t facet, bool flipped) const {

@@ -83,8 +83,7 @@ private:
 [[nodiscard]] inline std::uint64_t bytes_of_result(std::span<const PolygonRef> list) {
     std::uint64_t bytes = bytes_of_list(list);
     for (const PolygonRef& r : list)
-        if (r.fragment != nullptr)
-            bytes += sizeof(Fragment) + r.fragment->edges().size() * sizeof(EdgeName);
+        if (r.fragment != nullptr) bytes += r.fragment->bytes();
     return bytes;
 }
 

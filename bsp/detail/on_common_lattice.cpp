@@ -9,6 +9,7 @@
 #include <trisect/bsp/detail/on_common_lattice.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -79,7 +80,14 @@ private:
             box.lo[k] *= std::int64_t{1} << shift_;
             box.hi[k] *= std::int64_t{1} << shift_;
         }
-        out.fragment = new Fragment(std::move(edges), box);
+        const double factor = std::ldexp(1.0, static_cast<int>(shift_));
+        std::vector<Approximation> vertices(ref.fragment->vertices().begin(),
+                                            ref.fragment->vertices().end());
+        for (Approximation& v : vertices) {
+            for (double& c : v.c) c *= factor;
+            v.error *= factor;
+        }
+        out.fragment = Fragment::make(edges, vertices, box);
         return out;
     }
 

@@ -143,17 +143,21 @@ PlaneName PlainCutting::plane_of(PlainLine line) const {
     return PlaneName::support(other.source, other.facet);
 }
 
-int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
-    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
-    const PolygonRef& ref = (*facets_)[item_].ref;
-    if (vertex < 3) return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
-    Approximation at = v.at;
+// The same point in the lattice's coordinates.
+Approximation PlainCutting::from_lattice_origin(Approximation at) const {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto origin = static_cast<double>(facets_->origin()[k]);
         at.c[k] += origin;
         at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
     }
-    return trisect::sign_of(side_of(at, ref.source->support(ref.facet),
+    return at;
+}
+
+int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
+    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const PolygonRef& ref = (*facets_)[item_].ref;
+    if (vertex < 3) return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
+    return trisect::sign_of(side_of(from_lattice_origin(v.at), ref.source->support(ref.facet),
                                     plane_of(v.lines[0]).plane(), plane_of(v.lines[1]).plane(),
                                     plane));
 }
@@ -693,11 +697,11 @@ PlainCutting::Result PlainCutting::remains() const {
 }
 
 PolygonRef PlainCutting::fragment(const PlainPart& part) const {
-    std::vector<EdgeName> edges;
-    edges.reserve(part.size);
+    std::array<EdgeName, PlainPart::max_size> edges;
+    std::array<Approximation, PlainPart::max_size> vertices;
     Box box;
     for (std::size_t i = 0; i < part.size; ++i) {
-        edges.push_back({plane_of(part.lines[i]), (part.above >> i & 1U) != 0});
+        edges[i] = {plane_of(part.lines[i]), (part.above >> i & 1U) != 0};
         const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto low = static_cast<std::int64_t>(std::floor(a.c[k] - a.error));
@@ -705,9 +709,11 @@ PolygonRef PlainCutting::fragment(const PlainPart& part) const {
             box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + low);
             box.hi[k] = std::max(box.hi[k], facets_->origin()[k] + high);
         }
+        vertices[i] = from_lattice_origin(a);
     }
     PolygonRef out = (*facets_)[item_].ref;
-    out.fragment = new Fragment(std::move(edges), box);
+    out.fragment = Fragment::make(std::span(edges).first(part.size),
+                                  std::span(vertices).first(part.size), box);
     return out;
 }
 

@@ -28,10 +28,13 @@ Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
 PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,
                          const WorkPolygon& polygon) {
     std::vector<EdgeName> edges;
+    std::vector<Approximation> vertices;
     edges.reserve(polygon.edges.size());
+    vertices.reserve(polygon.edges.size());
     for (const WorkEdge& e : polygon.edges) edges.push_back({bench.name(e.plane), e.above});
+    for (const PointId p : polygon.points) vertices.push_back(bench.approximation(p));
     PolygonRef out = ref;
-    out.fragment = new Fragment(std::move(edges), outward_box(bench, polygon));
+    out.fragment = Fragment::make(edges, vertices, outward_box(bench, polygon));
     return out;
 }
 

@@ -12,47 +12,57 @@ namespace trisect::detail {
 
 void Workbench::clear() {
     planes_.clear();
-    names_.clear();
-    class_.clear();
+    made_.clear();
     points_.clear();
     plane_ids_.clear();
     corner_ids_.clear();
     line_ids_.clear();
     point_ids_.clear();
-    line_of_.clear();
 }
 
-PlaneId Workbench::add_plane(const PlaneName& name, const Plane& plane) {
+void Workbench::reserve(std::size_t planes, std::size_t points) {
+    planes_.reserve(planes);
+    plane_ids_.reserve(planes / 2);
+    line_ids_.reserve(planes / 2);
+    points_.reserve(points);
+    point_ids_.reserve(points);
+}
+
+PlaneId Workbench::add_plane(const PlaneName& name, PlaneId support) {
     const auto id = static_cast<PlaneId>(planes_.size());
-    planes_.push_back(plane);
-    names_.push_back(name);
-    class_.push_back(id);
-    line_of_.push_back(-1);
+    planes_.push_back({name, id, support});
     return id;
 }
 
-// Whoever needs one edge plane of a facet nearly always needs all: they are found by one key and
-// have ids in a row.
+const Plane& Workbench::make_plane(PlaneId id) const {
+    const PlaneRecord& r = planes_[u(id)];
+    r.place = made_.add(r.name.is_edge()
+                            ? r.name.source()->edge_plane(
+                                  r.name.facet, static_cast<int>(r.name.kind), plane_at(r.support))
+                            : r.name.plane());
+    return made_.at(r.place);
+}
+
+// The edge planes of a facet are found by one key and have ids in a row.
 PlaneId Workbench::plane(const PlaneName& name) {
     const std::uint32_t kind = name.is_edge() ? PlaneName::Edge0 : name.kind;
     const PlaneId offset = name.is_edge() ? static_cast<PlaneId>(name.kind) : 0;
     const Key128 key{name.owner, (std::uint64_t{kind} << 32) | name.facet};
     const auto [id, inserted] = plane_ids_.insert(key, static_cast<PlaneId>(planes_.size()));
     if (!inserted) return id + offset;
-    if (!name.is_edge()) return add_plane(name, name.plane());
+    if (!name.is_edge()) return add_plane(name);
     const Source* source = name.source();
-    for (int k = 0; k < 3; ++k) add_plane(PlaneName::edge(source, name.facet, k), Plane());
+    for (int k = 0; k < 3; ++k) add_plane(PlaneName::edge(source, name.facet, k));
     // The support may be new as well: its id comes after theirs.
     const PlaneId support = plane(PlaneName::support(source, name.facet));
-    for (int k = 0; k < 3; ++k)
-        planes_[u(id + k)] = source->edge_plane(name.facet, k, planes_[u(support)]);
+    for (PlaneId k = 0; k < 3; ++k) planes_[u(id + k)].support = support;
     return id + offset;
 }
 
 void Workbench::declare_same(PlaneId a, PlaneId b) {
     const PlaneId ca = plane_class(a);
     const PlaneId cb = plane_class(b);
-    class_[u(std::max(ca, cb))] = std::min(ca, cb);
+    planes_[u(std::max(ca, cb))].same = std::min(ca, cb);
 }
 
 PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
@@ -95,14 +105,15 @@ std::uint64_t Workbench::line_of_edge(std::uint64_t owner, std::uint32_t v, std:
 // What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
 // source, which both of its facets know.
 std::uint64_t Workbench::line_item(PlaneId p) {
-    const PlaneName& n = names_[u(p)];
+    PlaneRecord& r = planes_[u(p)];
+    const PlaneName& n = r.name;
     if (!n.is_edge()) return static_cast<std::uint64_t>(p);
-    if (line_of_[u(p)] < 0) {
+    if (r.line < 0) {
         const auto v = n.source()->corner_index(n.facet, static_cast<int>(n.kind));
         const auto w = n.source()->corner_index(n.facet, static_cast<int>((n.kind + 1) % 3));
-        line_of_[u(p)] = static_cast<std::int32_t>(line_of_edge(n.owner, v, w) & 0xffffffffU);
+        r.line = static_cast<std::int32_t>(line_of_edge(n.owner, v, w) & 0xffffffffU);
     }
-    return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(line_of_[u(p)]);
+    return (std::uint64_t{1} << 32) | static_cast<std::uint64_t>(r.line);
 }
 
 Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
@@ -117,8 +128,8 @@ Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
         // third plane is the same from whichever of them it is reached.
         const std::array<PlaneId, 3> planes{p, q, r};
         for (std::size_t i = 0; i < 3; ++i) {
-            const PlaneName& a = names_[u(planes[i])];
-            if (const auto ends = common_edge(a, names_[u(planes[(i + 1) % 3])]))
+            const PlaneName& a = name(planes[i]);
+            if (const auto ends = common_edge(a, name(planes[(i + 1) % 3])))
                 return {line_item(planes[(i + 2) % 3]),
                         line_of_edge(a.owner, (*ends)[0], (*ends)[1])};
         }
@@ -126,9 +137,9 @@ Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
     }
     if (items[1] >> 32 != 0) return {items[1], items[2]};
     const PlaneId line_plane = line_item(p) == items[2] ? p : (line_item(q) == items[2] ? q : r);
-    const PlaneName& line = names_[u(line_plane)];
+    const PlaneName& line = name(line_plane);
     const auto carries = [&](std::uint64_t item) {
-        return names_[item] == PlaneName::support(line.source(), line.facet);
+        return planes_[item].name == PlaneName::support(line.source(), line.facet);
     };
     if (carries(items[0])) return {items[1], items[2]};
     if (carries(items[1])) return {items[0], items[2]};
@@ -136,22 +147,39 @@ Key128 Workbench::point_key(PlaneId p, PlaneId q, PlaneId r) {
 }
 
 PointId Workbench::meet(PlaneId p, PlaneId q, PlaneId r) {
-    return point_named(point_key(p, q, r), p, q, r);
+    return point_named(point_key(p, q, r), p, q, r, nullptr);
 }
 
 // The same for a facet's support and one of its edges; point_key comes to this key by a longer way.
-PointId Workbench::meet_on_edge(PlaneId support, PlaneId edge, PlaneId other) {
+PointId Workbench::meet_on_edge(PlaneId support, PlaneId edge, PlaneId other,
+                                const Approximation* known) {
     const std::uint64_t a = line_item(edge);
     const std::uint64_t b = line_item(other);
-    return point_named({std::min(a, b), std::max(a, b)}, support, edge, other);
+    return point_named({std::min(a, b), std::max(a, b)}, support, edge, other, known);
 }
 
-PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r) {
+namespace {
+
+// As sharp as approximate() makes them.
+bool is_sharp(const Approximation& a) {
+    const double largest =
+        std::max(std::fabs(a.c[0]), std::max(std::fabs(a.c[1]), std::fabs(a.c[2])));
+    return a.error <= 0x1p-40 * largest;
+}
+
+}  // namespace
+
+PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r,
+                               const Approximation* known) {
     const auto next = static_cast<PointId>(points_.size());
     const auto [id, inserted] = point_ids_.insert(key, next);
-    if (inserted)
-        points_.push_back(
-            {{p, q, r}, {}, approximate(plane_at(p), plane_at(q), plane_at(r)), nullptr, 0});
+    if (!inserted) return id;
+    const bool take = known != nullptr && is_sharp(*known);
+    points_.push_back({{p, q, r},
+                       {},
+                       take ? *known : approximate(plane_at(p), plane_at(q), plane_at(r)),
+                       nullptr,
+                       0});
     return id;
 }
 
@@ -255,15 +283,25 @@ WorkPolygon Workbench::polygon(const PolygonRef& ref) {
         for (int i = 0; i < 3; ++i) w.points.push_back(corner(ref.source, ref.facet, i));
         return w;
     }
+    add_fragment(ref, w);
+    return w;
+}
+
+namespace {
+
+bool is_own_edge(const PlaneName& plane, const PolygonRef& ref) {
+    return plane.is_edge() && plane.facet == ref.facet && plane.source() == ref.source;
+}
+
+}  // namespace
+
+void Workbench::add_fragment(const PolygonRef& ref, WorkPolygon& w) {
     const auto edges = ref.fragment->edges();
+    const Approximation* const vertices = ref.fragment->vertices().data();
     const std::size_t n = edges.size();
-    const PlaneName support = PlaneName::support(ref.source, ref.facet);
-    const auto is_own = [&](const PlaneName& e) {
-        return e.is_edge() && e.owner == support.owner && e.facet == support.facet;
-    };
     PlaneId own = -1;  // the first of the facet's edge planes
     for (const EdgeName& e : edges) {
-        if (!is_own(e.plane)) {
+        if (!is_own_edge(e.plane, ref)) {
             w.edges.push_back({plane(e.plane), e.above});
             continue;
         }
@@ -271,21 +309,23 @@ WorkPolygon Workbench::polygon(const PolygonRef& ref) {
         if (own < 0) own = plane(e.plane) - i;
         w.edges.push_back({own + i, e.above});
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t before = i == 0 ? n - 1 : i - 1;
-        const PlaneId p = w.edges[before].plane;
-        const PlaneId q = w.edges[i].plane;
-        const bool own_p = is_own(edges[before].plane);
-        const bool own_q = is_own(edges[i].plane);
-        if (own_p && own_q) {
-            w.points.push_back(corner(ref.source, ref.facet, static_cast<int>(q - own)));
-        } else if (own_p || own_q) {
-            w.points.push_back(meet_on_edge(w.support, own_p ? p : q, own_p ? q : p));
-        } else {
-            w.points.push_back(meet(w.support, p, q));
-        }
+    for (std::size_t i = 0; i < n; ++i)
+        w.points.push_back(vertex(ref, w.support, w.edges[i == 0 ? n - 1 : i - 1].plane,
+                                  w.edges[i].plane, vertices[i]));
+}
+
+PointId Workbench::vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
+                          const Approximation& at) {
+    const bool own_p = is_own_edge(name(p), ref);
+    const bool own_q = is_own_edge(name(q), ref);
+    // Edge i begins at corner i.
+    if (own_p && own_q) {
+        const auto i = static_cast<int>(name(p).kind);
+        const auto j = static_cast<int>(name(q).kind);
+        return corner(ref.source, ref.facet, (i + 1) % 3 == j ? j : i);
     }
-    return w;
+    if (own_p || own_q) return meet_on_edge(support, own_p ? p : q, own_p ? q : p, &at);
+    return point_named(point_key(support, p, q), support, p, q, &at);
 }
 
 void Workbench::with_edges(WorkPolygon& polygon, const PolygonRef& ref) {
@@ -374,14 +414,23 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
     return w;
 }
 
+// Whether the polygon has an edge on a wall, and so lies on one side of it.
+bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
+                              bool above) const {
+    const PlaneName n = PlaneName::wall(axis, wall);
+    return std::any_of(polygon.edges.begin(), polygon.edges.end(),
+                       [&](const WorkEdge& e) { return e.above == above && name(e.plane) == n; });
+}
+
 WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& cell) {
     WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : std::move(polygon);
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        if (box.lo[k] <= (cell.lo[k] >> wall_bits))
+        // Boxes are rounded outwards, so those of parts that end at a wall reach beyond it.
+        if (box.lo[k] <= (cell.lo[k] >> wall_bits) && !is_bounded_by(w, axis, cell.lo[k], true))
             w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;
-        if (box.hi[k] > (cell.hi[k] >> wall_bits))
+        if (box.hi[k] > (cell.hi[k] >> wall_bits) && !is_bounded_by(w, axis, cell.hi[k], false))
             w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.hi[k])), -1);
         if (w.is_empty()) return w;
     }

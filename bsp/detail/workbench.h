@@ -5,11 +5,12 @@
 //
 // Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
 // planes found to be the same point set share a class. Points are corners of sources or triples of
-// planes.
+// planes. A workbench belongs to one thread: planes are made when something asks for them.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -45,12 +46,16 @@ public:
     void clear();
 
     PlaneId plane(const PlaneName& name);
-    [[nodiscard]] const Plane& plane_at(PlaneId id) const { return planes_[u(id)]; }
-    [[nodiscard]] const PlaneName& name(PlaneId id) const { return names_[u(id)]; }
+    /// Made when it is first asked for: of most names only the name is ever used.
+    [[nodiscard]] const Plane& plane_at(PlaneId id) const {
+        const std::int32_t at = planes_[u(id)].place;
+        return at >= 0 ? made_.at(at) : make_plane(id);
+    }
+    [[nodiscard]] const PlaneName& name(PlaneId id) const { return planes_[u(id)].name; }
     /// Records that two planes are the same point set.
     void declare_same(PlaneId a, PlaneId b);
     [[nodiscard]] PlaneId plane_class(PlaneId id) const {
-        while (class_[u(id)] != id) id = class_[u(id)];
+        while (planes_[u(id)].same != id) id = planes_[u(id)].same;
         return id;
     }
 
@@ -94,6 +99,12 @@ public:
     /// after with_edges().
     [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
     void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
+    /// Of a fragment: where the lines of two of its edges meet, `at` being the doubles of that
+    /// vertex. Edges on planes of the fragment's own facet are told by their names.
+    PointId vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
+                   const Approximation& at);
+    /// Room for so many planes and points without growing on the way.
+    void reserve(std::size_t planes, std::size_t points);
 
     /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
     /// empty when that part has no area; moved from where nothing is cut. \pre the plane is not the
@@ -126,23 +137,56 @@ private:
                                                    const PlaneName& b);
     [[nodiscard]] static std::optional<std::array<std::uint32_t, 2>> common_edge(
         const PlaneName& a, const PlaneName& b);
-    PlaneId add_plane(const PlaneName& name, const Plane& plane);
+    struct PlaneRecord {
+        PlaneName name;
+        PlaneId same = -1;     // on the way to the first of its class
+        PlaneId support = -1;  // of an edge plane: that of its facet
+        // Of an edge plane: the source's edge, -1 not looked up.
+        std::int32_t line = -1;
+        mutable std::int32_t place = -1;  // among the planes that were made
+    };
+    /// Planes that stay where they are while others are made.
+    class MadePlanes {
+    public:
+        [[nodiscard]] const Plane& at(std::int32_t i) const {
+            return (*blocks_[u(i) / block_size])[u(i) % block_size];
+        }
+        std::int32_t add(const Plane& plane) {
+            if (u(count_) == block_size * blocks_.size())
+                blocks_.push_back(std::make_unique<Block>());
+            (*blocks_[u(count_) / block_size])[u(count_) % block_size] = plane;
+            return count_++;
+        }
+        void clear() { count_ = 0; }
+
+    private:
+        static constexpr std::size_t block_size = 32;
+        using Block = std::array<Plane, block_size>;
+        std::vector<std::unique_ptr<Block>> blocks_;
+        std::int32_t count_ = 0;
+    };
+
+    PlaneId add_plane(const PlaneName& name, PlaneId support = -1);
+    const Plane& make_plane(PlaneId id) const;
     [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
     [[nodiscard]] std::uint64_t line_item(PlaneId p);
     [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
-    PointId point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r);
-    PointId meet_on_edge(PlaneId support, PlaneId edge, PlaneId other);
+    // `known`: its doubles, if the caller has them; better ones are made where they are blunt.
+    PointId point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r,
+                        const Approximation* known);
+    PointId meet_on_edge(PlaneId support, PlaneId edge, PlaneId other, const Approximation* known);
+    void add_fragment(const PolygonRef& ref, WorkPolygon& out);
+    [[nodiscard]] bool is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
+                                     bool above) const;
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
-    std::vector<Plane> planes_;
-    std::vector<PlaneName> names_;
-    std::vector<PlaneId> class_;
+    std::vector<PlaneRecord> planes_;
+    mutable MadePlanes made_;
     std::vector<PointRecord> points_;
     FlatMap plane_ids_;
     FlatMap corner_ids_;
     FlatMap line_ids_;
     FlatMap point_ids_;
-    std::vector<std::int32_t> line_of_;  // of edge planes: the source's edge, -1 not looked up
     Sides sides_;
 };
 
