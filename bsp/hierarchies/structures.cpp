@@ -6,6 +6,7 @@
 #include <array>
 
 #include <trisect/bsp/hierarchies/all_pairs.h>
+#include <trisect/bsp/hierarchies/convex_parts_structure.h>
 #include <trisect/bsp/hierarchies/partitions.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/kernel/contract.h>
@@ -44,6 +45,8 @@ constexpr std::array entries{
           make_hash_grid_partition},
     Entry{{StructureKind::HierarchicalGrid, "hierarchical-grid", "a grid for each size"},
           make_hierarchical_grid_partition},
+    Entry{{StructureKind::ConvexParts, "convex-parts", "hulls of parts, features tracked"},
+          make_convex_parts},
 };
 
 constexpr auto infos = [] {

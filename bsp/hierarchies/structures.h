@@ -25,11 +25,12 @@ enum class StructureKind : std::uint8_t {
     Obb,        ///< oriented boxes, a binary tree
     ObbWide,    ///< the same with four children to a node
     ObbPacked,  ///< the tree of interfere(): four boxes at a time, in floats
-    Octree,    ///< A's space divided, B's triangles entered; and so on below
+    Octree,     ///< A's space divided, B's triangles entered; and so on below
     KdTree,
     RTree,
     HashGrid,
     HierarchicalGrid,
+    ConvexParts,  ///< hulls of convex parts, closest features tracked
 };
 
 struct StructureInfo {

@@ -235,17 +235,27 @@ Scene::Least Scene::least() const {
     return r;
 }
 
-bool Scene::proves_least(const FeaturePair& pair, const ExactRational& squared) const {
+bool Scene::proves_least(const FeaturePair& pair, const ExactRational& squared,
+                         bool* parallel) const {
     std::optional<Closest<mpq_class>> c;
     closest_of(data_->a.corners<mpq_class>(pair.a), data_->b.corners<mpq_class>(pair.b), c);
     if (c->squared != trisect::detail::to_gmp(squared) || c->squared <= 0) return false;
     const auto w = sub(c->q, c->p);
     const mpq_class at_p = dot(w, c->p);
     const mpq_class at_q = dot(w, c->q);
-    for (const auto& v : data_->a.exact)
-        if (dot(w, v) > at_p) return false;
-    for (const auto& v : data_->b.exact)
-        if (dot(w, v) < at_q) return false;
+    int on_a = 0;
+    int on_b = 0;
+    for (const auto& v : data_->a.exact) {
+        const int s = cmp(dot(w, v), at_p);
+        if (s > 0) return false;
+        if (s == 0) ++on_a;
+    }
+    for (const auto& v : data_->b.exact) {
+        const int s = cmp(dot(w, v), at_q);
+        if (s < 0) return false;
+        if (s == 0) ++on_b;
+    }
+    if (parallel != nullptr) *parallel = on_a > 1 && on_b > 1;
     return true;
 }
 

@@ -38,7 +38,10 @@ public:
 
     /// Whether no point of A is nearer to B than this pair's closest points, and whether these
     /// points are in the features: a proof, by the planes through both points across their line.
-    [[nodiscard]] bool proves_least(const FeaturePair& pair, const ExactRational& squared) const;
+    /// `parallel`: whether more than one vertex of each body is on these planes, so that closest
+    /// edges or faces are parallel.
+    [[nodiscard]] bool proves_least(const FeaturePair& pair, const ExactRational& squared,
+                                    bool* parallel = nullptr) const;
     /// Whether the features have a common point, or a vertex of the pair is inside the other body:
     /// a proof that the sets meet.
     [[nodiscard]] bool proves_meeting(const FeaturePair& pair) const;
