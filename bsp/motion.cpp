@@ -55,23 +55,10 @@ MotionPiece translation_piece(const std::array<double, 3>& by) {
 
 // The rotation by (q0, s q1, s q2, s q3) about the origin.
 MotionPiece rotation_piece(const std::array<std::int64_t, 4>& q) {
-    const IntegerPolynomial a = detail::to_gmp(q[0]);
-    const auto linear = [](std::int64_t v) {
-        return IntegerPolynomial({mpz_class(0), detail::to_gmp(v)});
-    };
-    const IntegerPolynomial b = linear(q[1]);
-    const IntegerPolynomial c = linear(q[2]);
-    const IntegerPolynomial d = linear(q[3]);
-    const mpz_class two = 2;
-    MotionPiece r;
-    r.matrix = {PolynomialVector{a * a + b * b - c * c - d * d, (b * c - a * d) * two,
-                                 (b * d + a * c) * two},
-                PolynomialVector{(b * c + a * d) * two, a * a - b * b + c * c - d * d,
-                                 (c * d - a * b) * two},
-                PolynomialVector{(b * d - a * c) * two, (c * d + a * b) * two,
-                                 a * a - b * b - c * c + d * d}};
-    r.weight = a * a + b * b + c * c + d * d;
-    return r;
+    std::array<IntegerPolynomial, 4> p{detail::to_gmp(q[0])};
+    for (std::size_t i = 1; i < 4; ++i)
+        p[i] = IntegerPolynomial({mpz_class(0), detail::to_gmp(q[i])});
+    return detail::rotation_by(p);
 }
 
 std::array<double, 3> negated(const std::array<double, 3>& v) { return {-v[0], -v[1], -v[2]}; }
@@ -255,6 +242,8 @@ std::array<double, 12> Motion::approximate_pose_at(double s) const {
     }
     return r;
 }
+
+Motion Motion::of_piece(const MotionPiece& piece) { return Motion(Pieces{piece}); }
 
 const detail::MotionPiece& Motion::piece(std::size_t i) const { return (*pieces_)[i]; }
 

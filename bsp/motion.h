@@ -75,6 +75,7 @@ public:
     [[nodiscard]] std::array<double, 12> approximate_pose_at(double s) const;
 
     /// For algorithms of the library: bsp/detail/motion_piece.h.
+    [[nodiscard]] static Motion of_piece(const detail::MotionPiece& piece);
     [[nodiscard]] const detail::MotionPiece& piece(std::size_t i) const;
 
 private:

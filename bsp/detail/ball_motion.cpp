@@ -22,29 +22,42 @@ Ball average(Ball a, Ball b) {
 
 // The distinct polynomials of a motion and where their coefficients are kept.
 template <class Visit>
-void for_each_entry(const RelativeMotion& motion, Visit&& visit) {
-    using Maps = BallMotion::Maps;
-    const auto matrix = [&visit](const PolynomialMatrix& m, BallMatrix Maps::*member) {
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                visit(m[i][j], [=](Maps& maps) -> Ball& { return (maps.*member)[i][j]; });
-    };
-    const auto vector = [&visit](const PolynomialVector& v, BallVector Maps::*member) {
-        for (std::size_t i = 0; i < 3; ++i)
-            visit(v[i], [=](Maps& maps) -> Ball& { return (maps.*member)[i]; });
-    };
-    matrix(motion.point.matrix, &Maps::matrix);
-    vector(motion.point.shift, &Maps::shift);
-    visit(motion.point.weight, [](Maps& maps) -> Ball& { return maps.weight; });
-    matrix(motion.plane_normal, &Maps::plane_normal);
-    vector(motion.plane_shift, &Maps::plane_shift);
-    visit(motion.plane_offset, [](Maps& maps) -> Ball& { return maps.plane_offset; });
-    matrix(motion.line_direction, &Maps::line_direction);
-    matrix(motion.line_moment, &Maps::line_moment);
-    matrix(motion.line_lever, &Maps::line_lever);
+void for_each_entry(const PolynomialMatrix& m, BallMatrix BallMotion::Maps::*member,
+                    Visit&& visit) {
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            visit(m[i][j], [=](BallMotion::Maps& maps) -> Ball& { return (maps.*member)[i][j]; });
 }
 
-int degree_of(const RelativeMotion& motion) {
+template <class Visit>
+void for_each_entry(const PolynomialVector& v, BallVector BallMotion::Maps::*member,
+                    Visit&& visit) {
+    for (std::size_t i = 0; i < 3; ++i)
+        visit(v[i], [=](BallMotion::Maps& maps) -> Ball& { return (maps.*member)[i]; });
+}
+
+template <class Visit>
+void for_each_entry(const MotionPiece& points, Visit&& visit) {
+    using Maps = BallMotion::Maps;
+    for_each_entry(points.matrix, &Maps::matrix, visit);
+    for_each_entry(points.shift, &Maps::shift, visit);
+    visit(points.weight, [](Maps& maps) -> Ball& { return maps.weight; });
+}
+
+template <class Visit>
+void for_each_entry(const RelativeMotion& motion, Visit&& visit) {
+    using Maps = BallMotion::Maps;
+    for_each_entry(motion.point, visit);
+    for_each_entry(motion.plane_normal, &Maps::plane_normal, visit);
+    for_each_entry(motion.plane_shift, &Maps::plane_shift, visit);
+    visit(motion.plane_offset, [](Maps& maps) -> Ball& { return maps.plane_offset; });
+    for_each_entry(motion.line_direction, &Maps::line_direction, visit);
+    for_each_entry(motion.line_moment, &Maps::line_moment, visit);
+    for_each_entry(motion.line_lever, &Maps::line_lever, visit);
+}
+
+template <class Maps>
+int degree_of(const Maps& motion) {
     int d = 0;
     for_each_entry(motion,
                    [&d](const IntegerPolynomial& p, const auto&) { d = std::max(d, p.degree()); });
@@ -73,13 +86,24 @@ std::array<Ball, BallPolynomial::max_degree + 1> bernstein(const IntegerPolynomi
 }
 
 // One power of two for all entries of a map keeps doubles in range.
-mpz_class scale_of(const RelativeMotion& motion) {
+template <class Maps>
+mpz_class scale_of(const Maps& motion) {
     std::size_t bits = 0;
     for_each_entry(motion, [&bits](const IntegerPolynomial& p, const auto&) {
         for (const mpz_class& c : p.coefficients())
             bits = std::max(bits, mpz_sizeinbase(c.get_mpz_t(), 2));
     });
     return mpz_class(1) << (bits > 200 ? bits - 200 : 0);
+}
+
+template <class Maps>
+void fill(const Maps& motion, BallMotion& r) {
+    r.degree = static_cast<std::size_t>(degree_of(motion));
+    const mpz_class scale = scale_of(motion);
+    for_each_entry(motion, [&](const IntegerPolynomial& p, const auto& entry) {
+        const auto b = bernstein(p, r.degree, scale);
+        for (std::size_t k = 0; k <= r.degree; ++k) entry(r.maps[k]) = b[k];
+    });
 }
 
 }  // namespace
@@ -98,13 +122,16 @@ bool BallMotion::fits(const RelativeMotion& motion) {
     return degree_of(motion) <= static_cast<int>(BallPolynomial::max_degree);
 }
 
-BallMotion::BallMotion(const RelativeMotion& motion)
-    : degree(static_cast<std::size_t>(degree_of(motion))) {
-    const mpz_class scale = scale_of(motion);
-    for_each_entry(motion, [&](const IntegerPolynomial& p, const auto& entry) {
-        const auto b = bernstein(p, degree, scale);
-        for (std::size_t k = 0; k <= degree; ++k) entry(maps[k]) = b[k];
-    });
+bool BallMotion::fits(const MotionPiece& points) {
+    return degree_of(points) <= static_cast<int>(BallPolynomial::max_degree);
+}
+
+BallMotion::BallMotion(const RelativeMotion& motion) { fill(motion, *this); }
+
+BallMotion BallMotion::of_points(const MotionPiece& points) {
+    BallMotion r;
+    fill(points, r);
+    return r;
 }
 
 BallMotion BallMotion::half(bool right) const {

@@ -48,8 +48,11 @@ struct BallMotion {
 
     /// Over [0, 1]. \pre fits(motion)
     explicit BallMotion(const RelativeMotion& motion);
+    /// The map of points alone, over [0, 1]. \pre fits(points)
+    [[nodiscard]] static BallMotion of_points(const MotionPiece& points);
     /// Whether the degrees are low enough; otherwise every question is an exact one.
     [[nodiscard]] static bool fits(const RelativeMotion& motion);
+    [[nodiscard]] static bool fits(const MotionPiece& points);
 
     /// The interval becomes its left or right half.
     [[nodiscard]] BallMotion left_half() const { return half(false); }
@@ -63,6 +66,7 @@ struct BallMotion {
     std::array<Maps, BallPolynomial::max_degree + 1> maps{};
 
 private:
+    BallMotion() = default;
     [[nodiscard]] BallMotion half(bool right) const;
 };
 

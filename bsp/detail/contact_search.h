@@ -4,17 +4,13 @@
 // parameter and walking down two trees of boxes.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/detail/ball_motion.h>
 #include <trisect/bsp/detail/contact_event.h>
-#include <trisect/bsp/detail/obb_pose.h>
-#include <trisect/bsp/detail/obb_tree.h>
 #include <trisect/bsp/detail/pair_events.h>
+#include <trisect/bsp/detail/swept_walk.h>
 
 namespace trisect::detail {
 
@@ -25,44 +21,30 @@ struct SearchCounters {
     std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were asked for
 };
 
-/// One pose, and how far any point of a solid is from there during an interval.
-struct SweptMap {
-    ApproximateMap map;
-    double sweep = 0;  ///< distance in A's lattice units
-};
-
-/// For all points within the box lo, hi of B.
-[[nodiscard]] SweptMap swept_map(const BallMotion& motion, const std::array<double, 3>& lo,
-                                 const std::array<double, 3>& hi);
-
 class ContactSearch {
 public:
     ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs)
-        : a_(a), b_(b), pairs_(pairs) {}
+        : a_(a), b_(b), pairs_(pairs), walk_(a.data().boxes, b.data().boxes) {}
 
     /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
     void run(const BallMotion& over, EarliestEvents& events);
 
-    [[nodiscard]] const SearchCounters& counters() const { return counters_; }
+    [[nodiscard]] SearchCounters counters() const {
+        SearchCounters r = counters_;
+        r.box_tests = walk_.box_tests();
+        return r;
+    }
 
 private:
-    struct Pair {
-        ObbId a;
-        ObbId b;
-    };
-    using Pairs = std::vector<Pair>;
+    using Pairs = SweptWalk::Pairs;
 
     void search(const BallMotion& over, const Pairs& front, int depth, EarliestEvents& events);
-    void refine(const ObbPose& pose, const SweptMap& swept, const Pairs& front, Pairs& leaves,
-                Pairs& coarse);
-    void push_children(const ObbPose& pose, const Pair& pair, bool of_b, Pairs& stack);
     void solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events);
-    [[nodiscard]] double size_a(ObbId id) const;
-    [[nodiscard]] double size_b(const ObbPose& pose, ObbId id) const;
 
     const EventModel& a_;
     const EventModel& b_;
     PairEvents& pairs_;
+    SweptWalk walk_;
     SearchCounters counters_;
 };
 

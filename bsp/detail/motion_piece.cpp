@@ -147,9 +147,23 @@ MotionPiece inverse(const MotionPiece& a) {
     return r;
 }
 
-RelativeMotion::RelativeMotion(const MotionPiece& a, Lattice lattice_a, const MotionPiece& b,
-                               Lattice lattice_b) {
-    point = inverse(a) * b;
+MotionPiece rotation_by(const std::array<IntegerPolynomial, 4>& q) {
+    const auto& [a, b, c, d] = q;
+    const mpz_class two = 2;
+    MotionPiece r;
+    r.matrix = {PolynomialVector{a * a + b * b - c * c - d * d, (b * c - a * d) * two,
+                                 (b * d + a * c) * two},
+                PolynomialVector{(b * c + a * d) * two, a * a - b * b + c * c - d * d,
+                                 (c * d - a * b) * two},
+                PolynomialVector{(b * d - a * c) * two, (c * d + a * b) * two,
+                                 a * a - b * b - c * c + d * d}};
+    r.weight = a * a + b * b + c * c + d * d;
+    return r;
+}
+
+MotionPiece relative_points(const MotionPiece& a, Lattice lattice_a, const MotionPiece& b,
+                            Lattice lattice_b) {
+    MotionPiece point = inverse(a) * b;
     // From user's units to lattice units: x' = (M 2^eb x + t) / (w 2^ea).
     const int least = std::min({lattice_a.exponent, lattice_b.exponent, 0});
     const auto scaled = [&](int exponent) { return power_of_two(exponent - least); };
@@ -157,7 +171,12 @@ RelativeMotion::RelativeMotion(const MotionPiece& a, Lattice lattice_a, const Mo
     point.shift = point.shift * IntegerPolynomial(scaled(0));
     point.weight *= scaled(lattice_a.exponent);
     point.reduce();
+    return point;
+}
 
+RelativeMotion::RelativeMotion(const MotionPiece& a, Lattice lattice_a, const MotionPiece& b,
+                               Lattice lattice_b) {
+    point = relative_points(a, lattice_a, b, lattice_b);
     const PolynomialMatrix cofactor = cofactors(point.matrix);
     plane_normal = cofactor * point.weight;
     plane_shift = transposed(cofactor) * point.shift;

@@ -45,6 +45,12 @@ struct MotionPiece {
 /// First b, then a.
 [[nodiscard]] MotionPiece operator*(const MotionPiece& a, const MotionPiece& b);
 [[nodiscard]] MotionPiece inverse(const MotionPiece& a);
+/// The rotation by a quaternion of polynomials, of any length, about the origin. \pre not zero
+/// anywhere in [0, 1]
+[[nodiscard]] MotionPiece rotation_by(const std::array<IntegerPolynomial, 4>& q);
+/// Where A sees the points of B: from B's lattice units to A's.
+[[nodiscard]] MotionPiece relative_points(const MotionPiece& a, Lattice lattice_a,
+                                          const MotionPiece& b, Lattice lattice_b);
 
 /// Solid B as seen from solid A, in lattice units of both, with the maps of planes and lines that
 /// follow from that of points. Each of the three maps is divided by all that its entries have in

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What can meet during an interval of the parameter, meets boxes of the middle pose that are grown
+// by the sweep: how far any point is from there at most. With numerators X(s) and weight w(s) and
+// the value v in the middle, |X / w - v| = |X - v w| / w, and X - v w is a polynomial whose
+// Bernstein coefficients bound it; so the sweep shrinks with the interval, and what numerator and
+// weight have in common cancels.
+
+#include <trisect/bsp/detail/swept_walk.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace trisect::detail {
+
+namespace {
+
+// Pairs of triangles smaller than this many sweeps wait for a shorter interval (measured: screw and
+// nut, gears; half or twice as many cost up to a quarter more).
+constexpr double long_sweep = 8;
+// Boxes smaller than this many sweeps are not divided: the time is.
+constexpr double coarse_sweep = 4;
+
+double magnitude_of(double v) { return std::abs(v); }
+
+// The value of num / weight in the middle and how far it moves from there.
+struct Swept {
+    double value = 0;
+    double reach = 0;
+};
+
+template <class Numerator>
+Swept sweep_of(const BallMotion& motion, const Numerator& numerator) {
+    const auto middle_of = [&motion](const auto& coefficient) {
+        std::array<double, BallPolynomial::max_degree + 1> row{};
+        for (std::size_t k = 0; k <= motion.degree; ++k) row[k] = coefficient(k);
+        for (std::size_t n = motion.degree; n > 0; --n)
+            for (std::size_t k = 0; k < n; ++k) row[k] = (row[k] + row[k + 1]) / 2;
+        return row[0];
+    };
+    Swept r;
+    r.value = middle_of([&](std::size_t k) { return numerator(k).value; }) /
+              middle_of([&](std::size_t k) { return motion.maps[k].weight.value; });
+    double least = motion.maps[0].weight.lower();
+    for (std::size_t k = 0; k <= motion.degree; ++k) {
+        const Ball rest = numerator(k) - Ball(r.value) * motion.maps[k].weight;
+        r.reach = std::max(r.reach, magnitude_of(rest.value) + rest.error);
+        least = std::min(least, motion.maps[k].weight.lower());
+    }
+    // Without a positive bound on the weight nothing is known.
+    r.reach = least > 0 ? r.reach / least * (1 + 0x1p-50) : HUGE_VAL;
+    return r;
+}
+
+}  // namespace
+
+SweptMap swept_map(const BallMotion& motion, const std::array<double, 3>& lo,
+                   const std::array<double, 3>& hi) {
+    std::array<double, 3> center{};
+    std::array<double, 3> half{};
+    for (std::size_t j = 0; j < 3; ++j) {
+        center[j] = (lo[j] + hi[j]) / 2;
+        half[j] = std::max(hi[j] - center[j], center[j] - lo[j]) * (1 + 0x1p-50);
+    }
+    SweptMap r;
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Swept q = sweep_of(motion, [&](std::size_t k) {
+            const BallMotion::Maps& m = motion.maps[k];
+            return m.matrix[i][0] * Ball(center[0]) + m.matrix[i][1] * Ball(center[1]) +
+                   m.matrix[i][2] * Ball(center[2]) + m.shift[i];
+        });
+        double reach = q.reach;
+        double shift = q.value;
+        double rounding = magnitude_of(q.value);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Swept entry =
+                sweep_of(motion, [&](std::size_t k) { return motion.maps[k].matrix[i][j]; });
+            r.map.m[i][j] = entry.value;
+            reach += entry.reach * half[j];
+            shift -= entry.value * center[j];
+            rounding += magnitude_of(entry.value * center[j]);
+        }
+        r.map.t[i] = shift;
+        reach += 0x1p-50 * rounding;
+        square += reach * reach;
+    }
+    r.sweep = std::sqrt(square) * (1 + 0x1p-40);
+    return r;
+}
+
+// With X near the inverse of the matrix V in the middle, V + R = X^-1 (1 - E) + R for E = 1 - X V,
+// so the inverse of V + R is (1 - E + X R)^-1 X.
+double inverse_stretch(const BallMotion& motion) {
+    std::array<std::array<double, 3>, 3> v{};
+    double reach = 0;
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Swept entry =
+                sweep_of(motion, [&](std::size_t k) { return motion.maps[k].matrix[i][j]; });
+            v[i][j] = entry.value;
+            reach += entry.reach * entry.reach;
+            size += entry.value * entry.value;
+        }
+    std::array<std::array<double, 3>, 3> x{};
+    double determinant = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t i1 = (i + 1) % 3;
+            const std::size_t i2 = (i + 2) % 3;
+            const std::size_t j1 = (j + 1) % 3;
+            const std::size_t j2 = (j + 2) % 3;
+            x[j][i] = v[i1][j1] * v[i2][j2] - v[i1][j2] * v[i2][j1];
+            if (i == 0) determinant += v[0][j] * x[j][0];
+        }
+    std::array<double, 3> rows{};
+    std::array<double, 3> columns{};
+    double rest = 0;
+    double inverse = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            x[i][j] /= determinant;
+            rows[i] += magnitude_of(x[i][j]);
+            columns[j] += magnitude_of(x[i][j]);
+            inverse += x[i][j] * x[i][j];
+        }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double e =
+                (i == j ? 1 : 0) - (x[i][0] * v[0][j] + x[i][1] * v[1][j] + x[i][2] * v[2][j]);
+            rest += e * e;
+        }
+    const double norm = std::min(std::sqrt(inverse), std::sqrt(*std::ranges::max_element(rows) *
+                                                               *std::ranges::max_element(columns)));
+    const double loss = std::sqrt(rest) + 0x1p-48 * std::sqrt(inverse * size) +
+                        norm * std::sqrt(reach) * (1 + 0x1p-40);
+    return loss < 0.5 ? norm / (1 - loss) * (1 + 0x1p-40) : HUGE_VAL;
+}
+
+void SweptWalk::refine(const ObbPose& pose, double sweep, const Pairs& front, Pairs& leaves,
+                       Pairs& coarse) {
+    Pairs stack;
+    for (const Pair& p : front) {
+        ++box_tests_;
+        const unsigned hits = pose.overlaps(a_.box(p.a), b_.nodes[p.b.node()]);
+        if ((hits >> p.b.lane() & 1U) != 0) stack.push_back(p);
+    }
+    coarse.clear();
+    while (!stack.empty()) {
+        const Pair p = stack.back();
+        stack.pop_back();
+        const bool a_is_leaf = a_.child(p.a).is_leaf();
+        const bool b_is_leaf = b_.child(p.b).is_leaf();
+        if (a_is_leaf && b_is_leaf) {
+            leaves.push_back(p);
+            continue;
+        }
+        const double a = size_a(p.a);
+        const double b = size_b(pose, p.b);
+        if (a + b < coarse_sweep * sweep) {
+            coarse.push_back(p);
+            continue;
+        }
+        push_children(pose, p, a_is_leaf || (!b_is_leaf && b > a), stack);
+    }
+}
+
+void SweptWalk::push_children(const ObbPose& pose, const Pair& p, bool of_b, Pairs& stack) {
+    ++box_tests_;
+    if (of_b) {
+        const std::uint32_t node = b_.child(p.b).node();
+        const unsigned hits = pose.overlaps(a_.box(p.a), b_.nodes[node]);
+        for (std::uint32_t k = 0; k < 4; ++k)
+            if ((hits >> k & 1U) != 0) stack.push_back({p.a, ObbId::of(node, k)});
+    } else {
+        const std::uint32_t node = a_.child(p.a).node();
+        const unsigned hits = pose.overlaps(a_.nodes[node], b_.box(p.b));
+        for (std::uint32_t k = 0; k < 4; ++k)
+            if ((hits >> k & 1U) != 0) stack.push_back({ObbId::of(node, k), p.b});
+    }
+}
+
+bool SweptWalk::are_long(const ObbPose& pose, double sweep, const Pairs& leaves) const {
+    const auto is_long = [&](const Pair& p) {
+        return size_a(p.a) + size_b(pose, p.b) < long_sweep * sweep;
+    };
+    return static_cast<std::size_t>(std::count_if(leaves.begin(), leaves.end(), is_long)) * 2 >
+           leaves.size();
+}
+
+double SweptWalk::size_a(ObbId id) const {
+    const ObbNode& n = a_.nodes[id.node()];
+    return a_.unit *
+           static_cast<double>(n.half[0][id.lane()] + n.half[1][id.lane()] + n.half[2][id.lane()]);
+}
+
+double SweptWalk::size_b(const ObbPose& pose, ObbId id) const {
+    const ObbNode& n = b_.nodes[id.node()];
+    return a_.unit * static_cast<double>(pose.scale()) *
+           static_cast<double>(n.half[0][id.lane()] + n.half[1][id.lane()] + n.half[2][id.lane()]);
+}
+
+}  // namespace trisect::detail
