@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "motion_document.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -132,8 +133,13 @@ Motion parse_motion(std::string_view text, const std::string& name) {
     return reader.finish();
 }
 
-Motion read_motion(const std::string& file) {
-    return parse_motion(read_file(file, motion_file_limit).view(), file);
+FileMotion read_motion(const std::string& file) {
+    const FileBytes bytes = read_file(file, motion_file_limit);
+    const std::string_view text = bytes.view();
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin != std::string_view::npos && text[begin] == '{')
+        return parse_motion_document(text, file);
+    return parse_motion(text, file);
 }
 
 }  // namespace trisect::app

@@ -3,14 +3,19 @@
 // Files of motions: a line for the pose at the start, then a line for every piece.
 #pragma once
 
+#include <trisect/bsp/enclosed_motion.h>
 #include <trisect/bsp/motion.h>
 
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace trisect::app {
 
-/// A line is one of
+/// A rational motion is answered exactly, any other one with certified bounds.
+using FileMotion = std::variant<Motion, EnclosedMotion>;
+
+/// A file that begins with '{' is JSON (motion_document.h). Of any other one a line is one of
 ///
 ///     m0 m1 ... m11                             a pose, the 3x4 matrix row by row; the first line
 ///                                               is the start, later ones are reached in straight
@@ -22,9 +27,9 @@ namespace trisect::app {
 /// '#' begins a comment. Numbers are apart by blanks, tabs or commas. A file that begins with a
 /// screw starts at the identity; one pose alone stands still.
 /// \throw InputError with the line and column.
-[[nodiscard]] Motion read_motion(const std::string& file);
+[[nodiscard]] FileMotion read_motion(const std::string& file);
 
-/// The same from text; `name` stands for the file in messages.
+/// Lines alone, from text; `name` stands for the file in messages.
 [[nodiscard]] Motion parse_motion(std::string_view text, const std::string& name);
 
 }  // namespace trisect::app

@@ -106,7 +106,8 @@ struct SweepOptions {
     std::string motion;       ///< a file: how the second one moves
     std::string motion_of_a;  ///< a file; empty: the first one stands still
     ContactEvent event = ContactEvent::Touch;
-    double width = 0x1p-40;  ///< of the interval that is printed
+    /// Of the interval that is printed; 0: 2^-40, or 2^-30 where nothing is exact.
+    double width = 0;
     OperandOptions operands;
 };
 

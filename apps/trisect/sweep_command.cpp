@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // sweep A B --motion FILE: when does B, moving, first touch A; or, with --until overlap, how far
-// can it go. The time is exact; so is "no contact".
+// can it go. The time is exact; so is "no contact". Of motions by key frames or of constant angular
+// speed the answer is a certified interval.
+#include <trisect/bsp/enclosed_contact.h>
 #include <trisect/bsp/first_contact.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/kernel/error.h>
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <variant>
 
 #include "commands.h"
 #include "motion_file.h"
@@ -69,13 +72,87 @@ std::string answer_text(const FirstContact& c) {
     return out;
 }
 
-ExactRational width_of(const SweepOptions& options) {
-    try {
-        const ExactRational width = ExactRational::from_double(options.width);
-        if (width.sign() > 0) return width;
-    } catch (const UsageError&) {
-    }
+std::string answer_text(const EnclosedContact& c) {
+    using Outcome = EnclosedContact::Outcome;
+    if (c.outcome == Outcome::None) return "no contact\n";
+    std::string out = fmt::format("no contact before {}\n", number_text(c.free_until));
+    if (c.contact_by) out += fmt::format("contact at {}\n", number_text(*c.contact_by));
+    if (!c.is_narrow)
+        for (const TimeSpan& s : c.undecided)
+            out += fmt::format("undecided from {} to {}\n", number_text(s.from), number_text(s.to));
+    for (const ContactWitness& w : c.witnesses)
+        out += fmt::format("A {}, B {}\n", entity_text(w.a), entity_text(w.b));
+    return out;
+}
+
+double width_of(const SweepOptions& options, double unless_given) {
+    if (options.width > 0) return options.width;
+    if (options.width == 0) return unless_given;
     throw UsageError("--width: must be positive");
+}
+
+Json witnesses_json(const std::vector<ContactWitness>& witnesses,
+                    const std::array<InterferenceModel, 2>& models) {
+    Json out = Json::array();
+    for (const ContactWitness& w : witnesses)
+        out.push_back(
+            {{"a", entity_json(w.a, models[0].brep())}, {"b", entity_json(w.b, models[1].brep())}});
+    return out;
+}
+
+using Models = std::array<InterferenceModel, 2>;
+
+// Both are rational: exact.
+void sweep(Session& session, const SweepOptions& options, const Models& models,
+           const Motion& motion_a, const Motion& motion_b, Outcome& out) {
+    const double width = width_of(options, 0x1p-40);
+    const FirstContact contact = session.stage("sweep", [&] {
+        return first_contact(models[0], motion_a, models[1], motion_b, {options.event});
+    });
+    out.code = contact.exists() ? exit_findings : exit_done;
+    out.document["until"] = options.event == ContactEvent::Touch ? "touch" : "overlap";
+    out.document["pieces"] = std::max(motion_a.piece_count(), motion_b.piece_count());
+    out.document["at_start"] = to_string(contact.at_start);
+    out.document["contact"] = contact.exists();
+    out.answer = "no contact\n";
+    if (contact.exists()) {
+        out.document["time"] = time_json(*contact.time, ExactRational::from_double(width));
+        out.document["witnesses"] = witnesses_json(contact.witnesses, models);
+        out.answer = answer_text(contact);
+    }
+    out.document["statistics"] = stats_json(contact.stats);
+}
+
+void sweep(Session& session, const SweepOptions& options, const Models& models,
+           const EnclosedMotion& motion_a, const EnclosedMotion& motion_b, Outcome& out) {
+    using Result = EnclosedContact::Outcome;
+    if (options.event != ContactEvent::Touch)
+        throw UsageError("--until overlap: needs rational motions, given as lines");
+    const double width = width_of(options, 0x1p-30);
+    const EnclosedContact contact = session.stage("sweep", [&] {
+        return enclosed_first_contact(models[0], motion_a, models[1], motion_b, {width});
+    });
+    out.code = contact.outcome == Result::None ? exit_done : exit_findings;
+    out.document["until"] = "touch";
+    out.document["duration"] = motion_b.duration();
+    if (contact.outcome == Result::Undecided)
+        out.document["contact"] = nullptr;
+    else
+        out.document["contact"] = contact.outcome == Result::Contact;
+    out.document["free_until"] = contact.free_until;
+    if (contact.contact_by) out.document["contact_by"] = *contact.contact_by;
+    Json undecided = Json::array();
+    for (const TimeSpan& s : contact.undecided) undecided.push_back({s.from, s.to});
+    out.document["undecided"] = std::move(undecided);
+    out.document["narrow"] = contact.is_narrow;
+    out.document["witnesses"] = witnesses_json(contact.witnesses, models);
+    out.document["statistics"] = stats_json(contact.stats);
+    out.answer = answer_text(contact);
+}
+
+EnclosedMotion enclosed(const FileMotion& motion) {
+    const Motion* rational = std::get_if<Motion>(&motion);
+    return rational != nullptr ? EnclosedMotion(*rational) : std::get<EnclosedMotion>(motion);
 }
 
 }  // namespace
@@ -87,7 +164,8 @@ void add_sweep_command(CLI::App& app, SweepOptions& options) {
     command->add_option("B", options.inputs[1], "mesh file of the solid that moves")->required();
     command
         ->add_option("--motion", options.motion,
-                     "how B moves: a pose of twelve numbers a line, or 'screw' lines")
+                     "how B moves: a pose of twelve numbers a line, or 'screw' lines; or JSON with "
+                     "key frames or a turn")
         ->required()
         ->type_name("FILE");
     command->add_option("--motion-of-a", options.motion_of_a, "how A moves meanwhile")
@@ -102,46 +180,35 @@ void add_sweep_command(CLI::App& app, SweepOptions& options) {
     command
         ->add_option_function<std::string>(
             "--width",
-            [&options](const std::string& s) { options.width = parse_number(s, "--width"); },
-            "of the interval around the exact time in the document")
+            [&options](const std::string& s) {
+                options.width = parse_number(s, "--width");
+                if (options.width == 0) options.width = -1;  // refused, unlike none
+            },
+            "of the interval around the time of contact")
         ->type_name("W");
     add_operand_options(*command, options.operands);
 }
 
 Outcome run_sweep(Session& session, const SweepOptions& options) {
-    const ExactRational width = width_of(options);
+    (void)width_of(options, 1);
     session.plan(3);
-    const Motion motion_a =
+    const FileMotion motion_a =
         options.motion_of_a.empty() ? Motion() : read_motion(options.motion_of_a);
-    const Motion motion_b = read_motion(options.motion);
+    const FileMotion motion_b = read_motion(options.motion);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
-    const std::array models = session.stage("prepare", [&] {
-        return std::array{InterferenceModel(operands[0].solid),
-                          InterferenceModel(operands[1].solid)};
-    });
-    const FirstContact contact = session.stage("sweep", [&] {
-        return first_contact(models[0], motion_a, models[1], motion_b, {options.event});
+    const Models models = session.stage("prepare", [&] {
+        return Models{InterferenceModel(operands[0].solid), InterferenceModel(operands[1].solid)};
     });
     Outcome out;
-    out.code = contact.exists() ? exit_findings : exit_done;
     out.document["schema"] = "trisect.sweep/1";
     out.document["inputs"] = {operands[0].facts, operands[1].facts};
-    out.document["until"] = options.event == ContactEvent::Touch ? "touch" : "overlap";
-    out.document["pieces"] = std::max(motion_a.piece_count(), motion_b.piece_count());
-    out.document["at_start"] = to_string(contact.at_start);
-    out.document["contact"] = contact.exists();
-    out.answer = "no contact\n";
-    if (contact.exists()) {
-        out.document["time"] = time_json(*contact.time, width);
-        Json witnesses = Json::array();
-        for (const ContactWitness& w : contact.witnesses)
-            witnesses.push_back({{"a", entity_json(w.a, models[0].brep())},
-                                 {"b", entity_json(w.b, models[1].brep())}});
-        out.document["witnesses"] = std::move(witnesses);
-        out.answer = answer_text(contact);
-    }
-    out.document["statistics"] = stats_json(contact.stats);
+    const Motion* a = std::get_if<Motion>(&motion_a);
+    const Motion* b = std::get_if<Motion>(&motion_b);
+    if (a != nullptr && b != nullptr)
+        sweep(session, options, models, *a, *b, out);
+    else
+        sweep(session, options, models, enclosed(motion_a), enclosed(motion_b), out);
     out.document["seconds"] = session.seconds();
     return out;
 }

@@ -110,4 +110,55 @@ TEST_F(SweepCommand, MotionFilesWithMistakesAreRefusedWithTheirPlace) {
     EXPECT_EQ(trisect({"sweep", floor_, block_}).code, 2);
 }
 
+TEST_F(SweepCommand, KeyFramesAreAnsweredByACertifiedInterval) {
+    // Down by four in two seconds and a quarter turn meanwhile: it is on the floor after one.
+    const std::string frames = write("frames.json", R"({"keyframes": [
+            {"time": 0, "position": [1.5, 1.5, 0]},
+            {"time": 2, "rotation": [1, 0, 0, 1], "position": [1.5, 1.5, -4]}]})");
+    const Finished text = sweep(frames);
+    EXPECT_EQ(text.code, 1) << text.err;
+    EXPECT_EQ(text.out.substr(0, 18), "no contact before ");
+    const json document = sweep(frames, {"--json", "--width", "1e-6"}).json();
+    EXPECT_EQ(document["contact"], true);
+    EXPECT_EQ(document["narrow"], true);
+    EXPECT_EQ(document["duration"], 2.0);
+    EXPECT_LE(document["free_until"], 1.0);
+    EXPECT_GE(document["contact_by"], 1.0);
+    EXPECT_NEAR(document["contact_by"].get<double>(), document["free_until"].get<double>(), 1e-6);
+    EXPECT_EQ(sweep(frames, {"--until", "overlap"}).code, 2);
+}
+
+TEST_F(SweepCommand, TurnThatOnlyTouchesIsUndecided) {
+    // Two turns while it stands on the floor, and a little above it.
+    const std::string on = write("on.json", R"({"turn": {"angle": 12, "center": [1.5, 1.5, 0],
+        "pose": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -2]}})");
+    const json document = sweep(on, {"--json"}).json();
+    EXPECT_TRUE(document["contact"].is_null());
+    EXPECT_EQ(document["undecided"], (json{{0.0, 1.0}}));
+    EXPECT_EQ(sweep(on).code, 1);
+    const std::string above = write("above.json", R"({"turn": {"angle": 12, "duration": 5,
+        "center": [1.5, 1.5, 0], "pose": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1.999999]}})");
+    const Finished free = sweep(above);
+    EXPECT_EQ(free.code, 0) << free.err;
+    EXPECT_EQ(free.out, "no contact\n");
+}
+
+TEST_F(SweepCommand, MotionDocumentsWithMistakesAreRefused) {
+    const auto expect_refused = [this](const char* text, const char* what) {
+        const Finished result = sweep(write("bad.json", text));
+        EXPECT_EQ(result.code, 3) << text;
+        EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    };
+    expect_refused("{", "not JSON");
+    expect_refused("{}", "either keyframes or a turn");
+    expect_refused(R"({"frames": []})", "'frames' is not known");
+    expect_refused(R"({"keyframes": [{"time": 0}]})", "needs two");
+    expect_refused(R"({"keyframes": [{"time": 0}, {"time": 0}]})", "ascend");
+    expect_refused(R"({"keyframes": [{"time": 0}, {}]})", "keyframes[1]: has no time");
+    expect_refused(R"({"keyframes": [{"time": 0}, {"time": 1, "rotation": [1, 0, 0]}]})",
+                   "keyframes[1].rotation: must be 4 numbers");
+    expect_refused(R"({"turn": {"axis": [0, 0, "up"]}})", "turn.axis[2]: must be a number");
+    expect_refused(R"({"turn": {"axis": [0, 0, 0]}})", "axis");
+}
+
 }  // namespace
