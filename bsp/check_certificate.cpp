@@ -180,6 +180,8 @@ ExactRational value_at(const SeparatingPlane& plane, const Vector& p) {
     return dot(plane.normal, p) + plane.offset;
 }
 
+using Polygon = std::vector<Vector>;  // convex
+
 class Checker {
 public:
     Checker(const InterferenceCertificate& c, const Brep& a, const Pose& pose_a, const Brep& b,
@@ -191,8 +193,13 @@ public:
             return c_.relation == Relation::Disjoint ? "" : "an empty solid is disjoint";
         if (std::string wrong = wrong_points(); !wrong.empty()) return wrong;
         if (c_.plane && !separates(*c_.plane)) return "the plane does not separate the solids";
+        if (!c_.apart.empty() || !c_.cells.empty())
+            if (!a_.is_filled_by(c_.triangles_a) || !b_.is_filled_by(c_.triangles_b))
+                return "the triangles do not fill the faces";
         if (!c_.apart.empty())
             if (std::string wrong = wrong_tree(); !wrong.empty()) return wrong;
+        if (!c_.cells.empty())
+            if (std::string wrong = wrong_cells(); !wrong.empty()) return wrong;
         if (std::string wrong = contradiction(); !wrong.empty()) return wrong;
         return c_.is_complete ? missing() : "";
     }
@@ -221,8 +228,6 @@ private:
     }
 
     std::string wrong_tree() {
-        if (!a_.is_filled_by(c_.triangles_a) || !b_.is_filled_by(c_.triangles_b))
-            return "the triangles do not fill the faces";
         struct Range {
             std::size_t node, a0, a1, b0, b1;
         };
@@ -261,6 +266,83 @@ private:
         return all(a_, c_.triangles_a, a0, a1, -1) && all(b_, c_.triangles_b, b0, b1, 1);
     }
 
+    // The pieces of triangles in an open cell, and the planes that bound it: points of it have the
+    // sign given with each.
+    struct Cell {
+        std::size_t node = 0;
+        std::vector<Polygon> of_a;
+        std::vector<Polygon> of_b;
+        std::vector<std::pair<std::size_t, int>> bounds;
+    };
+    std::string wrong_cells() {
+        std::vector<bool> seen(c_.cells.size(), false);
+        std::vector<Cell> open{{0, polygons(a_, c_.triangles_a), polygons(b_, c_.triangles_b), {}}};
+        while (!open.empty()) {
+            Cell cell = std::move(open.back());
+            open.pop_back();
+            if (cell.node >= c_.cells.size() || seen[cell.node]) return "the cells are no tree";
+            seen[cell.node] = true;
+            const CertifiedCell& n = c_.cells[cell.node];
+            if (n.kind != CertifiedCell::Kind::Split) {
+                if (std::string wrong = wrong_leaf(cell, n); !wrong.empty()) return wrong;
+                continue;
+            }
+            if (is_zero(n.plane.normal)) return "a plane of a cell has no normal";
+            for (const int side : {1, -1}) {
+                Cell half;
+                half.node = side < 0 ? cell.node + 1 : n.other;
+                half.of_a = beside(cell.of_a, n.plane, side);
+                half.of_b = beside(cell.of_b, n.plane, side);
+                half.bounds = cell.bounds;
+                half.bounds.emplace_back(cell.node, side);
+                open.push_back(std::move(half));
+            }
+        }
+        return {};
+    }
+    // A cell that one boundary misses has to be on the side of that solid that says enough.
+    std::string wrong_leaf(const Cell& cell, const CertifiedCell& leaf) const {
+        for (const auto& [node, side] : cell.bounds)
+            if (value_at(c_.cells[node].plane, leaf.point).sign() != side)
+                return "the point of a cell is not in it";
+        const bool is_of_a = leaf.kind == CertifiedCell::Kind::WithoutA;
+        if (!(is_of_a ? cell.of_a : cell.of_b).empty()) return "a boundary reaches into a cell";
+        const Relation within = is_of_a ? Relation::Contains : Relation::Inside;
+        const Where where = (is_of_a ? a_ : b_).locate(leaf.point);
+        const Where enough = c_.relation == within ? Where::Inside : Where::Outside;
+        return where == enough ? "" : "a cell is on the wrong side";
+    }
+    static std::vector<Polygon> polygons(const PlacedBoundary& boundary,
+                                         const std::vector<CertifiedTriangle>& triangles) {
+        std::vector<Polygon> r;
+        for (const CertifiedTriangle& t : triangles)
+            r.push_back(
+                {boundary.at(t.vertex[0]), boundary.at(t.vertex[1]), boundary.at(t.vertex[2])});
+        return r;
+    }
+    // What of the polygons is strictly on a side of a plane; closed again.
+    static std::vector<Polygon> beside(const std::vector<Polygon>& polygons,
+                                       const SeparatingPlane& plane, int side) {
+        std::vector<Polygon> r;
+        for (const Polygon& p : polygons) {
+            std::vector<ExactRational> values;
+            for (const Vector& v : p) values.push_back(value_at(plane, v));
+            if (std::ranges::none_of(values,
+                                     [side](const ExactRational& v) { return v.sign() == side; }))
+                continue;
+            Polygon& q = r.emplace_back();
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                const std::size_t j = (i + 1) % p.size();
+                if (values[i].sign() != -side) q.push_back(p[i]);
+                if (values[i].sign() * values[j].sign() >= 0) continue;
+                const ExactRational t = values[i] / (values[i] - values[j]);
+                const Vector d = minus(p[j], p[i]);
+                q.push_back({p[i][0] + t * d[0], p[i][1] + t * d[1], p[i][2] + t * d[2]});
+            }
+        }
+        return r;
+    }
+
     // What the parts say together, against the relation claimed.
     std::string contradiction() const {
         const Relation r = c_.relation;
@@ -273,17 +355,26 @@ private:
             return "a point of B is outside A";
         if (c_.on_both && r == Relation::Disjoint) return "the boundaries meet";
         if (!c_.apart.empty() && c_.on_both) return "the boundaries meet and are apart";
+        if (!c_.cells.empty() && (r == Relation::Overlapping || r == Relation::Equal))
+            return "cells say nothing about such solids";
         return {};
     }
 
     std::string missing() {
         switch (c_.relation) {
             case Relation::Touching:
-                return c_.on_both && c_.plane ? "" : "no plane and common point";
+                if (!c_.on_both) return "no common point";
+                return c_.plane || !c_.cells.empty() ? "" : "no proof that interiors are apart";
             case Relation::Overlapping:
                 return c_.in_both && c_.only_in_a && c_.only_in_b ? "" : "points are missing";
             case Relation::Equal:
                 return a_.outlines() == b_.outlines() ? "" : "the boundaries are different";
+            case Relation::Inside:
+                if (c_.cells.empty()) return shells_say();
+                return c_.only_in_b ? "" : "no point of B alone";
+            case Relation::Contains:
+                if (c_.cells.empty()) return shells_say();
+                return c_.only_in_a ? "" : "no point of A alone";
             default:
                 return shells_say();
         }

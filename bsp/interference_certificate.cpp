@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/detail/gmp_conversion.h>
+#include <trisect/bsp/detail/cell_proof.h>
 #include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
@@ -387,6 +389,108 @@ std::optional<SeparatingPlane> touching_plane(const Placed& a, const Placed& b,
     return std::nullopt;
 }
 
+// From the world into a solid, in the user's units.
+class FromWorld {
+public:
+    FromWorld(const InterferenceModelData& model, const Pose& pose) : model_(&model), pose_(&pose) {
+        std::array<Vector, 3> rows;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) rows[i][j] = ExactRational(pose.matrix(i, j));
+        const ExactRational determinant = dot(rows[0], cross(rows[1], rows[2]));
+        // Columns of the inverse are cross products of the rows.
+        for (std::size_t j = 0; j < 3; ++j) {
+            columns_[j] = cross(rows[(j + 1) % 3], rows[(j + 2) % 3]);
+            for (ExactRational& x : columns_[j]) x /= determinant;
+        }
+    }
+    // \pre not on the boundary
+    [[nodiscard]] bool is_inside(const Vector& p) const {
+        Vector x;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const ExactRational y =
+                p[j] * ExactRational(pose_->denominator()) - ExactRational(pose_->translation(j));
+            for (std::size_t i = 0; i < 3; ++i) x[i] += columns_[j][i] * y;
+        }
+        return model_->index().locate(x).location == Location::Inside;
+    }
+
+private:
+    const InterferenceModelData* model_;
+    const Pose* pose_;
+    std::array<Vector, 3> columns_;
+};
+
+std::vector<detail::ConvexPolygon> polygons_of(const Placed& placed) {
+    std::vector<detail::ConvexPolygon> r;
+    for (const CertifiedTriangle& t : placed.triangles) {
+        detail::ConvexPolygon& p = r.emplace_back();
+        for (const VertexId v : t.vertex) {
+            const Vector& x = placed.points[v.index];
+            p.push_back({detail::to_gmp(x[0]), detail::to_gmp(x[1]), detail::to_gmp(x[2])});
+        }
+    }
+    return r;
+}
+
+// What follows from a partition of space.
+class Cells {
+public:
+    Cells(const InterferenceModelData& a, const Pose& pose_a, const InterferenceModelData& b,
+          const Pose& pose_b)
+        : a_(a, pose_a), b_(b, pose_b), in_a_(a, pose_a), in_b_(b, pose_b) {}
+
+    void prove(InterferenceCertificate& c) {
+        detail::CellGoal goal;
+        goal.a_outside_is_enough = c.relation != Relation::Contains;
+        goal.a_inside_is_enough = c.relation == Relation::Contains;
+        goal.b_outside_is_enough = c.relation != Relation::Inside;
+        goal.b_inside_is_enough = c.relation == Relation::Inside;
+        auto cells = proof(goal, {}).run(polygons_of(a_), polygons_of(b_));
+        if (!cells) return;
+        c.cells = std::move(*cells);
+        c.triangles_a = std::move(a_.triangles);
+        c.triangles_b = std::move(b_.triangles);
+    }
+    // Points inside and outside, where nothing else has found them.
+    void find_points(InterferenceCertificate& c) {
+        const auto note = [&c](const RationalPoint& p, bool in_a, bool in_b) {
+            if (in_a && in_b && !c.in_both) c.in_both = p;
+            if (in_a && !in_b && !c.only_in_a) c.only_in_a = p;
+            if (!in_a && in_b && !c.only_in_b) c.only_in_b = p;
+            const Relation r = c.relation;
+            return (c.in_both || r != Relation::Overlapping) &&
+                   (c.only_in_a || r == Relation::Inside) &&
+                   (c.only_in_b || r == Relation::Contains);
+        };
+        (void)proof({}, note).run(polygons_of(a_), polygons_of(b_));
+    }
+
+private:
+    detail::CellProof proof(const detail::CellGoal& goal, detail::CellProof::Visit visit) {
+        return {[this](const Vector& p) { return in_a_.is_inside(p); },
+                [this](const Vector& p) { return in_b_.is_inside(p); }, goal, std::move(visit)};
+    }
+
+    Placed a_;
+    Placed b_;
+    FromWorld in_a_;
+    FromWorld in_b_;
+};
+
+// Points that are still missing, and the proof that one solid is within the other.
+template <class MakeCells>
+void complete(InterferenceCertificate& c, MakeCells&& cells) {
+    if (c.is_complete) return;
+    const auto has_points = [&c] {
+        return (c.in_both || c.relation != Relation::Overlapping) &&
+               (c.only_in_a || c.relation == Relation::Inside) &&
+               (c.only_in_b || c.relation == Relation::Contains);
+    };
+    if (!has_points()) cells().find_points(c);
+    if (c.relation != Relation::Overlapping) cells().prove(c);
+    c.is_complete = has_points() && (c.relation == Relation::Overlapping || !c.cells.empty());
+}
+
 }  // namespace
 
 InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
@@ -424,7 +528,8 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
             note_common_point();
             c.plane =
                 touching_plane(Placed(a.data(), pose_a), Placed(b.data(), pose_b), models, pairs);
-            c.is_complete = c.on_both && c.plane;
+            if (!c.plane) Cells(a.data(), pose_a, b.data(), pose_b).prove(c);
+            c.is_complete = c.on_both && (c.plane || !c.cells.empty());
             break;
         }
         case Relation::Equal:
@@ -435,8 +540,7 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
         case Relation::Inside:
         case Relation::Contains:
             PointFinder(models, pairs, pose_a, c).run();
-            if (c.relation == Relation::Overlapping)
-                c.is_complete = c.in_both && c.only_in_a && c.only_in_b;
+            complete(c, [&] { return Cells(a.data(), pose_a, b.data(), pose_b); });
             break;
     }
     return c;
