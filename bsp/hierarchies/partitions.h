@@ -26,5 +26,8 @@ namespace trisect::hierarchies {
 /// A grid for every power of two; a triangle is in one cell of one of them.
 [[nodiscard]] std::unique_ptr<PairStructure> make_hierarchical_grid_partition(
     const InterferenceModel& a, const InterferenceModel& b);
+/// A is a field of obstacles in a mesh of tetrahedra, B a small body that walks through it.
+[[nodiscard]] std::unique_ptr<PairStructure> make_free_space_partition(const InterferenceModel& a,
+                                                                       const InterferenceModel& b);
 
 }  // namespace trisect::hierarchies

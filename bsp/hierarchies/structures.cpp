@@ -47,6 +47,8 @@ constexpr std::array entries{
           make_hierarchical_grid_partition},
     Entry{{StructureKind::ConvexParts, "convex-parts", "hulls of parts, features tracked"},
           make_convex_parts},
+    Entry{{StructureKind::FreeSpace, "free-space", "tetrahedra, walked through"},
+          make_free_space_partition},
 };
 
 constexpr auto infos = [] {

@@ -31,6 +31,7 @@ enum class StructureKind : std::uint8_t {
     HashGrid,
     HierarchicalGrid,
     ConvexParts,  ///< hulls of convex parts, closest features tracked
+    FreeSpace,  ///< tetrahedra around the obstacle A, walked through by B
 };
 
 struct StructureInfo {
