@@ -5,20 +5,18 @@
 // last pose takes a step or none; so few pairs are tested, each for more than a box costs. Where
 // hulls meet, the larger one is replaced by its children: a concavity that its faces cover is
 // looked into only then (Ponamgi, Manocha, Lin 1997).
-//
-// Where a walk ended is kept for the pairs that were tested at the last pose and no longer.
 
 #include <trisect/bsp/hierarchies/convex_parts_structure.h>
 
 #include <algorithm>
 #include <chrono>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/hierarchies/common_frame.h>
 #include <trisect/bsp/hierarchies/feature_walk.h>
+#include <trisect/bsp/hierarchies/walk_memory.h>
 
 namespace trisect::hierarchies {
 
@@ -47,8 +45,7 @@ public:
 protected:
     void update(CostCounters&) override {
         make_frame();
-        last_.swap(now_);
-        now_.clear();
+        memory_.next_pose();
     }
 
     bool find_candidates(PairVisit visit, CostCounters& counters) override {
@@ -114,14 +111,8 @@ private:
 
     FeatureWalk walk(const NodePair& at, CostCounters& counters) {
         ++counters.volume_tests;
-        const std::uint64_t key = std::uint64_t{at.a} << 32U | at.b;
-        FeaturePair start;
-        if (const auto it = now_.find(key); it != now_.end())
-            start = it->second;
-        else if (const auto old = last_.find(key); old != last_.end())
-            start = old->second;
         FeatureWalk w(node_a(at).hull, node_b(at).hull, frame_);
-        now_[key] = w.run(start).pair;
+        memory_.keep(at.a, at.b, w.run(memory_.start(at.a, at.b)).pair);
         return w;
     }
 
@@ -142,8 +133,7 @@ private:
     std::optional<HullTree> tree_b_;  // none where both models are one
     BuildReport build_;
     CommonFrame frame_;
-    std::unordered_map<std::uint64_t, FeaturePair> last_;
-    std::unordered_map<std::uint64_t, FeaturePair> now_;
+    WalkMemory memory_;
 };
 
 }  // namespace

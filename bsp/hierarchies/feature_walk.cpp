@@ -466,7 +466,7 @@ const WalkEnd& FeatureWalk::run(const FeaturePair& start) {
         if (r == Rise::None) r = rise(Body::B);
         if (r == Rise::None) break;
         if (r == Rise::Inside) {
-            closest_.meet = true;
+            closest_.meet = closest_.inside = true;
             break;
         }
         state_ = nearest_below(state_);

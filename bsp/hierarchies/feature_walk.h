@@ -32,6 +32,8 @@ struct WalkEnd {
     /// vertex and the face from which the walk found it.
     FeaturePair pair;
     bool meet = false;  ///< the sets have a common point; exact
+    /// They meet, and all that is known is that the vertex of the pair is in the other body.
+    bool inside = false;
     std::uint32_t steps = 0;
 };
 
