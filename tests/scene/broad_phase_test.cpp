@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/bsp/detail/broad_phase.h>
 #include <trisect/bsp/hierarchies/broad_phases.h>
+#include <trisect/bsp/hierarchies/chain_boxes.h>
 
 #include <gtest/gtest.h>
 
@@ -167,14 +168,15 @@ TEST_P(BroadPhaseTest, UnboundedFlatAndFarBoxes) {
     EXPECT_EQ(pairs(), brute_force());
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhaseTest,
-                         testing::Values(Kind{"Sweep", trisect::detail::make_sweep_and_prune},
-                                         Kind{"Tree", trisect::detail::make_box_tree},
-                                         Kind{"HashGrid", trisect::hierarchies::make_hash_grid},
-                                         Kind{"HierarchicalGrid",
-                                              trisect::hierarchies::make_hierarchical_grid},
-                                         Kind{"Octree", trisect::hierarchies::make_octree_phase},
-                                         Kind{"KdTree", trisect::hierarchies::make_kd_tree_phase}),
-                         [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, BroadPhaseTest,
+    testing::Values(Kind{"Sweep", trisect::detail::make_sweep_and_prune},
+                    Kind{"Tree", trisect::detail::make_box_tree},
+                    Kind{"HashGrid", trisect::hierarchies::make_hash_grid},
+                    Kind{"HierarchicalGrid", trisect::hierarchies::make_hierarchical_grid},
+                    Kind{"Octree", trisect::hierarchies::make_octree_phase},
+                    Kind{"KdTree", trisect::hierarchies::make_kd_tree_phase},
+                    Kind{"ChainBoxes", trisect::hierarchies::make_chain_boxes}),
+    [](const auto& kind) { return std::string(kind.param.name); });
 
 }  // namespace
