@@ -29,6 +29,7 @@ struct Request {
     VerifyCommandOptions verify;
     CorpusOptions corpus;
     ConvertOptions convert;
+    TessellateOptions tessellate;
     LocateOptions locate;
     SweepOptions sweep;
     SectionOptions section;
@@ -150,6 +151,7 @@ void declare(CLI::App& app, Request& request) {
     add_verify_command(app, request.verify);
     add_corpus_command(app, request.corpus);
     add_convert_command(app, request.convert);
+    add_tessellate_command(app, request.tessellate);
     add_locate_command(app, request.locate);
     add_sweep_command(app, request.sweep);
     add_section_command(app, request.section);
@@ -168,6 +170,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "verify") return run_verify(session, request.verify);
     if (name == "corpus") return run_corpus(session, request.corpus);
     if (name == "convert") return run_convert(session, request.convert);
+    if (name == "tessellate") return run_tessellate(session, request.tessellate);
     if (name == "locate") return run_locate(session, request.locate);
     if (name == "sweep") return run_sweep(session, request.sweep);
     if (name == "section") return run_section(session, request.section);

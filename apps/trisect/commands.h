@@ -34,6 +34,9 @@ void add_corpus_command(CLI::App& app, CorpusOptions& options);
 void add_convert_command(CLI::App& app, ConvertOptions& options);
 [[nodiscard]] Outcome run_convert(Session& session, const ConvertOptions& options);
 
+void add_tessellate_command(CLI::App& app, TessellateOptions& options);
+[[nodiscard]] Outcome run_tessellate(Session& session, const TessellateOptions& options);
+
 void add_locate_command(CLI::App& app, LocateOptions& options);
 [[nodiscard]] Outcome run_locate(Session& session, const LocateOptions& options);
 

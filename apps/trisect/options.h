@@ -151,4 +151,10 @@ struct ConvertOptions {
     std::optional<double> scale;
 };
 
+struct TessellateOptions {
+    std::string input;
+    std::string output;
+    double deviation = 0;
+};
+
 }  // namespace trisect::app
