@@ -13,10 +13,12 @@
 // A moved centre is off by √3 of the map's error and of a float's 2^-24 of it; radii grow by
 // `stretch` at most.
 
+#include <trisect/bsp/hierarchies/sphere_kind.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <trisect/bsp/detail/obb_fit.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/bsp/hierarchies/volume_hierarchy.h>
 
@@ -25,18 +27,6 @@ namespace trisect::hierarchies {
 namespace {
 
 using detail::Double3;
-
-struct Sphere {
-    std::array<float, 3> center{};
-    float radius = 0;
-
-    [[nodiscard]] Double3 middle() const { return {center[0], center[1], center[2]}; }
-};
-
-double squared_distance(const Double3& a, const Double3& b) {
-    const Double3 d = detail::minus(a, b);
-    return detail::dot(d, d);
-}
 
 const Double3& farthest(std::span<const Double3> points, const Double3& from) {
     const Double3* best = points.data();
@@ -77,54 +67,32 @@ Double3 center_of(std::span<const Double3> points) {
     return best;
 }
 
-struct SphereKind {
-    using Volume = Sphere;
-    using Moved = Sphere;
-    class Pose {
-    public:
-        explicit Pose(const FrameMap& map)
-            : map_(map), error_(1.7321 * map.error() + 0x1p-40), stretch_(map.stretch) {}
-        [[nodiscard]] Moved moved(const Volume& v) const {
-            const Double3 c = map_(v.middle());
-            Moved r;
-            double largest = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                r.center[k] = static_cast<float>(c[k]);
-                largest = std::max(largest, std::abs(c[k]));
-            }
-            r.radius =
-                up(stretch_ * static_cast<double>(v.radius) + 1.8 * 0x1p-24 * largest + error_);
-            return r;
-        }
-        [[nodiscard]] static bool meet(const Volume& a, const Moved& b) {
-            const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
-            return squared_distance(a.middle(), b.middle()) <= reach * reach * (1 + 0x1p-40);
-        }
-        [[nodiscard]] static double gap(const Volume& a, const Moved& b) {
-            const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
-            return std::max(
-                0.0, std::sqrt(squared_distance(a.middle(), b.middle())) * (1 - 0x1p-40) - reach);
-        }
-
-    private:
-        FrameMap map_;
-        double error_;
-        double stretch_;
-    };
-    static constexpr bool has_unite = false;
-    static Volume fit(std::span<const Double3> corners, double error) {
-        const Double3 c = center_of(corners);
-        Volume r;
-        for (std::size_t k = 0; k < 3; ++k) r.center[k] = static_cast<float>(c[k]);
-        const Double3 m = r.middle();
-        r.radius =
-            up(std::sqrt(squared_distance(farthest(corners, m), m)) + 0x1p-48 + 1.7321 * error);
-        return r;
-    }
-    static float size(const Volume& v) { return v.radius; }
-};
-
 }  // namespace
+
+SphereKind::Moved SphereKind::Pose::moved(const Volume& v) const {
+    const Double3 c = map_(v.middle());
+    Moved r;
+    double largest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        r.center[k] = static_cast<float>(c[k]);
+        largest = std::max(largest, std::abs(c[k]));
+    }
+    r.radius = up(stretch_ * static_cast<double>(v.radius) + 1.8 * 0x1p-24 * largest + error_);
+    return r;
+}
+
+SphereKind::Volume SphereKind::fit_about(const Double3& center, std::span<const Double3> corners,
+                                         double error) {
+    Volume r;
+    for (std::size_t k = 0; k < 3; ++k) r.center[k] = static_cast<float>(center[k]);
+    const Double3 m = r.middle();
+    r.radius = up(std::sqrt(squared_distance(farthest(corners, m), m)) + 0x1p-48 + 1.7321 * error);
+    return r;
+}
+
+SphereKind::Volume SphereKind::fit(std::span<const Double3> corners, double error) {
+    return fit_about(center_of(corners), corners, error);
+}
 
 std::unique_ptr<PairStructure> make_sphere_tree(const InterferenceModel& a,
                                                 const InterferenceModel& b) {

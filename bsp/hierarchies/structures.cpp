@@ -8,6 +8,7 @@
 #include <trisect/bsp/hierarchies/all_pairs.h>
 #include <trisect/bsp/hierarchies/convex_parts_structure.h>
 #include <trisect/bsp/hierarchies/partitions.h>
+#include <trisect/bsp/hierarchies/sphere_trees.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/kernel/contract.h>
 
@@ -32,6 +33,12 @@ constexpr std::array entries{
     Entry{{StructureKind::Kdop18, "kdop18", "slabs of 9 directions"}, make_kdop18_tree},
     Entry{{StructureKind::Kdop26, "kdop26", "slabs of 13 directions"}, make_kdop26_tree},
     Entry{{StructureKind::Sphere, "sphere", "spheres"}, make_sphere_tree},
+    Entry{{StructureKind::SphereOctree, "sphere-octree", "spheres around the cubes of an octree"},
+          make_octree_spheres},
+    Entry{{StructureKind::SphereMedial, "sphere-medial", "spheres about the medial axis, annealed"},
+          make_medial_spheres},
+    Entry{{StructureKind::SphereVertices, "sphere-vertices", "spheres about vertices"},
+          make_vertex_spheres},
     Entry{{StructureKind::Obb, "obb", "oriented boxes"}, make_obb_tree},
     Entry{{StructureKind::ObbWide, "obb-wide", "oriented boxes, four to a node"},
           make_wide_obb_tree},

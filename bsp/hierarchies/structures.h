@@ -22,10 +22,13 @@ enum class StructureKind : std::uint8_t {
     Kdop18,
     Kdop26,
     Sphere,
-    Obb,        ///< oriented boxes, a binary tree
-    ObbWide,    ///< the same with four children to a node
-    ObbPacked,  ///< the tree of interfere(): four boxes at a time, in floats
-    Octree,     ///< A's space divided, B's triangles entered; and so on below
+    SphereOctree,    ///< sphere trees of the lecture: around an octree's cubes,
+    SphereMedial,    ///< about the medial axis,
+    SphereVertices,  ///< about vertices
+    Obb,             ///< oriented boxes, a binary tree
+    ObbWide,         ///< the same with four children to a node
+    ObbPacked,       ///< the tree of interfere(): four boxes at a time, in floats
+    Octree,          ///< A's space divided, B's triangles entered; and so on below
     KdTree,
     RTree,
     HashGrid,

@@ -15,9 +15,11 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
@@ -53,6 +55,10 @@ struct VolumeTree {
             fit_below(model, 0, corners);
         }
     }
+
+    /// Of volumes made elsewhere, one for each node of the shape, each around all that is below it.
+    VolumeTree(const TreeFrame& f, TreeShape s, std::vector<typename Kind::Volume> v)
+        : frame(f), shape(std::move(s)), volumes(std::move(v)) {}
 
     [[nodiscard]] std::size_t bytes() const {
         return shape.bytes() + volumes.size() * sizeof(typename Kind::Volume);
@@ -91,10 +97,16 @@ class VolumeHierarchy : public PairStructure {
 public:
     VolumeHierarchy(const InterferenceModel& a, const InterferenceModel& b,
                     const TreeOptions& options, std::string_view name)
+        : VolumeHierarchy(
+              a, b, [&](const auto& data) { return VolumeTree<Kind>(data, options); }, name) {}
+    /// With trees that make(data of a model) returns.
+    template <class Make>
+    requires std::invocable<Make, const detail::InterferenceModelData&> VolumeHierarchy(
+        const InterferenceModel& a, const InterferenceModel& b, Make&& make, std::string_view name)
         : PairStructure(a, b),
           start_(std::chrono::steady_clock::now()),
-          a_(data_a(), options),
-          b_(data_b(), options),
+          a_(make(data_a())),
+          b_(make(data_b())),
           moved_(b_.volumes.size()),
           moved_at_(b_.volumes.size(), 0),
           name_(name) {

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/hierarchies/sphere_trees.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/boundary_distance.h>
+#include <trisect/bsp/solid.h>
+
+namespace {
+
+using trisect::ExactRational;
+using trisect::InterferenceModel;
+using trisect::make_torus;
+using trisect::Pose;
+using trisect::Solid;
+using trisect::hierarchies::AnytimeAnswer;
+using trisect::hierarchies::build_sphere_tree;
+using trisect::hierarchies::CostCounters;
+using trisect::hierarchies::SphereConstruction;
+using trisect::hierarchies::SphereTree;
+using trisect::hierarchies::SphereTrees;
+
+constexpr SphereConstruction constructions[] = {
+    SphereConstruction::Octree, SphereConstruction::MedialAxis, SphereConstruction::Vertices};
+
+// Exactly: |vertex - centre| <= radius, in lattice units.
+bool contains(const SphereTree& tree, std::uint32_t node, const std::array<double, 3>& vertex) {
+    const auto& s = tree.volumes[node];
+    const ExactRational unit = ExactRational::from_double(tree.frame.unit);
+    ExactRational square;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ExactRational d = ExactRational::from_double(vertex[k]) -
+                                ExactRational::from_double(tree.frame.origin[k]) -
+                                unit * ExactRational::from_double(static_cast<double>(s.center[k]));
+        square += d * d;
+    }
+    const ExactRational r = unit * ExactRational::from_double(static_cast<double>(s.radius));
+    return square <= r * r;
+}
+
+TEST(SphereTrees, EverySphereContainsTheTrianglesBelowIt) {
+    const InterferenceModel model(Solid::from_mesh(make_torus(4, 1, 24, 12)));
+    const auto& data = model.data();
+    for (const SphereConstruction c : constructions) {
+        const SphereTree tree = build_sphere_tree(data, c);
+        std::vector<std::uint32_t> seen(data.triangles.size(), 0);
+        std::vector<std::vector<std::uint32_t>> above(tree.shape.nodes.size());
+        above[0] = {0};
+        for (std::uint32_t n = 0; n < tree.shape.nodes.size(); ++n) {
+            const auto& node = tree.shape.nodes[n];
+            if (!node.leaf) {
+                for (std::uint32_t k = 0; k < node.count; ++k) {
+                    above[node.first + k] = above[n];
+                    above[node.first + k].push_back(node.first + k);
+                }
+                continue;
+            }
+            for (const std::uint32_t t : tree.shape.things(node)) {
+                ++seen[t];
+                for (const auto v : data.triangles[t].vertex)
+                    for (const std::uint32_t m : above[n])
+                        EXPECT_TRUE(contains(tree, m, data.position(v)));
+            }
+        }
+        for (const std::uint32_t s : seen) EXPECT_EQ(s, 1U);
+    }
+}
+
+TEST(SphereTrees, DeeperLevelsAreTighter) {
+    const InterferenceModel model(Solid::from_mesh(trisect::make_icosphere(3, 4)));
+    for (const SphereConstruction c : constructions) {
+        const SphereTree tree = build_sphere_tree(model.data(), c);
+        const auto levels = tightness(model, tree, 1500);
+        ASSERT_GE(levels.size(), 3U);
+        EXPECT_EQ(levels.front().spheres, 1U);
+        EXPECT_LT(levels.back().mean_protrusion, 0.5 * levels[1].mean_protrusion);
+        EXPECT_LT(levels.back().largest_protrusion, 1.5);
+    }
+}
+
+TEST(SphereTrees, AnswersGetBetterWithEveryTestAndNeverTooLarge) {
+    const InterferenceModel a(Solid::from_mesh(make_torus(4, 1, 24, 12)));
+    const InterferenceModel b(Solid::from_mesh(trisect::make_icosphere(1, 3)));
+    const double lattice_unit = std::ldexp(1.0, a.lattice().exponent);
+    for (const SphereConstruction c : constructions) {
+        SphereTrees trees(a, b, c);
+        for (const double x : {7.0, 6.25, 6.01, 5.5}) {
+            CostCounters counters;
+            const Pose pose = Pose::from_translation({x, 0, 0});
+            trees.place(Pose(), pose, counters);
+            const auto exact = boundary_distance(a, Pose(), b, pose);
+            AnytimeAnswer last;
+            for (const std::uint64_t tests : {1U, 20U, 200U, 2000U, 200000U}) {
+                const AnytimeAnswer now = trees.answer_within(tests, counters);
+                EXPECT_GE(now.at_least, last.at_least);
+                EXPECT_LE(now.at_least * lattice_unit, exact->upper);
+                EXPECT_EQ(now.apart, now.at_least > 0);
+                last = now;
+            }
+            if (x > 6.2) {
+                EXPECT_TRUE(last.apart);
+            }
+            if (x < 6) {
+                EXPECT_FALSE(last.apart);
+            }
+        }
+    }
+}
+
+}  // namespace
