@@ -236,8 +236,8 @@ json ways(const trisect::detail::IndexCounters& c, std::size_t count) {
     const auto part = [&](std::uint64_t n) {
         return static_cast<double>(n) / static_cast<double>(count);
     };
-    return {{"empty", part(c.empty)},   {"side", part(c.side)},     {"sheet", part(c.sheet)},
-            {"region", part(c.region)}, {"corner", part(c.corner)}, {"traced", part(c.traced)},
+    return {{"empty", part(c.empty)},   {"side", part(c.side)},     {"region", part(c.region)},
+            {"corner", part(c.corner)}, {"traced", part(c.traced)}, {"exact", part(c.exact)},
             {"on", part(c.on)}};
 }
 

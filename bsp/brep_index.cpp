@@ -10,7 +10,6 @@
 #include <numeric>
 #include <utility>
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -80,7 +79,9 @@ IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Cell& c,
     return {cell.lo, cell.hi, core.tree().leaf(c.leaf).count, false};
 }
 
-// Calls work(begin, end) for all i below n, in parts, on so many threads.
+// Calls work(begin, end) for all i below n, in parts, on so many threads. A part is sorted, which
+// is worth the more the larger it is; a few for each thread even out what they take.
+constexpr std::size_t least_part = 4096;
 template <class Work>
 void for_each_part(std::size_t n, unsigned threads, const Work& work) {
     if (threads == 1 || n < 1024) {
@@ -88,9 +89,12 @@ void for_each_part(std::size_t n, unsigned threads, const Work& work) {
         return;
     }
     const auto all = [&] {
+        const auto slots =
+            static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
+        const std::size_t parts = std::clamp(n / least_part, std::size_t{1}, 4 * slots);
         oneapi::tbb::parallel_for(
-            oneapi::tbb::blocked_range<std::size_t>(0, n, 4096),
-            [&](const oneapi::tbb::blocked_range<std::size_t>& r) { work(r.begin(), r.end()); });
+            std::size_t{0}, parts, [&](std::size_t i) { work(n * i / parts, n * (i + 1) / parts); },
+            oneapi::tbb::simple_partitioner());
     };
     if (threads == 0) {
         all();
@@ -215,12 +219,7 @@ void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::spa
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
     for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-        detail::locate_batch(
-            *core_->base, points, begin, end,
-            [&](std::uint32_t i, Location l, const IndexPoint*, std::vector<PolygonId>& on) {
-                if (l == Location::OnFace) l = detail::location_on(core_->polygons(), on);
-                results[i] = l;
-            });
+        detail::classify_batch(*core_->base, points, begin, end, results);
     });
 }
 

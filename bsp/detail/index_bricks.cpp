@@ -16,8 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
-#include <trisect/bsp/detail/index_sheets.h>
 #include <trisect/bsp/detail/triangle_in_boxes.h>
 
 namespace trisect::detail {
@@ -145,7 +145,7 @@ std::uint64_t IndexBrickBuilder::cells_of(const Work& w, std::size_t item) const
                 if (at <= reach && at >= -reach)
                     mask |= std::uint64_t{1} << IndexBrick::bit(x, y, z);
         }
-    if (count <= 8 || !t.is_triangle) return mask;
+    if (count <= 4 || !t.is_triangle) return mask;
     // The box and the plane of a long triangle say little.
     const TriangleInBoxes triangle(t.corner);
     const double half = 0.5 + std::max({w.margin[0], w.margin[1], w.margin[2]});
@@ -187,7 +187,7 @@ bool IndexBrickBuilder::is_worth_it(const Work& w) {
     }
     const auto whole = static_cast<double>(w.items.size());
     // Short lists are good enough where long polygons would be listed again and again.
-    if (whole <= LeafSheets::polygons && w.begin[64] > 2.5 * whole) return false;
+    if (whole <= LeafPlanes::most && w.begin[64] > 2.5 * whole) return false;
     return squares <= 0.66 * whole * static_cast<double>(w.begin[64]);
 }
 
@@ -221,17 +221,17 @@ std::uint32_t IndexBrickBuilder::make_leaf(Work& w, std::span<const std::uint32_
 
     // Planes that miss the cell are left out; of the others the sides of the corners.
     const std::size_t most = items.size();
-    w.leaf_ids.resize(most);
+    w.leaf_items.resize(most);
     w.rows.resize(4 * most);
     float* const rows = w.rows.data();
     std::uint32_t n = 0;
     constexpr float e = LeafPlanes::unsure;
     const Float4 up = {e, e, e, e};
     const Float4 down = -up;
-    Int4 above0 = {-1, -1, -1, -1};
-    Int4 above1 = above0;
-    Int4 below0 = above0;
-    Int4 below1 = above0;
+    Mask4 above0 = {-1, -1, -1, -1};
+    Mask4 above1 = above0;
+    Mask4 below0 = above0;
+    Mask4 below1 = above0;
     for (const std::uint32_t i : items) {
         const Coefficients& p = w.planes[i];
         const double offset = p[3] + p[0] * cell[0] + p[1] * cell[1] + p[2] * cell[2];
@@ -253,7 +253,7 @@ std::uint32_t IndexBrickBuilder::make_leaf(Work& w, std::span<const std::uint32_
         above1 &= high > up;
         below0 &= low < down;
         below1 &= high < down;
-        w.leaf_ids[n] = w.items[i].id;
+        w.leaf_items[n] = i;
         rows[n] = a;
         rows[most + n] = b;
         rows[2 * most + n] = c;
@@ -270,18 +270,66 @@ std::uint32_t IndexBrickBuilder::make_leaf(Work& w, std::span<const std::uint32_
     }
     leaf.count = n;
     leaf.first = cells_.listed.append(n);
-    std::copy_n(w.leaf_ids.data(), n, &cells_.listed[leaf.first]);
+    for (std::uint32_t i = 0; i < n; ++i)
+        cells_.listed[leaf.first + i] = w.items[w.leaf_items[i]].id;
     // Where there are fewer than four planes the first one is repeated.
     const std::uint32_t stride = LeafPlanes::stride_of(n);
-    leaf.planes = cells_.planes.append(std::size_t{4} * stride);
+    const bool has_corners = has_room_for_corners(n);
+    leaf.planes =
+        cells_.planes.append(std::size_t{4} * stride + (has_corners ? LeafCorners::floats(n) : 0));
     float* out = &cells_.planes[leaf.planes];
     for (std::uint32_t row = 0; row < 4; ++row, out += stride) {
         std::copy_n(rows + row * most, n, out);
         for (std::uint32_t i = n; i < stride; ++i) out[i] = out[0];
     }
+    if (has_corners) leaf.step = write_corners(w, n, cell, out);
     const std::uint32_t number = cells_.leaves.append(1);
     cells_.leaves[number] = leaf;
     return number;
+}
+
+// Corners make traces twice as fast, so they may take what is left of the room; where long
+// triangles are listed in many cells that is less than what all leaves would need.
+bool IndexBrickBuilder::has_room_for_corners(std::uint32_t count) const {
+    const std::size_t taken = cells_.planes.bytes() + cells_.listed.bytes() + cells_.leaves.bytes();
+    const std::size_t wanted = sizeof(float) * LeafCorners::floats(count);
+    return static_cast<double>(taken + wanted) <= cells_.room;
+}
+
+// The corners of a leaf's triangles, after its planes; returns their step.
+float IndexBrickBuilder::write_corners(const Work& w, std::uint32_t count, const Low& cell,
+                                       float* out) {
+    const auto from_middle = [&](const Vector& p, std::size_t k) {
+        return p[k] - static_cast<double>(cell[k]) - 0.5;
+    };
+    const auto reach_of = [&](const BlockItem& t) {
+        double r = t.is_triangle ? 0 : HUGE_VAL;
+        for (std::size_t k = 0; k < 3; ++k)
+            r = std::max({r, -from_middle(t.lo, k), from_middle(t.hi, k)});
+        return r;
+    };
+    double reach = 0.75;  // of points that are asked about
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const double r = reach_of(w.items[w.leaf_items[i]]); r < LeafCorners::farthest)
+            reach = std::max(reach, r);
+    const auto step = static_cast<float>(reach / LeafCorners::most_steps);
+    const double scale = 1 / static_cast<double>(step);
+    std::fill_n(out, LeafCorners::floats(count), 0.F);
+    auto* to = reinterpret_cast<unsigned char*>(out);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const BlockItem& t = w.items[w.leaf_items[i]];
+        const bool fits = reach_of(t) < LeafCorners::farthest;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t c = 0; c < 3; ++c, to += 2) {
+                if (!fits) continue;
+                // Rounded by a shift into what is positive; no call of a library.
+                const double v = from_middle(t.corner[c], k) * scale + 0x1p16 + 0.5;
+                const auto number =
+                    static_cast<std::int16_t>(static_cast<std::int32_t>(v) - 0x10000);
+                std::memcpy(to, &number, sizeof number);
+            }
+    }
+    return step;
 }
 
 // A leaf without planes.

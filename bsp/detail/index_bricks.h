@@ -52,7 +52,7 @@ private:
         std::vector<std::uint32_t> listed;
         std::array<std::uint32_t, 65> begin{};
         std::vector<Id> ids;
-        std::vector<Id> leaf_ids;
+        std::vector<std::uint32_t> leaf_items;
         std::vector<float> rows;
         IndexWindings windings;
     };
@@ -72,6 +72,9 @@ private:
     [[nodiscard]] std::uint32_t make_cells(Work& w, const Low& low, int level);
     [[nodiscard]] std::uint32_t make_leaf(Work& w, std::span<const std::uint32_t> items,
                                           const Low& cell, std::uint8_t known);
+    [[nodiscard]] bool has_room_for_corners(std::uint32_t count) const;
+    [[nodiscard]] static float write_corners(const Work& w, std::uint32_t count, const Low& cell,
+                                             float* out);
     [[nodiscard]] std::uint32_t make_list(std::span<const Id> ids, std::int32_t winding);
     [[nodiscard]] std::uint8_t known_corners(const Low& low, int level) const;
 

@@ -56,6 +56,10 @@ using FoundPoint = std::function<void(std::uint32_t number, Location location,
 void locate_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
                   std::size_t begin, std::size_t end, const FoundPoint& found);
 
+/// The same, but only where each point is: results[i] of points[i].
+void classify_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
+                    std::size_t begin, std::size_t end, std::span<Location> results);
+
 /// Location and names of a point from the polygons that contain it, in any order, not none.
 /// Handles are not set.
 [[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on,

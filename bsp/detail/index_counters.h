@@ -10,10 +10,10 @@ namespace trisect::detail {
 struct IndexCounters {
     std::uint64_t empty = 0;   ///< in a cell without polygons, or beyond the solid's box
     std::uint64_t side = 0;    ///< above or below all planes of a cell
-    std::uint64_t sheet = 0;   ///< beyond a plane of the cell that has all polygons on one side
     std::uint64_t region = 0;  ///< in a region of a cell that was traced before
     std::uint64_t corner = 0;  ///< on the sides of all planes on which a corner of the cell is
-    std::uint64_t traced = 0;  ///< by a segment to a known point
+    std::uint64_t traced = 0;  ///< by a segment to such a corner, in single precision
+    std::uint64_t exact = 0;   ///< by a segment to a known point, past some polygon exactly
     std::uint64_t on = 0;      ///< on a polygon
 };
 

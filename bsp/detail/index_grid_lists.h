@@ -33,6 +33,8 @@ public:
     }
     [[nodiscard]] IndexWindings& windings() { return windings_; }
     [[nodiscard]] const IndexWindings& windings() const { return windings_; }
+    /// All cells together.
+    [[nodiscard]] std::size_t listed() const { return listed_.size(); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:

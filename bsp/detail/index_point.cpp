@@ -106,15 +106,39 @@ IndexPoint IndexPoint::from_user_slowly(const Vector& p, Lattice lattice) {
     return IndexPoint(std::move(r));
 }
 
+// From the bits of the doubles; the functions of the library are calls.
 void IndexPoint::find_small() const {
     small_known_ = true;
     if (!is_doubles()) return;
-    const int bits = fraction_bits(c_);
-    if (bits > 62 || largest(c_) * std::ldexp(1.0, bits) >= 0x1p62) return;
+    struct Parts {
+        std::int64_t mantissa;  // signed, times 2^exponent
+        int exponent;
+    };
+    std::array<Parts, 3> parts{};
+    int bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (c_[k] == 0) continue;
+        constexpr std::uint64_t hidden = std::uint64_t{1} << 52U;
+        const auto v = std::bit_cast<std::uint64_t>(c_[k]);
+        const auto biased = static_cast<int>(v >> 52U & 0x7ffU);
+        if (biased == 0) return;  // far below 2^-62
+        const std::uint64_t m = (v & (hidden - 1)) | hidden;
+        const int zeros = std::countr_zero(m);
+        const auto odd = static_cast<std::int64_t>(m >> zeros);
+        parts[k] = {c_[k] < 0 ? -odd : odd, biased - 1075 + zeros};
+        bits = std::max(bits, -parts[k].exponent);
+    }
+    if (bits > 62) return;
     Small s;
     s.bits = bits;
-    const double scale = std::ldexp(1.0, bits);
-    for (std::size_t k = 0; k < 3; ++k) s.c[k] = static_cast<std::int64_t>(c_[k] * scale);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t m = parts[k].mantissa;
+        if (m == 0) continue;
+        const int shift = parts[k].exponent + bits;
+        const auto size = static_cast<std::uint64_t>(m < 0 ? -m : m);
+        if (static_cast<int>(std::bit_width(size)) + shift > 62) return;
+        s.c[k] = m * (std::int64_t{1} << shift);
+    }
     small_ = s;
 }
 

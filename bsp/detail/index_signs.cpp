@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include <trisect/kernel/counters.h>
 
@@ -171,6 +172,53 @@ bool is_in_triangle(const IndexPoint& p, const LatticePoint& a, const LatticePoi
     }
     return exact_turn(p, a, b, k) * turn >= 0 && exact_turn(p, b, c, k) * turn >= 0 &&
            exact_turn(p, c, a, k) * turn >= 0;
+}
+
+// Whether a point is on a triangle, in integers of two words where these are enough; nothing
+// otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
+std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
+                                 const LatticePoint& c, const Vector& normal) {
+    const auto& small = p.small();
+    if (!small) return std::nullopt;
+    const auto bits = static_cast<unsigned>(small->bits);
+    const std::array<const LatticePoint*, 3> corner{&a, &b, &c};
+    std::array<Fine, 3> edge;
+    std::array<Fine, 3> way;  // to the point, in its finest bits
+    double longest_edge = 0;
+    double longest_way = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const LatticePoint& from = *corner[i];
+        const LatticePoint& to = *corner[(i + 1) % 3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<int>(k);
+            const auto start = static_cast<double>(from[axis]);
+            edge[i][k] = to[axis] - from[axis];
+            longest_edge = std::max(longest_edge, std::fabs(static_cast<double>(to[axis]) - start));
+            longest_way = std::max(longest_way, std::fabs(p[k] - start));
+            // What overflows on the way comes back.
+            way[i][k] = static_cast<std::int64_t>(static_cast<std::uint64_t>(small->c[k]) -
+                                                  (static_cast<std::uint64_t>(from[axis]) << bits));
+        }
+    }
+    longest_way *= static_cast<double>(std::uint64_t{1} << bits);
+    const double longest_normal = largest(normal) + 0x1p-40 * longest_edge * longest_edge;
+    if (!(longest_way < 0x1p61) || !(longest_normal * longest_way < 0x1p124)) return std::nullopt;
+    ++predicate_counters().exact_narrow;
+    const Normal n = cross(edge[0], edge[1]);
+    if (n[0] * way[0][0] + n[1] * way[0][1] + n[2] * way[0][2] != 0) return false;
+    // Seen along the axis in which the normal is largest.
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(normal[i]) > std::fabs(normal[k])) k = i;
+    if (n[k] == 0) return std::nullopt;
+    predicate_counters().exact_narrow += 3;
+    const std::size_t j = (k + 1) % 3;
+    const std::size_t l = (k + 2) % 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Int128 turn = Int128{edge[i][j]} * way[i][l] - Int128{edge[i][l]} * way[i][j];
+        if (n[k] < 0 ? turn > 0 : turn < 0) return false;
+    }
+    return true;
 }
 
 // Polygons that are no triangles ------------------------------------------------------------------
@@ -336,10 +384,12 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
         const Vector w = minus(p.approximate(), fa);
         const double edge = std::max(largest(u), largest(v));
         const double bound = edge * edge * (relative_bound * largest(w) + 8 * p.error());
-        if (std::fabs(dot(cross(u, v), w)) > bound) {
+        const Vector n = cross(u, v);
+        if (std::fabs(dot(n, w)) > bound) {
             ++predicate_counters().filtered;
             return false;
         }
+        if (const auto on = is_on_narrow(p, a, b, c, n)) return *on;
         return exact_side(p, a, b, c) == 0 && is_in_triangle(p, a, b, c);
     }
     if (p.side_of(polygons.support(id)) != 0) return false;

@@ -39,7 +39,10 @@ using Node = IndexTree::Node;
 
 constexpr std::size_t grid_polygons = 10;  // from so many on
 constexpr int attempts = 4;
-constexpr double room = 3;  // around the polygons, lattice units
+// Around the polygons, lattice units, and a part of their extent: corners of the grid should be
+// surely off planes that bound the solid.
+constexpr double room = 3;
+constexpr double relative_room = 0x1p-10;
 
 template <class T>
 std::size_t bytes_of(const std::vector<T>& v) {
@@ -52,7 +55,8 @@ class IndexDivision {
 public:
     IndexDivision(const IndexPolygons& polygons, IndexCells& cells, IndexGrid grid, double margin,
                   bool open)
-        : grid_(grid),
+        : cells_(cells),
+          grid_(grid),
           lists_(polygons, grid, margin),
           builder_(polygons, cells, grid, margin, open) {}
 
@@ -60,6 +64,9 @@ public:
     [[nodiscard]] bool prepare(std::span<const Id> ids, std::int32_t winding) {
         if (!lists_.list(ids)) return false;
         lists_.windings().finish(winding);
+        if (lists_.listed() != 0)
+            room_ =
+                leaf_bytes * static_cast<double>(ids.size()) / static_cast<double>(lists_.listed());
         return true;
     }
     [[nodiscard]] std::uint32_t slot_before(std::size_t cell) const {
@@ -67,6 +74,7 @@ public:
         return lists_.windings().windings()[cell] > 0 ? IndexSlot::inside : IndexSlot::outside;
     }
     [[nodiscard]] std::uint32_t divide(std::size_t cell) {
+        cells_.room += room_ * static_cast<double>(lists_.in(cell).size());
         const auto shift = grid_.shift();
         const auto x = static_cast<std::uint32_t>(cell % grid_.n[0]);
         const auto y = static_cast<std::uint32_t>(cell / grid_.n[0] % grid_.n[1]);
@@ -78,7 +86,12 @@ public:
     [[nodiscard]] std::size_t bytes() const { return lists_.bytes(); }
 
 private:
+    // What leaves may take for a polygon, unless planes alone take more.
+    static constexpr double leaf_bytes = 160;
+
+    IndexCells& cells_;
     IndexGrid grid_;
+    double room_ = 0;  // for what one cell lists once
     IndexGridLists lists_;
     IndexBrickBuilder builder_;
 };
@@ -158,6 +171,7 @@ private:
     struct Place {
         Vector lo{};
         Vector hi{};
+        Vector least{};      // what is below it in the cell does not matter
         bool whole = false;  // contains all polygons of the leaf
     };
 
@@ -312,12 +326,15 @@ IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const Box& 
     for (std::size_t k = 0; k < 3; ++k) {
         const double lo = static_cast<double>(cell.lo[k]) / static_cast<double>(wall_scale);
         const double hi = static_cast<double>(cell.hi[k]) / static_cast<double>(wall_scale);
-        p.lo[k] = static_cast<double>(polygons.lo[k]) - room;
-        p.hi[k] = static_cast<double>(polygons.hi[k]) + room;
-        p.whole = p.whole && lo < p.lo[k] && p.hi[k] < hi;
-        p.lo[k] = std::max(p.lo[k], lo);
-        p.hi[k] = std::min(p.hi[k], hi);
+        const auto first = static_cast<double>(polygons.lo[k]);
+        const auto last = static_cast<double>(polygons.hi[k]);
+        const double around = room + std::floor(relative_room * (last - first));
+        p.whole = p.whole && lo < first - around && last + around < hi;
+        p.least[k] = first;
+        p.lo[k] = std::max(first - around, lo);
+        p.hi[k] = std::min(last + around, hi);
     }
+    if (!p.whole) p.least = p.lo;
     return p;
 }
 
@@ -366,8 +383,7 @@ bool IndexTreeBuilder::make_grid(IndexGrid g, const Place& place, std::uint32_t 
     // What the first and last cells reach beyond the grid; where all polygons are in it, only what
     // is beyond their box counts.
     double margin = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        margin = std::max(margin, g.origin[k] - place.lo[k] - (place.whole ? room : 0));
+    for (std::size_t k = 0; k < 3; ++k) margin = std::max(margin, g.origin[k] - place.least[k]);
     margin *= 1.001;
     FinePoint corner;
     for (std::size_t k = 0; k < 3; ++k) corner.c[k] = fine_position(g.origin[k]);

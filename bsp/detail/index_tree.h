@@ -30,6 +30,8 @@ struct IndexCells {
     GrowingArray<IndexLeaf> leaves;
     GrowingArray<Id> listed;
     GrowingArray<float> planes;
+    /// Bytes that the leaves made so far may take together, if corners are what makes them larger.
+    double room = 0;
 
     [[nodiscard]] std::size_t bytes() const {
         return slots.bytes() + bricks.bytes() + leaves.bytes() + listed.bytes() + planes.bytes();
@@ -107,12 +109,16 @@ public:
     [[nodiscard]] LeafPlanes planes(const IndexLeaf& l) const {
         return {&cells_->planes[l.planes], LeafPlanes::stride_of(l.count)};
     }
+    /// \pre the leaf has them.
+    [[nodiscard]] const float* corners(const IndexLeaf& l) const {
+        return &cells_->planes[l.planes] + std::size_t{4} * LeafPlanes::stride_of(l.count);
+    }
     /// Asks for the memory that a point in the leaf will need.
     void prefetch(const IndexLeaf& l) const {
         if (!l.has_planes()) return;
         const float* p = &cells_->planes[l.planes];
-        for (std::uint32_t i = 0; i < 4 * l.count; i += 16) __builtin_prefetch(p + i);
-        __builtin_prefetch(&cells_->listed[l.first]);
+        const std::uint32_t n = 4 * l.count + (l.has_corners() ? LeafCorners::floats(l.count) : 0);
+        for (std::uint32_t i = 0; i < n; i += 16) __builtin_prefetch(p + i);
     }
     [[nodiscard]] const IndexGrid& grid(const Node& n) const { return grids_[n.next]; }
     [[nodiscard]] const IndexBrick& brick(std::uint32_t slot) const {

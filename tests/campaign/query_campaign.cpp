@@ -175,22 +175,42 @@ void print_point(const char* what, const std::array<double, 3>& p) {
     std::printf("%s %.17g %.17g %.17g\n", what, p[0], p[1], p[2]);
 }
 
+/// Many points at once are where each of them is.
+bool same_at_once(const Solid& solid, const std::vector<std::array<double, 3>>& points,
+                  const std::vector<trisect::Place>& places) {
+    const BrepIndex index(solid);
+    std::vector<trisect::Location> found(points.size());
+    index.classify(points, found);
+    const std::vector<trisect::Place> named = index.locate(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (found[i] == places[i].location && named[i] == places[i]) continue;
+        print_point("one of many points", points[i]);
+        return false;
+    }
+    return true;
+}
+
 bool run(const Model& m, const Options& o, std::uint64_t seed) {
     const BrepIndex index(m.solid);
     brute::PointMaker make(m.mesh, seed);
     std::array<int, 5> counts{};
+    std::vector<std::array<double, 3>> points;
+    std::vector<trisect::Place> places;
     for (int i = 0; i < o.points; ++i) {
         std::array<double, 3> p = make.any();
         if (i % 8 == 0) p = onto_wall(index, p, make.random());
         const trisect::Place place = index.locate(p);
         const brute::Answer answer = m.boundary.locate(brute::point(p));
         ++counts[static_cast<std::size_t>(place.location)];
+        points.push_back(p);
+        places.push_back(place);
         if (brute::agrees(place, answer, m.named)) continue;
         print_point("point", p);
         std::printf("%s instead of %s\n", brute::to_string(place).c_str(),
                     brute::to_string(answer).c_str());
         return false;
     }
+    if (!same_at_once(m.solid, points, places)) return false;
     std::size_t hits = 0;
     std::size_t intervals = 0;
     for (int i = 0; i < o.rays; ++i) {
