@@ -18,6 +18,7 @@
 
 #include <trisect/bsp/interference.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -131,24 +132,51 @@ const char* to_string(Relation relation) {
     return "";
 }
 
+namespace {
+
+// Whether both are one model in one place. Comparing all its triangles with themselves would take
+// a while.
+bool is_same_in_place(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
+                      const Pose& pose_b) {
+    if (&a.data() != &b.data()) return false;
+    const RelativePose r = detail::relative_pose(pose_a, a.lattice(), pose_b, b.lattice());
+    return r.is_translation() &&
+           std::ranges::all_of(r.translation(), [](const auto& t) { return t.is_zero(); });
+}
+
+}  // namespace
+
 InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
                              const InterferenceModel& b, const Pose& pose_b,
                              const InterferenceOptions& options) {
     InterferenceResult result;
     if (a.is_empty() || b.is_empty()) return result;
     const bool all = options.contacts || options.regions;
+    if (!all && is_same_in_place(a, pose_a, b, pose_b)) {
+        result.relation = Relation::Equal;
+        return result;
+    }
+    detail::CandidatePairs candidates;
     if (!all) {
         detail::ObbWalk::Stack stack;
         stack.reserve(256);
-        if (const auto quick = detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack)) {
+        if (const auto quick = detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack,
+                                                      nullptr, &candidates)) {
             result.relation = *quick;
             return result;
         }
     }
     const PosedModels models{a.data(), b.data(),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
-    BoundaryFlags flags;
-    const std::vector<MeetingPair> pairs = meeting_pairs(models, all, flags);
+    detail::MeetingCollector collect(models, all);
+    if (candidates)
+        (void)std::ranges::any_of(*candidates, [&collect](const detail::CandidatePair& p) {
+            return collect(p.a, p.b, p.verdict);
+        });
+    else
+        for_candidate_pairs(models, collect);
+    BoundaryFlags& flags = collect.flags;
+    const std::vector<MeetingPair>& pairs = collect.pairs;
     if (!flags.is_decided()) add_flags_at_contacts(models, pairs, flags);
     if (!flags.is_decided()) add_flags_of_shells(models, pairs, flags);
     result.relation = flags.relation();

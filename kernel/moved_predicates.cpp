@@ -22,7 +22,10 @@
 
 #include <trisect/kernel/moved_predicates.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 
 #include <trisect/kernel/counters.h>
 
@@ -43,6 +46,61 @@ int counted(int sign, bool narrow) {
 }
 
 constexpr int narrow_bits = 255;
+
+// 128 bits ------------------------------------------------------------------------------------
+//
+// Lengths are added up before anything is multiplied: |v| < 2^bits(v), a product of lengths a and b
+// is below 2^(a + b), a sum of two below twice the larger one. 126 bits and a sign fit.
+constexpr int short_bits = 126;
+
+using ShortVector = std::array<Int128, 3>;
+
+int bits(Int128 v) {
+    const Uint128 u = v < 0 ? -static_cast<Uint128>(v) : static_cast<Uint128>(v);
+    const auto high = static_cast<std::uint64_t>(u >> 64U);
+    return high != 0 ? 128 - std::countl_zero(high)
+                     : 64 - std::countl_zero(static_cast<std::uint64_t>(u));
+}
+int bits(const ShortVector& v) { return std::max({bits(v[0]), bits(v[1]), bits(v[2])}); }
+
+ShortVector to_short(const LatticePoint& p) { return {p.x, p.y, p.z}; }
+ShortVector minus(const ShortVector& a, const ShortVector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Int128 dot(const ShortVector& a, const ShortVector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+// The way from p to the moved point r, times the pose's denominator; below 2^88.
+ShortVector way(const LatticePoint& p, const MovedPoint& r) {
+    ShortVector v = r.short_numbers();
+    const std::int64_t s = r.pose().short_numbers()->s;
+    v[0] -= Int128{s} * p.x;
+    v[1] -= Int128{s} * p.y;
+    v[2] -= Int128{s} * p.z;
+    return v;
+}
+int counted_short(Int128 v) {
+    ++predicate_counters().exact_short;
+    return v > 0 ? 1 : (v < 0 ? -1 : 0);
+}
+
+std::optional<int> short_orientation(const LatticePoint& p, const LatticePoint& q,
+                                     const MovedPoint& r, const MovedPoint& s) {
+    const ShortVector u = to_short(q - p);
+    const ShortVector v = minus(s.short_numbers(), r.short_numbers());
+    const ShortVector w = way(p, r);
+    if (bits(u) + bits(v) + bits(w) + 3 > short_bits) return std::nullopt;
+    return counted_short(
+        dot(u, {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]}));
+}
+
+std::optional<int> short_planar_orientation(const LatticePoint& p, const LatticePoint& q,
+                                            const MovedPoint& r, std::size_t i, std::size_t j) {
+    const ShortVector u = to_short(q - p);
+    const ShortVector w = way(p, r);
+    if (bits(u) + bits(w) + 1 > short_bits) return std::nullopt;
+    return counted_short(u[i] * w[j] - u[j] * w[i]);
+}
 
 // w_p q - w_q p with positive weights.
 IntVector difference(const IntPoint& from, const IntPoint& to) {
@@ -176,7 +234,32 @@ const PulledPlane::Exact& PulledPlane::exact() const {
     return exact_;
 }
 
+const PulledPlane::Short& PulledPlane::short_numbers() const {
+    if (short_known_) return short_;
+    short_known_ = true;
+    const RelativePose::Short* pose = pose_->short_numbers();
+    if (pose == nullptr) return short_;
+    const ShortVector n{plane_->normal(0), plane_->normal(1), plane_->normal(2)};
+    const BoundedInt offset(plane_->offset());
+    // S d and n·t are below 2^125 each.
+    if (bits(n) + pose->bits + 3 > short_bits ||
+        offset.bit_length() + bits(pose->s) + 1 > short_bits)
+        return short_;
+    for (std::size_t j = 0; j < 3; ++j)
+        short_.n[j] = n[0] * pose->m[0][j] + n[1] * pose->m[1][j] + n[2] * pose->m[2][j];
+    short_.d =
+        offset.to_int128() * pose->s + dot(n, ShortVector{pose->t[0], pose->t[1], pose->t[2]});
+    short_.n_bits = bits(short_.n);
+    return short_;
+}
+
 int PulledPlane::exact_side_of(const Point& p) const {
+    if (p.is_lattice() && pose_->short_numbers() != nullptr) {
+        const Short& e = short_numbers();
+        const ShortVector x = to_short(p.lattice());
+        // n·x is below 2^125, d below 2^126.
+        if (e.n_bits + bits(x) + 3 <= short_bits) return counted_short(dot(e.n, x) + e.d);
+    }
     const Exact& e = exact();
     if (p.is_lattice()) return counted((dot(e.n, to_ints(p.lattice())) + e.d).sign(), e.narrow);
     const IntPoint x = exact_point(p);
@@ -224,14 +307,24 @@ int PulledPlane::along(const Direction& v) const {
             return value > 0 ? 1 : -1;
         }
     }
+    const IntVector& exact_v = v.exact();
+    const int v_bits =
+        std::max({exact_v[0].bit_length(), exact_v[1].bit_length(), exact_v[2].bit_length()});
+    if (v_bits <= 64 && pose_->short_numbers() != nullptr &&
+        short_numbers().n_bits + v_bits + 2 <= short_bits)
+        return counted_short(dot(short_numbers().n, {exact_v[0].to_int128(), exact_v[1].to_int128(),
+                                                     exact_v[2].to_int128()}));
     const Exact& e = exact();
-    const BoundedInt value = dot(e.n, v.exact());
+    const BoundedInt value = dot(e.n, exact_v);
     return counted(value.sign(), value.bit_length() <= narrow_bits);
 }
 
 int PulledPlane::sense_of(const Plane& parallel) const {
     const int axis = parallel.dominant_axis();
-    const int sign = exact().n[static_cast<std::size_t>(axis)].sign();
+    const auto k = static_cast<std::size_t>(axis);
+    const Short& e = short_numbers();
+    const int sign =
+        e.n_bits < 128 ? (e.n[k] > 0 ? 1 : 0) - (e.n[k] < 0 ? 1 : 0) : exact().n[k].sign();
     TRISECT_EXPECTS(sign != 0, "the sense of planes that are not parallel");
     return parallel.normal(axis) > 0 ? sign : -sign;
 }
@@ -248,10 +341,6 @@ bool PulledPlane::is_same_as(const Plane& other) const {
 
 // Points and edges ---------------------------------------------------------------------------
 
-MovedPoint::MovedPoint(const Point& p, const RelativePose& pose) : point_(&p), pose_(&pose) {
-    if (pose.has_doubles()) approximation_ = pose.move(p.approximation());
-}
-
 const IntPoint& MovedPoint::exact() const {
     if (known_) return exact_;
     IntPoint x = exact_point(*point_);
@@ -261,6 +350,45 @@ const IntPoint& MovedPoint::exact() const {
     known_ = true;
     return exact_;
 }
+
+std::array<Int128, 3> MovedPoint::short_numbers() const {
+    const RelativePose::Short& pose = *pose_->short_numbers();
+    const LatticePoint& p = point_->lattice();
+    ShortVector x;
+    for (std::size_t i = 0; i < 3; ++i)
+        x[i] = Int128{pose.m[i][0]} * p.x + Int128{pose.m[i][1]} * p.y +
+               Int128{pose.m[i][2]} * p.z + pose.t[i];
+    return x;
+}
+
+bool MovedPoint::is_at(const Point& p) const {
+    if (pose_->has_doubles()) {
+        const Approximation& a = p.approximation();
+        const Approximation& b = approximation();
+        const double error = 1.0000001 * (a.error + b.error);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (mag(a.c[i] - b.c[i]) > error) return false;
+    }
+    if (p.is_lattice() && point_->is_lattice() && pose_->short_numbers() != nullptr) {
+        ++predicate_counters().exact_short;
+        return way(p.lattice(), *this) == ShortVector{};
+    }
+    const IntPoint from = exact_point(p);
+    const BoundedInt weight = pose_->denominator() * exact().w;
+    bool same = true;
+    for (std::size_t i = 0; i < 3; ++i) same = same && from.w * exact().x[i] == weight * from.x[i];
+    (void)counted(0, weight.bit_length() <= narrow_bits);
+    return same;
+}
+
+namespace {
+
+bool are_short(const Point& p, const Point& q, const MovedPoint& r) {
+    return p.is_lattice() && q.is_lattice() && r.point().is_lattice() &&
+           r.pose().short_numbers() != nullptr;
+}
+
+}  // namespace
 
 int orientation(const Point& p, const Point& q, const MovedPoint& r, const MovedPoint& s) {
     if (r.pose().has_doubles()) {
@@ -272,6 +400,8 @@ int orientation(const Point& p, const Point& q, const MovedPoint& r, const Moved
             return sign;
         }
     }
+    if (are_short(p, q, r) && s.point().is_lattice())
+        if (const auto sign = short_orientation(p.lattice(), q.lattice(), r, s)) return *sign;
     const IntPoint from = exact_point(p);
     const IntVector u = difference(from, exact_point(q));
     const IntVector v = difference(r.exact(), s.exact());
@@ -296,6 +426,9 @@ int planar_orientation(const Point& p, const Point& q, const MovedPoint& r, int 
             return value > 0 ? 1 : -1;
         }
     }
+    if (are_short(p, q, r))
+        if (const auto sign = short_planar_orientation(p.lattice(), q.lattice(), r, i, j))
+            return *sign;
     const IntPoint from = exact_point(p);
     const IntPoint to = exact_point(q);
     const BoundedInt weight = r.pose().denominator() * r.exact().w;

@@ -5,9 +5,11 @@
 // moved vertex. Three stages as in predicates.h:
 //   1. symbolic  the caller knows (a vertex of a face known to be coplanar);
 //   2. filtered  doubles with a derived bound. Only here are points "moved", with an error bound;
-//   3. exact     integers on the stack, as long as they have to be (detail/bounded_int.h). Counted
-//                as narrow up to 256 bits: corners of lattices up to 26 bits under rotations by
-//                small quaternions need about 110, under doubles 170.
+//   3. exact     integers of 128 bits where the pose's numbers are short and the products that
+//   occur
+//                are known to fit, else integers on the stack, as long as they have to be
+//                (detail/bounded_int.h). Counted as narrow up to 256 bits: corners of lattices up
+//                to 26 bits under rotations by small quaternions need about 110, under doubles 170.
 // The bounds on bits are derived in moved_predicates.cpp.
 //
 // Everything here has lazy parts and is for one thread.
@@ -20,6 +22,7 @@
 #include <trisect/kernel/detail/relative_pose.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
+#include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
 
@@ -78,7 +81,14 @@ private:
         BoundedInt d;
         bool narrow = false;  // values at lattice points fit 256 bits
     };
+    // In 128 bits, with bounds on the lengths of the numbers; n_bits is 128 where they do not fit.
+    struct Short {
+        std::array<Int128, 3> n{};
+        Int128 d = 0;
+        int n_bits = 128;
+    };
     [[nodiscard]] const Exact& exact() const;
+    [[nodiscard]] const Short& short_numbers() const;
     [[nodiscard]] int exact_side_of(const Point& p) const;
 
     const Plane* plane_;
@@ -88,6 +98,8 @@ private:
     double fd_ = 0;
     double fd_error_ = 0;
     mutable bool known_ = false;
+    mutable bool short_known_ = false;
+    mutable Short short_;
     mutable Exact exact_;
 };
 
@@ -95,18 +107,30 @@ private:
 /// exactly, as (M x + t w) / (S w), when asked for.
 class MovedPoint {
 public:
-    MovedPoint(const Point& p, const RelativePose& pose);
+    MovedPoint(const Point& p, const RelativePose& pose) : point_(&p), pose_(&pose) {}
 
     [[nodiscard]] const Point& point() const { return *point_; }
     [[nodiscard]] const RelativePose& pose() const { return *pose_; }
-    [[nodiscard]] const Approximation& approximation() const { return approximation_; }
+    /// \pre the pose has doubles
+    [[nodiscard]] const Approximation& approximation() const {
+        if (!approximated_) {
+            approximation_ = pose_->move(point_->approximation());
+            approximated_ = true;
+        }
+        return approximation_;
+    }
     /// M x + t w and w; the place is x / (S w).
     [[nodiscard]] const IntPoint& exact() const;
+    /// Whether a point of the frame's solid is just there.
+    [[nodiscard]] bool is_at(const Point& p) const;
+    /// M x + t of a lattice point, below 2^87. \pre the pose has short numbers
+    [[nodiscard]] std::array<Int128, 3> short_numbers() const;
 
 private:
     const Point* point_;
     const RelativePose* pose_;
-    Approximation approximation_;
+    mutable Approximation approximation_;
+    mutable bool approximated_ = false;
     mutable bool known_ = false;
     mutable IntPoint exact_;
 };

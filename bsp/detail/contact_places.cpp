@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -29,14 +30,27 @@ namespace trisect::detail {
 
 namespace {
 
-// The name of a contact vertex.
-struct PlaceKey {
-    // 0: vertex of A, 1: vertex of B, 2: edge of A and edge of B, 3: edge of A and face of B, 4:
-    // face of A and edge of B
-    std::uint8_t kind = 0;
-    std::uint32_t first = 0;
-    std::uint32_t second = 0;
+// The name of a contact vertex, in one number: numbers of entities are below 2^30.
+class PlaceKey {
+public:
+    enum Kind : std::uint8_t {
+        VertexOfA,
+        VertexOfB,
+        Edges,
+        EdgeOfA,  // and a face of B
+        EdgeOfB   // and a face of A
+    };
+    PlaceKey() = default;
+    PlaceKey(Kind kind, std::uint32_t first, std::uint32_t second)
+        : code_(std::uint64_t{kind} << 60U | std::uint64_t{first} << 30U | second) {}
+    [[nodiscard]] Kind kind() const { return static_cast<Kind>(code_ >> 60U); }
+    [[nodiscard]] std::uint32_t first() const {
+        return static_cast<std::uint32_t>(code_ >> 30U & 0x3fffffffU);
+    }
     friend auto operator<=>(const PlaceKey&, const PlaceKey&) = default;
+
+private:
+    std::uint64_t code_ = 0;
 };
 
 struct Incidence {
@@ -56,15 +70,15 @@ std::vector<Incidence> incidences_of(const PosedModels& models,
             const BoundaryEntity a = entity_of(models.a, pair.a, p.a);
             const BoundaryEntity b = entity_of(models.b, pair.b, p.b);
             if (a.is_vertex())
-                all.push_back({{0, a.index(), 0}, i, k});
+                all.push_back({{PlaceKey::VertexOfA, a.index(), 0}, i, k});
             else if (b.is_vertex())
-                all.push_back({{1, b.index(), 0}, i, k});
+                all.push_back({{PlaceKey::VertexOfB, b.index(), 0}, i, k});
             else if (a.is_edge() && b.is_edge())
-                all.push_back({{2, a.index(), b.index()}, i, k});
+                all.push_back({{PlaceKey::Edges, a.index(), b.index()}, i, k});
             else if (edges_in_faces && a.is_edge())
-                all.push_back({{3, a.index(), b.index()}, i, k});
+                all.push_back({{PlaceKey::EdgeOfA, a.index(), b.index()}, i, k});
             else if (edges_in_faces && b.is_edge())
-                all.push_back({{4, a.index(), b.index()}, i, k});
+                all.push_back({{PlaceKey::EdgeOfB, a.index(), b.index()}, i, k});
         }
     }
     std::ranges::sort(all, {}, &Incidence::key);
@@ -84,6 +98,13 @@ public:
     }
     void add_a(std::uint32_t t, Feature f) { add(models_.a, t, f, a_, numbers_a_); }
     void add_b(std::uint32_t t, Feature f) { add(models_.b, t, f, b_, numbers_b_); }
+    [[nodiscard]] std::size_t count_a() const { return a_.size(); }
+    [[nodiscard]] std::size_t count_b() const { return b_.size(); }
+    // Whether both triangles are among them.
+    [[nodiscard]] bool has(std::uint32_t a, std::uint32_t b) const {
+        return std::ranges::find(numbers_a_, a) != numbers_a_.end() &&
+               std::ranges::find(numbers_b_, b) != numbers_b_.end();
+    }
     [[nodiscard]] BoundaryFlags compare(bool thorough) const {
         return compare_cones(a_, b_, models_.poses, thorough);
     }
@@ -106,48 +127,197 @@ private:
     std::vector<std::uint32_t> numbers_b_;
 };
 
+// Whether the angles of two triangles at a common corner are one: sides of both run along each
+// other. Told by the other corners of their intersection.
+bool are_angles_equal(const TriangleContact& contact, const MeetingPoint& apex) {
+    if (!contact.coplanar || contact.count < 3 || !apex.a.is_corner() || !apex.b.is_corner())
+        return false;
+    const auto run_along = [&](std::size_t a, std::size_t b) {
+        return std::ranges::any_of(contact.corners(), [&](const MeetingPoint& p) {
+            return !(p == apex) && p.a.is_on_side(a) && p.b.is_on_side(b);
+        });
+    };
+    const std::size_t a = apex.a.index();
+    const std::size_t b = apex.b.index();
+    const std::size_t before_a = (a + 2) % 3;
+    const std::size_t before_b = (b + 2) % 3;
+    return (run_along(a, b) && run_along(before_a, before_b)) ||
+           (run_along(a, before_b) && run_along(before_a, b));
+}
+
 void add_flags_by_name(const PosedModels& models, const std::vector<MeetingPair>& pairs,
                        std::span<const Incidence> all, BoundaryFlags& flags) {
     ConeParts parts(models);
     for (std::size_t i = 0; i < all.size() && !flags.is_decided();) {
         parts.clear();
         const PlaceKey key = all[i].key;
+        std::size_t equal_angles = 0;
         for (; i < all.size() && all[i].key == key; ++i) {
             const MeetingPair& pair = pairs[all[i].pair];
             const MeetingPoint& p = pair.contact.points[all[i].point];
             parts.add_a(pair.a, p.a);
             parts.add_b(pair.b, p.b);
+            if (are_angles_equal(pair.contact, p)) ++equal_angles;
         }
+        // Equal cones share area and nothing else, which the pairs have told.
+        if (equal_angles == parts.count_a() && equal_angles == parts.count_b()) continue;
         flags |= parts.compare(false);
     }
 }
 
+// A contact vertex where a boundary may touch itself: a name, with its coordinates as doubles that
+// mostly tell different ones apart, and as rationals where they do not.
+struct ContactPlace {
+    std::array<double, 3> at{};  // in A's lattice
+    double error = 0;
+    std::size_t begin = 0;  // incidences
+    std::size_t end = 0;
+    std::optional<ExactPlace> exact = std::nullopt;
+    std::uint32_t same = 0;  // the number of another name of the same point, or its own
+};
+
+class ContactPlaces {
+public:
+    ContactPlaces(const PosedModels& models, const std::vector<MeetingPair>& pairs,
+                  std::span<const Incidence> all)
+        : models_(models), pairs_(pairs), all_(all) {
+        for (std::size_t i = 0; i < all.size();) {
+            std::size_t end = i + 1;
+            while (end < all.size() && all[end].key == all[i].key) ++end;
+            places_.push_back({});
+            places_.back().begin = i;
+            places_.back().end = end;
+            approximate(places_.back());
+            i = end;
+        }
+        std::ranges::sort(places_, {}, [](const ContactPlace& p) { return p.at[0]; });
+        for (const ContactPlace& p : places_) largest_error_ = std::max(largest_error_, p.error);
+        unite();
+        meet_other_pairs();
+    }
+
+    // visit(parts) for each point, until it returns true.
+    template <class Visit>
+    void for_each(Visit&& visit) {
+        ConeParts parts(models_);
+        for (std::uint32_t i = 0; i < places_.size(); ++i) {
+            if (places_[i].same != i) continue;
+            parts.clear();
+            for (std::uint32_t j = i; j < places_.size() && is_near(i, j); ++j)
+                if (places_[j].same == i) add_incidences(places_[j], parts);
+            for (; other_ < others_.size() && others_[other_].place == i; ++other_)
+                add_if_there(places_[i], pairs_[others_[other_].pair], parts);
+            if (visit(parts)) return;
+        }
+    }
+
+private:
+    struct Other {
+        std::uint32_t place = 0;
+        std::uint32_t pair = 0;
+    };
+
+    void approximate(ContactPlace& p) {
+        const PlaceKey& key = all_[p.begin].key;
+        const RelativePose& to_a = models_.poses.to_a;
+        std::optional<Approximation> known;
+        if (key.kind() == PlaceKey::VertexOfA)
+            known = models_.a.brep.point(VertexId(key.first())).approximation();
+        else if (key.kind() == PlaceKey::VertexOfB && to_a.has_doubles())
+            known = to_a.move(models_.b.brep.point(VertexId(key.first())).approximation());
+        if (known) {
+            p.at = known->c;
+            p.error = known->error;
+            return;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            p.at[k] = exact(p).c[k].to_double();
+            p.error = std::max(p.error, std::nextafter(0x1p-53 * std::abs(p.at[k]), 1.0));
+        }
+    }
+    const ExactPlace& exact(ContactPlace& p) {
+        if (!p.exact) {
+            const MeetingPair& pair = pairs_[all_[p.begin].pair];
+            p.exact = place_of(models_, pair, pair.contact.points[all_[p.begin].point]);
+        }
+        return *p.exact;
+    }
+
+    // Whether a later place may be the same point, or one behind it may.
+    [[nodiscard]] bool is_near(std::uint32_t i, std::uint32_t j) const {
+        return places_[j].at[0] - places_[i].at[0] <= 2.001 * largest_error_;
+    }
+    bool are_same(ContactPlace& p, ContactPlace& q) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (std::abs(p.at[k] - q.at[k]) > 1.001 * (p.error + q.error)) return false;
+        return exact(p) == exact(q);
+    }
+    void unite() {
+        for (std::uint32_t i = 0; i < places_.size(); ++i) places_[i].same = i;
+        for (std::uint32_t i = 0; i < places_.size(); ++i) {
+            if (places_[i].same != i) continue;
+            for (std::uint32_t j = i + 1; j < places_.size() && is_near(i, j); ++j)
+                if (places_[j].same == j && are_same(places_[i], places_[j])) places_[j].same = i;
+        }
+    }
+
+    // Pairs that may contain a place without being known to: by the boxes of their triangles in A.
+    void meet_other_pairs() {
+        for (std::uint32_t n = 0; n < pairs_.size(); ++n) {
+            const ModelTriangle& t = models_.a.triangles[pairs_[n].a];
+            std::array<double, 3> lo{};
+            std::array<double, 3> hi{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto c = [&](std::size_t i) { return models_.a.position(t.vertex[i])[k]; };
+                const double slack = models_.a.position_error + largest_error_;
+                lo[k] = std::nextafter(std::min({c(0), c(1), c(2)}) - slack, -INFINITY);
+                hi[k] = std::nextafter(std::max({c(0), c(1), c(2)}) + slack, INFINITY);
+            }
+            const auto first = std::ranges::lower_bound(
+                places_, lo[0], {}, [](const ContactPlace& p) { return p.at[0]; });
+            for (auto p = first; p != places_.end() && p->at[0] <= hi[0]; ++p) {
+                const auto number = static_cast<std::uint32_t>(p - places_.begin());
+                if (p->same == number && p->at[1] >= lo[1] && p->at[1] <= hi[1] &&
+                    p->at[2] >= lo[2] && p->at[2] <= hi[2])
+                    others_.push_back({number, n});
+            }
+        }
+        std::ranges::stable_sort(others_, {}, &Other::place);
+    }
+
+    void add_incidences(const ContactPlace& p, ConeParts& parts) const {
+        for (std::size_t i = p.begin; i < p.end; ++i) {
+            const MeetingPair& pair = pairs_[all_[i].pair];
+            const MeetingPoint& point = pair.contact.points[all_[i].point];
+            parts.add_a(pair.a, point.a);
+            parts.add_b(pair.b, point.b);
+        }
+    }
+    void add_if_there(ContactPlace& p, const MeetingPair& pair, ConeParts& parts) {
+        if (parts.has(pair.a, pair.b)) return;
+        const auto at_a = feature_at(models_.a, pair.a, exact(p));
+        if (!at_a) return;
+        const auto at_b = feature_at(models_.b, pair.b, moved(exact(p), models_.poses.to_b));
+        if (!at_b) return;
+        parts.add_a(pair.a, *at_a);
+        parts.add_b(pair.b, *at_b);
+    }
+
+    const PosedModels& models_;
+    const std::vector<MeetingPair>& pairs_;
+    std::span<const Incidence> all_;
+    std::vector<ContactPlace> places_;  // by their first coordinate
+    double largest_error_ = 0;
+    std::vector<Other> others_;  // by place
+    std::size_t other_ = 0;
+};
+
 void add_flags_by_place(const PosedModels& models, const std::vector<MeetingPair>& pairs,
                         std::span<const Incidence> all, BoundaryFlags& flags) {
-    // One exact point for each name, then each different point once.
-    std::vector<ExactPlace> places;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (i > 0 && all[i].key == all[i - 1].key) continue;
-        const MeetingPair& pair = pairs[all[i].pair];
-        places.push_back(place_of(models, pair, pair.contact.points[all[i].point]));
-    }
-    std::ranges::sort(places);
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    ConeParts parts(models);
-    for (const ExactPlace& place : places) {
-        if (flags.is_decided()) return;
-        parts.clear();
-        const ExactPlace in_b = moved(place, models.poses.to_b);
-        for (const MeetingPair& pair : pairs) {
-            const auto at_a = feature_at(models.a, pair.a, place);
-            if (!at_a) continue;
-            const auto at_b = feature_at(models.b, pair.b, in_b);
-            if (!at_b) continue;
-            parts.add_a(pair.a, *at_a);
-            parts.add_b(pair.b, *at_b);
-        }
+    ContactPlaces(models, pairs, all).for_each([&flags](const ConeParts& parts) {
         flags |= parts.compare(true);
-    }
+        return flags.is_decided();
+    });
 }
 
 }  // namespace

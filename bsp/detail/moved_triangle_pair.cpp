@@ -16,6 +16,9 @@
 
 #include <trisect/bsp/detail/moved_triangle_pair.h>
 
+#include <cstddef>
+#include <optional>
+
 #include <trisect/kernel/counters.h>
 
 namespace trisect::detail {
@@ -23,6 +26,12 @@ namespace trisect::detail {
 namespace {
 
 using Signs = std::array<int, 3>;
+
+std::optional<std::size_t> only_corner_in_plane(const Signs& s) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (s[k] == 0 && s[(k + 1) % 3] * s[(k + 2) % 3] > 0) return k;
+    return std::nullopt;
+}
 
 constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
@@ -45,6 +54,17 @@ public:
     }
 
     void meet_across(const Signs& of_a, const Signs& of_b) {
+        // A triangle with a corner in the other's plane and the rest on one side of it meets that
+        // plane in this point alone. Most pairs at fine flush surfaces are of two such.
+        const std::optional<std::size_t> at_a = only_corner_in_plane(of_a);
+        const std::optional<std::size_t> at_b = only_corner_in_plane(of_b);
+        if (at_a && at_b) {
+            if (moved_b_[*at_b].is_at(*a_.corner[*at_a]))
+                note(Feature::corner(*at_a), Feature::corner(*at_b));
+            return;
+        }
+        if (at_a) return note(Feature::corner(*at_a), corner_of_a(*at_a));
+        if (at_b) return note(corner_of_b(*at_b), Feature::corner(*at_b));
         for (std::size_t k = 0; k < 3; ++k) {
             if (of_a[k] == 0) note(Feature::corner(k), corner_of_a(k));
             if (of_b[k] == 0) note(corner_of_b(k), Feature::corner(k));

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/detail/boundary_flags.h>
@@ -92,21 +93,27 @@ std::optional<Relation> relation_of_apart(const InterferenceModelData& a, const 
 
 std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pose& pose_a,
                                        const InterferenceModelData& b, const Pose& pose_b,
-                                       ObbWalk::Stack& stack, WalkCounters* counters) {
+                                       ObbWalk::Stack& stack, WalkCounters* counters,
+                                       CandidatePairs* candidates) {
     const ApproximateMap to_a = approximate_map(pose_a, a.brep.lattice(), pose_b, b.brep.lattice());
     if (!to_a.is_usable()) return std::nullopt;
     // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
     bool doubtful = false;
+    std::vector<CandidatePair> doubtful_pairs;
     const bool crossing = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
         if (verdict == PairVerdict::Crossing && a.is_clear(i) && b.is_clear(j)) return true;
         doubtful = true;
+        if (candidates != nullptr) doubtful_pairs.push_back({i, j, verdict});
         return false;
     });
     if (counters != nullptr) *counters += walk.counters();
     if (crossing) return Relation::Overlapping;
-    if (doubtful) return std::nullopt;
+    if (doubtful) {
+        if (candidates != nullptr) *candidates = std::move(doubtful_pairs);
+        return std::nullopt;
+    }
 
     return relation_of_apart(a, pose_a, b, pose_b, to_a);
 }

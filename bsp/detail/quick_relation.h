@@ -3,7 +3,9 @@
 // The relation of two placed solids where doubles can tell it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/obb_walk.h>
@@ -12,16 +14,26 @@
 
 namespace trisect::detail {
 
+/// A pair of triangles, by their numbers, and what doubles said of it.
+struct CandidatePair {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    PairVerdict verdict = PairVerdict::Unknown;
+};
+using CandidatePairs = std::optional<std::vector<CandidatePair>>;
+
 /// The relation when a crossing is found in doubles, or when the boundaries are certainly apart and
 /// for each shell it is certain on which side of the other boundary it is; otherwise nothing. No
 /// exact pose is made. Of solids in general position it hardly ever returns nothing.
 ///
-/// The stack is scratch memory. \pre neither model is empty
+/// When nothing is returned after a whole walk, `candidates`, if given, has all pairs that doubles
+/// did not find apart. The stack is scratch memory. \pre neither model is empty
 [[nodiscard]] std::optional<Relation> quick_relation(const InterferenceModelData& a,
                                                      const Pose& pose_a,
                                                      const InterferenceModelData& b,
                                                      const Pose& pose_b, ObbWalk::Stack& stack,
-                                                     WalkCounters* counters = nullptr);
+                                                     WalkCounters* counters = nullptr,
+                                                     CandidatePairs* candidates = nullptr);
 
 /// The same for boundaries known to have no common point; `to_a` is the map from B into A.
 [[nodiscard]] std::optional<Relation> relation_of_apart(const InterferenceModelData& a,

@@ -75,6 +75,11 @@ public:
             if (limb_[idx(i)] != 0) return 64 * i + std::countr_zero(limb_[idx(i)]);
         return 0;
     }
+    /// \pre bit_length() <= 126
+    [[nodiscard]] Int128 to_int128() const {
+        const Uint128 u = Uint128{size_ > 1 ? limb_[1] : 0} << 64U | (size_ > 0 ? limb_[0] : 0);
+        return negative_ ? -static_cast<Int128>(u) : static_cast<Int128>(u);
+    }
     /// \pre it fits.
     template <int N>
     [[nodiscard]] WideInt<N> to_wide() const {

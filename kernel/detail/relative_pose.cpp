@@ -36,6 +36,7 @@ IntVector apply(const std::array<IntVector, 3>& rows, const IntVector& v) {
 RelativePose::RelativePose() : s_(1) {
     for (std::size_t i = 0; i < 3; ++i) m_[i][i] = 1;
     make_doubles();
+    make_short();
 }
 
 RelativePose::RelativePose(std::array<IntVector, 3> rows, IntVector translation,
@@ -53,6 +54,30 @@ RelativePose::RelativePose(std::array<IntVector, 3> rows, IntVector translation,
         for (std::size_t j = 0; j < 3; ++j)
             translation_only_ = translation_only_ && (i == j ? m_[i][j] == s_ : m_[i][j].is_zero());
     make_doubles();
+    make_short();
+}
+
+void RelativePose::make_short() {
+    Short r;
+    bool fits = s_.bit_length() <= 31;
+    for (std::size_t i = 0; i < 3; ++i) {
+        fits = fits && t_[i].bit_length() <= 62;
+        for (std::size_t j = 0; j < 3; ++j) fits = fits && m_[i][j].bit_length() <= 31;
+    }
+    if (!fits) return;
+    const auto number = [](const BoundedInt& v) {
+        return static_cast<std::int64_t>(v.to_int128());
+    };
+    r.s = number(s_);
+    for (std::size_t i = 0; i < 3; ++i) {
+        r.t[i] = number(t_[i]);
+        r.bits = std::max(r.bits, t_[i].bit_length());
+        for (std::size_t j = 0; j < 3; ++j) {
+            r.m[i][j] = number(m_[i][j]);
+            r.bits = std::max(r.bits, m_[i][j].bit_length());
+        }
+    }
+    short_ = r;
 }
 
 void RelativePose::make_doubles() {

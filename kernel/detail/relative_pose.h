@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
 #include <trisect/kernel/detail/bounded_int.h>
 #include <trisect/kernel/lattice.h>
@@ -35,6 +37,16 @@ public:
     [[nodiscard]] bool is_translation() const { return translation_only_; }
     /// Bits of the largest number.
     [[nodiscard]] int width() const { return width_; }
+    /// The same numbers where they are small: under the identity, quarter turns, translations along
+    /// the lattice, rotations by quaternions of a few digits. |m|, s < 2^31, |t| < 2^62.
+    struct Short {
+        std::array<std::array<std::int64_t, 3>, 3> m{};
+        std::array<std::int64_t, 3> t{};
+        std::int64_t s = 1;
+        int bits = 0;  ///< all of m and t are below 2^bits
+    };
+    /// Null when they are not.
+    [[nodiscard]] const Short* short_numbers() const { return short_ ? &*short_ : nullptr; }
 
     /// M_ij / S and t_i / S, relative error below `relative_error`. When `has_doubles` is false
     /// some leave the range in which products of three with coordinates neither overflow nor
@@ -49,6 +61,7 @@ public:
 
 private:
     void make_doubles();
+    void make_short();
 
     std::array<IntVector, 3> m_;
     IntVector t_;
@@ -57,6 +70,7 @@ private:
     bool translation_only_ = true;
     int width_ = 1;
     bool has_doubles_ = true;
+    std::optional<Short> short_;
     std::array<std::array<double, 3>, 3> fm_{};
     std::array<double, 3> ft_{};
 };

@@ -223,16 +223,55 @@ TEST(MovedPredicates, DecideByDoublesWhatIsClear) {
     EXPECT_EQ(predicate_counters().filtered - before.filtered, 10000U);
 }
 
-TEST(MovedPredicates, CountNarrowAndWideStages) {
-    const PosedPair pair(Pose(), Lattice{}, Pose::from_quaternion({1, 0, 0, 1}), Lattice{});
+TEST(MovedPredicates, CountShortNarrowAndWideStages) {
     const Plane floor = Plane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    const auto turned = [](std::int64_t w) {
+        return PosedPair(Pose(), Lattice{}, Pose::from_quaternion({w, 0, 0, 1}), Lattice{});
+    };
+    const PosedPair pair = turned(1);
+    const PosedPair long_numbers = turned(std::int64_t{1} << 20);
     const PredicateCounters before = predicate_counters();
     EXPECT_EQ(PulledPlane(floor, pair.to_a).side_of(LatticePoint{3, 4, 0}), 0);
+    EXPECT_EQ(predicate_counters().exact_short - before.exact_short, 1U);
+    EXPECT_EQ(PulledPlane(floor, long_numbers.to_a).side_of(LatticePoint{3, 4, 0}), 0);
     EXPECT_EQ(predicate_counters().exact_narrow - before.exact_narrow, 1U);
     const Point third(Plane::axis_aligned(0, 3, 1), Plane::axis_aligned(1, 3, 1),
                       Plane::axis_aligned(2, 1, 0));
     EXPECT_EQ(PulledPlane(floor, pair.to_a).side_of(third), 0);
     EXPECT_EQ(predicate_counters().exact_wide - before.exact_wide, 1U);
+}
+
+// Rotations by quaternions of up to 15 digits have numbers up to 2^31, where 128 bits end; with
+// lattices from 2 to 53 bits the sums of lengths come up to the limit and beyond it.
+TEST(MovedPredicates, AgreeWhereShortNumbersEnd) {
+    oracle::Source random(16);
+    const PredicateCounters before = predicate_counters();
+    for (int round = 0; round < 4000; ++round) {
+        const std::int64_t most = std::int64_t{1} << random.below(16);
+        const auto q = [&] { return random.between(-most, most); };
+        const auto far = [&] { return static_cast<double>(random.between(-most * most, most)); };
+        const Pose pose = Pose::from_quaternion({q(), q(), q(), 1}, {far(), far(), far()});
+        const PosedPair pair(Pose(), Lattice{}, pose, Lattice{});
+        const auto map = map_of(pair.to_a);
+        const int bits = 2 + static_cast<int>(random.below(52));
+        const Scene s{pair, map, oracle::inverse(map), bits, false};
+        const std::array<Point, 3> b{random.point(bits), random.point(bits), random.point(bits)};
+        const std::array<Point, 2> a{random.point(bits), random.point(bits)};
+        expect_same(s, random.plane(bits), a, b);
+        // Multiples of the denominator have images on the lattice.
+        const std::int64_t n = 2 + random.between(0, 3);
+        const LatticePoint p{n, -n, 2 * n};
+        const RationalPoint x = s.to_b(oracle::rational(p));
+        if (x[0].get_den() * x[1].get_den() * x[2].get_den() != 1 || abs(x[0]) > 0x1p50 ||
+            abs(x[1]) > 0x1p50 || abs(x[2]) > 0x1p50)
+            continue;
+        const Point image(LatticePoint{x[0].get_num().get_si(), x[1].get_num().get_si(),
+                                       x[2].get_num().get_si()});
+        EXPECT_TRUE(MovedPoint(image, pair.to_a).is_at(p));
+        EXPECT_FALSE(MovedPoint(image, pair.to_a).is_at(LatticePoint{n, -n, 2 * n + 1}));
+    }
+    EXPECT_GT(predicate_counters().exact_short, before.exact_short);
+    EXPECT_GT(predicate_counters().exact_narrow, before.exact_narrow);
 }
 
 // The widest numbers that are admitted: plane points of 53 bits under a relative pose of nearly 895
