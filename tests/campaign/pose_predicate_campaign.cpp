@@ -10,13 +10,15 @@
 // compared. Prints one row a predicate with the stages that decided it; exits with 1 when a sign
 // differs. The same seed gives the same inputs on every machine.
 //
-// Nearly degenerate: corners of one solid are those of the other one brought over, exactly or
-// rounded to the lattice, and then left there or moved by a unit.
+// Nearly degenerate: corners of one solid are those of the other one brought over, rounded to the
+// lattice or, under rotations by small quaternions and matrices of small integers, exactly; some of
+// them are then moved by a unit.
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -27,6 +29,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
@@ -98,7 +101,8 @@ Transformation scaled(const Transformation& t, Lattice lattice) {
     return t * Transformation(CGAL::SCALING, unit);
 }
 
-Placed by_quaternion(Source& random, int bits, double size, Lattice lattice) {
+Placed by_quaternion(Source& random, int bits, double size, Lattice lattice,
+                     bool whole_shift = false) {
     for (;;) {
         const auto part = [&] {
             return bits < 4 ? random.between(-4, 4) : random.coordinate(bits);
@@ -106,7 +110,8 @@ Placed by_quaternion(Source& random, int bits, double size, Lattice lattice) {
         const std::array<std::int64_t, 4> q{part(), part(), part(), part()};
         if (q == std::array<std::int64_t, 4>{}) continue;
         const auto shift = [&] {
-            return random.coin() ? std::floor(size * random.real()) : size * random.real();
+            const double v = size * random.real();
+            return whole_shift || random.coin() ? std::floor(v) : v;
         };
         const std::array<double, 3> t{shift(), shift(), shift()};
         const Rational a = rational(q[0]);
@@ -154,6 +159,25 @@ Placed by_doubles(Source& random, double size, Lattice lattice) {
                                  r[11]);
         try {
             return {Pose::from_doubles(m), lattice, scaled(map, lattice), map.is_odd()};
+        } catch (const trisect::UsageError&) {  // singular
+        }
+    }
+}
+
+// Twelve doubles that are small integers: images of lattice points are lattice points.
+Placed by_integers(Source& random, double size) {
+    for (;;) {
+        std::array<double, 12> m{};
+        std::array<Rational, 12> r;
+        for (std::size_t i = 0; i < 12; ++i) {
+            m[i] = i % 4 == 3 ? std::floor(size * random.real())
+                              : static_cast<double>(random.between(-2, 2));
+            r[i] = Rational(m[i]);
+        }
+        const Transformation map(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], r[9], r[10],
+                                 r[11]);
+        try {
+            return {Pose::from_doubles(m), Lattice{}, map, map.is_odd()};
         } catch (const trisect::UsageError&) {  // singular
         }
     }
@@ -253,34 +277,58 @@ public:
     void run() {
         const std::array<int, 5> sizes{2, 4, 10, 26, 52};
         const int bits = sizes[random_.below(sizes.size())];
-        const Placed pa = random_.coin()
-                              ? Placed{Pose(), Lattice{}, Transformation(CGAL::IDENTITY), false}
-                              : random_placed(random_, bits);
+        if (kind_ == Input::Degenerate && random_.coin()) {
+            run_exactly_placed(std::min(bits, 26));
+            return;
+        }
+        const Placed pa = random_.coin() ? standing() : random_placed(random_, bits);
         const Placed pb = random_placed(random_, bits);
-        const PosedPair pair(pa.pose, pa.lattice, pb.pose, pb.lattice);
-        const Transformation a_to_b = pb.map.inverse() * pa.map;
         std::array<LatticePoint, 3> a{random_.point(bits), random_.point(bits),
                                       random_.point(bits)};
         std::array<LatticePoint, 3> b{random_.point(bits), random_.point(bits),
                                       random_.point(bits)};
         if (kind_ == Input::Degenerate) {
-            if (random_.coin()) in_step(a);
+            const Transformation a_to_b = pb.map.inverse() * pa.map;
             for (std::size_t i = 0; i < 3; ++i)
                 if (const auto p = brought_over(a_to_b, a[i], random_)) b[i] = *p;
         }
-        if (are_collinear(a[0], a[1], a[2]) || are_collinear(b[0], b[1], b[2])) return;
-        compare(pa, pb, pair, a, b);
+        compare(pa, pb, a, b);
     }
 
 private:
-    // Corners of A whose images are on B's lattice more often: multiples of a norm.
-    void in_step(std::array<LatticePoint, 3>& a) {
-        const std::int64_t n = 1 + static_cast<std::int64_t>(random_.below(60));
-        for (LatticePoint& p : a) p = {(p.x % 4096) * n, (p.y % 4096) * n, (p.z % 4096) * n};
+    static Placed standing() { return {Pose(), Lattice{}, Transformation(CGAL::IDENTITY), false}; }
+
+    // A's corners are images of B's, or off by a unit.
+    void run_exactly_placed(int bits) {
+        const double size = std::ldexp(1.0, bits);
+        const Placed pb = random_.coin() ? by_quaternion(random_, 2, size, Lattice{}, true)
+                                         : by_integers(random_, size);
+        std::array<LatticePoint, 3> a;
+        std::array<LatticePoint, 3> b;
+        for (std::size_t i = 0; i < 3; ++i) {
+            b[i] = random_.point(bits);
+            for (int k = 0; k < 3; ++k) {
+                const ExactPoint x = pb.map.transform(exact(b[i]));
+                const auto n = static_cast<std::int64_t>(CGAL::to_double(x[k].denominator()));
+                b[i] = {b[i].x * n, b[i].y * n, b[i].z * n};
+            }
+            const ExactPoint x = pb.map.transform(exact(b[i]));
+            a[i] = {static_cast<std::int64_t>(CGAL::to_double(x[0])),
+                    static_cast<std::int64_t>(CGAL::to_double(x[1])),
+                    static_cast<std::int64_t>(CGAL::to_double(x[2]))};
+            if (random_.below(4) == 0) a[i].x += random_.coin() ? 1 : -1;
+        }
+        if (random_.below(4) == 0) std::swap(b[0], b[1]);
+        if (random_.coin())
+            compare(standing(), pb, a, b);
+        else
+            compare(pb, standing(), b, a);
     }
 
-    void compare(const Placed& pa, const Placed& pb, const PosedPair& pair,
-                 const std::array<LatticePoint, 3>& a, const std::array<LatticePoint, 3>& b) {
+    void compare(const Placed& pa, const Placed& pb, const std::array<LatticePoint, 3>& a,
+                 const std::array<LatticePoint, 3>& b) {
+        if (are_collinear(a[0], a[1], a[2]) || are_collinear(b[0], b[1], b[2])) return;
+        const PosedPair pair(pa.pose, pa.lattice, pb.pose, pb.lattice);
         std::array<ExactPoint, 3> wa;
         std::array<ExactPoint, 3> wb;
         for (std::size_t i = 0; i < 3; ++i) {
