@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/certified_triangles.h>
 #include <trisect/bsp/interference_certificate.h>
 
 namespace trisect {
@@ -417,6 +418,11 @@ private:
 };
 
 }  // namespace
+
+bool detail::triangles_fill_faces(const std::vector<CertifiedTriangle>& triangles,
+                                  const Brep& brep) {
+    return PlacedBoundary(brep, Pose()).is_filled_by(triangles);
+}
 
 std::string check_certificate(const InterferenceCertificate& certificate, const Brep& a,
                               const Pose& pose_a, const Brep& b, const Pose& pose_b) {

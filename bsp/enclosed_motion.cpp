@@ -158,24 +158,6 @@ private:
     SmoothMotion motion_;
 };
 
-// p(from + (to - from) u) times the n-th power of a number that is the same for all polynomials.
-IntegerPolynomial on_part(const IntegerPolynomial& p, int n, const mpq_class& from,
-                          const mpq_class& to) {
-    const mpq_class span = to - from;
-    std::vector<mpq_class> r;  // Horner's scheme
-    for (int i = p.degree(); i >= 0; --i) {
-        r.emplace_back(0);
-        for (std::size_t k = r.size() - 1; k > 0; --k) r[k] = r[k] * from + r[k - 1] * span;
-        r[0] = r[0] * from + p[i];
-    }
-    const mpz_class unit = from.get_den() * to.get_den();
-    mpz_class scale = 1;
-    for (int i = 0; i < n; ++i) scale *= unit;
-    std::vector<mpz_class> c;
-    for (const mpq_class& v : r) c.push_back(mpq_class(v * scale).get_num());
-    return IntegerPolynomial(std::move(c));
-}
-
 class RationalLaw final : public MotionLaw {
 public:
     explicit RationalLaw(Motion motion) : motion_(std::move(motion)) {}
@@ -186,16 +168,7 @@ public:
         const MotionPiece& piece = motion_.piece(i);
         const mpq_class f = mpq_class(from) - static_cast<unsigned long>(i);
         const mpq_class t = mpq_class(to) - static_cast<unsigned long>(i);
-        const int n = piece.degree();
-        MotionPiece part;
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (std::size_t j = 0; j < 3; ++j)
-                part.matrix[k][j] = on_part(piece.matrix[k][j], n, f, t);
-            part.shift[k] = on_part(piece.shift[k], n, f, t);
-        }
-        part.weight = on_part(piece.weight, n, f, t);
-        part.reduce();
-        return {Motion::of_piece(part), 0, 0};
+        return {Motion::of_piece(detail::part_of(piece, f, t)), 0, 0};
     }
 
 private:

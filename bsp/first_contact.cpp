@@ -120,35 +120,46 @@ private:
         enter_piece(i);
         EarliestEvents events;
         search(events);
-        if (!events.is_empty()) answer(i, events);
+        if (!events.is_empty()) answer(i, events.events().front());
     }
 
-    // `apart`: the solids have no common point just before.
+    // `apart`: the solids have no common point just before. Events are fetched in growing numbers:
+    // most motions end at the first ones, slides along many features have hundreds.
     void overlap_in_piece(std::size_t i, bool& apart) {
         enter_piece(i);
-        EarliestEvents last;  // the events at `time`
-        RealRoot time(mpq_class(0));
+        detail::EventsAtATime last{RealRoot(mpq_class(0)), {}};
+        std::size_t times = 1;
         for (;;) {
-            EarliestEvents next(apart && last.is_empty() ? std::nullopt : std::optional(time));
+            const bool is_first = last.pairs.empty();
+            EarliestEvents next(apart && is_first ? std::nullopt : std::optional(last.time), times);
             search(next);
-            if (!apart || !last.is_empty()) {
-                RealRoot end = next.is_empty() ? RealRoot(mpq_class(1)) : next.time();
-                if (time.compare(mpq_class(1)) == 0) return;
-                const Relation r = relation_at(i, time_between(time, end));
-                apart = r == Relation::Disjoint;
-                if (interiors_meet(r)) {
-                    if (last.is_empty())
-                        answer_with_contacts(i);
-                    else
-                        answer(i, last);
-                    return;
-                }
+            for (detail::EventsAtATime& e : next.events()) {
+                if (overlap_between(i, last, e.time, apart)) return;
+                last = std::move(e);
+                apart = false;
             }
-            if (next.is_empty()) return;
-            time = next.time();
-            last = std::move(next);
-            apart = false;
+            if (!next.is_full()) break;
+            times = std::min<std::size_t>(2 * times, 256);
         }
+        (void)overlap_between(i, last, RealRoot(mpq_class(1)), apart);
+    }
+
+    // Whether interiors meet between two neighbouring events, or the ends of a piece; then that is
+    // the answer.
+    bool overlap_between(std::size_t i, detail::EventsAtATime& last, const RealRoot& end,
+                         bool& apart) {
+        if (apart && last.pairs.empty()) return false;
+        if (last.time.compare(mpq_class(1)) == 0) return false;
+        RealRoot later = end;
+        if (last.time.compare(later) == 0) return false;
+        const Relation r = relation_at(i, time_between(last.time, later));
+        apart = r == Relation::Disjoint;
+        if (!interiors_meet(r)) return false;
+        if (last.pairs.empty())
+            answer_with_contacts(i);
+        else
+            answer(i, last);
+        return true;
     }
 
     void enter_piece(std::size_t i) {
@@ -175,9 +186,9 @@ private:
         result_.stats.triangle_pairs += search.counters().triangle_pairs;
     }
 
-    void answer(std::size_t piece, EarliestEvents& events) {
-        result_.time = AlgebraicNumber(events.time().shifted(static_cast<unsigned long>(piece)));
-        for (const detail::FeaturePair& p : events.pairs())
+    void answer(std::size_t piece, const detail::EventsAtATime& events) {
+        result_.time = AlgebraicNumber(events.time.shifted(static_cast<unsigned long>(piece)));
+        for (const detail::FeaturePair& p : events.pairs)
             result_.witnesses.push_back({entity_of(p.a, a_.data()), entity_of(p.b, b_.data())});
         sort_witnesses();
     }

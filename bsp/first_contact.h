@@ -70,8 +70,8 @@ struct FirstContact {
 /// which is slow.
 ///
 /// Cost: one static query at the start; then walks down both trees, for parts of the range before
-/// the event only, short parts where the solids are near each other. Overlap takes a search and a
-/// static query for each contact on the way.
+/// the event only, short parts where the solids are near each other. Overlap takes a static query
+/// for each contact on the way, and a search each time their number has doubled.
 /// \throw UsageError when the motions do not match, LimitError when a pose of the static query is
 /// too wide (kernel/pose.h).
 [[nodiscard]] FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,

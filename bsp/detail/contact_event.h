@@ -3,6 +3,7 @@
 // ContactEvent: a time at which two features of moving solids become coplanar and meet.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,27 +25,34 @@ struct FeaturePair {
     ContactFeature b;
 };
 
-/// All events at the first of the times that were added.
+/// All events at one time.
+struct EventsAtATime {
+    RealRoot time;
+    std::vector<FeaturePair> pairs;
+};
+
+/// The events at the first few of the times that were added.
 class EarliestEvents {
 public:
-    /// Only events after `after`, if given, count.
-    explicit EarliestEvents(std::optional<RealRoot> after = std::nullopt);
+    /// At so many times at most. Only events after `after`, if given, count.
+    explicit EarliestEvents(std::optional<RealRoot> after = std::nullopt, std::size_t times = 1);
 
     void add(RealRoot s, const FeaturePair& pair);
 
-    [[nodiscard]] bool is_empty() const { return pairs_.empty(); }
-    /// \pre !is_empty()
-    [[nodiscard]] RealRoot& time() { return time_; }
-    [[nodiscard]] const std::vector<FeaturePair>& pairs() const { return pairs_; }
-    /// No event after this matters; beyond 1 when there is none yet.
+    [[nodiscard]] bool is_empty() const { return events_.empty(); }
+    /// There may be events after the last of these.
+    [[nodiscard]] bool is_full() const { return events_.size() == times_; }
+    /// In ascending order.
+    [[nodiscard]] std::vector<EventsAtATime>& events() { return events_; }
+    /// No event after this matters; beyond 1 when all do.
     [[nodiscard]] double latest() const { return latest_; }
     /// No event before this counts.
     [[nodiscard]] double earliest() const { return earliest_; }
 
 private:
     std::optional<RealRoot> after_;
-    RealRoot time_;
-    std::vector<FeaturePair> pairs_;
+    std::size_t times_;
+    std::vector<EventsAtATime> events_;
     double latest_ = 2;
     double earliest_ = -1;
 };

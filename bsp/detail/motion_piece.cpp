@@ -64,6 +64,24 @@ PolynomialMatrix cross_matrix(const PolynomialVector& t, const PolynomialMatrix&
 
 mpz_class power_of_two(int exponent) { return mpz_class(1) << static_cast<unsigned>(exponent); }
 
+// p(from + (to - from) u) times the n-th power of a number that is the same for all polynomials.
+IntegerPolynomial on_part(const IntegerPolynomial& p, int n, const mpq_class& from,
+                          const mpq_class& to) {
+    const mpq_class span = to - from;
+    std::vector<mpq_class> r;  // Horner's scheme
+    for (int i = p.degree(); i >= 0; --i) {
+        r.emplace_back(0);
+        for (std::size_t k = r.size() - 1; k > 0; --k) r[k] = r[k] * from + r[k - 1] * span;
+        r[0] = r[0] * from + p[i];
+    }
+    const mpz_class unit = from.get_den() * to.get_den();
+    mpz_class scale = 1;
+    for (int i = 0; i < n; ++i) scale *= unit;
+    std::vector<mpz_class> c;
+    for (const mpq_class& v : r) c.push_back(mpq_class(v * scale).get_num());
+    return IntegerPolynomial(std::move(c));
+}
+
 }  // namespace
 
 PolynomialMatrix operator*(const PolynomialMatrix& a, const PolynomialMatrix& b) {
@@ -143,6 +161,19 @@ MotionPiece inverse(const MotionPiece& a) {
     r.matrix = adjugate * a.weight;
     r.shift = adjugate * (PolynomialVector{} - a.shift);
     r.weight = determinant(a.matrix);
+    r.reduce();
+    return r;
+}
+
+MotionPiece part_of(const MotionPiece& piece, const mpq_class& from, const mpq_class& to) {
+    const int n = piece.degree();
+    MotionPiece r;
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t j = 0; j < 3; ++j)
+            r.matrix[k][j] = on_part(piece.matrix[k][j], n, from, to);
+        r.shift[k] = on_part(piece.shift[k], n, from, to);
+    }
+    r.weight = on_part(piece.weight, n, from, to);
     r.reduce();
     return r;
 }

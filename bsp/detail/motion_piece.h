@@ -45,6 +45,9 @@ struct MotionPiece {
 /// First b, then a.
 [[nodiscard]] MotionPiece operator*(const MotionPiece& a, const MotionPiece& b);
 [[nodiscard]] MotionPiece inverse(const MotionPiece& a);
+/// What a piece does from one parameter to another one, over [0, 1].
+[[nodiscard]] MotionPiece part_of(const MotionPiece& piece, const mpq_class& from,
+                                  const mpq_class& to);
 /// The rotation by a quaternion of polynomials, of any length, about the origin. \pre not zero
 /// anywhere in [0, 1]
 [[nodiscard]] MotionPiece rotation_by(const std::array<IntegerPolynomial, 4>& q);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
@@ -271,6 +272,23 @@ TEST(FirstOverlap, BlockSlidesOnAFloorAgainstAWallOfItsOwnHeight) {
     // Up along the wall and over it.
     EXPECT_FALSE(
         first_overlap(room, moving(0, 0, 0), box(5, 1, 0, 6, 2, 2), moving(0, 5, 0)).exists());
+}
+
+TEST(FirstOverlap, BlockSlidesAlongAComb) {
+    // Over the tops of thirty teeth, against a wall behind them. Each tooth makes four events.
+    std::vector<trisect::Point2d> outline{{0, 0}, {64, 0}, {64, 3}, {62, 3}, {62, 1}};
+    for (int i = 30; i > 0; --i)
+        for (const auto& [x, y] : {std::pair{2 * i + 1, 1}, {2 * i + 1, 2}, {2 * i, 2}, {2 * i, 1}})
+            outline.push_back({static_cast<double>(x), static_cast<double>(y)});
+    outline.push_back({0, 1});
+    const InterferenceModel comb(Solid::from_mesh(trisect::make_extrusion(outline, {}, 0, 2)));
+    const auto block = box(2, 2, 0.5, 5, 3, 1.5);
+    const FirstContact c = first_overlap(comb, Motion(), block, moving(114, 0, 0));
+    expect_at(c, "1/2");
+    EXPECT_EQ(c.at_start, Relation::Touching);
+    // Some searches, not one for every event.
+    EXPECT_LT(c.stats.intervals, 400U);
+    EXPECT_FALSE(first_overlap(comb, Motion(), block, moving(57, 0, 0)).exists());
 }
 
 TEST(FirstOverlap, LiesOnTheFloorLiftsAndFallsBack) {
