@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include <trisect/kernel/error.h>
@@ -42,6 +43,17 @@ int floor_to_multiple_of_8(int e) { return (e >= 0 ? e / 8 : -((-e + 7) / 8)) * 
 int ceil_to_multiple_of_8(int e) { return -floor_to_multiple_of_8(-e); }
 
 double largest_finite(std::span<const std::array<double, 3>> points) {
+    // Comparisons with what is not a number are false, and infinity shows at the end.
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    for (const auto& p : points) {
+        x = std::max(x, std::fabs(p[0]));
+        y = std::max(y, std::fabs(p[1]));
+        z = std::max(z, std::fabs(p[2]));
+    }
+    const double most = std::max({x, y, z});
+    if (std::isfinite(most)) return most;
     std::uint64_t largest = 0;
     for (const auto& p : points)
         for (const double c : p) {
@@ -51,8 +63,46 @@ double largest_finite(std::span<const std::array<double, 3>> points) {
     return std::bit_cast<double>(largest);
 }
 
+// Rounding to integers by addition: the sum of this and a double below 2^51 lies between 2^52 and
+// 2^53, where doubles are the integers, and its bits count them.
+constexpr double rounder = 0x1.8p52;
+std::int64_t as_integer(double sum) {
+    return std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
+}
+
+// The lowest bit of all coordinates, when they surely are multiples of 2^limit, below 2^51 of these
+// units and not all zero: then it is the lowest one of all multiples together. Block by block,
+// since in meshes of measured coordinates the first one ends it.
+std::optional<int> common_lowest_bit(std::span<const std::array<double, 3>> points, int limit) {
+    if (limit > 0 || !is_normal_exponent(-limit)) return std::nullopt;  // products are exact
+    const double factor = power_of_two(-limit);
+    std::int64_t bits = 0;
+    while (!points.empty()) {
+        const auto block = points.first(std::min(points.size(), std::size_t{256}));
+        points = points.subspan(block.size());
+        std::int64_t off = 0;  // bits of differences: 0 when there are none
+        double largest = 0;
+        for (const auto& p : block) {
+            for (const double c : p) {
+                const double units = c * factor;
+                const double sum = units + rounder;
+                off |= std::bit_cast<std::int64_t>((sum - rounder) - units);
+                bits |= as_integer(sum);
+                largest = std::max(largest, std::fabs(units));
+            }
+        }
+        if (off != 0 || !(largest < 0x1p51)) return std::nullopt;
+    }
+    if (bits == 0) return std::nullopt;
+    return limit + std::countr_zero(static_cast<std::uint64_t>(bits));
+}
+
 // Whether some coordinate has a bit of value below 2^limit; and the lowest bit, if there is none.
 bool reaches_below(std::span<const std::array<double, 3>> points, int limit, int& lowest) {
+    if (const auto common = common_lowest_bit(points, limit)) {
+        lowest = *common;
+        return false;
+    }
     for (const auto& p : points)
         for (const double c : p) {
             if (c == 0 || !std::isfinite(c)) continue;
@@ -61,10 +111,6 @@ bool reaches_below(std::span<const std::array<double, 3>> points, int limit, int
         }
     return false;
 }
-
-// Rounding to integers by addition: the sum of this and a double below 2^51 lies between 2^52 and
-// 2^53, where doubles are the integers, and its bits count them.
-constexpr double rounder = 0x1.8p52;
 
 class Rounding {
 public:
@@ -89,7 +135,7 @@ public:
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double sum = units[k] + rounder;
-            c[k] = std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
+            c[k] = as_integer(sum);
             changed += note_move(p[k], units[k], sum - rounder);
         }
         moved_ += changed != 0 ? 1 : 0;

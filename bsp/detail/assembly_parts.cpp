@@ -171,10 +171,16 @@ void Gatherer::mark_list(const Leaf& leaf, FacetMarks& marks) {
     const std::size_t contained = polygons.contained();
     for (const std::uint32_t f : facets.first(contained)) marks.set_present(f, flipped);
     // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would
-    // wait for each of them.
+    // wait for each of them. So they are asked for well before.
+    constexpr std::size_t ahead = 16;
     const Box inside = leaf.cell.lattice_box();
     const LatticeMesh& mesh = marks.source()->mesh();
-    for (const std::uint32_t f : facets.subspan(contained)) {
+    const auto rest = facets.subspan(contained);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        if (i + 2 * ahead < rest.size()) __builtin_prefetch(&mesh.triangles[rest[i + 2 * ahead]]);
+        if (i + ahead < rest.size())
+            __builtin_prefetch(&mesh.points[mesh.triangles[rest[i + ahead]][0]]);
+        const std::uint32_t f = rest[i];
         const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
         const bool owned =
             ((p.x >= inside.lo[0]) & (p.x <= inside.hi[0]) & (p.y >= inside.lo[1]) &

@@ -91,7 +91,8 @@ bool FragmentGroup::join(std::span<const PolygonRef> group) {
             if (corners[i] == none) return false;
         }
         for (std::size_t i = 0; i < n; ++i)
-            all_.push_back({corners[i], corners[i + 1 == n ? 0 : i + 1], around[i], names[i].above});
+            all_.push_back(
+                {corners[i], corners[i + 1 == n ? 0 : i + 1], around[i], names[i].above});
     }
     edges_.clear();
     for (std::size_t l = 0; l < line_count_; ++l) {

@@ -5,17 +5,30 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
-#include <new>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace trisect::detail {
+
+/// A piece of memory, aligned to pages.
+struct MemoryBlock {
+    std::byte* memory = nullptr;
+    std::size_t size = 0;
+};
+
+/// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
+/// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes`, no block that
+/// is larger than all before, and tells the system that it may have them when it needs memory. Safe
+/// to use from many threads.
+class BlockPool {
+public:
+    static constexpr std::size_t kept_bytes = std::size_t{1} << 28;
+
+    /// A block of at least that size. \throw std::bad_alloc
+    [[nodiscard]] static MemoryBlock take(std::size_t bytes);
+    static void give_back(const MemoryBlock& block) noexcept;
+};
 
 /// Blocks of memory used as one stack. Objects are trivially destructible and are not initialised;
 /// memory is aligned to 16 bytes. One thread at a time.
@@ -24,6 +37,7 @@ public:
     StackArena() = default;
     StackArena(const StackArena&) = delete;
     StackArena& operator=(const StackArena&) = delete;
+    ~StackArena() { keep_blocks(0); }
 
     /// Everything taken after a mark was made is given back by release().
     struct Mark {
@@ -41,7 +55,7 @@ public:
         static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= 16);
         const std::size_t bytes = (count * sizeof(T) + 15) & ~std::size_t{15};
         if (blocks_.empty() || used_ + bytes > blocks_[block_].size) next_block(bytes);
-        T* at = reinterpret_cast<T*>(blocks_[block_].memory.get() + used_);
+        T* at = reinterpret_cast<T*>(blocks_[block_].memory + used_);
         used_ += bytes;
         return at;
     }
@@ -49,47 +63,35 @@ public:
     template <class T>
     void shrink(const T* end) {
         used_ = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(end) -
-                                         blocks_[block_].memory.get());
+                                         blocks_[block_].memory);
         used_ = (used_ + 15) & ~std::size_t{15};
     }
     [[nodiscard]] std::size_t bytes() const {
         std::size_t sum = 0;
-        for (const Block& b : blocks_) sum += b.size;
+        for (const MemoryBlock& b : blocks_) sum += b.size;
         return sum;
     }
 
 private:
-    static constexpr std::size_t huge_page = std::size_t{1} << 21;
-
-    struct Free {
-        void operator()(std::byte* p) const { std::free(p); }
-    };
-    struct Block {
-        std::unique_ptr<std::byte, Free> memory;
-        std::size_t size = 0;
-    };
+    void keep_blocks(std::size_t count) {
+        for (std::size_t i = count; i < blocks_.size(); ++i) BlockPool::give_back(blocks_[i]);
+        blocks_.resize(std::min(count, blocks_.size()));
+    }
 
     void next_block(std::size_t bytes) {
         const std::size_t next = blocks_.empty() ? 0 : block_ + 1;
         // A block above that is too small holds nothing now: replace it and those above.
-        if (next < blocks_.size() && blocks_[next].size < bytes) blocks_.resize(next);
+        if (next < blocks_.size() && blocks_[next].size < bytes) keep_blocks(next);
         if (next >= blocks_.size()) {
             const std::size_t least = blocks_.empty() ? std::size_t{1} << 18 : blocks_.back().size;
-            const std::size_t page = std::max(bytes, least) < huge_page ? 4096 : huge_page;
-            const std::size_t size = (std::max(bytes, least) + page - 1) & ~(page - 1);
-            auto* p = static_cast<std::byte*>(std::aligned_alloc(page, size));
-            if (p == nullptr) throw std::bad_alloc();
-#if defined(__linux__)
-            // Fresh memory costs a fault a page, otherwise a tenth of an evaluation. A wish only.
-            if (page == huge_page) (void)madvise(p, size, MADV_HUGEPAGE);
-#endif
-            blocks_.push_back({std::unique_ptr<std::byte, Free>(p), size});
+            blocks_.reserve(next + 1);
+            blocks_.push_back(BlockPool::take(std::max(bytes, least)));
         }
         block_ = next;
         used_ = 0;
     }
 
-    std::vector<Block> blocks_;
+    std::vector<MemoryBlock> blocks_;
     std::size_t block_ = 0;
     std::size_t used_ = 0;
 };
