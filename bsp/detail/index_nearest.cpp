@@ -119,6 +119,45 @@ struct Feature {
     Bounds bounds;
 };
 
+// What of a triangle is nearest to the origin.
+struct NearestPart {
+    enum class Kind : std::uint8_t { Unsure, Corner, Edge, Face };
+    Kind kind = Kind::Unsure;
+    std::size_t number = 0;  // of the corner, or of the edge from there to the next one
+};
+
+// Corners are within 2^-52 M + error, M their largest coordinate. Ways along edges, products of two
+// differences below 2 M and M, err by less than 2^-46 M^2 + 16 M error; the sides of edges,
+// products of four such, by less than 2^-41 M^4 + 2^8 M^3 error.
+NearestPart surely_nearest(const std::array<Vector, 3>& c, double error) {
+    double m = 0;
+    for (const Vector& v : c) m = std::max(m, largest(v));
+    if (!(m < 0x1p200)) return {};
+    const double way_bound = 0x1p-46 * m * m + 16 * m * error;
+    const double side_bound = 0x1p-41 * m * m * m * m + 0x1p8 * m * m * m * error;
+    std::array<Vector, 3> edge{};
+    for (std::size_t i = 0; i < 3; ++i) edge[i] = minus(c[(i + 1) % 3], c[i]);
+    const Vector& u = edge[0];
+    const Vector& v = edge[1];
+    const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    unsigned inside = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector& e = edge[i];
+        const double from_start = -dot(e, c[i]);
+        const double from_end = dot(e, c[(i + 1) % 3]);
+        // Neither edge leads from the corner to what is nearer.
+        if (from_start < -way_bound && dot(edge[(i + 2) % 3], c[i]) < -way_bound)
+            return {NearestPart::Kind::Corner, i};
+        const Vector out{e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2],
+                         e[0] * n[1] - e[1] * n[0]};
+        const double side = -dot(out, c[i]);
+        if (side > side_bound && from_start > way_bound && from_end > way_bound)
+            return {NearestPart::Kind::Edge, i};
+        if (side < -side_bound) ++inside;
+    }
+    return inside == 3 ? NearestPart{NearestPart::Kind::Face, 0} : NearestPart{};
+}
+
 class Search {
 public:
     Search(const IndexCore& core, const IndexPoint& point, NearestKind kind)
@@ -166,6 +205,23 @@ private:
         return d > 0 ? d : 0;  // also for what is no number
     }
 
+    // Squared distances from the point to the slabs of a block along an axis.
+    void slab_distances(const DoubleBox& whole, const IndexBlock& block, std::size_t k,
+                        std::span<double> out) const {
+        for (std::uint32_t i = 0; i < block.n[k]; ++i) {
+            const double lo = i == 0 ? whole.lo[k] : block.wall(k, i);
+            const double hi = i + 1 == block.n[k] ? whole.hi[k] : block.wall(k, i + 1);
+            const double d = std::max({0.0, std::max(lo, core_.tree().lo()[k]) - p_[k],
+                                       p_[k] - std::min(hi, core_.tree().hi()[k])});
+            out[i] = d * d;
+        }
+    }
+    // Whether what is so far away, squared and up to rounding, cannot be the nearest.
+    [[nodiscard]] bool is_beyond(double squared) const {
+        const double limit = (limit_ + 2 * p_.error()) * (1 + 0x1p-44);
+        return squared > limit * limit;
+    }
+
     void walk(std::uint32_t node, const DoubleBox& cell) {
         const IndexTree& tree = core_.tree();
         std::vector<Pending> pending{{node, cell, 0}};
@@ -210,21 +266,22 @@ private:
         const IndexBrick& brick = tree.brick(slot);
         const IndexBlock block = g.brick(low, level);
         struct Near {
-            double distance = 0;
+            double squared = 0;
             unsigned bit = 0;
         };
+        std::array<std::array<double, 4>, 3> slab{};
+        for (std::size_t k = 0; k < 3; ++k) slab_distances(whole, block, k, slab[k]);
         std::array<Near, 64> near;
         std::size_t count = 0;
         for (std::uint64_t left = brick.mixed; left != 0; left &= left - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(left));
-            const DoubleBox box = block_cell(whole, block, bit & 3U, bit >> 2U & 3U, bit >> 4U);
-            const double d = distance_to(box);
-            if (!(d > limit_)) near[count++] = {d, bit};
+            const double d = slab[0][bit & 3U] + slab[1][bit >> 2U & 3U] + slab[2][bit >> 4U];
+            if (!is_beyond(d)) near[count++] = {d, bit};
         }
         std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
-                  [](const Near& a, const Near& b) { return a.distance < b.distance; });
+                  [](const Near& a, const Near& b) { return a.squared < b.squared; });
         const unsigned shift = 2U * static_cast<unsigned>(level - 1);
-        for (std::size_t i = 0; i < count && !(near[i].distance > limit_); ++i) {
+        for (std::size_t i = 0; i < count && !is_beyond(near[i].squared); ++i) {
             const unsigned bit = near[i].bit;
             const std::array at{bit & 3U, bit >> 2U & 3U, bit >> 4U};
             walk_slot(
@@ -250,32 +307,44 @@ private:
             return std::pair{std::max<std::int64_t>(0, middle[k] - r),
                              std::min<std::int64_t>(g.n[k] - 1, middle[k] + r)};
         };
-        const auto try_cell = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-            const auto i = static_cast<std::uint32_t>(x);
-            const auto j = static_cast<std::uint32_t>(y);
-            const auto l = static_cast<std::uint32_t>(z);
-            const DoubleBox box = block_cell(whole, block, i, j, l);
-            if (distance_to(box) > limit_) return;
-            const std::uint32_t slot = core_.tree().slot(g, g.cell(i, j, l));
+        std::array<std::vector<double>, 3>& slab = slabs_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            slab[k].resize(g.n[k]);
+            slab_distances(whole, block, k, slab[k]);
+        }
+        const auto number = [](std::int64_t i) { return static_cast<std::uint32_t>(i); };
+        const auto squared = [&](std::size_t k, std::int64_t i) {
+            return slab[k][static_cast<std::size_t>(i)];
+        };
+        // Most cells are empty, and that is one look.
+        const auto try_cell = [&](std::int64_t x, std::int64_t y, std::int64_t z, double row) {
+            const std::size_t cell = g.cell(number(x), number(y), number(z));
+            if (core_.tree().is_empty(g, cell) || is_beyond(row + squared(0, x))) return;
             const unsigned shift = g.shift();
-            walk_slot(g, slot, {i << shift, j << shift, l << shift}, g.levels, box);
+            walk_slot(g, core_.tree().slot(g, cell),
+                      {number(x) << shift, number(y) << shift, number(z) << shift}, g.levels,
+                      block_cell(whole, block, number(x), number(y), number(z)));
         };
         for (std::int64_t r = 0; r <= last; ++r) {
             if (static_cast<double>(r - 2) * least > limit_) return;
             const auto [z0, z1] = range(2, r);
             const auto [y0, y1] = range(1, r);
             const auto [x0, x1] = range(0, r);
-            for (std::int64_t z = z0; z <= z1; ++z)
+            for (std::int64_t z = z0; z <= z1; ++z) {
+                if (is_beyond(squared(2, z))) continue;
                 for (std::int64_t y = y0; y <= y1; ++y) {
+                    const double row = squared(2, z) + squared(1, y);
+                    if (is_beyond(row)) continue;
                     const bool face = std::abs(z - middle[2]) == r || std::abs(y - middle[1]) == r;
                     if (face) {
-                        for (std::int64_t x = x0; x <= x1; ++x) try_cell(x, y, z);
+                        for (std::int64_t x = x0; x <= x1; ++x) try_cell(x, y, z, row);
                         continue;
                     }
-                    if (middle[0] - r >= 0) try_cell(middle[0] - r, y, z);
+                    if (middle[0] - r >= 0) try_cell(middle[0] - r, y, z, row);
                     if (r != 0 && middle[0] + r < static_cast<std::int64_t>(g.n[0]))
-                        try_cell(middle[0] + r, y, z);
+                        try_cell(middle[0] + r, y, z, row);
                 }
+            }
         }
     }
 
@@ -313,8 +382,7 @@ private:
             const double d = std::max(std::max(lo, -hi), 0.0);
             sum += d * d;
         }
-        const double limit = (limit_ + 2 * p_.error()) * (1 + 0x1p-44);
-        return sum > limit * limit;
+        return is_beyond(sum);
     }
 
     void visit(PolygonId id) {
@@ -408,6 +476,11 @@ private:
             return Exact{a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]};
         };
         if (f.edge >= 0) return on_edge(static_cast<std::size_t>(f.edge));
+        const NearestPart part = polygons_.is_triangle(f.polygon)
+                                     ? surely_nearest(relative_triangle(f.polygon), p_.error())
+                                     : NearestPart{};
+        if (part.kind == NearestPart::Kind::Corner) return c[part.number];
+        if (part.kind == NearestPart::Kind::Edge) return on_edge(part.number);
         // The foot of the perpendicular, if it is in the polygon; else some edge has the nearest.
         const Plane support = polygons_.support(f.polygon);
         Exact n;
@@ -416,6 +489,7 @@ private:
         const ExactRational t = value_at(p_.rational(), support) / dot(n, n);
         Exact foot = p_.rational();
         for (std::size_t k = 0; k < 3; ++k) foot[k] -= t * n[k];
+        if (part.kind == NearestPart::Kind::Face) return foot;
         std::array<Plane, 3> storage;
         const auto edges = polygons_.edges(f.polygon, storage);
         if (std::all_of(edges.begin(), edges.end(),
@@ -456,6 +530,7 @@ private:
     NearestKind kind_;
     double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
     std::vector<Feature> features_;
+    std::array<std::vector<double>, 3> slabs_;
     bool only_bounds_ = false;
     double least_ = HUGE_VAL;
     PolygonId best_ = IndexPolygons::none;

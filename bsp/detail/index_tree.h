@@ -132,6 +132,11 @@ public:
             std::atomic_ref(roots_[g.first + cell]).load(std::memory_order_acquire);
         return s == IndexSlot::pending ? divide(g, cell) : s;
     }
+    /// Whether a grid's cell is known to be empty; it is not divided for that.
+    [[nodiscard]] bool is_empty(const IndexGrid& g, std::size_t cell) const {
+        return IndexSlot::is_empty(
+            std::atomic_ref(roots_[g.first + cell]).load(std::memory_order_relaxed));
+    }
     /// Does now what queries would do when they come to a cell.
     void divide_all() const;
     /// Of a mixed cell: the known point of its leaf.
