@@ -96,4 +96,14 @@ void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::Polygon
     peers.push_back(make_unique<Fcl<fcl::AABB<double>>>("AABB", false, true, a, b, p));
 }
 
+void add_fcl_volumes(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+                     std::span<const Placement> p) {
+    using std::make_unique;
+    peers.push_back(make_unique<Fcl<fcl::AABB<double>>>("AABB", false, true, a, b, p));
+    peers.push_back(make_unique<Fcl<fcl::KDOP<double, 16>>>("KDOP16", false, true, a, b, p));
+    peers.push_back(make_unique<Fcl<fcl::KDOP<double, 18>>>("KDOP18", false, true, a, b, p));
+    peers.push_back(make_unique<Fcl<fcl::KDOP<double, 24>>>("KDOP24", false, true, a, b, p));
+    peers.push_back(make_unique<Fcl<fcl::OBB<double>>>("OBB", false, false, a, b, p));
+}
+
 }  // namespace interference_peers

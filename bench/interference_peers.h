@@ -38,6 +38,9 @@ using Peers = std::vector<std::unique_ptr<Peer>>;
 /// FCL with each of its volumes.
 void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
              std::span<const Placement> placements);
+/// FCL with the volumes that we have too: AABB, KDOP16, KDOP18, KDOP24, OBB.
+void add_fcl_volumes(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+                     std::span<const Placement> placements);
 /// CGAL Rigid_triangle_mesh_collision_detection: surfaces, and with inclusion.
 void add_cgal(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
               std::span<const Placement> placements);

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "commands.h"
+#include "compare_hierarchies_command.h"
 #include "failure.h"
 #include "limits.h"
 #include "values.h"
@@ -36,6 +37,7 @@ struct Request {
     RenderOptions render;
     TreeOptions tree;
     InterfereOptions interfere;
+    CompareHierarchiesOptions compare_hierarchies;
 };
 
 constexpr const char* exit_code_help =
@@ -158,6 +160,7 @@ void declare(CLI::App& app, Request& request) {
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
     add_interfere_command(app, request.interfere);
+    add_compare_hierarchies_command(app, request.compare_hierarchies);
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
     }
@@ -177,6 +180,8 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);
     if (name == "interfere") return run_interfere(session, request.interfere);
+    if (name == "compare-hierarchies")
+        return run_compare_hierarchies(session, request.compare_hierarchies);
     BooleanOptions options = request.boolean;
     options.operation = name;
     return run_boolean(session, options);

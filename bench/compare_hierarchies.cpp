@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// compare_hierarchies [--scene NAME]... [--structure NAME]... [--small] [--seconds S]
+//                     [--charts FOLDER]
+//
+// The tables of bench/results/hierarchies.md: every structure on every scene.
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <trisect/kernel/error.h>
+
+#include "scenes/comparison.h"
+#include "scenes/scenes.h"
+
+namespace {
+
+using namespace trisect;
+using namespace trisect::hierarchies;
+
+struct Options {
+    std::vector<std::string> scenes;
+    scenes::ComparisonOptions comparison;
+    scenes::Size size = scenes::Size::Full;
+    std::string charts;
+};
+
+Options options_of(int argc, char** argv) {
+    Options o;
+    for (int i = 1; i < argc; ++i) {
+        const std::string option = argv[i];
+        const auto value = [&]() -> std::string {
+            if (i + 1 == argc) throw UsageError(option + " needs a value");
+            return argv[++i];
+        };
+        if (option == "--scene") {
+            o.scenes.push_back(value());
+        } else if (option == "--structure") {
+            const std::string name = value();
+            const auto kind = structure_kind(name);
+            if (!kind) throw UsageError("no structure has the name '" + name + "'");
+            o.comparison.kinds.push_back(*kind);
+        } else if (option == "--small") {
+            o.size = scenes::Size::Small;
+        } else if (option == "--seconds") {
+            o.comparison.seconds_per_cell = std::stod(value());
+        } else if (option == "--charts") {
+            o.charts = value();
+        } else {
+            throw UsageError("unknown option " + option);
+        }
+    }
+    if (o.scenes.empty()) o.scenes = scenes::pair_scene_names();
+    return o;
+}
+
+bool run(const std::string& name, const Options& options) {
+    const auto scene = scenes::make_pair_scene(name, options.size);
+    if (!scene) {
+        std::printf("## %s\n\nIts models are not here.\n\n", name.c_str());
+        return true;
+    }
+    const InterferenceModel a(Solid::from_mesh(scene->a));
+    const InterferenceModel b(Solid::from_mesh(scene->b));
+    std::vector<Pose> poses;
+    for (const scenes::Rows& r : scene->frames) poses.push_back(scenes::pose_of(r));
+    const scenes::Comparison c = scenes::compare(a, b, poses, options.comparison);
+    std::printf("## %s\n\n%s: %zu and %zu triangles, %zu frames.", name.c_str(),
+                scene->about.c_str(), a.triangle_count(), b.triangle_count(), c.frames);
+    for (const auto& [relation, n] : c.answers.relations)
+        std::printf(" %s %zu.", relation.c_str(), n);
+    std::printf(" Pairs of faces %zu.\n\n%s\n", c.answers.face_pairs, table_of(c).c_str());
+    std::fflush(stdout);
+    if (!options.charts.empty())
+        std::ofstream(options.charts + "/hierarchies-" + name + ".svg")
+            << chart_of(c, name + ": " + scene->about);
+    if (!c.disagreement.empty())
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), c.disagreement.c_str());
+    return c.disagreement.empty();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const Options options = options_of(argc, argv);
+        bool agree = true;
+        for (const std::string& name : options.scenes) agree = run(name, options) && agree;
+        return agree ? 0 : 1;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "compare_hierarchies: %s\n", e.what());
+        return 2;
+    }
+}
