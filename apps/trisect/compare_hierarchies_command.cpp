@@ -13,13 +13,14 @@
 
 #include <array>
 #include <stdexcept>
+#include <variant>
 #include <vector>
 
+#include "../scenes/comparison.h"
 #include "commands.h"
 #include "motion_file.h"
 #include "operand.h"
 #include "output_name.h"
-#include "scenes/comparison.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -117,7 +118,11 @@ Outcome run_compare_hierarchies(Session& session, const CompareHierarchiesOption
     scenes::ComparisonOptions comparison_options;
     comparison_options.kinds = kinds_of(options.structures);
     session.plan(3);
-    const std::vector<Pose> poses = frames_of(read_motion(options.motion), options.frames);
+    const FileMotion motion = read_motion(options.motion);
+    const Motion* rational = std::get_if<Motion>(&motion);
+    if (rational == nullptr)
+        throw UnsupportedError(options.motion + ": structures are compared on rational motions");
+    const std::vector<Pose> poses = frames_of(*rational, options.frames);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
     const std::array models = session.stage("prepare", [&] {

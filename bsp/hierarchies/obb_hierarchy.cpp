@@ -177,22 +177,22 @@ struct BoxKind {
     static double size(const Box& b) { return b.half[0] + b.half[1] + b.half[2]; }
 };
 
-std::unique_ptr<PairStructure> make(const InterferenceModel& a, const InterferenceModel& b,
-                                    unsigned arity, std::string_view name) {
-    TreeOptions options;
-    options.arity = arity;
-    return std::make_unique<VolumeHierarchy<BoxKind>>(a, b, options, name);
-}
-
 }  // namespace
 
+std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a, const InterferenceModel& b,
+                                             const TreeOptions& options) {
+    return std::make_unique<VolumeHierarchy<BoxKind>>(a, b, options,
+                                                      options.arity == 2 ? "obb" : "obb-wide");
+}
 std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
                                              const InterferenceModel& b) {
-    return make(a, b, 2, "obb");
+    return make_obb_tree(a, b, TreeOptions{});
 }
 std::unique_ptr<PairStructure> make_wide_obb_tree(const InterferenceModel& a,
                                                   const InterferenceModel& b) {
-    return make(a, b, 4, "obb-wide");
+    TreeOptions options;
+    options.arity = 4;
+    return make_obb_tree(a, b, options);
 }
 
 }  // namespace trisect::hierarchies

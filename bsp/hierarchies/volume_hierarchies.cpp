@@ -92,8 +92,9 @@ private:
 
 template <std::size_t K>
 std::unique_ptr<PairStructure> make_kdop_tree(const InterferenceModel& a,
-                                              const InterferenceModel& b, std::string_view name) {
-    return std::make_unique<VolumeHierarchy<KDopKind<K>>>(a, b, TreeOptions{}, name);
+                                              const InterferenceModel& b, std::string_view name,
+                                              const TreeOptions& options = {}) {
+    return std::make_unique<VolumeHierarchy<KDopKind<K>>>(a, b, options, name);
 }
 
 }  // namespace
@@ -109,6 +110,11 @@ std::unique_ptr<PairStructure> make_kdop6_tree(const InterferenceModel& a,
 std::unique_ptr<PairStructure> make_kdop14_tree(const InterferenceModel& a,
                                                 const InterferenceModel& b) {
     return make_kdop_tree<14>(a, b, "kdop14");
+}
+std::unique_ptr<PairStructure> make_kdop18_tree(const InterferenceModel& a,
+                                                const InterferenceModel& b,
+                                                const TreeOptions& options) {
+    return make_kdop_tree<18>(a, b, "kdop18", options);
 }
 std::unique_ptr<PairStructure> make_kdop18_tree(const InterferenceModel& a,
                                                 const InterferenceModel& b) {

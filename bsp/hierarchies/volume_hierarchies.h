@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <trisect/bsp/hierarchies/pair_structure.h>
+#include <trisect/bsp/hierarchies/tree_builder.h>
 
 namespace trisect::hierarchies {
 
@@ -20,6 +21,9 @@ namespace trisect::hierarchies {
 [[nodiscard]] std::unique_ptr<PairStructure> make_kdop14_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
 [[nodiscard]] std::unique_ptr<PairStructure> make_kdop18_tree(const InterferenceModel& a,
+                                                              const InterferenceModel& b,
+                                                              const TreeOptions& options);
+[[nodiscard]] std::unique_ptr<PairStructure> make_kdop18_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
 [[nodiscard]] std::unique_ptr<PairStructure> make_kdop26_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
@@ -30,6 +34,9 @@ namespace trisect::hierarchies {
 
 /// Oriented boxes in doubles: a binary tree, one of four children, and the tree that models have
 /// anyway, in floats and four at a time.
+[[nodiscard]] std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
+                                                           const InterferenceModel& b,
+                                                           const TreeOptions& options);
 [[nodiscard]] std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
                                                            const InterferenceModel& b);
 [[nodiscard]] std::unique_ptr<PairStructure> make_wide_obb_tree(const InterferenceModel& a,
