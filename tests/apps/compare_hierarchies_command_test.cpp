@@ -34,7 +34,7 @@ protected:
 TEST_F(CompareHierarchiesCommand, TableHasARowForEachStructureAndQuestion) {
     const Finished result = compare({});
     EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_NE(result.out.find("5 frames: disjoint 2 inside 1 overlapping"), std::string::npos)
+    EXPECT_NE(result.out.find("5 frames: contains 1 disjoint 2 touching 2;"), std::string::npos)
         << result.out;
     for (const char* row : {"| aabb | faces |", "| aabb | distance |", "| obb | faces |"})
         EXPECT_NE(result.out.find(row), std::string::npos) << result.out;
