@@ -53,7 +53,8 @@ std::vector<Svg::Rectangle> boxes_of(const Slice& slice, SliceCell::Kind kind) {
     return boxes;
 }
 
-void draw_cells(const Slice& slice, Svg& svg) {
+/// \return where the legend goes on.
+double draw_cells(const Slice& slice, Svg& svg) {
     double left = 10;
     for (const KindLook& look : kind_looks) {
         const auto boxes = boxes_of(slice, look.kind);
@@ -70,6 +71,7 @@ void draw_cells(const Slice& slice, Svg& svg) {
     const double width =
         std::clamp(14.0 / std::max(1.0, static_cast<double>(all.size())), 0.7, 1.0);
     svg.rectangles(all, stroked(wall_color, width));
+    return left;
 }
 
 }  // namespace
@@ -77,11 +79,12 @@ void draw_cells(const Slice& slice, Svg& svg) {
 std::string draw_slice(const Slice& slice, const DrawingFrame& frame) {
     Svg svg(frame, drawing_pixels, footer_pixels, "A slice through the partition of a solid",
             Svg::Numbers::Compact);
-    draw_cells(slice, svg);
+    const double left = draw_cells(slice, svg);
     SvgStyle solid = stroked(ink, 1.8);
     solid.fill = operand_color(0);
     solid.fill_opacity = 0.55;
     svg.polygons(slice.section, solid);
+    if (!slice.section.empty()) svg.legend(left, "the solid", solid);
     for (const SliceOutline& operand : slice.operands) {
         svg.polygons(operand.loops, stroked(operand_line_color(operand.color), 1.4));
     }
