@@ -3,11 +3,12 @@
 // What tracked features of convex polytopes cost, in counts and in time of one thread. Prints the
 // tables of bench/results/hierarchies_convex.md:
 //
-//     convex_tracking [track] [branching] [schedule] [chain]
+//     convex_tracking [track] [branching] [beside] [schedule] [chain]
 //
 //   track      walks from the last features against walks from the first vertices, for polytopes of
 //              20 to 2,000 points and three speeds
 //   branching  trees of hulls with 2, 4, 8 and 16 children over the scenes of two solids
+//   beside     the same scenes by volumes of other kinds
 //   schedule   1,000 convex bodies: pairs tested by a schedule, answers against all pairs
 //   chain      boxes along a chain against a sweep and a grid
 #include <algorithm>
@@ -31,6 +32,7 @@
 #include <trisect/bsp/hierarchies/convex_parts_structure.h>
 #include <trisect/bsp/hierarchies/feature_walk.h>
 #include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/structures.h>
 #include <trisect/bsp/hierarchies/sub_part_tracker.h>
 
 #include "scenes/scenes.h"
@@ -157,6 +159,42 @@ void branching() {
                 each(nearest.volume_tests, frames), seconds[1] * 1e3 / static_cast<double>(frames),
                 each(tracked.walks.walks, frames), each(tracked.accepted, frames),
                 seconds[2] * 1e3 / static_cast<double>(frames));
+            std::fflush(stdout);
+        }
+    }
+}
+
+void beside() {
+    std::printf(
+        "| scene | structure | build ms | faces: volumes | ms | closest: volumes | ms |\n"
+        "|---|---|---|---|---|---|---|\n");
+    for (const std::string& name : scenes::pair_scene_names()) {
+        const auto scene = scenes::make_pair_scene(name, scenes::Size::Small);
+        if (!scene) continue;
+        const InterferenceModel a(Solid::from_mesh(scene->a));
+        const InterferenceModel b(Solid::from_mesh(scene->b));
+        const std::size_t frames = std::min<std::size_t>(scene->frames.size(), 40);
+        for (const StructureKind kind : {StructureKind::Aabb, StructureKind::Kdop18,
+                                         StructureKind::ObbWide, StructureKind::ConvexParts}) {
+            const auto s = make_structure(kind, a, b);
+            CostCounters faces;
+            CostCounters nearest;
+            std::array<double, 2> seconds{};
+            for (std::size_t f = 0; f < frames; ++f) {
+                const Pose pose = scenes::pose_of(scene->frames[f]);
+                double start = now();
+                s->place(Pose(), pose, faces);
+                (void)meeting_faces(*s, faces);
+                seconds[0] += now() - start;
+                start = now();
+                (void)distance(*s, nearest);
+                seconds[1] += now() - start;
+            }
+            std::printf(
+                "| %s | %s | %.0f | %.0f | %.2f | %.0f | %.2f |\n", name.c_str(),
+                std::string(s->name()).c_str(), s->build_report().seconds * 1e3,
+                each(faces.volume_tests, frames), seconds[0] * 1e3 / static_cast<double>(frames),
+                each(nearest.volume_tests, frames), seconds[1] * 1e3 / static_cast<double>(frames));
             std::fflush(stdout);
         }
     }
@@ -355,8 +393,11 @@ void chain() {
 
 int main(int argc, char** argv) {
     const std::vector<std::string> wanted(argv + 1, argv + argc);
-    const std::vector<std::pair<std::string, std::function<void()>>> all{
-        {"track", track}, {"branching", branching}, {"schedule", schedule}, {"chain", chain}};
+    const std::vector<std::pair<std::string, std::function<void()>>> all{{"track", track},
+                                                                         {"branching", branching},
+                                                                         {"beside", beside},
+                                                                         {"schedule", schedule},
+                                                                         {"chain", chain}};
     for (const auto& [name, run] : all)
         if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) run();
 }

@@ -116,6 +116,15 @@ int FeatureWalk::sign(const F& f) const {
     return sgn(f(Integers{this}));
 }
 
+// The same where the doubles are there already.
+template <class F>
+int FeatureWalk::decide(const BoundedDouble& d, const F& f) const {
+    if (counts_ != nullptr) ++counts_->signs;
+    if (const auto s = d.sign()) return *s;
+    if (counts_ != nullptr) ++counts_->exact_signs;
+    return sgn(f(Integers{this}));
+}
+
 // Of the face in the frame: outward if the frame does not mirror the body.
 template <class At>
 auto FeatureWalk::normal_of(const Part& face, const At& at) const {
@@ -229,35 +238,49 @@ void FeatureWalk::of_vertex_and_edge(const Place& p, const Part& edge) {
     push({p.body, PolytopeFeature::vertex(p.vertex)}, edge);
 }
 
-void FeatureWalk::of_edges(const Part& e, const Part& f) {
+// Where two lines are closest.
+template <class N>
+struct FeatureWalk::LinePair {
+    // With u, v along the edges, r = q - p and n = u × v, it is p + u (s / nn), q + v (t / nn).
+    N s;
+    N t;
+    N nn;
+    N height;  // n·r
+};
+
+template <class At>
+auto FeatureWalk::lines(const Part& e, const Part& f, const At& at) const {
+    using N = typename At::Number;
     const auto [p, p1] = ends(e);
     const auto [q, q1] = ends(f);
-    // With u, v along the edges, r = q - p and n = u × v, the lines are closest at
-    // p + u ((r × v)·n / n·n) and q + v ((r × u)·n / n·n).
-    const auto within = [&](bool on_e, bool from_start) {
-        return sign([&](const auto& at) {
-                   const auto u = minus(at(p1), at(p));
-                   const auto v = minus(at(q1), at(q));
-                   const auto n = cross(u, v);
-                   const auto start = dot(cross(minus(at(q), at(p)), on_e ? v : u), n);
-                   using N = std::decay_t<decltype(start)>;
-                   return from_start ? start : N(dot(n, n) - start);
-               }) > 0;
+    const Vector<N> o = at(p);
+    const Vector<N> o2 = at(q);
+    const Vector<N> u = minus(at(p1), o);
+    const Vector<N> v = minus(at(q1), o2);
+    const Vector<N> r = minus(o2, o);
+    const Vector<N> n = cross(u, v);
+    return LinePair<N>{dot(cross(r, v), n), dot(cross(r, u), n), dot(n, n), dot(n, r)};
+}
+
+void FeatureWalk::of_edges(const Part& e, const Part& f) {
+    const auto d = lines(e, f, Doubles{this});
+    const auto positive = [&](const BoundedDouble& about, const auto& exact) {
+        return decide(about, [&](const Integers& at) { return exact(lines(e, f, at)); }) > 0;
     };
     // Parallel edges have n = 0 and are within nothing.
-    if (within(true, true) && within(true, false) && within(false, true) && within(false, false)) {
-        const bool e_is_of_a = e.body == Body::A;
-        const int s = sign([&](const auto& at) {
-            const auto u = minus(at(p1), at(p));
-            const auto v = minus(at(q1), at(q));
-            // n and r both turn over when A and B are exchanged.
-            return dot(e_is_of_a ? cross(u, v) : cross(v, u),
-                       e_is_of_a ? minus(at(q), at(p)) : minus(at(p), at(q)));
-        });
-        return push(e, f, s);
+    if (positive(d.s, [](const auto& x) { return x.s; }) &&
+        positive(d.nn - d.s, [](const auto& x) { return mpz_class(x.nn - x.s); }) &&
+        positive(d.t, [](const auto& x) { return x.t; }) &&
+        positive(d.nn - d.t, [](const auto& x) { return mpz_class(x.nn - x.t); })) {
+        // From A's point to B's along A's edge × B's: n and r both turn over when the edges are
+        // exchanged.
+        return push(e, f,
+                    decide(d.height, [&](const Integers& at) { return lines(e, f, at).height; }));
     }
     // The distance of the lines' points is convex over the square of both edges; with its least
     // value not inside it is least on the square's sides.
+    const auto [p, p1] = ends(e);
+    const auto [q, q1] = ends(f);
     of_vertex_and_edge(p, f);
     of_vertex_and_edge(p1, f);
     of_vertex_and_edge(q, e);
@@ -269,22 +292,27 @@ void FeatureWalk::of_vertex_and_face(const Place& p, const Part& given) {
     Part face = given;
     const auto loop = body.corners(face.feature.index);
     const auto sides = body.sides(face.feature.index);
+    const Doubles at{this};
+    const Vector<BoundedDouble> n = normal_of(face, at);
+    const Vector<BoundedDouble> x = at(p);
     bool inside = true;
+    Vector<BoundedDouble> from = at(Place{face.body, loop[0]});
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Place c{face.body, loop[i]};
         const Place d{face.body, loop[(i + 1) % loop.size()]};
-        const int s = sign([&](const auto& at) {
-            return dot(normal_of(face, at), cross(minus(at(d), at(c)), minus(at(p), at(c))));
-        });
+        const Vector<BoundedDouble> to = at(d);
+        const int s =
+            decide(dot(n, cross(minus(to, from), minus(x, from))), [&](const Integers& exact) {
+                return dot(normal_of(face, exact),
+                           cross(minus(exact(d), exact(c)), minus(exact(p), exact(c))));
+            });
+        from = to;
         if (s > 0) continue;
         inside = false;
         of_vertex_and_edge(p, {face.body, PolytopeFeature::edge(sides[i])});
     }
     if (!inside) return;
-    int s = sign([&](const auto& at) {
-        const Place c{face.body, body.span_of(face.feature.index)[0]};
-        return dot(normal_of(face, at), minus(at(p), at(c)));
-    });
+    int s = side_of_face(p, face);
     // A polygon has a face on either side.
     if (body.dimension() == 2 && s == -outward(face.body)) {
         face.feature.index = 1 - face.feature.index;
@@ -293,31 +321,37 @@ void FeatureWalk::of_vertex_and_face(const Place& p, const Part& given) {
     push({p.body, PolytopeFeature::vertex(p.vertex)}, face, s);
 }
 
-void FeatureWalk::of_edge_and_face(const Part& edge, const Part& face) {
-    const ConvexPolytope& body = polytope(face.body);
-    const auto e = ends(edge);
-    const auto loop = body.corners(face.feature.index);
-    const Place c{face.body, body.span_of(face.feature.index)[0]};
-    const auto side = [&](const Place& p) {
-        return sign([&](const auto& at) { return dot(normal_of(face, at), minus(at(p), at(c))); });
-    };
-    if (side(e[0]) * side(e[1]) < 0) {
-        int left = 0;
-        int right = 0;
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Place from{face.body, loop[i]};
-            const Place to{face.body, loop[(i + 1) % loop.size()]};
-            const int s = sign([&](const auto& at) {
-                const auto o = at(e[0]);
-                return dot(minus(at(e[1]), o), cross(minus(at(from), o), minus(at(to), o)));
-            });
-            if (s > 0) ++left;
-            if (s < 0) ++right;
-        }
-        if (left == 0 || right == 0) return push(edge, face, 0, true);
+// 1 on the side to which the normal that the formulas make points.
+int FeatureWalk::side_of_face(const Place& p, const Part& face) const {
+    const Place c{face.body, polytope(face.body).span_of(face.feature.index)[0]};
+    return sign([&](const auto& at) { return dot(normal_of(face, at), minus(at(p), at(c))); });
+}
+
+// Whether an edge with ends on both sides of a face's plane passes through the face.
+bool FeatureWalk::passes_through(const std::array<Place, 2>& e, const Part& face) const {
+    const auto loop = polytope(face.body).corners(face.feature.index);
+    int left = 0;
+    int right = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Place from{face.body, loop[i]};
+        const Place to{face.body, loop[(i + 1) % loop.size()]};
+        const int s = sign([&](const auto& at) {
+            const auto o = at(e[0]);
+            return dot(minus(at(e[1]), o), cross(minus(at(from), o), minus(at(to), o)));
+        });
+        if (s > 0) ++left;
+        if (s < 0) ++right;
+        if (left != 0 && right != 0) return false;
     }
+    return true;
+}
+
+void FeatureWalk::of_edge_and_face(const Part& edge, const Part& face) {
+    const auto e = ends(edge);
+    if (side_of_face(e[0], face) * side_of_face(e[1], face) < 0 && passes_through(e, face))
+        return push(edge, face, 0, true);
     for (const Place& p : e) of_vertex_and_face(p, face);
-    for (const std::uint32_t s : body.sides(face.feature.index))
+    for (const std::uint32_t s : polytope(face.body).sides(face.feature.index))
         of_edges(edge, {face.body, PolytopeFeature::edge(s)});
 }
 
@@ -442,10 +476,7 @@ FeatureWalk::Rise FeatureWalk::rise_from_face(const Part& x) {
     bool inside = true;
     for (std::uint32_t f = 0; f < body.face_count(); ++f) {
         const Part face{x.body, PolytopeFeature::face(f)};
-        const int s = sign([&](const auto& at) {
-            return dot(normal_of(face, at), minus(at(q), at(Place{x.body, body.span_of(f)[0]})));
-        });
-        if (s != out) continue;
+        if (side_of_face(q, face) != out) continue;
         inside = false;
         of_vertex_and_face(q, face);
     }

@@ -104,6 +104,12 @@ private:
     [[nodiscard]] int outward(Body body) const { return frame_->is_mirror(body) ? -1 : 1; }
     template <class F>
     [[nodiscard]] int sign(const F& f) const;
+    template <class F>
+    [[nodiscard]] int decide(const detail::BoundedDouble& about, const F& f) const;
+    template <class N>
+    struct LinePair;
+    template <class At>
+    [[nodiscard]] auto lines(const Part& e, const Part& f, const At& at) const;
     template <class At>
     [[nodiscard]] auto normal_of(const Part& face, const At& at) const;
     template <class At>
@@ -118,6 +124,8 @@ private:
     void of_edges(const Part& e, const Part& f);
     void of_vertex_and_face(const Place& p, const Part& face);
     void of_edge_and_face(const Part& edge, const Part& face);
+    [[nodiscard]] int side_of_face(const Place& p, const Part& face) const;
+    [[nodiscard]] bool passes_through(const std::array<Place, 2>& e, const Part& face) const;
 
     [[nodiscard]] bool meets(const State& s) const;
     [[nodiscard]] bool is_less(const State& s, const State& t) const;
