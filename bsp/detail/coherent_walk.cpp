@@ -25,6 +25,7 @@
 #include <cmath>
 #include <limits>
 
+#include <trisect/bsp/detail/inside_balls.h>
 #include <trisect/bsp/detail/triangle_distance.h>
 #include <trisect/bsp/detail/triangle_filter.h>
 
@@ -266,7 +267,8 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
     }
     visits_[v].open = open;
     keep(v, static_cast<double>(least));
-    if (open == 0 && e.parent != none && step_ > 0 && least > 2 * few_steps && least > 1.5F * e.tried) {
+    if (open == 0 && e.parent != none && step_ > 0 && least > 2 * few_steps &&
+        least > 1.5F * e.tried) {
         visits_[v].tried = least;
         begin(e.parent);
     }
@@ -360,6 +362,16 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
     last_from_front_ = false;
     unmoved_ = false;
     if (witness_ && leaves_cross(witness_->a, witness_->b)) return Answer::Crossing;
+    // Where a crossing was there may be depth.
+    if (witness_) {
+        const InsideBalls* balls_a = a_->balls_in_time();
+        const InsideBalls* balls_b = b_->balls_in_time();
+        if (balls_a != nullptr && balls_b != nullptr &&
+            relation_by_balls(*a_, *balls_a, *b_, *balls_b, b_to_a) == Relation::Overlapping) {
+            ++counters_.by_balls;
+            return Answer::Crossing;
+        }
+    }
     pose_.emplace(a_->boxes, b_->boxes, b_to_a);
     if (witness_) return search_from_witness();
     if (pose_->is_apart()) return Answer::Apart;

@@ -26,7 +26,7 @@ public:
     CoherentWalk(const InterferenceModelData& a, const InterferenceModelData& b) : a_(&a), b_(&b) {}
 
     enum class Answer : std::uint8_t {
-        Crossing,  ///< certainly an edge passes through a face, and both are clear there
+        Crossing,  ///< certainly an edge passes through a clear face, or balls prove Overlapping
         Apart,     ///< certainly no common point
         Unknown    ///< doubles cannot tell
     };

@@ -62,6 +62,9 @@ private:
     std::vector<Side> sides_;
 };
 
+// Balls take about as long as some thousand questions; where so many are asked there may be more.
+constexpr std::uint32_t questions_before_balls = 1000;
+
 // The volume below the faces of an unbounded solid with a bounded boundary is negative.
 bool is_bounded(const Brep& brep) { return brep.is_empty() || volume(brep) > 0; }
 
@@ -171,6 +174,21 @@ const BrepIndex& InterferenceModelData::index() const {
         if (!index_) index_.emplace(solid);
     });
     return *index_;
+}
+
+const InsideBalls& InterferenceModelData::balls() const {
+    std::call_once(balls_once_, [this] {
+        if (!is_empty()) balls_ = InsideBalls(*this);
+        questions_.store(questions_before_balls, std::memory_order_release);
+    });
+    return balls_;
+}
+
+const InsideBalls* InterferenceModelData::balls_in_time() const {
+    if (questions_.load(std::memory_order_acquire) < questions_before_balls &&
+        questions_.fetch_add(1, std::memory_order_relaxed) + 1 < questions_before_balls)
+        return nullptr;
+    return &balls();
 }
 
 std::size_t InterferenceModelData::bytes() const {

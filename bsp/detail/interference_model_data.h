@@ -14,6 +14,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/detail/inside_balls.h>
 #include <trisect/bsp/detail/obb_tree.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/solid.h>
@@ -88,6 +89,11 @@ struct InterferenceModelData {
     }
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
+    /// Balls inside, made after some questions, since making them takes as long as many of these;
+    /// null before. Safe to call from several threads. \pre the index may be asked for
+    [[nodiscard]] const InsideBalls* balls_in_time() const;
+    /// The same, made at once.
+    [[nodiscard]] const InsideBalls& balls() const;
     /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that
     /// the B-rep knows: a corner in a face, say. Found out at the first call (pairs of near
     /// triangles). Safe to call from several threads. In self_contact.cpp.
@@ -107,6 +113,9 @@ private:
     mutable std::once_flag self_contact_once_;
     mutable bool touches_itself_ = false;
     mutable std::vector<std::atomic<std::uint8_t>> clear_;
+    mutable std::once_flag balls_once_;
+    mutable std::atomic<std::uint32_t> questions_{0};
+    mutable InsideBalls balls_;
 };
 
 }  // namespace trisect::detail

@@ -24,6 +24,7 @@ struct WalkCounters {
     std::uint64_t apart = 0;           ///< of these certainly apart,
     std::uint64_t crossing = 0;        ///< certainly crossing,
     std::uint64_t unknown = 0;         ///< left to exact tests
+    std::uint64_t by_balls = 0;        ///< questions that balls inside both solids decided
 
     WalkCounters& operator+=(const WalkCounters& o) {
         node_tests += o.node_tests;
@@ -31,6 +32,7 @@ struct WalkCounters {
         apart += o.apart;
         crossing += o.crossing;
         unknown += o.unknown;
+        by_balls += o.by_balls;
         return *this;
     }
 };

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/inside_balls.h>
 
 namespace trisect::detail {
 
@@ -97,6 +98,12 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
                                        CandidatePairs* candidates) {
     const ApproximateMap to_a = approximate_map(pose_a, a.brep.lattice(), pose_b, b.brep.lattice());
     if (!to_a.is_usable()) return std::nullopt;
+    if (const InsideBalls* balls_a = a.balls_in_time())
+        if (const InsideBalls* balls_b = b.balls_in_time())
+            if (const auto r = relation_by_balls(a, *balls_a, b, *balls_b, to_a)) {
+                if (counters != nullptr) ++counters->by_balls;
+                return r;
+            }
     // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two solids that overlap deeply have crossing faces, but a walk that looks for them goes down to
+// triangles first. A point that is in the interiors of both proves the same: with it, and a point
+// of each outside the other, the relation is Overlapping. Balls inside the solids give such points
+// in a few operations. When one solid is within a ball inside the other one, no face is anywhere
+// near.
+//
+// Where balls come from. On a grid of points in the bounds a lower bound on the distance from the
+// boundary is found by the tree of boxes; a few steps away from the nearest box enlarge it. Points
+// are taken, the largest distance first, unless an earlier ball holds them; whether they are inside
+// is located exactly.
+//
+// A point at a float distance: with reach r of the boxes rounding p costs u |p|, the difference to
+// a centre u (|p| + r), the product with an axis 3 u (|p| + r), halves are exact. So a slab's
+// distance is off by less than 2^-20 (|p| + r), and the axes' lengths by 2^-22; the distance from
+// the box is at least the length of the three excesses, each less that, times 1 - 2^-20.
+
+#include <trisect/bsp/detail/inside_balls.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <trisect/bsp/detail/interference_model_data.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
+
+struct BoundaryDistance {
+    double lower = 0;  // in units of the tree
+    ObbId nearest;
+};
+
+// How far every box at a leaf is at least from a point, in the tree's units about its origin.
+BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
+    const auto margin = static_cast<float>(0x1p-19 * (length(p) + tree.reach));
+    BoundaryDistance best{std::numeric_limits<double>::infinity(), {}};
+    std::vector<std::pair<float, std::uint32_t>> stack{{0.0F, 0}};
+    while (!stack.empty()) {
+        const auto [bound, node] = stack.back();
+        stack.pop_back();
+        if (static_cast<double>(bound) >= best.lower) continue;
+        const ObbNode& n = tree.nodes[node];
+        std::array<Float4, 3> d;
+        for (std::size_t k = 0; k < 3; ++k)
+            d[k] = all_lanes(static_cast<float>(p[k])) - n.center[k];
+        Float4 squares = all_lanes(0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Float4 along = (n.axis[i][0] * d[0] + n.axis[i][1] * d[1]) + n.axis[i][2] * d[2];
+            const Float4 excess =
+                larger(magnitude(along) - (n.half[i] + all_lanes(margin)), all_lanes(0));
+            squares += excess * excess;
+        }
+        const Float4 far = square_root(squares) * all_lanes(1 - 0x1p-19F);
+        std::array<std::uint32_t, 4> order{0, 1, 2, 3};
+        std::ranges::sort(order, [&far](auto i, auto j) { return far[i] > far[j]; });
+        for (const std::uint32_t k : order) {
+            if (!(n.half[0][k] >= 0)) continue;
+            if (!n.child[k].is_leaf())
+                stack.emplace_back(far[k], n.child[k].node());
+            else if (static_cast<double>(far[k]) < best.lower)
+                best = {static_cast<double>(far[k]), ObbId::of(node, k)};
+        }
+    }
+    return best;
+}
+
+struct Candidate {
+    Point p{};  // in the tree's units
+    double distance = 0;
+};
+
+Candidate climbed(const ObbTree& tree, Candidate c) {
+    for (double step = 0.5; step > 0.1; step *= 0.7) {
+        const BoundaryDistance d = distance_from_boundary(tree, c.p);
+        const OrientedBox box = tree.box(d.nearest);
+        Point away{};
+        for (std::size_t k = 0; k < 3; ++k) away[k] = c.p[k] - static_cast<double>(box.center[k]);
+        const double size = length(away);
+        if (!(size > 0)) break;
+        Candidate next = c;
+        for (std::size_t k = 0; k < 3; ++k) next.p[k] += step * c.distance * away[k] / size;
+        next.distance = distance_from_boundary(tree, next.p).lower;
+        if (next.distance > c.distance) c = next;
+    }
+    return c;
+}
+
+std::vector<Candidate> candidates_of(const InterferenceModelData& model) {
+    constexpr int steps = 10;
+    const ObbTree& tree = model.boxes;
+    std::vector<Candidate> all;
+    for (int x = 0; x < steps; ++x)
+        for (int y = 0; y < steps; ++y)
+            for (int z = 0; z < steps; ++z) {
+                Candidate c;
+                const std::array<int, 3> at{x, y, z};
+                for (std::size_t k = 0; k < 3; ++k)
+                    c.p[k] = (model.lo[k] + (at[k] + 0.5) / steps * (model.hi[k] - model.lo[k]) -
+                              tree.origin[k]) /
+                             tree.unit;
+                c.distance = distance_from_boundary(tree, c.p).lower;
+                all.push_back(c);
+            }
+    std::ranges::sort(all, [](const auto& a, const auto& b) { return a.distance > b.distance; });
+    return all;
+}
+
+// Whether M is a rotation times a number, up to 2^-25, and the number.
+std::optional<double> similarity(const ApproximateMap& map) {
+    std::array<Point, 3> gram{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t k = 0; k < 3; ++k) gram[i][j] += map.m[k][i] * map.m[k][j];
+    const double square = (gram[0][0] + gram[1][1] + gram[2][2]) / 3;
+    double off = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            off = std::max(off, std::abs(gram[i][j] - (i == j ? square : 0)));
+    const double scale = std::sqrt(square);
+    if (!(off <= 0x1p-25 * square) || !(map.m_error <= 0x1p-28 * scale)) return std::nullopt;
+    return scale;
+}
+
+// Images of lengths are within this factor of the scale: 3 · 2^-25 of its square and 3 · 2^-28 of
+// itself.
+constexpr double slack = 0x1p-22;
+
+// Whether A has a point outside the box around the image of B's bounds. A's bounds are exact or
+// outward by twice the error of positions and two roundings.
+bool sticks_out(const InterferenceModelData& a, const InterferenceModelData& b,
+                const ApproximateMap& to_a, double error) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        double middle = to_a.t[i];
+        double half = 0;
+        double size = std::abs(to_a.t[i]);
+        for (std::size_t j = 0; j < 3; ++j) {
+            middle += to_a.m[i][j] * (0.5 * (b.lo[j] + b.hi[j]));
+            half += (std::abs(to_a.m[i][j]) + to_a.m_error) * (0.5 * (b.hi[j] - b.lo[j]));
+            size += std::abs(to_a.m[i][j]) * b.largest;
+        }
+        const double reach =
+            half + error + 0x1p-48 * (size + half + a.largest) + 3 * a.position_error;
+        if (a.hi[i] > middle + reach || a.lo[i] < middle - reach) return true;
+    }
+    return false;
+}
+
+// Whether one of the farthest points of B is outside the bounds of A.
+bool has_point_outside(const InsideBalls& b, const InterferenceModelData& a,
+                       const ApproximateMap& to_a, double error) {
+    return std::ranges::any_of(b.extremes(), [&](const Point& p) {
+        const Point x = to_a(p);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (x[k] - error > a.hi[k] || x[k] + error < a.lo[k]) return true;
+        return false;
+    });
+}
+
+double distance(const Point& p, const Point& q) {
+    return length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
+}
+
+}  // namespace
+
+InsideBalls::InsideBalls(const InterferenceModelData& model) {
+    quick_radius_.fill(all_lanes(-std::numeric_limits<float>::infinity()));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [lo, hi] =
+            std::ranges::minmax_element(model.positions, {}, [k](const Point& p) { return p[k]; });
+        extremes_[2 * k] = *lo;
+        extremes_[2 * k + 1] = *hi;
+    }
+    const ObbTree& tree = model.boxes;
+    const auto place = [&tree](const Candidate& c) {
+        Point x{};
+        for (std::size_t k = 0; k < 3; ++k) x[k] = tree.origin[k] + tree.unit * c.p[k];
+        return x;
+    };
+    const auto is_inside = [&model](Point p) {
+        for (double& c : p) c = std::ldexp(c, model.brep.lattice().exponent);
+        return model.index().locate(p).location == Location::Inside;
+    };
+    const auto is_held = [this](const Point& p, double part) {
+        for (std::size_t i = 0; i < size_; ++i)
+            if (distance(p, center_[i]) < part * radius_[i]) return true;
+        return false;
+    };
+    for (const Candidate& start : candidates_of(model)) {
+        if (size_ == most || !(start.distance > 0)) break;
+        if (is_held(place(start), 0.8) || !is_inside(place(start))) continue;
+        const Point center = place(climbed(tree, start));
+        if (is_held(center, 0.5)) continue;
+        // From the rounded centre again.
+        Point in_tree{};
+        for (std::size_t k = 0; k < 3; ++k) in_tree[k] = (center[k] - tree.origin[k]) / tree.unit;
+        const double radius =
+            distance_from_boundary(tree, in_tree).lower - 0x1p-50 * (model.largest / tree.unit + 1);
+        if (radius > 0 && is_inside(center)) add(center, tree.unit * radius * (1 - 0x1p-50));
+    }
+}
+
+void InsideBalls::add(const Point& center, double radius) {
+    center_[size_] = center;
+    radius_[size_] = radius;
+    const std::size_t group = size_ / 4;
+    const std::size_t lane = size_ % 4;
+    for (std::size_t k = 0; k < 3; ++k)
+        quick_center_[group][k][lane] = static_cast<float>(center[k]);
+    quick_radius_[group][lane] = static_cast<float>(radius);
+    ++size_;
+}
+
+std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
+                                          const InsideBalls& balls_a,
+                                          const InterferenceModelData& b,
+                                          const InsideBalls& balls_b, const ApproximateMap& to_a) {
+    const std::optional<double> scale = similarity(to_a);
+    if (!scale) return std::nullopt;
+    // Of a moved point, as a distance.
+    const double error = to_a.error_below(b.largest, b.position_error);
+    const double way_error = 2 * error + 0x1p-48 * a.largest;
+    const auto whole = [](const InterferenceModelData& m) {
+        return 1.0001 * (m.boxes.reach * m.boxes.unit);
+    };
+    const Point middle_of_b = to_a(b.boxes.origin);
+    const double radius_of_b = *scale * (1 + slack) * whole(b);
+    for (std::size_t i = 0; i < balls_a.size_; ++i)
+        if (radius_of_b < balls_a.radius_[i] &&
+            1.0001 * distance(middle_of_b, balls_a.center_[i]) + radius_of_b + way_error <
+                balls_a.radius_[i])
+            return Relation::Contains;
+    for (std::size_t j = 0; j < balls_b.size_; ++j) {
+        const Point center = to_a(balls_b.center_[j]);
+        const double radius = *scale * (1 - slack) * balls_b.radius_[j];
+        if (1.0001 * (distance(center, a.boxes.origin) + whole(a)) + way_error < radius)
+            return Relation::Inside;
+        const std::array<Float4, 3> c{all_lanes(static_cast<float>(center[0])),
+                                      all_lanes(static_cast<float>(center[1])),
+                                      all_lanes(static_cast<float>(center[2]))};
+        const Float4 r = all_lanes(static_cast<float>(radius));
+        for (std::size_t g = 0; 4 * g < balls_a.size_; ++g) {
+            Float4 squares = all_lanes(0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Float4 d = c[k] - balls_a.quick_center_[g][k];
+                squares += d * d;
+            }
+            const Float4 sum = larger(r + balls_a.quick_radius_[g], all_lanes(0));
+            unsigned hits = bits_of(squares < sum * sum);
+            for (std::size_t lane = 0; hits != 0; ++lane, hits >>= 1U) {
+                if ((hits & 1U) == 0) continue;
+                const std::size_t i = 4 * g + lane;
+                if (!(1.0001 * distance(center, balls_a.center_[i]) + way_error <
+                      radius + balls_a.radius_[i]))
+                    continue;
+                if (sticks_out(a, b, to_a, error) && has_point_outside(balls_b, a, to_a, error))
+                    return Relation::Overlapping;
+                return std::nullopt;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace trisect::detail

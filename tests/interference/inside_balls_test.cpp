@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/inside_balls.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/detail/quick_relation.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference.h>
+
+#include "reference/random_solids.h"
+
+namespace {
+
+using reference::Random;
+using trisect::InterferenceModel;
+using trisect::Pose;
+using trisect::Relation;
+using trisect::Solid;
+using trisect::detail::approximate_map;
+using trisect::detail::InsideBalls;
+using trisect::detail::relation_by_balls;
+
+InterferenceModel box(double lo, double hi) {
+    return InterferenceModel(Solid::from_mesh(trisect::make_box({lo, lo, lo}, {hi, hi, hi})));
+}
+InterferenceModel hollow_box() {
+    return InterferenceModel(
+        evaluate(trisect::Expression(Solid::from_mesh(trisect::make_box({-4, -4, -4}, {4, 4, 4}))) -
+                 Solid::from_mesh(trisect::make_box({-2, -2, -2}, {2, 2, 2}))));
+}
+
+std::optional<Relation> by_balls(const InterferenceModel& a, const InterferenceModel& b,
+                                 const Pose& pose) {
+    return relation_by_balls(a.data(), a.data().balls(), b.data(), b.data().balls(),
+                             approximate_map(Pose(), a.lattice(), pose, b.lattice()));
+}
+
+TEST(InsideBalls, NoPointOfTheBoundaryIsInThem) {
+    Random random(81);
+    const std::vector<InterferenceModel> models{
+        InterferenceModel(Solid::from_mesh(trisect::make_torus(1, 0.25, 40, 24))), hollow_box(),
+        InterferenceModel(Solid::from_mesh(trisect::make_icosphere(1, 3))), box(0, 1)};
+    for (const InterferenceModel& model : models) {
+        const auto& data = model.data();
+        const InsideBalls& balls = data.balls();
+        ASSERT_GT(balls.size(), 0U);
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            std::array<double, 3> user = balls.center(i);
+            for (double& c : user) c = std::ldexp(c, model.lattice().exponent);
+            EXPECT_EQ(data.index().locate(user).location, trisect::Location::Inside);
+            for (const auto& t : data.triangles)
+                for (int n = 0; n < 20; ++n) {
+                    // Corners first, then points within.
+                    std::array<double, 3> w{n == 0 ? 1.0 : 0.0, n == 1 ? 1.0 : 0.0,
+                                            n == 2 ? 1.0 : 0.0};
+                    if (n > 2) {
+                        for (double& c : w) c = static_cast<double>(random.between(0, 1000));
+                        const double sum = w[0] + w[1] + w[2] + 1e-9;
+                        for (double& c : w) c /= sum;
+                    }
+                    double square = 0;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        double c = -balls.center(i)[k];
+                        for (std::size_t j = 0; j < 3; ++j)
+                            c += w[j] * data.position(t.vertex[j])[k];
+                        square += c * c;
+                    }
+                    EXPECT_GT(std::sqrt(square) * (1 + 1e-6), balls.radius(i));
+                }
+        }
+    }
+}
+
+// Boxes, hollow ones and balls on a small grid, where faces coincide: whatever balls tell is what
+// the exact comparison tells.
+TEST(InsideBalls, RelationsOnASmallGridAreTheExactOnes) {
+    const std::vector<InterferenceModel> models{
+        box(-3, 3), box(0, 1), hollow_box(),
+        InterferenceModel(Solid::from_mesh(trisect::make_icosphere(4, 2)))};
+    Random random(82);
+    std::array<int, 6> told{};
+    for (const auto& a : models)
+        for (const auto& b : models)
+            for (int i = 0; i < 300; ++i) {
+                std::array<double, 3> by{};
+                for (double& c : by) c = static_cast<double>(random.between(-4, 4));
+                const Pose pose = i % 2 == 0
+                                      ? Pose::from_translation(by)
+                                      : Pose::from_quaternion({2, random.between(-2, 2), 1, 0}, by);
+                const auto quick = by_balls(a, b, pose);
+                if (!quick) continue;
+                EXPECT_EQ(*quick, interfere(a, Pose(), b, pose).relation);
+                ++told[static_cast<std::size_t>(*quick)];
+            }
+    EXPECT_GT(told[static_cast<std::size_t>(Relation::Overlapping)], 30);
+    EXPECT_GT(told[static_cast<std::size_t>(Relation::Inside)], 3);
+    EXPECT_GT(told[static_cast<std::size_t>(Relation::Contains)], 3);
+}
+
+TEST(InsideBalls, DeepOverlapAndContainmentLookAtNoFace) {
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 4)));
+    const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.125, 3)));
+    (void)ball.data().balls();
+    (void)speck.data().balls();
+    const auto ask = [](const InterferenceModel& a, const InterferenceModel& b, const Pose& pose,
+                        Relation expected) {
+        trisect::detail::ObbWalk::Stack stack;
+        trisect::detail::WalkCounters counters;
+        EXPECT_EQ(
+            trisect::detail::quick_relation(a.data(), Pose(), b.data(), pose, stack, &counters),
+            expected);
+        return counters;
+    };
+    const Pose near = Pose::from_translation({0.25, 0.125, 0.25});
+    for (const auto& counters :
+         {ask(ball, speck, near, Relation::Contains), ask(speck, ball, near, Relation::Inside),
+          ask(ball, ball, near, Relation::Overlapping)}) {
+        EXPECT_EQ(counters.by_balls, 1U);
+        EXPECT_EQ(counters.node_tests, 0U);
+        EXPECT_EQ(counters.triangle_pairs, 0U);
+    }
+    const auto apart = ask(ball, speck, Pose::from_translation({1.5, 0, 0}), Relation::Disjoint);
+    EXPECT_EQ(apart.by_balls, 0U);
+    EXPECT_GT(apart.node_tests, 0U);
+}
+
+TEST(InsideBalls, MapsThatAreNotSimilaritiesTellNothing) {
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 2)));
+    EXPECT_FALSE(
+        by_balls(ball, ball, Pose::from_doubles({1, 0.5, 0, 0, 0, 1, 0, 0.5, 0, 0, 1, 0})));
+    EXPECT_TRUE(by_balls(ball, ball, Pose::from_translation({0.5, 0, 0})));
+}
+
+}  // namespace
