@@ -42,6 +42,11 @@ bool PairStructure::candidates(PairVisit visit, CostCounters& counters) {
     return false;
 }
 
+std::optional<Relation> PairStructure::early_relation(CostCounters& counters) {
+    if (!placed_) place(Pose(), Pose(), counters);
+    return has_doubles() ? find_early_relation(counters) : std::nullopt;
+}
+
 void PairStructure::near(double limit, NearVisit visit, CostCounters& counters) {
     if (!placed_) place(Pose(), Pose(), counters);
     if (has_doubles()) {

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/hierarchies/cost.h>
 #include <trisect/bsp/hierarchies/function_ref.h>
+#include <trisect/bsp/interference.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/kernel/pose.h>
 
@@ -61,6 +63,10 @@ public:
     /// it. May be told an infinite one.
     void near(double limit, NearVisit visit, CostCounters& counters);
 
+    /// The relation, where the structure can prove it without comparing any triangles: partitions
+    /// that know inside from outside may. Costs a little where it cannot.
+    [[nodiscard]] std::optional<Relation> early_relation(CostCounters& counters);
+
     [[nodiscard]] const InterferenceModel& model_a() const { return a_; }
     [[nodiscard]] const InterferenceModel& model_b() const { return b_; }
     [[nodiscard]] const Pose& pose_a() const { return pose_a_; }
@@ -75,6 +81,7 @@ protected:
     virtual void update(CostCounters& counters) = 0;
     virtual bool find_candidates(PairVisit visit, CostCounters& counters) = 0;
     virtual void find_near(double limit, NearVisit visit, CostCounters& counters) = 0;
+    virtual std::optional<Relation> find_early_relation(CostCounters&) { return std::nullopt; }
 
     [[nodiscard]] const detail::InterferenceModelData& data_a() const { return a_.data(); }
     [[nodiscard]] const detail::InterferenceModelData& data_b() const { return b_.data(); }

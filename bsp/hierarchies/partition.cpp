@@ -41,7 +41,7 @@ bool Partition::find_candidates(PairVisit visit, CostCounters& counters) {
             ++counters.volume_tests;
             return fixed_[a].meets(box) && visit(a, b);
         };
-        if (find_in_cells(box, offer, counters)) return true;
+        if (find_for(b, offer, counters)) return true;
     }
     return false;
 }

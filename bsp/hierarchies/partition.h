@@ -34,6 +34,12 @@ protected:
                                  FunctionRef<double(std::uint32_t)> offer,
                                  CostCounters& counters) = 0;
 
+    /// The same for a triangle of B by its number; by its box unless overridden.
+    virtual bool find_for(std::uint32_t b, FunctionRef<bool(std::uint32_t)> offer,
+                          CostCounters& counters) {
+        return find_in_cells(moved_[b], offer, counters);
+    }
+
     void update(CostCounters& counters) override;
     bool find_candidates(PairVisit visit, CostCounters& counters) override;
     void find_near(double limit, NearVisit visit, CostCounters& counters) override;

@@ -29,5 +29,11 @@ namespace trisect::hierarchies {
 /// A is a field of obstacles in a mesh of tetrahedra, B a small body that walks through it.
 [[nodiscard]] std::unique_ptr<PairStructure> make_free_space_partition(const InterferenceModel& a,
                                                                        const InterferenceModel& b);
+/// The planes of A's faces as a tree, triangles on their planes (BspTree).
+[[nodiscard]] std::unique_ptr<PairStructure> make_bsp_partition(const InterferenceModel& a,
+                                                                const InterferenceModel& b);
+/// The same with trees in the planes that name faces (MspTree).
+[[nodiscard]] std::unique_ptr<PairStructure> make_msp_partition(const InterferenceModel& a,
+                                                                const InterferenceModel& b);
 
 }  // namespace trisect::hierarchies

@@ -197,6 +197,7 @@ Relation relation(PairStructure& structure, CostCounters& counters) {
         return interfere(structure.model_a(), structure.pose_a(), structure.model_b(),
                          structure.pose_b())
             .relation;
+    if (const auto early = structure.early_relation(counters)) return *early;
     std::vector<TrianglePair> unknown;
     const bool crossing = compare_candidates(
         structure, counters, [&](std::uint32_t a, std::uint32_t b, PairVerdict verdict) {

@@ -54,6 +54,8 @@ constexpr std::array entries{
           make_hierarchical_grid_partition},
     Entry{{StructureKind::ConvexParts, "convex-parts", "hulls of parts, features tracked"},
           make_convex_parts},
+    Entry{{StructureKind::Bsp, "bsp", "the classic tree of face planes"}, make_bsp_partition},
+    Entry{{StructureKind::Msp, "msp", "the same with trees in the planes"}, make_msp_partition},
     Entry{{StructureKind::FreeSpace, "free-space", "tetrahedra, walked through"},
           make_free_space_partition},
 };

@@ -34,7 +34,9 @@ enum class StructureKind : std::uint8_t {
     HashGrid,
     HierarchicalGrid,
     ConvexParts,  ///< hulls of convex parts, closest features tracked
-    FreeSpace,  ///< tetrahedra around the obstacle A, walked through by B
+    Bsp,          ///< A's classic tree, B's triangles cut by it
+    Msp,          ///< A's Brep-Index, likewise
+    FreeSpace,    ///< tetrahedra around the obstacle A, walked through by B
 };
 
 struct StructureInfo {

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Why nothing is missed. Let x be a point of the polygon and of a triangle t of the boundary. Take
+// a point y inside of t, near x and on no plane but its own. Inside and outside meet at y, so the
+// way of y through the tree ends on a node's plane, that of t; x is in the closure of every region
+// on that way. At each node x is on the side of y or on the plane, and where it is on the plane, or
+// so near that doubles cannot tell, both sides are visited. So the polygon, cut on the safe side,
+// comes to that node and touches its plane, where t is listed.
+//
+// Cuts. A corner's value n·x + d has an error below 2^-49 of the sum of magnitudes, and what the
+// corner's own error makes of it; `bound` is the largest of both. A polygon is cut at twice the
+// bound beyond the plane: the value of the new corner is off by less than the bound, so all that is
+// truly on this side stays. A new corner is off by 2^-51 of the largest coordinate across its edge;
+// the error has room for 64 cuts, and a polygon is not cut more often.
+
+#include <trisect/bsp/hierarchies/plane_tree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <trisect/bsp/bsp_build.h>
+#include <trisect/bsp/hierarchies/box_gap.h>
+#include <trisect/kernel/convex_polygon.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::hierarchies {
+
+namespace {
+
+using Double3 = std::array<double, 3>;
+
+constexpr std::uint32_t most_cuts = 64;
+/// Where planes meet at small angles, what is within the errors of both is this much longer.
+constexpr double much = 0x1p16;
+
+struct Value {
+    double at = 0;
+    double bound = 0;
+};
+
+Value value_of(const Double3& n, double d, const Double3& p, double error) {
+    double terms = std::abs(d);
+    double normals = 0;
+    double at = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double term = n[k] * p[k];
+        at += term;
+        terms += std::abs(term);
+        normals += std::abs(n[k]);
+    }
+    return {at + d, 0x1p-49 * terms + 1.01 * (error * normals)};
+}
+
+}  // namespace
+
+RoughPolygon RoughPolygon::triangle(const Double3& a, const Double3& b, const Double3& c,
+                                    double error) {
+    RoughPolygon r;
+    r.count = 3;
+    r.corner[0] = a;
+    r.corner[1] = b;
+    r.corner[2] = c;
+    double far = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const double v : r.corner[i]) far = std::max(far, std::abs(v));
+    r.error = error + 0x1p-44 * far;
+    return r;
+}
+
+Double3 RoughPolygon::middle() const {
+    Double3 r{};
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < 3; ++k) r[k] += corner[i][k] / count;
+    return r;
+}
+
+bool PlaneTree::Values::all_below(std::uint32_t count) const {
+    return std::all_of(at.begin(), at.begin() + count, [this](double v) { return v < -bound; });
+}
+
+bool PlaneTree::Values::all_above(std::uint32_t count) const {
+    return std::all_of(at.begin(), at.begin() + count, [this](double v) { return v > bound; });
+}
+
+PlaneTree::Node PlaneTree::node_of(const Plane& plane) {
+    Node n;
+    for (int k = 0; k < 3; ++k) n.normal[static_cast<std::size_t>(k)] = plane.approx_normal(k);
+    n.offset = plane.approx_offset();
+    return n;
+}
+
+PlaneTree::Values PlaneTree::values_of(const Node& node, const RoughPolygon& polygon) {
+    Values r;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const Value v = value_of(node.normal, node.offset, polygon.corner[i], polygon.error);
+        r.at[i] = v.at;
+        r.bound = std::max(r.bound, v.bound);
+    }
+    return r;
+}
+
+RoughPolygon PlaneTree::part(const RoughPolygon& polygon, const Values& values, double sign) {
+    const double level = 2 * values.bound;
+    RoughPolygon r;
+    r.error = polygon.error;
+    r.cuts = polygon.cuts + 1;
+    const bool is_cut = polygon.cuts < most_cuts && polygon.count + 1 < RoughPolygon::most_corners;
+    bool has_depth = false;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const std::size_t j = (i + 1) % polygon.count;
+        const double p = sign * values.at[i];
+        const double q = sign * values.at[j];
+        has_depth = has_depth || p < -much * level;
+        if (!is_cut) continue;
+        if (p <= level) r.corner[r.count++] = polygon.corner[i];
+        if ((p <= level) == (q <= level)) continue;
+        const double t = std::clamp((level - p) / (q - p), 0.0, 1.0);
+        for (std::size_t k = 0; k < 3; ++k)
+            r.corner[r.count][k] =
+                polygon.corner[i][k] + t * (polygon.corner[j][k] - polygon.corner[i][k]);
+        ++r.count;
+    }
+    if (!is_cut) r = polygon;
+    r.is_thin = polygon.is_thin || !has_depth;
+    return r;
+}
+
+bool PlaneTree::push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t)> offer,
+                     FunctionRef<bool(bool inside, const RoughPolygon& part)> leaf,
+                     CostCounters& counters) {
+    for (const std::uint32_t i : strays_)
+        if (offer(i)) return true;
+    tasks_.assign(1, {root_, false, polygon});
+    while (!tasks_.empty()) {
+        const Task task = tasks_.back();
+        tasks_.pop_back();
+        if (task.ref <= first_list) {
+            for (const std::uint32_t i : list(task.ref))
+                if (offer(i)) return true;
+            continue;
+        }
+        if (task.ref < 0) {
+            if (!task.is_flat && leaf(task.ref == in, task.polygon)) return true;
+            continue;
+        }
+        ++counters.volume_tests;
+        const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+        const Values values = values_of(node, task.polygon);
+        if (values.all_below(task.polygon.count)) {
+            tasks_.push_back({node.below, task.is_flat, task.polygon});
+            continue;
+        }
+        if (values.all_above(task.polygon.count)) {
+            tasks_.push_back({node.above, task.is_flat, task.polygon});
+            continue;
+        }
+        const RoughPolygon below = part(task.polygon, values, 1);
+        const RoughPolygon above = part(task.polygon, values, -1);
+        if (below.count != 0) tasks_.push_back({node.below, task.is_flat, below});
+        if (above.count != 0) tasks_.push_back({node.above, task.is_flat, above});
+        // A line in a node's plane has regions of faces on both sides; they are visited.
+        if (!task.is_flat && node.on != out && node.on != in)
+            tasks_.push_back({node.on, true, part(below, values_of(node, below), -1)});
+    }
+    return false;
+}
+
+// A region beyond a plane is at least as far as the plane; what is on a plane likewise.
+void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
+                          CostCounters& counters) {
+    for (const std::uint32_t i : strays_) limit = offer(i);
+    near_tasks_.assign(1, {0, root_});
+    while (!near_tasks_.empty()) {
+        const NearTask task = near_tasks_.back();
+        near_tasks_.pop_back();
+        if (task.least > limit) continue;
+        if (task.ref <= first_list) {
+            for (const std::uint32_t i : list(task.ref)) limit = offer(i);
+            continue;
+        }
+        if (task.ref < 0) continue;
+        ++counters.volume_tests;
+        const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+        Double3 middle{};
+        double reach = 0;
+        double square = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = 0.5 * box.lo[k] + 0.5 * box.hi[k];
+            reach += std::abs(node.normal[k]) * (0.5 * box.hi[k] - 0.5 * box.lo[k]);
+            square += node.normal[k] * node.normal[k];
+        }
+        const Value v = value_of(node.normal, node.offset, middle, 0);
+        const double gap =
+            (std::abs(v.at) - reach * (1 + 0x1p-40) - 2 * v.bound) / std::sqrt(square);
+        const double beyond = std::max(task.least, gap * (1 - 0x1p-40));
+        // The nearer side is taken from the stack first.
+        const bool is_below = v.at < 0;
+        near_tasks_.push_back({beyond, is_below ? node.above : node.below});
+        near_tasks_.push_back({beyond, node.on});
+        near_tasks_.push_back({task.least, is_below ? node.below : node.above});
+    }
+}
+
+std::optional<bool> PlaneTree::is_inside(const Double3& p, double error,
+                                         CostCounters& counters) const {
+    Ref at = root_;
+    while (at >= 0) {
+        ++counters.volume_tests;
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        const Value v = value_of(node.normal, node.offset, p, error);
+        if (std::abs(v.at) <= v.bound) return std::nullopt;
+        at = v.at < 0 ? node.below : node.above;
+    }
+    return at == in;
+}
+
+unsigned PlaneTree::depth() const {
+    unsigned deepest = 0;
+    std::vector<std::pair<Ref, unsigned>> open{{root_, 1}};
+    while (!open.empty()) {
+        const auto [at, level] = open.back();
+        open.pop_back();
+        deepest = std::max(deepest, level);
+        if (at < 0) continue;
+        const Node& node = nodes_[static_cast<std::size_t>(at)];
+        for (const Ref child : {node.below, node.on, node.above})
+            open.push_back({child, level + 1});
+    }
+    return deepest;
+}
+
+// As the others will be.
+void PlaneTree::trace_triangles(const detail::InterferenceModelData& model,
+                                std::span<const Plane> planes,
+                                FunctionRef<bool(Ref node, std::uint32_t triangle)> is_listed_at) {
+    for (std::uint32_t i = 0; i < model.triangles.size(); ++i) {
+        const detail::ModelTriangle& t = model.triangles[i];
+        const Plane& own = model.brep.plane(t.face);
+        const Ref face = first_list - static_cast<Ref>(t.face.index);
+        bool is_stray = false;
+        tasks_.assign(
+            1, {root_, false,
+                RoughPolygon::triangle(model.position(t.vertex[0]), model.position(t.vertex[1]),
+                                       model.position(t.vertex[2]), model.position_error)});
+        while (!tasks_.empty()) {
+            const Task task = tasks_.back();
+            tasks_.pop_back();
+            if (task.ref < 0) {
+                is_stray =
+                    is_stray || (!task.polygon.is_thin && !(task.is_flat && task.ref == face));
+                continue;
+            }
+            const auto at = static_cast<std::size_t>(task.ref);
+            const Values values = values_of(nodes_[at], task.polygon);
+            const bool below = values.all_below(task.polygon.count);
+            const bool above = values.all_above(task.polygon.count);
+            if (!below && !above && !task.is_flat && is_same_plane(planes[at], own)) {
+                if (!is_listed_at(task.ref, i))
+                    tasks_.push_back({nodes_[at].on, true, task.polygon});
+                continue;
+            }
+            const RoughPolygon low = part(task.polygon, values, 1);
+            const RoughPolygon high = part(task.polygon, values, -1);
+            if (!above && low.count != 0) tasks_.push_back({nodes_[at].below, task.is_flat, low});
+            if (!below && high.count != 0) tasks_.push_back({nodes_[at].above, task.is_flat, high});
+        }
+        if (is_stray) strays_.push_back(i);
+    }
+}
+
+void PlaneTree::list_triangles(const detail::InterferenceModelData& model,
+                               std::span<const Plane> planes) {
+    std::vector<std::pair<Ref, std::uint32_t>> entries;
+    trace_triangles(model, planes, [&entries](Ref node, std::uint32_t triangle) {
+        entries.emplace_back(node, triangle);
+        return true;
+    });
+    std::sort(entries.begin(), entries.end());
+    entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+    first_.assign(1, 0);
+    lists_.clear();
+    for (std::size_t at = 0, e = 0; at < nodes_.size(); ++at) {
+        for (; e < entries.size() && entries[e].first == static_cast<Ref>(at); ++e)
+            lists_.push_back(entries[e].second);
+        first_.push_back(static_cast<std::uint32_t>(lists_.size()));
+        nodes_[at].on = first_list - static_cast<Ref>(at);
+    }
+}
+
+PlaneTree PlaneTree::classic(const detail::InterferenceModelData& model) {
+    PlaneTree r;
+    std::vector<Plane> planes;
+    if (model.all_lattice) {
+        std::vector<ConvexPolygon> polygons;
+        for (const detail::ModelTriangle& t : model.triangles) {
+            std::array<LatticePoint, 3> p;
+            for (std::size_t k = 0; k < 3; ++k) p[k] = model.brep.point(t.vertex[k]).lattice();
+            polygons.push_back(ConvexPolygon::from_triangle(p[0], p[1], p[2]));
+        }
+        const BspTree tree = build_bsp(polygons);
+        const auto ref = [](BspTree::NodeId id) {
+            if (!id.is_leaf()) return static_cast<Ref>(id.index());
+            return id.label() == BspTree::Label::In ? in : out;
+        };
+        for (const BspTree::Node& n : tree.nodes()) {
+            r.nodes_.push_back(node_of(n.plane));
+            r.nodes_.back().below = ref(n.below);
+            r.nodes_.back().above = ref(n.above);
+            planes.push_back(n.plane);
+        }
+        r.root_ = ref(tree.root());
+    } else {
+        // Nodes of lower dimension are left where they are, without a way to them.
+        r = of_regions(MspTree::from_brep(model.brep), planes);
+    }
+    r.list_triangles(model, planes);
+    return r;
+}
+
+PlaneTree PlaneTree::of_regions(const MspTree& tree, std::vector<Plane>& planes) {
+    PlaneTree r;
+    const auto ref = [](MspTree::Ref t) {
+        if (!t.is_leaf()) return static_cast<Ref>(t.index());
+        if (t.kind() == MspTree::Leaf::OnFace) return first_list - static_cast<Ref>(t.entity());
+        return t.kind() == MspTree::Leaf::In ? in : out;
+    };
+    for (std::size_t i = 0; i < tree.node_count(); ++i) {
+        const MspTree::Node& n = tree.node(MspTree::Ref::node(i));
+        planes.push_back(tree.plane(n));
+        r.nodes_.push_back(node_of(planes.back()));
+        Node& node = r.nodes_.back();
+        node.below = ref(n.below);
+        node.above = ref(n.above);
+        // What is on a line in a plane is not needed.
+        node.on = tree.dimension(MspTree::Ref::node(i)) == 3 ? ref(n.on) : out;
+    }
+    r.root_ = ref(tree.root());
+    return r;
+}
+
+PlaneTree PlaneTree::multidimensional(const detail::InterferenceModelData& model) {
+    std::vector<Plane> planes;
+    PlaneTree r = of_regions(MspTree::from_brep(model.brep), planes);
+    r.first_ = model.first_triangle;
+    r.lists_.resize(model.triangles.size());
+    for (std::uint32_t i = 0; i < r.lists_.size(); ++i) r.lists_[i] = i;
+    r.trace_triangles(model, planes, [](Ref, std::uint32_t) { return false; });
+    return r;
+}
+
+}  // namespace trisect::hierarchies
