@@ -78,8 +78,7 @@ BodyBounds::BodyBounds(const InterferenceModelData& model) {
     }
 }
 
-BodyBox BodyBounds::under(const Pose& pose) const {
-    const std::array<double, 12> m = pose.approximate();
+BodyBox BodyBounds::under(const std::array<double, 12>& m) const {
     BodyBox out = nothing();
     for (std::size_t i = 0; i < 3; ++i) {
         const double* row = m.data() + 4 * i;

@@ -21,7 +21,9 @@ public:
 
     /// Contains the body under the pose: every rounding is outwards. Unbounded where the numbers
     /// leave the doubles. At most 64 boxes are looked at, whatever the size of the model.
-    [[nodiscard]] BodyBox under(const Pose& pose) const;
+    [[nodiscard]] BodyBox under(const Pose& pose) const { return under(pose.approximate()); }
+    /// The same for a matrix, row by row, each number with a relative error below 2^-50.
+    [[nodiscard]] BodyBox under(const std::array<double, 12>& rows) const;
 
 private:
     /// A box by its centre and half its sides, in the user's units.
