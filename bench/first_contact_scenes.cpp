@@ -20,6 +20,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/enclosed_contact.h>
 #include <trisect/bsp/first_contact.h>
 #include <trisect/bsp/interference_model.h>
 #include <trisect/bsp/motion.h>
@@ -29,6 +30,7 @@
 
 namespace {
 
+using trisect::EnclosedMotion;
 using trisect::FirstContact;
 using trisect::InterferenceModel;
 using trisect::Motion;
@@ -135,6 +137,57 @@ void mechanisms() {
            turns(start, 1, other, 0, 8));
 }
 
+// The same mechanisms at constant angular speed, which is not rational: certified intervals.
+void enclosed_report(const char* name, const Body& a, const EnclosedMotion& ma, const Body& b,
+                     const EnclosedMotion& mb) {
+    using Outcome = trisect::EnclosedContact::Outcome;
+    const auto start = Clock::now();
+    const trisect::EnclosedContact c =
+        enclosed_first_contact(a.model, ma, b.model, mb, {1e-9 * mb.duration()});
+    const double ms = milliseconds_since(start);
+    std::printf("| %s | ", name);
+    switch (c.outcome) {
+        case Outcome::None:
+            std::printf("none | - | -");
+            break;
+        case Outcome::Contact:
+            std::printf("contact | %.12g | %.2g", c.free_until, *c.contact_by - c.free_until);
+            break;
+        case Outcome::Undecided:
+            std::printf("undecided | %.12g | -", c.free_until);
+            break;
+    }
+    std::printf(" | %.2f | %llu | %llu | %llu |\n", ms,
+                static_cast<unsigned long long>(c.stats.intervals),
+                static_cast<unsigned long long>(c.stats.box_tests),
+                static_cast<unsigned long long>(c.stats.triangle_pairs));
+    std::fflush(stdout);
+}
+
+void enclosed_mechanisms() {
+    std::puts("\n| scene | outcome | free until | width | ms | intervals | box tests | pairs |");
+    std::puts("|---|---|---|---:|---:|---:|---:|---:|");
+    const double turn = 2 * std::acos(-1.0);
+    const Body screw = read("mechanisms/screw-big.obj");
+    const Body nut = read("mechanisms/nut-big.obj");
+    const auto screwed = [&](double turns, double pitch) {
+        return EnclosedMotion::turning(
+            Pose(), {{0, -1, 0}, turns * turn, {-0.0625, 0, -0.0281}, {0, -turns * pitch, 0}},
+            std::abs(turns));
+    };
+    enclosed_report("screw into nut, one turn", nut, EnclosedMotion(), screw, screwed(1, 1.3299));
+    enclosed_report("screw, turned the wrong way", nut, EnclosedMotion(), screw,
+                    screwed(-1, -1.3299));
+    const Body gear = read("mechanisms/gear-solid.obj");
+    const Pose start = Pose::from_translation({2.05, 0, 0}) * Pose::from_quaternion({15, 0, 2, 0});
+    const auto turned = [&](const Pose& pose, double angle, double x) {
+        return EnclosedMotion::turning(pose, {{0, 1, 0}, angle, {x, 0, 0}, {}});
+    };
+    enclosed_report("gears, one turns", gear, EnclosedMotion(), gear, turned(start, 0.5, 2.05));
+    enclosed_report("gears in mesh, both turn", gear, turned(Pose(), -turn / 2, 0), gear,
+                    turned(start, turn / 2, 2.05));
+}
+
 // Bodies that fall from random poses
 // ---------------------------------------------------------------
 
@@ -223,6 +276,7 @@ void all_falls() {
 
 int main(int argc, char**) try {
     if (argc < 2) mechanisms();
+    if (argc < 2) enclosed_mechanisms();
     all_falls();
     return 0;
 } catch (const std::exception& e) {

@@ -103,14 +103,14 @@ private:
         const MotionEnclosure eb = motion_b_.enclose(from, to);
         const MotionPiece points = detail::relative_points(ea.motion.piece(0), a_.lattice(),
                                                            eb.motion.piece(0), b_.lattice());
-        if (!BallMotion::fits(points))
+        if (!BallMotion::fits(points) || !BallMotion::fits(ea.motion.piece(0)))
             throw UnsupportedError("the relative motion of two enclosures has a degree above " +
                                    std::to_string(detail::BallPolynomial::max_degree));
         View r{BallMotion::of_points(points), {}, 0};
         r.swept = detail::swept_map(r.motion, b_.data().lo, b_.data().hi);
         const double deviation =
             ea.by_length * reach_a_ + ea.constant + eb.by_length * reach_b_ + eb.constant;
-        if (deviation > 0) {
+        if (deviation != 0) {
             const BallMotion of_a = BallMotion::of_points(ea.motion.piece(0));
             r.margin =
                 std::ldexp(deviation * detail::inverse_stretch(of_a), -a_.lattice().exponent) *

@@ -26,8 +26,8 @@ struct MotionEnclosure {
     double constant = 0;
 };
 
-/// A motion as a source of enclosures. Implementations must be right: every answer about the motion
-/// is proved from them.
+/// A motion as a source of enclosures. It must be continuous, and implementations right: every
+/// answer about the motion is proved from them.
 class MotionLaw {
 public:
     virtual ~MotionLaw() = default;
@@ -53,8 +53,8 @@ struct ConstantTurn {
     std::array<double, 3> shift{};        ///< over the whole duration
 };
 
-/// A motion given by a function. Its twelve numbers (the 3x4 matrix, row by row) must be twice
-/// differentiable between breaks.
+/// A motion given by a function. Its twelve numbers (the 3x4 matrix, row by row) must be
+/// continuous, and twice differentiable between breaks.
 struct SmoothMotion {
     std::function<std::array<double, 12>(double)> pose;
     /// Every number that `pose` returns is within this of the motion's.

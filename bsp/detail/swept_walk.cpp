@@ -143,10 +143,22 @@ double inverse_stretch(const BallMotion& motion) {
 void SweptWalk::refine(const ObbPose& pose, double sweep, const Pairs& front, Pairs& leaves,
                        Pairs& coarse) {
     Pairs stack;
-    for (const Pair& p : front) {
-        ++box_tests_;
-        const unsigned hits = pose.overlaps(a_.box(p.a), b_.nodes[p.b.node()]);
-        if ((hits >> p.b.lane() & 1U) != 0) stack.push_back(p);
+    // Pairs that came from one node lie side by side: one test decides up to four of them.
+    bool of_a = false;
+    unsigned hits = 0;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        const Pair& p = front[i];
+        const auto is_beside = [&p](const Pair& q, bool lanes_of_a) {
+            return lanes_of_a ? q.b.index == p.b.index && q.a.node() == p.a.node()
+                              : q.a.index == p.a.index && q.b.node() == p.b.node();
+        };
+        if (i == 0 || !is_beside(front[i - 1], of_a)) {
+            ++box_tests_;
+            of_a = i + 1 < front.size() && is_beside(front[i + 1], true);
+            hits = of_a ? pose.overlaps(a_.nodes[p.a.node()], b_.box(p.b))
+                        : pose.overlaps(a_.box(p.a), b_.nodes[p.b.node()]);
+        }
+        if ((hits >> (of_a ? p.a : p.b).lane() & 1U) != 0) stack.push_back(p);
     }
     coarse.clear();
     while (!stack.empty()) {

@@ -134,7 +134,7 @@ TEST_F(SweepCommand, TurnThatOnlyTouchesIsUndecided) {
         "pose": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -2]}})");
     const json document = sweep(on, {"--json"}).json();
     EXPECT_TRUE(document["contact"].is_null());
-    EXPECT_EQ(document["undecided"], (json{{0.0, 1.0}}));
+    EXPECT_EQ(document["undecided"], json::array({json::array({0.0, 1.0})}));
     EXPECT_EQ(sweep(on).code, 1);
     const std::string above = write("above.json", R"({"turn": {"angle": 12, "duration": 5,
         "center": [1.5, 1.5, 0], "pose": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -1.999999]}})");
