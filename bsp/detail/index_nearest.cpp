@@ -59,24 +59,39 @@ Vector nearest_on_segment(const Vector& a, const Vector& b) {
     return q;
 }
 
+Vector between(const Vector& a, const Vector& b, double t) {
+    return {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1], (1 - t) * a[2] + t * b[2]};
+}
+
+// By the region of a corner, an edge or the middle that the origin is in (Ericson 2005, 5.1.5).
 Vector nearest_on_triangle(const Vector& a, const Vector& b, const Vector& c) {
     const Vector u = minus(b, a);
     const Vector v = minus(c, a);
-    const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const auto weight = [&](const Vector& s, const Vector& t) {
-        return n[0] * (s[1] * t[2] - s[2] * t[1]) + n[1] * (s[2] * t[0] - s[0] * t[2]) +
-               n[2] * (s[0] * t[1] - s[1] * t[0]);
-    };
-    const double wa = weight(b, c);
-    const double wb = weight(c, a);
-    const double wc = weight(a, b);
-    const double sum = wa + wb + wc;
-    if (wa >= 0 && wb >= 0 && wc >= 0 && sum > 0) {
+    const double ua = -dot(u, a);
+    const double va = -dot(v, a);
+    if (ua <= 0 && va <= 0) return a;
+    const double ub = -dot(u, b);
+    const double vb = -dot(v, b);
+    if (ub >= 0 && vb <= ub) return b;
+    const double uc = -dot(u, c);
+    const double vc = -dot(v, c);
+    if (vc >= 0 && uc <= vc) return c;
+    const double of_c = ua * vb - ub * va;
+    if (of_c <= 0 && ua > 0 && ub < 0) return between(a, b, ua / (ua - ub));
+    const double of_b = uc * va - ua * vc;
+    if (of_b <= 0 && va > 0 && vc < 0) return between(a, c, va / (va - vc));
+    const double of_a = ub * vc - uc * vb;
+    const double from_b = vb - ub;
+    const double from_c = uc - vc;
+    if (of_a <= 0 && from_b > 0 && from_c > 0) return between(b, c, from_b / (from_b + from_c));
+    const double sum = of_a + of_b + of_c;
+    if (of_a >= 0 && of_b >= 0 && of_c >= 0 && sum > 0) {
         Vector q{};
         for (std::size_t k = 0; k < 3; ++k)
-            q[k] = (wa / sum) * a[k] + (wb / sum) * b[k] + (wc / sum) * c[k];
+            q[k] = (of_a / sum) * a[k] + (of_b / sum) * b[k] + (of_c / sum) * c[k];
         return q;
     }
+    // Rounding made no region of it.
     Vector best = nearest_on_segment(a, b);
     for (const Vector& q : {nearest_on_segment(b, c), nearest_on_segment(c, a)})
         if (dot(q, q) < dot(best, best)) best = q;
@@ -205,6 +220,11 @@ private:
         return d > 0 ? d : 0;  // also for what is no number
     }
 
+    struct NearCell {
+        double squared = 0;
+        std::array<std::uint32_t, 3> at{};
+    };
+
     // Squared distances from the point to the slabs of a block along an axis.
     void slab_distances(const DoubleBox& whole, const IndexBlock& block, std::size_t k,
                         std::span<double> out) const {
@@ -316,17 +336,22 @@ private:
         const auto squared = [&](std::size_t k, std::int64_t i) {
             return slab[k][static_cast<std::size_t>(i)];
         };
-        // Most cells are empty, and that is one look.
-        const auto try_cell = [&](std::int64_t x, std::int64_t y, std::int64_t z, double row) {
-            const std::size_t cell = g.cell(number(x), number(y), number(z));
-            if (core_.tree().is_empty(g, cell) || is_beyond(row + squared(0, x))) return;
+        // Of a shell the near cells first. Most are empty, and that is one look.
+        std::vector<NearCell>& shell = shell_;
+        const auto note = [&](std::int64_t x, std::int64_t y, std::int64_t z, double row) {
+            if (core_.tree().is_empty(g, g.cell(number(x), number(y), number(z)))) return;
+            const double d = row + squared(0, x);
+            if (!is_beyond(d)) shell.push_back({d, {number(x), number(y), number(z)}});
+        };
+        const auto walk_cell = [&](const std::array<std::uint32_t, 3>& at) {
             const unsigned shift = g.shift();
-            walk_slot(g, core_.tree().slot(g, cell),
-                      {number(x) << shift, number(y) << shift, number(z) << shift}, g.levels,
-                      block_cell(whole, block, number(x), number(y), number(z)));
+            walk_slot(g, core_.tree().slot(g, g.cell(at[0], at[1], at[2])),
+                      {at[0] << shift, at[1] << shift, at[2] << shift}, g.levels,
+                      block_cell(whole, block, at[0], at[1], at[2]));
         };
         for (std::int64_t r = 0; r <= last; ++r) {
             if (static_cast<double>(r - 2) * least > limit_) return;
+            shell.clear();
             const auto [z0, z1] = range(2, r);
             const auto [y0, y1] = range(1, r);
             const auto [x0, x1] = range(0, r);
@@ -337,13 +362,19 @@ private:
                     if (is_beyond(row)) continue;
                     const bool face = std::abs(z - middle[2]) == r || std::abs(y - middle[1]) == r;
                     if (face) {
-                        for (std::int64_t x = x0; x <= x1; ++x) try_cell(x, y, z, row);
+                        for (std::int64_t x = x0; x <= x1; ++x) note(x, y, z, row);
                         continue;
                     }
-                    if (middle[0] - r >= 0) try_cell(middle[0] - r, y, z, row);
+                    if (middle[0] - r >= 0) note(middle[0] - r, y, z, row);
                     if (r != 0 && middle[0] + r < static_cast<std::int64_t>(g.n[0]))
-                        try_cell(middle[0] + r, y, z, row);
+                        note(middle[0] + r, y, z, row);
                 }
+            }
+            std::sort(shell.begin(), shell.end(),
+                      [](const NearCell& a, const NearCell& b) { return a.squared < b.squared; });
+            for (const NearCell& near : shell) {
+                if (is_beyond(near.squared)) break;
+                walk_cell(near.at);
             }
         }
     }
@@ -531,6 +562,7 @@ private:
     double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
     std::vector<Feature> features_;
     std::array<std::vector<double>, 3> slabs_;
+    std::vector<NearCell> shell_;
     bool only_bounds_ = false;
     double least_ = HUGE_VAL;
     PolygonId best_ = IndexPolygons::none;
