@@ -271,7 +271,12 @@ private:
     }
 
     void visit_leaf(std::uint32_t leaf) {
-        for (const PolygonId id : core_.tree().listed(core_.tree().leaf(leaf))) visit(id);
+        const auto listed = core_.tree().listed(core_.tree().leaf(leaf));
+        if (const Source* source = polygons_.only_source()) {
+            for (const PolygonId id : listed)
+                for (int i = 0; i < 3; ++i) __builtin_prefetch(&source->corner(id, i));
+        }
+        for (const PolygonId id : listed) visit(id);
     }
 
     // What is in a cell of a grid: of a brick the near cells first.
@@ -566,8 +571,8 @@ private:
     bool only_bounds_ = false;
     double least_ = HUGE_VAL;
     PolygonId best_ = IndexPolygons::none;
-    std::array<PolygonId, 64> recent_ = [] {
-        std::array<PolygonId, 64> none{};
+    std::array<PolygonId, 256> recent_ = [] {
+        std::array<PolygonId, 256> none{};
         none.fill(IndexPolygons::none);
         return none;
     }();
