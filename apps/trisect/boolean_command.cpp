@@ -3,6 +3,8 @@
 // union, intersection, difference and xor of two or more meshes. The whole formula is evaluated in
 // one pass; difference is A minus all the others.
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/io/exact_boundary.h>
+#include <trisect/brep/io/output_file.h>
 #include <trisect/bsp/expression.h>
 
 #include <fmt/format.h>
@@ -47,6 +49,7 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
     }
     session.stage("write", [&] {
+        if (!options.exact.empty()) write_file(options.exact, exact_text(brep));
         result.written = write_output_mesh(session, options.output, format, mesh);
     });
 }
@@ -60,6 +63,7 @@ Json document_of(const Session& session, const BooleanOptions& options,
     for (const Operand& operand : operands) document["inputs"].push_back(operand.facts);
     document["embedding"] = options.operands.assume_embedded ? "assumed" : "resolved";
     document["output"]["file"] = options.output;
+    if (!options.exact.empty()) document["output"]["exact"] = options.exact;
     document["output"].update(to_json(result.description));
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
@@ -91,6 +95,8 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
         ->expected(2, 1 << 20);
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
         ->required();
+    command->add_option("--exact", options.exact, "file for the boundary without loss, as integers")
+        ->type_name("FILE");
     command->add_flag("--source-faces", options.source_faces,
                       "do not join coplanar faces of different origin");
     command->add_flag("!--no-certificate", options.certificate,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // info A: counts, bounds, volume, area, shells, genus, lattice.
+#include <trisect/brep/io/exact_boundary.h>
+
 #include "commands.h"
 #include "description.h"
 #include "mesh_files.h"
@@ -9,17 +11,35 @@ namespace trisect::app {
 
 void add_info_command(CLI::App& app, InfoOptions& options) {
     CLI::App* command = app.add_subcommand("info", "counts, bounds, volume, area, lattice");
-    command->add_option("A", options.input, "mesh file")->required();
+    command->add_option("A", options.input, "mesh file, or an exact boundary (.exact)")->required();
     command->add_flag("--exact", options.exact, "also the volume as a fraction");
 }
 
-Outcome run_info(Session& session, const InfoOptions& options) {
-    session.plan(2);
+namespace {
+
+/// By the extension, as for meshes.
+bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
+
+Description describe_exact(Session& session, const InfoOptions& options) {
+    const Brep brep = session.stage("read", [&] { return read_exact(options.input); });
+    return session.stage("measure", [&] { return describe(brep, {options.exact}); });
+}
+
+Description describe_mesh(Session& session, const InfoOptions& options) {
     const PolygonMesh mesh =
         session.stage("read", [&] { return read_input(session, options.input); });
-    const Description description = session.stage("measure", [&] {
+    return session.stage("measure", [&] {
         return describe(import_input(session, mesh, options.input), {options.exact});
     });
+}
+
+}  // namespace
+
+Outcome run_info(Session& session, const InfoOptions& options) {
+    session.plan(2);
+    const Description description = has_exact_boundary(options.input)
+                                        ? describe_exact(session, options)
+                                        : describe_mesh(session, options);
     Outcome out;
     out.document["schema"] = "trisect.info/1";
     out.document["file"] = options.input;

@@ -54,6 +54,7 @@ struct BooleanOptions {
     std::vector<std::string> inputs;
     std::string output;
     OperandOptions operands;
+    std::string exact;  ///< a file for the boundary without loss; empty: none
     bool source_faces = false;
     bool certificate = true;
 };

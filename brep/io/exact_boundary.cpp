@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/brep/io/exact_boundary.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/brep_builder.h>
+#include <trisect/brep/detail/gmp_conversion.h>
+#include <trisect/brep/io/detail/input_text.h>
+#include <trisect/brep/io/detail/text_cursor.h>
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+
+namespace {
+
+using detail::InputText;
+using detail::TextCursor;
+using detail::TextRules;
+
+// ---------------------------------------------------------------- writing
+
+// Planes by their coefficients; a number for each.
+class PlaneTable {
+public:
+    std::uint32_t number_of(const Plane& p) {
+        const Key key{p.normal(0), p.normal(1), p.normal(2), p.offset()};
+        const auto [it, is_new] =
+            numbers_.try_emplace(key, static_cast<std::uint32_t>(planes_.size()));
+        if (is_new) planes_.push_back(p);
+        return it->second;
+    }
+    [[nodiscard]] const std::vector<Plane>& planes() const { return planes_; }
+
+private:
+    struct Key {
+        Int128 a;
+        Int128 b;
+        Int128 c;
+        Plane::Offset d;
+        bool operator<(const Key& o) const {
+            if (a != o.a) return a < o.a;
+            if (b != o.b) return b < o.b;
+            if (c != o.c) return c < o.c;
+            return d < o.d;
+        }
+    };
+    std::map<Key, std::uint32_t> numbers_;
+    std::vector<Plane> planes_;
+};
+
+class Writer {
+public:
+    explicit Writer(const Brep& brep) : brep_(brep) {}
+
+    std::string write() {
+        number_vertices();
+        // Planes get their numbers while vertices and faces are written, but stand before them.
+        write_vertices();
+        write_faces();
+        std::string head = "trisect-exact 1\nlattice " + std::to_string(brep_.lattice().exponent) +
+                           "\nplanes " + std::to_string(planes_.planes().size()) + '\n';
+        for (const Plane& p : planes_.planes()) {
+            for (int i = 0; i < 3; ++i) head += detail::to_gmp(p.normal(i)).get_str() + ' ';
+            head += detail::to_gmp(p.offset()).get_str() + '\n';
+        }
+        return head + body_;
+    }
+
+private:
+    // Copies of a vertex are one.
+    void number_vertices() {
+        number_.resize(brep_.vertices().size());
+        for (const VertexId v : brep_.vertices()) {
+            const auto copies = brep_.copies(v);
+            const VertexId first =
+                copies.empty() ? v : *std::min_element(copies.begin(), copies.end());
+            if (first == v) {
+                number_[v.index] = static_cast<std::uint32_t>(listed_.size());
+                listed_.push_back(v);
+            } else {
+                number_[v.index] = number_[first.index];
+            }
+        }
+    }
+    void write_vertices() {
+        body_ += "vertices " + std::to_string(listed_.size()) + '\n';
+        for (const VertexId v : listed_) {
+            const Point& p = brep_.point(v);
+            if (p.is_lattice()) {
+                body_ += 'p';
+                for (int i = 0; i < 3; ++i) body_ += ' ' + std::to_string(p.lattice()[i]);
+            } else {
+                body_ += 'q';
+                for (const Plane& plane : p.plane_point()->planes)
+                    body_ += ' ' + std::to_string(planes_.number_of(plane));
+            }
+            body_ += '\n';
+        }
+    }
+    void write_faces() {
+        body_ += "faces " + std::to_string(brep_.faces().size()) + '\n';
+        for (const FaceId f : brep_.faces()) {
+            const FaceSource source = brep_.source(f);
+            body_ += std::to_string(planes_.number_of(brep_.plane(f))) + ' ' +
+                     std::to_string(source.operand) + ' ' + std::to_string(source.face) + ' ' +
+                     std::to_string(brep_.loops(f).size());
+            for (const LoopId l : brep_.loops(f)) {
+                body_ += ' ' + std::to_string(brep_.halfedges(l).size());
+                for (const HalfedgeId h : brep_.halfedges(l))
+                    body_ += ' ' + std::to_string(number_[brep_.origin(h).index]);
+            }
+            body_ += '\n';
+        }
+    }
+
+    const Brep& brep_;
+    PlaneTable planes_;
+    std::vector<std::uint32_t> number_;
+    std::vector<VertexId> listed_;
+    std::string body_;
+};
+
+// ---------------------------------------------------------------- reading
+
+class Reader {
+public:
+    explicit Reader(const InputText& source)
+        : source_(source), text_(source, TextRules{.hash_comments = true, .continuation = false}) {}
+
+    Brep read() {
+        expect("trisect-exact");
+        if (text_.integer("the version") != 1) text_.fail_word("the version", "is not 1");
+        text_.expect_line_end();
+        expect("lattice");
+        const std::int64_t exponent = text_.integer("the lattice's exponent");
+        if (exponent % 8 != 0 || exponent < -1200 || exponent > 1016)
+            text_.fail_word("the lattice's exponent", "is not a multiple of 8 from -1200 to 1016");
+        text_.expect_line_end();
+        read_planes();
+        read_vertices();
+        BrepBuilder builder(Lattice{static_cast<int>(exponent)});
+        for (const Point& p : points_) builder.add_vertex(p);
+        read_faces(builder);
+        if (text_.seek_word()) {
+            const std::string_view extra = text_.word();
+            source_.fail(extra.data(), detail::shown_word(extra) + " after the last face");
+        }
+        return std::move(builder).build();
+    }
+
+private:
+    void expect(std::string_view keyword) {
+        if (!text_.seek_word())
+            source_.fail(text_.here(),
+                         "the file ends where '" + std::string(keyword) + "' is expected");
+        const std::string_view word = text_.word();
+        if (word != keyword)
+            source_.fail(word.data(), detail::shown_word(word) + " where '" + std::string(keyword) +
+                                          "' is expected");
+    }
+    // "planes 12" and its kind. Counts beyond what the file can hold are refused at once.
+    std::uint64_t counted(const char* keyword, std::uint64_t limit) {
+        expect(keyword);
+        const std::uint64_t n = text_.count("a number of lines");
+        const char* at = text_.last_number();
+        text_.expect_line_end();
+        if (n > limit) source_.fail_limit(at, "more than " + std::to_string(limit) + ' ' + keyword);
+        if (n > static_cast<std::uint64_t>(source_.end() - text_.here()))
+            source_.fail(at,
+                         "more " + std::string(keyword) + " than the rest of the file can hold");
+        return n;
+    }
+    void seek(const char* what, std::uint64_t i, std::uint64_t n) {
+        if (!text_.seek_word())
+            source_.fail(text_.here(), "the file ends before " + std::string(what) + ' ' +
+                                           std::to_string(i) + " of " + std::to_string(n));
+    }
+    std::uint32_t index(const char* what, std::size_t size) {
+        const std::uint64_t i = text_.count(what);
+        if (i >= size) text_.fail_word(what, "is out of range");
+        return static_cast<std::uint32_t>(i);
+    }
+
+    // An integer below 2^bits.
+    Plane::Offset wide(const char* what, int bits) {
+        const std::string_view word = text_.word();
+        std::string_view digits = word;
+        if (!digits.empty() && digits.front() == '-') digits.remove_prefix(1);
+        const bool good =
+            !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+        if (!good)
+            source_.fail(word.empty() ? text_.here() : word.data(),
+                         detail::shown_word(word) + ", read as " + what + ", is not an integer");
+        // 10^56 < 2^187: nothing is lost before the check.
+        Plane::Offset value;
+        if (digits.size() <= 56)
+            for (const char c : digits)
+                value = multiply<3>(value, WideInt<1>(10)) + Plane::Offset(c - '0');
+        if (digits.size() > 56 || value.bit_length() > bits)
+            source_.fail(word.data(), detail::shown_word(word) + ", read as " + what +
+                                          ", is not below 2^" + std::to_string(bits));
+        return word.front() == '-' ? -value : value;
+    }
+    Int128 narrow(const char* what) {
+        const Plane::Offset v = wide(what, 109);
+        return static_cast<Int128>(Uint128{v.limb(1)} << 64 | v.limb(0));
+    }
+
+    void read_planes() {
+        const std::uint64_t n = counted("planes", source_.limits().faces);
+        for (std::uint64_t i = 0; i < n; ++i) {
+            seek("plane", i, n);
+            const char* at = text_.here();
+            const Int128 a = narrow("a coefficient of a plane");
+            const Int128 b = narrow("a coefficient of a plane");
+            const Int128 c = narrow("a coefficient of a plane");
+            const Plane::Offset d = wide("the offset of a plane", 162);
+            text_.expect_line_end();
+            if (a == 0 && b == 0 && c == 0) source_.fail(at, "a plane without a normal");
+            planes_.emplace_back(a, b, c, d);
+        }
+    }
+
+    std::int64_t coordinate() {
+        const std::int64_t c = text_.integer("a coordinate");
+        if (c <= -coordinate_limit || c >= coordinate_limit)
+            text_.fail_word("a coordinate", "is not below 2^53");
+        return c;
+    }
+    static bool meet_in_one_point(const Plane& p, const Plane& q, const Plane& r) {
+        std::array<std::array<mpz_class, 3>, 3> m;
+        const std::array<const Plane*, 3> planes{&p, &q, &r};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                m[i][j] = detail::to_gmp(planes[i]->normal(static_cast<int>(j)));
+        const mpz_class det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                              m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                              m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+        return det != 0;
+    }
+    void read_vertices() {
+        const std::uint64_t n = counted("vertices", source_.limits().vertices);
+        std::vector<const char*> places;
+        for (std::uint64_t i = 0; i < n; ++i) {
+            seek("vertex", i, n);
+            const std::string_view kind = text_.word();
+            places.push_back(kind.data());
+            if (kind == "p") {
+                const std::int64_t x = coordinate();
+                const std::int64_t y = coordinate();
+                points_.emplace_back(LatticePoint{x, y, coordinate()});
+            } else if (kind == "q") {
+                std::array<std::uint32_t, 3> k{};
+                for (std::uint32_t& number : k)
+                    number = index("a plane of a vertex", planes_.size());
+                if (!meet_in_one_point(planes_[k[0]], planes_[k[1]], planes_[k[2]]))
+                    source_.fail(kind.data(), "the planes of a vertex do not meet in one point");
+                points_.emplace_back(planes_[k[0]], planes_[k[1]], planes_[k[2]]);
+            } else {
+                source_.fail(kind.data(),
+                             detail::shown_word(kind) + " where 'p' or 'q' is expected");
+            }
+            text_.expect_line_end();
+        }
+        std::vector<std::uint32_t> order(points_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return compare_lexicographic(points_[a], points_[b]) < 0;
+        });
+        for (std::size_t i = 1; i < order.size(); ++i)
+            if (points_[order[i - 1]] == points_[order[i]])
+                source_.fail(places[std::max(order[i - 1], order[i])],
+                             "a vertex at the place of vertex " +
+                                 std::to_string(std::min(order[i - 1], order[i])));
+    }
+
+    void read_faces(BrepBuilder& builder) {
+        const std::uint64_t n = counted("faces", source_.limits().faces);
+        std::vector<std::vector<std::uint32_t>> loops;
+        for (std::uint64_t i = 0; i < n; ++i) {
+            seek("face", i, n);
+            const Plane& plane = planes_[index("the plane of a face", planes_.size())];
+            FaceSource source;
+            source.operand = index("the operand of a face", EntityId<void>::none);
+            source.face = index("the source of a face", EntityId<void>::none);
+            const std::uint64_t count = text_.count("the number of loops");
+            if (count == 0) text_.fail_word("the number of loops", "is 0");
+            loops.clear();
+            for (std::uint64_t l = 0; l < count; ++l) loops.push_back(loop(plane));
+            text_.expect_line_end();
+            builder.add_face(plane, loops, source);
+        }
+    }
+    std::vector<std::uint32_t> loop(const Plane& plane) {
+        const std::uint64_t n = text_.count("the number of corners of a loop");
+        if (n < 3) text_.fail_word("the number of corners of a loop", "is less than 3");
+        if (n > source_.limits().loop_corners)
+            source_.fail_limit(text_.last_number(),
+                               "a loop of more than " +
+                                   std::to_string(source_.limits().loop_corners) + " corners");
+        std::vector<std::uint32_t> corners;
+        for (std::uint64_t k = 0; k < n; ++k) {
+            corners.push_back(index("a corner", points_.size()));
+            if (side_of(points_[corners.back()], plane) != Side::On)
+                text_.fail_word("a corner", "is not on the plane of its face");
+        }
+        return corners;
+    }
+
+    const InputText& source_;
+    TextCursor text_;
+    std::vector<Plane> planes_;
+    std::vector<Point> points_;
+};
+
+}  // namespace
+
+std::string exact_text(const Brep& brep) { return Writer(brep).write(); }
+
+Brep read_exact(std::string_view text, const std::string& name, const ReadLimits& limits) {
+    const InputText source(text, name, limits, false);
+    if (text.size() > limits.bytes)
+        throw LimitError(name + ": more than " + std::to_string(limits.bytes) +
+                         " bytes, the limit for a file");
+    return Reader(source).read();
+}
+
+Brep read_exact(const std::filesystem::path& path, const ReadLimits& limits) {
+    const FileBytes bytes = read_file(path, limits.bytes);
+    return read_exact(bytes.view(), path.string(), limits);
+}
+
+}  // namespace trisect

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/brep/io/exact_boundary.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/error.h>
+
+namespace {
+
+using trisect::Brep;
+using trisect::exact_text;
+using trisect::Expression;
+using trisect::make_box;
+using trisect::read_exact;
+using trisect::Solid;
+
+Expression solid(const trisect::PolygonMesh& mesh) { return Expression(Solid::from_mesh(mesh)); }
+
+void expect_same(const Brep& a, const Brep& b) {
+    ASSERT_EQ(a.counts(), b.counts());
+    EXPECT_EQ(a.lattice().exponent, b.lattice().exponent);
+    for (const auto v : a.vertices()) {
+        const auto& p = a.point(v);
+        const auto& q = b.point(v);
+        ASSERT_EQ(p.is_lattice(), q.is_lattice());
+        if (p.is_lattice())
+            EXPECT_EQ(p.lattice(), q.lattice());
+        else
+            EXPECT_EQ(p.plane_point()->planes, q.plane_point()->planes);
+    }
+    for (const auto h : a.halfedges()) {
+        EXPECT_EQ(a.origin(h), b.origin(h));
+        EXPECT_EQ(a.twin(h), b.twin(h));
+    }
+    for (const auto f : a.faces()) {
+        EXPECT_EQ(a.plane(f), b.plane(f));
+        EXPECT_EQ(a.source(f), b.source(f));
+        EXPECT_EQ(a.shell(f), b.shell(f));
+        EXPECT_EQ(a.loops(f).size(), b.loops(f).size());
+    }
+    EXPECT_EQ(a.vertex_contact_count(), b.vertex_contact_count());
+    EXPECT_EQ(a.edge_contact_count(), b.edge_contact_count());
+    EXPECT_EQ(exact_volume(a), exact_volume(b));
+}
+
+void expect_round_trip(const Expression& e) {
+    const Brep brep = evaluate(e).to_brep();
+    const std::string text = exact_text(brep);
+    const Brep again = read_exact(text, "text");
+    expect_same(brep, again);
+    EXPECT_EQ(exact_text(again), text);
+}
+
+TEST(ExactBoundary, ResultsOfBooleansAreReadBackBitForBit) {
+    const auto ball = solid(trisect::make_icosphere(1.1, 2));
+    const auto cube = solid(make_box({0, 0, 0}, {1.3, 1.7, 0.9}));
+    expect_round_trip(ball | cube);
+    expect_round_trip(ball - cube);
+    expect_round_trip(ball & cube);
+    expect_round_trip(cube - solid(make_box({0.2, 0.3, -1}, {0.4, 0.5, 2})));     // a hole
+    expect_round_trip(cube - solid(make_box({0.2, 0.3, 0.1}, {0.4, 0.5, 0.2})));  // a cavity
+    expect_round_trip(cube & solid(make_box({2, 2, 2}, {3, 3, 3})));              // nothing
+}
+
+TEST(ExactBoundary, SolidsThatTouchThemselves) {
+    const auto box = [](double x, double y, double z) {
+        return solid(make_box({x, y, z}, {x + 1, y + 1, z + 1}));
+    };
+    expect_round_trip(box(0, 0, 0) | box(1, 1, 0));  // in an edge
+    expect_round_trip(box(0, 0, 0) | box(1, 1, 1));  // in a vertex
+    expect_round_trip(box(0, 0, 0) | box(1, 1, 0) | box(1, 0, 1));
+}
+
+void expect_error(const std::string& text, const std::string& message) {
+    try {
+        (void)read_exact(text, "e");
+        ADD_FAILURE() << "read: " << text;
+    } catch (const trisect::InputError& e) {
+        EXPECT_EQ(e.what(), message);
+    }
+}
+
+const std::string head = "trisect-exact 1\nlattice 0\n";
+const std::string planes = "planes 4\n-1 0 0 0\n0 -1 0 0\n0 0 -1 0\n1 1 1 -1\n";
+const std::string vertices = "vertices 4\np 0 0 0\np 1 0 0\nq 0 2 3\np 0 0 1\n";
+const std::string faces =
+    "faces 4\n0 0 0 1 3 0 3 2\n1 0 1 1 3 0 1 3\n2 0 2 1 3 0 2 1\n3 0 3 1 3 1 2 3\n";
+
+TEST(ExactBoundary, ATetrahedronByHand) {
+    const Brep brep = read_exact(head + planes + vertices + faces, "e");
+    EXPECT_EQ(brep.counts().vertices, 4U);
+    EXPECT_EQ(exact_volume(brep).to_string(), "1/6");
+}
+
+TEST(ExactBoundary, ErrorsNameTheirPlace) {
+    expect_error("", "e:1:1: the file ends where 'trisect-exact' is expected");
+    expect_error("off\n", "e:1:1: 'off' where 'trisect-exact' is expected");
+    expect_error("trisect-exact 2\n", "e:1:15: '2', read as the version, is not 1");
+    expect_error("trisect-exact 1\nlattice 4\n",
+                 "e:2:9: '4', read as the lattice's exponent, is not a multiple of 8 from -1200 to "
+                 "1016");
+    expect_error(head + "planes 1\n0 0 0 5\n", "e:4:1: a plane without a normal");
+    expect_error(head + "planes 1\n0 0 1.5 5\n",
+                 "e:4:5: '1.5', read as a coefficient of a plane, is not an integer");
+    const std::string large = "1" + std::string(33, '0');
+    expect_error(head + "planes 1\n0 0 " + large + " 5\n",
+                 "e:4:5: '" + large + "', read as a coefficient of a plane, is not below 2^109");
+    expect_error(head + "planes 9999999\n",
+                 "e:3:8: more planes than the rest of the file can hold");
+    expect_error(head + planes + "vertices 1\nq 0 0 1\n",
+                 "e:9:1: the planes of a vertex do not meet in one point");
+    expect_error(head + planes + "vertices 1\nq 0 1 4\n",
+                 "e:9:7: '4', read as a plane of a vertex, is out of range");
+    expect_error(head + planes + "vertices 2\np 0 0 0\nq 0 1 2\n",
+                 "e:10:1: a vertex at the place of vertex 0");
+    expect_error(head + planes + "vertices 1\np 9007199254740992 0 0\n",
+                 "e:9:3: '9007199254740992', read as a coordinate, is not below 2^53");
+    expect_error(head + planes + vertices + "faces 1\n0 0 0 1 3 0 1 2\n",
+                 "e:14:13: '1', read as a corner, is not on the plane of its face");
+    expect_error(head + planes + vertices + "faces 1\n0 0 0 1 2 0 3\n",
+                 "e:14:9: '2', read as the number of corners of a loop, is less than 3");
+    expect_error(head + planes + vertices + "faces 2\n0 0 0 1 3 0 3 2\n",
+                 "e:15:1: the file ends before face 1 of 2");
+    expect_error(head + planes + vertices + faces + "7\n", "e:18:1: '7' after the last face");
+    EXPECT_THROW((void)read_exact(head + planes + vertices + "faces 1\n0 0 0 1 3 0 3 2\n", "e"),
+                 trisect::Error);  // does not close
+}
+
+}  // namespace
