@@ -18,6 +18,7 @@ Plane PlaneName::plane() const {
 
 const Fragment* Fragment::make(std::span<const EdgeName> edges,
                                std::span<const Approximation> vertices, const Box& box) {
+    TRISECT_EXPECTS(edges.size() == vertices.size(), "a fragment has a vertex for each edge");
     void* memory = ::operator new(bytes_for(edges.size()));
     const auto* out = new (memory) Fragment(edges.size(), box);
     std::uninitialized_copy(edges.begin(), edges.end(), const_cast<EdgeName*>(out->edges().data()));
