@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/bsp/detail/approximate_map.h>

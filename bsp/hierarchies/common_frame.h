@@ -5,8 +5,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <optional>
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/hierarchies/detail/bounded_double.h>

@@ -4,6 +4,7 @@
 // were close before.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>

@@ -28,17 +28,17 @@ struct BoundedDouble {
 
     friend BoundedDouble operator-(const BoundedDouble& a) { return {-a.v, a.e}; }
     friend BoundedDouble operator+(const BoundedDouble& a, const BoundedDouble& b) {
-        const double v = a.v + b.v;
-        return {v, ((a.e + b.e) + magnitude(v) * 0x1p-53) * (1 + 0x1p-50)};
+        const double sum = a.v + b.v;
+        return {sum, ((a.e + b.e) + magnitude(sum) * 0x1p-53) * (1 + 0x1p-50)};
     }
     friend BoundedDouble operator-(const BoundedDouble& a, const BoundedDouble& b) {
         return a + -b;
     }
     friend BoundedDouble operator*(const BoundedDouble& a, const BoundedDouble& b) {
-        const double v = a.v * b.v;
-        const double e =
-            (magnitude(a.v) * b.e + magnitude(b.v) * a.e) + (a.e * b.e + magnitude(v) * 0x1p-53);
-        return {v, e * (1 + 0x1p-50) + 0x1p-1060};
+        const double product = a.v * b.v;
+        const double error = (magnitude(a.v) * b.e + magnitude(b.v) * a.e) +
+                             (a.e * b.e + magnitude(product) * 0x1p-53);
+        return {product, error * (1 + 0x1p-50) + 0x1p-1060};
     }
 
 private:
