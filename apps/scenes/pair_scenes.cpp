@@ -230,6 +230,17 @@ std::optional<PairScene> parts(Size size) {
     return s;
 }
 
+// Faces as fans: engines that know triangles alone get the whole surface. \pre faces are convex
+PolygonMesh in_triangles(const PolygonMesh& m) {
+    PolygonMesh r;
+    r.points = m.points;
+    for (std::size_t f = 0; f < m.face_count(); ++f) {
+        const auto c = m.face(f);
+        for (std::size_t i = 2; i < c.size(); ++i) r.add_triangle(c[0], c[i - 1], c[i]);
+    }
+    return r;
+}
+
 PairScene fly_through(Size size) {
     PairScene s;
     shapes::Random random(5);
@@ -239,7 +250,7 @@ PairScene fly_through(Size size) {
         for (int y = 0; y < n; ++y)
             for (int z = 0; z < n; ++z) {
                 const double half = 0.5 + 0.3 * random.uniform();
-                PolygonMesh one = cut_cube({1, 1, 1});
+                PolygonMesh one = in_triangles(cut_cube({1, 1, 1}));
                 const Point3d jitter = random.in_unit_box();
                 for (Point3d& p : one.points)
                     for (std::size_t k = 0; k < 3; ++k)
