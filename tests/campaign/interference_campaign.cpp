@@ -68,10 +68,12 @@ int run(const Options& o) {
     for (const auto& [relation, count] : seen)
         std::printf("  %-12s %llu\n", to_string(relation), static_cast<unsigned long long>(count));
     const trisect::PredicateCounters& c = trisect::predicate_counters();
-    std::printf("signs, all parts of the library: %llu filtered, %llu up to 256 bits, %llu wider\n",
-                static_cast<unsigned long long>(c.filtered),
-                static_cast<unsigned long long>(c.exact_narrow),
-                static_cast<unsigned long long>(c.exact_wide));
+    std::printf(
+        "signs, all parts of the library: %llu filtered, %llu up to 128 bits, %llu up to 256 bits, "
+        "%llu wider\n",
+        static_cast<unsigned long long>(c.filtered), static_cast<unsigned long long>(c.exact_short),
+        static_cast<unsigned long long>(c.exact_narrow),
+        static_cast<unsigned long long>(c.exact_wide));
     return 0;
 }
 
