@@ -218,6 +218,7 @@ Comparison compare(const InterferenceModel& a, const InterferenceModel& b,
     r.frames = poses.size();
     std::vector<std::vector<FacePair>> faces;
     std::vector<Relation> relations;
+    std::vector<DistanceInterval> distances;
     r.answers.least_distance = std::numeric_limits<double>::infinity();
     for (const Pose& pose : poses) {
         relations.push_back(interfere(a, Pose(), b, pose).relation);
@@ -246,7 +247,12 @@ Comparison compare(const InterferenceModel& a, const InterferenceModel& b,
             }
             if (found != faces[f]) disagree(f, "the faces that meet");
             const DistanceInterval d = distance(*s, unused);
-            if ((d.lower <= 0) != !faces[f].empty() && d.lower > 0) disagree(f, "the distance");
+            // Intervals around one number have a common point.
+            if (distances.size() <= f) distances.push_back(d);
+            distances[f].lower = std::max(distances[f].lower, d.lower);
+            distances[f].upper = std::min(distances[f].upper, d.upper);
+            if (distances[f].lower > distances[f].upper || (d.lower > 0 && !faces[f].empty()))
+                disagree(f, "the distance");
             r.answers.least_distance = std::min(r.answers.least_distance, d.upper);
         }
         for (const Question q : options.questions) {

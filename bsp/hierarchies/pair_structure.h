@@ -50,7 +50,7 @@ public:
     [[nodiscard]] virtual BuildReport build_report() const = 0;
 
     /// Brings the structure to new poses: refits, turns volumes, files moved triangles in cells.
-    /// Counts `updates`.
+    /// Counts `updates`. \throw LimitError when the poses are too wide for each other.
     void place(const Pose& a, const Pose& b, CostCounters& counters);
 
     /// Visits every pair of triangles that has a common point, each pair at most once, and others
