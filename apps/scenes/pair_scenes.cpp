@@ -99,14 +99,14 @@ PairScene crossing(Size size) {
 
 PairScene shells(Size size) {
     PairScene s;
-    s.a = torus(0.25, fineness(size, 60, 16), fineness(size, 40, 12));
-    s.b = torus(0.2, fineness(size, 60, 16), fineness(size, 40, 12));
-    const std::uint32_t n = fineness(size, 20, 4);
+    s.a = torus(0.25, fineness(size, 60, 10), fineness(size, 40, 8));
+    s.b = torus(0.2, fineness(size, 60, 10), fineness(size, 40, 8));
+    const std::uint32_t n = fineness(size, 20, 3);
     for (std::uint32_t i = 0; i < n; ++i) {
         // Of the way to where the tubes touch; turned by whole segments, so that they stay
         // parallel.
         const double part = 0.9 * i / (n - 1);
-        const double turn = 360.0 / fineness(size, 60, 16) * i;
+        const double turn = 360.0 / fineness(size, 60, 10) * i;
         s.frames.push_back(rows_of(shapes::rotation({0, 0, 1}, turn), {0, 0, 0.045 * part}));
     }
     return s;
