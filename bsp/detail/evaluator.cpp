@@ -31,6 +31,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/axis_trace.h>
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
@@ -41,6 +42,7 @@
 #include <trisect/bsp/detail/partition.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
 #include <trisect/bsp/detail/refine_leaf.h>
+#include <trisect/bsp/detail/slab.h>
 #include <trisect/bsp/detail/stack_arena.h>
 #include <trisect/bsp/detail/trace_winding.h>
 #include <trisect/bsp/detail/work_budget.h>
@@ -53,6 +55,8 @@ namespace {
 
 // Cells with fewer polygons are not worth a task of their own.
 constexpr std::uint64_t parallel_size = 4096;
+// Leaves may be so many times as large where all polygons are across an axis.
+constexpr std::uint64_t axis_leaf_factor = 8;
 // Where rounded positions get this coarse for what has to be parted, a finer frame is made.
 constexpr int coarse_extent = 128;
 
@@ -88,10 +92,14 @@ private:
     using Children = std::array<CellTask, 2>;
 
     void prune(CellTask& task);
+    void drop(CellTask& task);
     CellRef constant(const CellTask& task, bool inside);
     CellRef share(CellTask& task, bool negated);
     CellRef share_list(const CellTask& task, const CellOperand& o, bool negated);
     CellRef resolve(CellTask& task);
+    std::optional<CellRef> resolve_across_axes(CellTask& task);
+    template <class Arrange>
+    std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
     CellRef divide(CellTask& task);
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
 
@@ -153,7 +161,13 @@ void Worker::prune(CellTask& task) {
         values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
         any = true;
     }
-    if (!any) return;
+    if (any) drop(task);
+    // What is left may cover itself.
+    if (task.operands.size() > 2 && find_covered(task, values_, incomplete_)) drop(task);
+}
+
+// Takes operands with a value out of the formula, and those that it then does not name.
+void Worker::drop(CellTask& task) {
     task.formula = simplified(task.formula, values_);
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
     used_.assign(values_.size(), 0);
@@ -238,6 +252,25 @@ CellRef Worker::share_list(const CellTask& task, const CellOperand& o, bool nega
 // --- Step 3: few polygons.
 
 CellRef Worker::resolve(CellTask& task) {
+    return *resolve_by(task, [&](const LeafProblem& p) -> std::optional<LeafResult> {
+        return arranger_.arrange(p, values_, stats_);
+    });
+}
+
+// Where everything is across an axis, leaves may be larger.
+std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
+    const auto is_across_axis = [](const CellOperand& o) {
+        if (!o.is_list && !o.node->is_leaf()) return false;
+        AxisPolygon first;
+        return first.read(o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0]);
+    };
+    if (!std::ranges::all_of(task.operands, is_across_axis)) return std::nullopt;
+    return resolve_by(
+        task, [&](const LeafProblem& p) { return arranger_.arrange_across_axes(p, stats_); });
+}
+
+template <class Arrange>
+std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
     make_lists(task, std::nullopt);
     polygons_.clear();
     for (const CellOperand& o : task.operands)
@@ -252,13 +285,15 @@ CellRef Worker::resolve(CellTask& task) {
     }
     const bool inside = value_of(*task.formula, values_);
     const LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
-    LeafResult kept = arranger_.arrange(problem, values_, stats_);
+    std::optional<LeafResult> kept = arrange(problem);
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
-    incomplete_.insert(incomplete_.end(), kept.incomplete.begin(), kept.incomplete.end());
-    const std::uint64_t bytes = bytes_of_result(kept.polygons);
-    PolygonList list(std::move(kept.polygons));  // keeps fragments, whatever is thrown from here on
+    if (!kept) return std::nullopt;
+    incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
+    const std::uint64_t bytes = bytes_of_result(kept->polygons);
+    PolygonList list(
+        std::move(kept->polygons));  // keeps fragments, whatever is thrown from here on
     shared_.memory.keep(bytes);
-    return {CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
+    return CellRef{CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
 
 // Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
@@ -672,6 +707,8 @@ CellRef Worker::solve(CellTask& task) {
     for (const CellOperand& o : task.operands)
         if (o.is_list || o.node->is_leaf()) stats_.listed_polygons += o.size();
     if (total <= options_.leaf_polygons) return resolve(task);
+    if (total <= axis_leaf_factor * options_.leaf_polygons)
+        if (auto leaf = resolve_across_axes(task)) return *std::move(leaf);
     return divide(task);
 }
 

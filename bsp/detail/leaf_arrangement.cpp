@@ -28,6 +28,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/detail/axis_leaf.h>
 #include <trisect/bsp/detail/leaf_anchors.h>
 #include <trisect/bsp/detail/leaf_classification.h>
 #include <trisect/bsp/detail/leaf_cutting.h>
@@ -43,6 +44,7 @@ namespace trisect::detail {
 class LeafArranger::Impl {
 public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
+    std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem, EvaluateStats& stats);
 
 private:
     void arrange_embedded();
@@ -52,6 +54,7 @@ private:
     void emit_pieces(LeafIndex i, std::size_t first, std::size_t last);
     void emit(const PolygonRef& ref, bool inside_above);
 
+    AxisLeaf axis_;
     PlainLeaf plain_;
     LeafWork work_;
     LeafPairs pairs_;
@@ -73,8 +76,28 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
     return impl_->arrange(problem, values, stats);
 }
 
+std::optional<LeafResult> LeafArranger::arrange_across_axes(const LeafProblem& problem,
+                                                            EvaluateStats& stats) {
+    return impl_->arrange_across_axes(problem, stats);
+}
+
+std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProblem& problem,
+                                                                  EvaluateStats& stats) {
+    out_.clear();
+    LeafResult result;
+    try {
+        if (!axis_.arrange(problem, stats, out_, result.incomplete)) return std::nullopt;
+    } catch (...) {
+        const PolygonList freed(std::move(out_));  // the fragments made so far
+        throw;
+    }
+    result.polygons = std::move(out_);
+    return result;
+}
+
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
+    if (auto result = arrange_across_axes(problem, stats)) return *std::move(result);
     out_.clear();
     if (plain_.arrange(problem, stats, out_)) return {std::move(out_), {}};
     work_.start(problem, stats);

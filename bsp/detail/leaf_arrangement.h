@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
@@ -36,6 +37,10 @@ public:
     /// to.
     [[nodiscard]] LeafResult arrange(const LeafProblem& problem, SlotValues& values,
                                      EvaluateStats& stats);
+    /// The same when all polygons are across an axis and the leaf is not too large for that; else
+    /// nothing. Such leaves may be much larger than others.
+    [[nodiscard]] std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem,
+                                                                EvaluateStats& stats);
 
 private:
     class Impl;
