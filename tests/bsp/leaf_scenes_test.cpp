@@ -179,4 +179,64 @@ TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
     EXPECT_EQ(fan.to_brep().counts().faces, resolved.to_brep().counts().faces);
 }
 
+Solid cube_at(double x, double y, double z) {
+    return Solid::from_mesh(trisect::make_box({x, y, z}, {x + 1, y + 1, z + 1}));
+}
+
+// Axis-parallel leaves are arranged on a grid of bits: no pair is compared, no segment traced.
+TEST(AxisParallelLeaves, CubesThatTouchBecomeOneBox) {
+    std::vector<Expression> cubes;
+    for (int i = 0; i < 64; ++i) cubes.emplace_back(cube_at(i % 4, i / 4 % 4, i / 16));
+    for (const std::uint32_t leaf : {3U, 25U, 100U, 10000U}) {
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = leaf;
+        EvaluateStats stats;
+        const Solid all = evaluate(Expression::any_of(cubes), options, &stats);
+        EXPECT_EQ(stats.pairs_boxes, 0U);
+        EXPECT_EQ(stats.traces, 0U);
+        const auto brep = all.to_brep();
+        EXPECT_EQ(exact_volume(brep), ExactRational(64));
+        EXPECT_EQ(brep.counts().faces, 6U);
+    }
+}
+
+// Every second cube: they touch in edges and vertices only.
+TEST(AxisParallelLeaves, CubesOfOneColourLeaveTheOthers) {
+    std::vector<Expression> even;
+    for (int i = 0; i < 27; ++i)
+        if ((i % 3 + i / 3 % 3 + i / 9) % 2 == 0)
+            even.emplace_back(cube_at(i % 3, i / 3 % 3, i / 9));
+    const Solid block = Solid::from_mesh(trisect::make_box({0, 0, 0}, {3, 3, 3}));
+    for (const std::uint32_t leaf : {3U, 25U, 100U}) {
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = leaf;
+        const auto rest = evaluate(Expression(block) - Expression::any_of(even), options).to_brep();
+        EXPECT_EQ(exact_volume(rest), ExactRational(13));
+        EXPECT_EQ(rest.counts().faces, 13U * 6);
+    }
+}
+
+// Small cells lie under the common cover of several plates, where all of them are one slab.
+TEST(LeafScenes, PlatesThatShareACoverAreOneSlabUnderIt) {
+    std::vector<Expression> plates;
+    for (int i = 0; i < 6; ++i)
+        plates.emplace_back(Solid::from_mesh(
+            trisect::make_box({-20.0 - i, -31.0 + i, -4}, {20.0 + i, 31.0 - i, 4})));
+    // A slanted one keeps the leaves from being axis-parallel.
+    LatticeMesh wedge;
+    wedge.points = {{0, -40, -4}, {40, 0, -4}, {-40, 0, -4}, {0, -40, 4}, {40, 0, 4}, {-40, 0, 4}};
+    wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                       {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+    plates.emplace_back(Solid::from_lattice_mesh(wedge));
+    ExactRational expected = exact_volume(evaluate(Expression::any_of(plates)).to_brep());
+    for (const std::uint32_t leaf : {3U, 12U, 1000U}) {
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = leaf;
+        const auto brep = evaluate(Expression::any_of(plates), options).to_brep();
+        EXPECT_EQ(exact_volume(brep), expected);
+        for (const auto& p : plates)
+            EXPECT_TRUE(evaluate(p - evaluate(Expression::any_of(plates), options)).is_empty());
+    }
+}
+
 }  // namespace
