@@ -46,7 +46,7 @@ struct AxisPolygon {
 
     /// False for any other polygon.
     [[nodiscard]] bool read(const PolygonRef& polygon);
-    /// Whether it has area in the cell.
+    /// Whether it has area in the cell. May say so in vain of a fragment with slanted edges.
     [[nodiscard]] bool meets(const Cell& cell) const;
     [[nodiscard]] std::span<const SlantedEdge> slanted_edges() const {
         return {slanted.data(), slanted_count};

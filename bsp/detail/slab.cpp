@@ -148,6 +148,8 @@ std::optional<Slab> slab_of(const CellOperand& operand, const CellTask& task) {
     for (const PackedBox& e : operand.list()) {
         AxisPolygon p;
         if (!p.read(operand.polygon(e.id))) return std::nullopt;
+        // Of a slanted fragment only a box is known that may be too large.
+        if (p.ref.fragment != nullptr && p.slanted_count != 0) return std::nullopt;
         if (!p.meets(cell)) continue;
         if (slab.axis != 3 && slab.axis != p.plane.axis) return std::nullopt;
         slab.axis = p.plane.axis;
