@@ -48,7 +48,7 @@ public:
     }
 
     void pairs(std::vector<BodyPair>& out) override {
-        counts = {};
+        counts_ = {};
         if (stale_) pack();
         out.clear();
         for (std::uint32_t slot = 0; slot < boxes_.size(); ++slot) {
@@ -68,7 +68,7 @@ private:
         std::vector<TreeEntry> entries;
         for (std::uint32_t slot = 0; slot < boxes_.size(); ++slot)
             if (boxes_[slot]) entries.emplace_back(tree_box(*boxes_[slot]), slot);
-        counts.moves = entries.size();
+        counts_.moves = entries.size();
         tree_ = Tree(entries);
         stale_ = false;
     }

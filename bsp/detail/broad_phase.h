@@ -56,10 +56,10 @@ public:
     /// boxes alone, not on their history.
     virtual void pairs(std::vector<BodyPair>& out) = 0;
 
-    [[nodiscard]] const BroadPhaseWork& work() const { return counts; }
+    [[nodiscard]] const BroadPhaseWork& work() const { return counts_; }
 
 protected:
-    BroadPhaseWork counts;
+    BroadPhaseWork counts_;
 };
 
 /// Boxes in order along an axis, swept. A call costs O(n) when the order has hardly changed, and

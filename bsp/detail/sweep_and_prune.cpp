@@ -44,7 +44,7 @@ public:
     }
 
     void pairs(std::vector<BodyPair>& out) override {
-        counts = {};
+        counts_ = {};
         out.clear();
         std::erase_if(entries_, [](const Entry& e) { return e.slot == none; });
         sort_entries();
@@ -91,7 +91,7 @@ private:
         // Many new ones at the end would each be carried through half of the list.
         if (turns || inserted_ > entries_.size() / 16 || !sort_by_insertion()) {
             std::sort(entries_.begin(), entries_.end(), before);
-            counts.moves = entries_.size();
+            counts_.moves = entries_.size();
         }
         inserted_ = 0;
         for (std::size_t i = 0; i < entries_.size(); ++i)
@@ -111,7 +111,7 @@ private:
             moves += i - j;
             if (moves > budget) return false;
         }
-        counts.moves = moves;
+        counts_.moves = moves;
         return true;
     }
 
@@ -128,7 +128,7 @@ private:
                                   (a.box.lo[v] <= b.box.hi[v]) & (b.box.lo[v] <= a.box.hi[v]);
                 if (meet) out.push_back({std::min(a.slot, b.slot), std::max(a.slot, b.slot)});
             }
-            counts.box_tests += j - i - 1;
+            counts_.box_tests += j - i - 1;
         }
     }
 

@@ -34,7 +34,7 @@ public:
         mark_above(leaves_ + slot);
     }
     void pairs(std::vector<BodyPair>& out) override {
-        counts = {};
+        counts_ = {};
         out.clear();
         if (leaves_ == 0) return;
         refit(1);
@@ -78,7 +78,7 @@ private:
         const Node& r = nodes_[2 * node + 1];
         n.stale = false;
         n.used = l.used || r.used;
-        if (n.used) ++counts.moves;
+        if (n.used) ++counts_.moves;
         n.box = l.used ? l.box : r.box;
         if (!l.used || !r.used) return;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -98,7 +98,7 @@ private:
     // Pairs of one below a and one below b, which are on one level.
     void between(std::size_t a, std::size_t b, std::vector<BodyPair>& out) {
         if (!nodes_[a].used || !nodes_[b].used) return;
-        ++counts.box_tests;
+        ++counts_.box_tests;
         if (!nodes_[a].box.meets(nodes_[b].box)) return;
         if (a >= leaves_) {
             out.push_back(

@@ -366,7 +366,7 @@ public:
     void pairs(std::vector<detail::BodyPair>& out) override {
         CostCounters counters;
         tree_.pairs(out, counters);
-        counts = {counters.volume_tests, tree_.updates() - updates_};
+        counts_ = {counters.volume_tests, tree_.updates() - updates_};
         updates_ = tree_.updates();
     }
 

@@ -39,7 +39,7 @@ class HashGridPhase final : public PackedPhase {
             if (range.count() <= most_cells)
                 range.for_each([this, i](const CellPlace& c) { cells_.add(c, i); });
         }
-        counts.cells = cells_.entry_count() + large_.size();
+        counts_.cells = cells_.entry_count() + large_.size();
     }
 
     void find_pairs() override {

@@ -94,11 +94,11 @@ public:
     }
 
     void pairs(std::vector<BodyPair>& out) override {
-        counts = {};
+        counts_ = {};
         out.clear();
         if (heads_.size() > 4 * size_ + 64) rebuild();
-        counts.moves = moved_;
-        counts.cells = size_;
+        counts_.moves = moved_;
+        counts_.cells = size_;
         moved_ = 0;
         for (std::uint32_t slot = 0; slot < entries_.size(); ++slot)
             if (entries_[slot].head != none) partners_of(slot, out);
@@ -161,13 +161,13 @@ private:
             }
             const bool own = level->first == e.cell.level;
             range.for_each([&](const CellPlace& place) {
-                ++counts.lookups;
+                ++counts_.lookups;
                 const std::int32_t head = numbers_.find(key_of_cell({level->first, place}));
                 if (head < 0) return;
                 for (std::uint32_t other = heads_[static_cast<std::size_t>(head)]; other != none;
                      other = entries_[other].next) {
                     if (own && other <= slot) continue;
-                    ++counts.box_tests;
+                    ++counts_.box_tests;
                     if (e.box.meets(entries_[other].box))
                         out.push_back({std::min(slot, other), std::max(slot, other)});
                 }

@@ -53,7 +53,7 @@ class KdTreePhase final : public PackedPhase {
             Leaf high;
             if (leaf.list.size() <= leaf_size || leaf.level == most_levels ||
                 !cut(leaf, low, high, budget)) {
-                counts.cells += leaf.list.size();
+                counts_.cells += leaf.list.size();
                 leaves_.push_back(std::move(leaf));
                 continue;
             }

@@ -39,7 +39,7 @@ class OctreePhase final : public PackedPhase {
             next_[i] = cell.first;
             cell.first = i + 1;
         }
-        counts.cells = boxes().size();
+        counts_.cells = boxes().size();
     }
 
     [[nodiscard]] Cell root() const {
@@ -93,7 +93,7 @@ class OctreePhase final : public PackedPhase {
     // Middles are sums of up to 21 rounded numbers; what they are off by is far below 2^-40 of the
     // largest coordinate or of the root's size.
     [[nodiscard]] bool may_reach(const Cell& c, const BodyBox& b) {
-        ++counts.lookups;
+        ++counts_.lookups;
         bool meets = true;
         for (std::size_t k = 0; k < 3; ++k) {
             const double reach = 2 * c.half + 0x1p-40 * (std::abs(c.middle[k]) + cells_[0].half);

@@ -42,7 +42,7 @@ void PackedPhase::remove(std::uint32_t slot) {
 }
 
 void PackedPhase::pairs(std::vector<BodyPair>& out) {
-    counts = {};
+    counts_ = {};
     out.clear();
     out_ = &out;
     if (stale_) {
@@ -59,15 +59,15 @@ void PackedPhase::pairs(std::vector<BodyPair>& out) {
             }
         }
         pack();
-        cells_ = counts.cells;
-        counts.moves = finite_.size();
+        cells_ = counts_.cells;
+        counts_.moves = finite_.size();
         stale_ = false;
     }
-    counts.cells = cells_;
+    counts_.cells = cells_;
     find_pairs();
     for (std::size_t i = 0; i < unbounded_.size(); ++i) {
         const BodyBox& box = *by_slot_[unbounded_[i]];
-        counts.box_tests += finite_.size() + i;
+        counts_.box_tests += finite_.size() + i;
         for (std::size_t j = 0; j < finite_.size(); ++j)
             if (box.meets(finite_[j])) keep(unbounded_[i], slot_[j]);
         for (std::size_t j = 0; j < i; ++j)

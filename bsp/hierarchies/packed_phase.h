@@ -32,14 +32,14 @@ protected:
     [[nodiscard]] std::span<const detail::BodyBox> boxes() const { return finite_; }
     /// Compares two boxes by their numbers and keeps the pair if they meet.
     void compare(std::size_t i, std::size_t j) {
-        ++counts.box_tests;
+        ++counts_.box_tests;
         if (finite_[i].meets(finite_[j])) keep(slot_[i], slot_[j]);
     }
     /// The same where a pair comes up in every cell that both reach into: kept in one of them, the
     /// one for which `is_here(corner)` says that it contains the lower corner of the common part.
     template <class IsHere>
     void compare_in_cell(std::size_t i, std::size_t j, IsHere&& is_here) {
-        ++counts.box_tests;
+        ++counts_.box_tests;
         const detail::BodyBox& a = finite_[i];
         const detail::BodyBox& b = finite_[j];
         if (!a.meets(b)) return;

@@ -222,14 +222,12 @@ private:
     std::chrono::steady_clock::time_point start_;  // before the trees, which it times
 
 protected:
-    // NOLINTBEGIN(readability-identifier-naming): the names of their neighbours
     VolumeTree<Kind> a_;
     VolumeTree<Kind> b_;
     std::optional<typename Kind::Pose> pose_;
     std::vector<Moved> moved_;
     std::vector<std::uint32_t> moved_at_;  ///< the pose that B's volumes were moved for
     std::uint32_t pose_number_ = 0;
-    // NOLINTEND(readability-identifier-naming)
 
 private:
     std::vector<Pair> stack_;
