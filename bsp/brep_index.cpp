@@ -10,9 +10,6 @@
 #include <numeric>
 #include <utility>
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <trisect/bsp/detail/index_box.h>
 #include <trisect/bsp/detail/index_cells.h>
 #include <trisect/bsp/detail/index_core.h>
@@ -77,31 +74,6 @@ void sort_unique(std::vector<T>& v) {
 IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Cell& c,
                   const detail::DoubleBox& cell) {
     return {cell.lo, cell.hi, core.tree().leaf(c.leaf).count, false};
-}
-
-// Calls work(begin, end) for all i below n, in parts, on so many threads. A part is sorted, which
-// is worth the more the larger it is; a few for each thread even out what they take.
-constexpr std::size_t least_part = 4096;
-template <class Work>
-void for_each_part(std::size_t n, unsigned threads, const Work& work) {
-    if (threads == 1 || n < 1024) {
-        work(std::size_t{0}, n);
-        return;
-    }
-    const auto all = [&] {
-        const auto slots =
-            static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
-        const std::size_t parts = std::clamp(n / least_part, std::size_t{1}, 4 * slots);
-        oneapi::tbb::parallel_for(
-            std::size_t{0}, parts, [&](std::size_t i) { work(n * i / parts, n * (i + 1) / parts); },
-            oneapi::tbb::simple_partitioner());
-    };
-    if (threads == 0) {
-        all();
-    } else {
-        oneapi::tbb::task_arena arena(static_cast<int>(threads));
-        arena.execute(all);
-    }
 }
 
 }  // namespace
@@ -204,23 +176,19 @@ Place BrepIndex::locate(const std::array<ExactRational, 3>& point) const {
 std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> points,
                                      unsigned threads) const {
     std::vector<Place> places(points.size());
-    for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-        detail::locate_batch(
-            *core_->base, points, begin, end,
-            [&](std::uint32_t i, Location l, const IndexPoint* p, std::vector<PolygonId>& on) {
-                places[i].location = l;
-                if (l == Location::OnFace) places[i] = named(*core_, *p, on);
-            });
-    });
+    detail::locate_batch(
+        *core_->base, points, threads,
+        [&](std::uint32_t i, Location l, const IndexPoint* p, std::vector<PolygonId>& on) {
+            places[i].location = l;
+            if (l == Location::OnFace) places[i] = named(*core_, *p, on);
+        });
     return places;
 }
 
 void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::span<Location> results,
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
-    for_each_part(points.size(), threads, [&](std::size_t begin, std::size_t end) {
-        detail::classify_batch(*core_->base, points, begin, end, results);
-    });
+    detail::classify_batch(*core_->base, points, threads, results);
 }
 
 std::optional<RayHit> BrepIndex::first_hit(const Ray& ray) const {

@@ -4,15 +4,17 @@
 // corners of the mesh, one after the other. Here every step is done for 32 points before the next
 // one, and asks for the memory that the next one needs. Points in cells without polygons need no
 // more than what fits into a small cache and are found at once; the others are sorted by leaf
-// first, so that neighbours come after each other.
+// first, so that neighbours come after each other. On several threads, too, all of them are sorted
+// together: were each part sorted by itself, every thread would walk through the whole tree.
 
 #include <algorithm>
 #include <bit>
-#include <utility>
+#include <vector>
 
 #include <trisect/bsp/detail/index_core.h>
 #include <trisect/bsp/detail/index_counters.h>
 #include <trisect/bsp/detail/index_in_leaf.h>
+#include <trisect/bsp/detail/parallel_parts.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -52,6 +54,32 @@ struct ToPlaces {
     static inline thread_local std::vector<PolygonId> none;
 };
 
+struct PointOfLeaf {
+    std::uint32_t leaf;
+    std::uint32_t point;
+};
+
+// Numbers of the points of all lists, by leaf: a counting sort by the leading bits of the leaf.
+std::vector<std::uint32_t> in_order_of_leaves(const std::vector<std::vector<PointOfLeaf>>& lists) {
+    std::size_t count = 0;
+    std::uint32_t last = 0;
+    for (const auto& list : lists) {
+        count += list.size();
+        for (const auto& [leaf, point] : list) last = std::max(last, leaf);
+    }
+    const auto width = [](std::size_t v) { return static_cast<int>(std::bit_width(v)); };
+    const int wanted = std::min(14, width(count));
+    const auto shift = static_cast<unsigned>(std::max(width(last) - wanted, 0));
+    std::vector<std::uint32_t> begin((std::size_t{last} >> shift) + 2, 0);
+    for (const auto& list : lists)
+        for (const auto& [leaf, point] : list) ++begin[(leaf >> shift) + 1];
+    for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
+    std::vector<std::uint32_t> order(count);
+    for (const auto& list : lists)
+        for (const auto& [leaf, point] : list) order[begin[leaf >> shift]++] = point;
+    return order;
+}
+
 // Points of a solid whose index is one grid.
 template <class Sink>
 class Batch {
@@ -67,34 +95,31 @@ public:
           sink_(sink) {}
 
     // Points from begin on: those in cells without polygons are found at once, in their own order;
-    // the others are left for find_mixed(), with their leaves.
-    void find_empty(std::uint32_t begin, std::uint32_t end) {
-        mixed_.clear();
+    // the others are left in `mixed`, with their leaves.
+    void find_empty(std::size_t begin, std::size_t end, std::vector<PointOfLeaf>& mixed) {
         std::uint64_t empty = 0;
         Descent& d = all_[0];
-        for (std::uint32_t i = begin; i < end; ++i) {
+        for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
             descend(d, i);
             if (d.state == State::Known) {
                 ++empty;
                 sink_.off(i, d.inside);
             } else {
-                mixed_.emplace_back(d.state == State::Mixed ? d.cell.leaf : 0, i);
+                mixed.push_back({d.state == State::Mixed ? d.cell.leaf : 0, i});
             }
         }
         index_counters().empty += empty;
     }
 
-    // The others by leaf.
-    void find_mixed() {
-        const std::vector<std::uint32_t> order = mixed_in_order();
-        const std::span all(order);
+    // The others, in the order of their leaves.
+    void find_mixed(std::span<const std::uint32_t> order) {
         for (std::size_t i = 0; i < order.size(); i += together) {
             const std::size_t end = std::min(i + together, order.size());
             for (std::size_t j = end; j < std::min(end + together, order.size()); ++j) {
                 __builtin_prefetch(points_[order[j]].data());
                 __builtin_prefetch(points_[order[j]].data() + 2);
             }
-            locate(all.subspan(i, end - i));
+            locate(order.subspan(i, end - i));
         }
     }
 
@@ -108,21 +133,6 @@ private:
         IndexTree::Cell cell;
         PointInLeaf in_leaf;
     };
-
-    // A counting sort by the leading bits of the leaf.
-    [[nodiscard]] std::vector<std::uint32_t> mixed_in_order() const {
-        std::vector<std::uint32_t> order(mixed_.size());
-        std::uint32_t last = 0;
-        for (const auto& [leaf, i] : mixed_) last = std::max(last, leaf);
-        const auto width = [](std::size_t v) { return static_cast<int>(std::bit_width(v)); };
-        const int wanted = std::min(14, width(mixed_.size()));
-        const auto shift = static_cast<unsigned>(std::max(width(last) - wanted, 0));
-        std::vector<std::uint32_t> begin((std::size_t{last} >> shift) + 2, 0);
-        for (const auto& [leaf, i] : mixed_) ++begin[(leaf >> shift) + 1];
-        for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
-        for (const auto& [leaf, i] : mixed_) order[begin[leaf >> shift]++] = i;
-        return order;
-    }
 
     void descend(Descent& d, std::uint32_t number) const {
         d.number = number;
@@ -218,44 +228,60 @@ private:
     const Sink& sink_;
     std::array<Descent, together> all_;
     std::size_t count_ = 0;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> mixed_;  // leaf, point
     std::vector<PolygonId> on_;
 };
 
 template <class Sink>
-void locate_all(const IndexBase& index, Points points, std::size_t begin, std::size_t end,
-                const Sink& sink) {
+void locate_in_grid(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
+    const ParallelParts parts(points.size(), threads);
+    std::vector<std::vector<PointOfLeaf>> mixed(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Batch(index, points, sink).find_empty(begin, end, mixed[part]);
+    });
+    const std::vector<std::uint32_t> order = in_order_of_leaves(mixed);
+    ParallelParts(order.size(), threads)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            Batch(index, points, sink).find_mixed(std::span(order).subspan(begin, end - begin));
+        });
+}
+
+template <class Sink>
+void locate_one_by_one(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
+    ParallelParts(points.size(), threads)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            std::vector<PolygonId> on;
+            for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+                const IndexPoint p = IndexPoint::from_user(points[i], index.solid.lattice());
+                const Location l = locate_polygons(index, p, on);
+                if (on.empty()) {
+                    sink.off(i, l == Location::Inside);
+                } else {
+                    sink.on(i, p, on, 0);
+                }
+            }
+        });
+}
+
+template <class Sink>
+void locate_all(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
     if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
-    const auto first = static_cast<std::uint32_t>(begin);
-    const auto last = static_cast<std::uint32_t>(end);
     if (index.tree.node(0).is_grid() && index.tree.is_bounded()) {
-        Batch batch(index, points, sink);
-        batch.find_empty(first, last);
-        batch.find_mixed();
-        return;
-    }
-    std::vector<PolygonId> on;
-    for (std::uint32_t i = first; i < last; ++i) {
-        const IndexPoint p = IndexPoint::from_user(points[i], index.solid.lattice());
-        const Location l = locate_polygons(index, p, on);
-        if (on.empty()) {
-            sink.off(i, l == Location::Inside);
-        } else {
-            sink.on(i, p, on, 0);
-        }
+        locate_in_grid(index, points, threads, sink);
+    } else {
+        locate_one_by_one(index, points, threads, sink);
     }
 }
 
 }  // namespace
 
-void locate_batch(const IndexBase& index, Points points, std::size_t begin, std::size_t end,
+void locate_batch(const IndexBase& index, Points points, unsigned threads,
                   const FoundPoint& found) {
-    locate_all(index, points, begin, end, ToPlaces{found});
+    locate_all(index, points, threads, ToPlaces{found});
 }
 
-void classify_batch(const IndexBase& index, Points points, std::size_t begin, std::size_t end,
+void classify_batch(const IndexBase& index, Points points, unsigned threads,
                     std::span<Location> results) {
-    locate_all(index, points, begin, end, ToLocations{index.polygons, results});
+    locate_all(index, points, threads, ToLocations{index.polygons, results});
 }
 
 }  // namespace trisect::detail

@@ -51,14 +51,15 @@ using PolygonId = IndexPolygons::Id;
 using FoundPoint = std::function<void(std::uint32_t number, Location location,
                                       const IndexPoint* point, std::vector<PolygonId>& on)>;
 
-/// Many points in the user's units, those from `begin` to `end`, in an order of its own; the same
-/// as one by one but for the time that is spent waiting for memory. Fewer than 2^32 altogether.
+/// Many points in the user's units, in an order of its own; the same as one by one but for the time
+/// that is spent waiting for memory. Fewer than 2^32; on so many threads, 0 for as many as there
+/// are, each of which may call `found`.
 void locate_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
-                  std::size_t begin, std::size_t end, const FoundPoint& found);
+                  unsigned threads, const FoundPoint& found);
 
 /// The same, but only where each point is: results[i] of points[i].
 void classify_batch(const IndexBase& index, std::span<const std::array<double, 3>> points,
-                    std::size_t begin, std::size_t end, std::span<Location> results);
+                    unsigned threads, std::span<Location> results);
 
 /// Location and names of a point from the polygons that contain it, in any order, not none.
 /// Handles are not set.
