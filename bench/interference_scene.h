@@ -27,15 +27,10 @@ struct Scene {
 [[nodiscard]] std::vector<std::string> names();
 
 /// - tori, tori200k: two linked tori R = 1, r = 1/4 of 20,000 and 200,978 triangles, the gap
-/// between
-///   their tubes swinging between +0.05 and -0.01.
+///   between their tubes swinging between +0.05 and -0.01.
 /// - FILE (bear28k, bunny100k, or any mesh file): the mesh against itself, 2,000 random rotations,
-/// the
-///   centres apart by 0.35 to 0.85 of the box's diagonal in a random direction.
-/// - screw: a nut turned along a screw (mechanisms/), ten turns over its length, shaken sideways.
-/// - parts: two machined parts (cad/) at ten distances, from exact touch by quarter turns to apart
-/// by
-///   a diameter and to penetration by a tenth of one.
+///   the centres apart by 0.35 to 0.85 of the box's diagonal in a random direction.
+/// - screw, parts: those of apps/scenes/scenes.h with up to 2,000 placements.
 ///
 /// `most` limits the number of placements. \throw trisect::Error when a file is missing.
 [[nodiscard]] Scene make(const std::string& name, std::size_t most);

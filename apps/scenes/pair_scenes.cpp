@@ -12,8 +12,10 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/kernel/error.h>
 
+#include "extent.h"
 #include "rows.h"
 #include "scenes.h"
+#include "tubes.h"
 
 namespace scenes {
 
@@ -25,29 +27,6 @@ using trisect::PolygonMesh;
 
 constexpr double pi = std::numbers::pi;
 
-// A closed tube: nu rings of nv corners, point(u, v) with both from 0 to 2 pi.
-template <class Point>
-PolygonMesh tube(std::uint32_t nu, std::uint32_t nv, Point&& point) {
-    PolygonMesh m;
-    for (std::uint32_t i = 0; i < nu; ++i)
-        for (std::uint32_t j = 0; j < nv; ++j)
-            m.points.push_back(point(2 * pi * i / nu, 2 * pi * j / nv));
-    const auto id = [nu, nv](std::uint32_t i, std::uint32_t j) { return i % nu * nv + j % nv; };
-    for (std::uint32_t i = 0; i < nu; ++i)
-        for (std::uint32_t j = 0; j < nv; ++j) {
-            m.add_triangle(id(i, j), id(i + 1, j), id(i + 1, j + 1));
-            m.add_triangle(id(i, j), id(i + 1, j + 1), id(i, j + 1));
-        }
-    return m;
-}
-
-PolygonMesh torus(double minor, std::uint32_t nu, std::uint32_t nv) {
-    return tube(nu, nv, [minor](double u, double v) {
-        const double r = 1 + minor * std::cos(v);
-        return Point3d{r * std::cos(u), r * std::sin(u), minor * std::sin(v)};
-    });
-}
-
 void on_one_lattice(PairScene& s) {
     std::vector<PolygonMesh> both{std::move(s.a), std::move(s.b)};
     shapes::put_on_one_lattice(both);
@@ -55,14 +34,22 @@ void on_one_lattice(PairScene& s) {
     s.b = std::move(both[1]);
 }
 
-constexpr std::uint32_t fineness(Size size, std::uint32_t full, std::uint32_t small) {
-    return size == Size::Full ? full : small;
-}
+struct Detail {
+    Size size = Size::Full;
+    std::uint32_t wanted_frames = 0;
 
-PairScene linked(Size size) {
+    [[nodiscard]] std::uint32_t fineness(std::uint32_t full, std::uint32_t small) const {
+        return size == Size::Full ? full : small;
+    }
+    [[nodiscard]] std::uint32_t frames(std::uint32_t full, std::uint32_t small) const {
+        return wanted_frames != 0 ? wanted_frames : fineness(full, small);
+    }
+};
+
+PairScene linked(const Detail& detail) {
     PairScene s;
-    s.a = s.b = torus(0.2, fineness(size, 50, 14), fineness(size, 50, 8));
-    const std::uint32_t n = fineness(size, 200, 5);
+    s.a = s.b = torus(0.2, detail.fineness(50, 14), detail.fineness(50, 8));
+    const std::uint32_t n = detail.frames(200, 5);
     const Matrix up = shapes::rotation({1, 0, 0}, 90);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double t = 1.0 * i / n;
@@ -74,11 +61,11 @@ PairScene linked(Size size) {
     return s;
 }
 
-PairScene near_tori(Size size) {
+PairScene near_tori(const Detail& detail) {
     PairScene s;
-    s.a = s.b = torus(0.2, fineness(size, 50, 14), fineness(size, 50, 8));
+    s.a = s.b = torus(0.2, detail.fineness(50, 14), detail.fineness(50, 8));
     const Matrix up = shapes::rotation({1, 0, 0}, 90);
-    const std::uint32_t n = fineness(size, 100, 6);
+    const std::uint32_t n = detail.frames(100, 6);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double gap = std::pow(10, -1 - 5.0 * i / (n - 1));
         s.frames.push_back(rows_of(up, {1.6 - gap, 0, 0}));
@@ -86,10 +73,10 @@ PairScene near_tori(Size size) {
     return s;
 }
 
-PairScene crossing(Size size) {
+PairScene crossing(const Detail& detail) {
     PairScene s;
-    s.a = s.b = torus(0.2, fineness(size, 50, 14), fineness(size, 50, 8));
-    const std::uint32_t n = fineness(size, 100, 4);
+    s.a = s.b = torus(0.2, detail.fineness(50, 14), detail.fineness(50, 8));
+    const std::uint32_t n = detail.frames(100, 4);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double t = 1.0 * i / n;
         s.frames.push_back(rows_of(shapes::rotation({1, 2, 3}, 360 * t), {1 - t, 0.3 * t, 0.1}));
@@ -97,33 +84,33 @@ PairScene crossing(Size size) {
     return s;
 }
 
-PairScene shells(Size size) {
+PairScene shells(const Detail& detail) {
     PairScene s;
-    s.a = torus(0.25, fineness(size, 60, 10), fineness(size, 40, 8));
-    s.b = torus(0.2, fineness(size, 60, 10), fineness(size, 40, 8));
-    const std::uint32_t n = fineness(size, 20, 3);
+    s.a = torus(0.25, detail.fineness(60, 10), detail.fineness(40, 8));
+    s.b = torus(0.2, detail.fineness(60, 10), detail.fineness(40, 8));
+    const std::uint32_t n = detail.frames(20, 3);
     for (std::uint32_t i = 0; i < n; ++i) {
         // Of the way to where the tubes touch; turned by whole segments, so that they stay
         // parallel.
         const double part = 0.9 * i / (n - 1);
-        const double turn = 360.0 / fineness(size, 60, 10) * i;
+        const double turn = 360.0 / detail.fineness(60, 10) * i;
         s.frames.push_back(rows_of(shapes::rotation({0, 0, 1}, turn), {0, 0, 0.045 * part}));
     }
     return s;
 }
 
-PairScene falling(Size size) {
+PairScene falling(const Detail& detail) {
     PairScene s;
-    s.a = tube(fineness(size, 80, 16), fineness(size, 40, 8), [](double u, double v) {
+    s.a = tube(detail.fineness(80, 16), detail.fineness(40, 8), [](double u, double v) {
         const double minor = 0.3 * (1 + 0.15 * std::cos(8 * u) * std::cos(3 * v));
         const double r = 1 + minor * std::cos(v);
         return Point3d{r * std::cos(u), r * std::sin(u), minor * std::sin(v)};
     });
-    s.b = tube(fineness(size, 60, 14), fineness(size, 20, 6), [](double u, double v) {
+    s.b = tube(detail.fineness(60, 14), detail.fineness(20, 6), [](double u, double v) {
         const double r = 0.42 + 0.1 * std::cos(v);
         return Point3d{r * std::cos(u), r * std::sin(u), 0.1 * std::sin(v) + 0.2 * std::cos(2 * u)};
     });
-    const std::uint32_t n = fineness(size, 400, 9);
+    const std::uint32_t n = detail.frames(400, 9);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double t = 1.0 * i / (n - 1);
         s.frames.push_back(
@@ -142,7 +129,7 @@ std::optional<PolygonMesh> model(const std::string& file) {
     return trisect::read_mesh(path);
 }
 
-std::optional<PairScene> screw(Size size) {
+std::optional<PairScene> screw(const Detail& detail) {
     auto a = model("mechanisms/screw-big.obj");
     auto b = model("mechanisms/nut-big.obj");
     if (!a || !b) return std::nullopt;
@@ -150,7 +137,7 @@ std::optional<PairScene> screw(Size size) {
     s.a = std::move(*a);
     s.b = std::move(*b);
     shapes::Random random(8);
-    const std::uint32_t n = fineness(size, 200, 3);
+    const std::uint32_t n = detail.frames(200, 3);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double t = 1.0 * i / n;
         const double x = 0.1 * (random.uniform() - 0.5);
@@ -158,17 +145,6 @@ std::optional<PairScene> screw(Size size) {
         s.frames.push_back(rows_of(shapes::rotation({0, 1, 0}, 3600 * t), {x, -5 + 20 * t, z}));
     }
     return s;
-}
-
-double diagonal(const PolygonMesh& m) {
-    Point3d lo = m.points.front();
-    Point3d hi = lo;
-    for (const Point3d& p : m.points)
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], p[k]);
-            hi[k] = std::max(hi[k], p[k]);
-        }
-    return std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
 }
 
 // The corner that is farthest in a direction, after a rotation.
@@ -198,7 +174,7 @@ Matrix quarter_turns(shapes::Random& random) {
     return m;
 }
 
-std::optional<PairScene> parts(Size size) {
+std::optional<PairScene> parts(const Detail& detail) {
     auto a = model("cad/box.STL");
     auto b = model("cad/ADIS16480.STL");
     if (!a || !b) return std::nullopt;
@@ -208,19 +184,16 @@ std::optional<PairScene> parts(Size size) {
     s.a = std::move(*a);
     s.b = std::move(*b);
     on_one_lattice(s);
-    const double d = diagonal(s.a);
+    const double d = extent(s.a).diagonal();
     const std::array<double, 10> gaps{0,       0x1p-40 * d, 0x1p-20 * d, 1e-4 * d,  1e-2 * d,
                                       0.1 * d, d,           -1e-4 * d,   -1e-2 * d, -0.1 * d};
     shapes::Random random(9);
-    const std::uint32_t n = fineness(size, 100, 10);
+    const std::uint32_t n = detail.frames(100, 10);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double gap = gaps[i % gaps.size()];
-        const Matrix any = random.rotation();
-        const Matrix quarters = quarter_turns(random);
-        const Matrix& m = gap == 0 ? quarters : any;
-        Point3d way = random.in_unit_box();
-        const double length = std::sqrt(dot(way, way));
-        for (double& c : way) c /= length;
+        Matrix m = random.rotation();
+        const Point3d way = random_direction(random);
+        if (gap == 0) m = quarter_turns(random);
         const Point3d on_a = farthest(s.a, identity, way);
         const Point3d on_b = farthest(s.b, m, {-way[0], -way[1], -way[2]});
         Point3d by{};
@@ -241,10 +214,10 @@ PolygonMesh in_triangles(const PolygonMesh& m) {
     return r;
 }
 
-PairScene fly_through(Size size) {
+PairScene fly_through(const Detail& detail) {
     PairScene s;
     shapes::Random random(5);
-    const int n = size == Size::Full ? 10 : 3;
+    const int n = detail.size == Size::Full ? 10 : 3;
     // Of each cube of side 8 a cut cube takes at most the middle 6: they do not meet.
     for (int x = 0; x < n; ++x)
         for (int y = 0; y < n; ++y)
@@ -257,8 +230,8 @@ PairScene fly_through(Size size) {
                         p[k] = half * p[k] + 0.5 * jitter[k] + 8 * std::array<int, 3>{x, y, z}[k];
                 shapes::append(s.a, one);
             }
-    s.b = torus(0.3, fineness(size, 16, 8), fineness(size, 10, 5));
-    const std::uint32_t frames = fineness(size, 500, 8);
+    s.b = torus(0.3, detail.fineness(16, 8), detail.fineness(10, 5));
+    const std::uint32_t frames = detail.frames(500, 8);
     for (std::uint32_t i = 0; i < frames; ++i) {
         const double t = 1.0 * i / frames;
         const double way = 4.0 * n - 4;
@@ -275,12 +248,12 @@ PairScene fly_through(Size size) {
 struct Entry {
     const char* name;
     const char* about;
-    std::optional<PairScene> (*make)(Size);
+    std::optional<PairScene> (*make)(const Detail&);
 };
 
-template <PairScene (*Make)(Size)>
-std::optional<PairScene> always(Size size) {
-    return Make(size);
+template <PairScene (*Make)(const Detail&)>
+std::optional<PairScene> always(const Detail& detail) {
+    return Make(detail);
 }
 
 constexpr std::array entries{
@@ -302,11 +275,11 @@ std::vector<std::string> pair_scene_names() {
     return r;
 }
 
-std::optional<PairScene> make_pair_scene(const std::string& name, Size size) {
+std::optional<PairScene> make_pair_scene(const std::string& name, Size size, std::uint32_t frames) {
     const auto found =
         std::ranges::find_if(entries, [&name](const Entry& e) { return name == e.name; });
     if (found == entries.end()) throw trisect::UsageError("no scene has the name '" + name + "'");
-    auto s = found->make(size);
+    auto s = found->make({size, frames});
     if (!s) return s;
     s->name = found->name;
     s->about = found->about;

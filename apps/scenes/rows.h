@@ -3,6 +3,9 @@
 // Poses of scenes from rotations and ways.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "scenes.h"
 #include "shapes.h"
 
@@ -31,6 +34,14 @@ namespace scenes {
 
 [[nodiscard]] inline trisect::Point3d times(const shapes::Matrix& m, const trisect::Point3d& p) {
     return {dot(m[0], p), dot(m[1], p), dot(m[2], p)};
+}
+
+/// Uniform among all directions.
+[[nodiscard]] inline trisect::Point3d random_direction(shapes::Random& random) {
+    const double z = 2 * random.uniform() - 1;
+    const double angle = 2 * std::numbers::pi * random.uniform();
+    const double s = std::sqrt(1 - z * z);
+    return {s * std::cos(angle), s * std::sin(angle), z};
 }
 
 inline constexpr shapes::Matrix identity{trisect::Point3d{1, 0, 0}, trisect::Point3d{0, 1, 0},

@@ -45,9 +45,11 @@ enum class Size : std::uint8_t {
 /// - fly-through: a small body on a path through a field of obstacles, which are one solid.
 [[nodiscard]] std::vector<std::string> pair_scene_names();
 
-/// Nothing when its models are not there. \throw trisect::UsageError for a name that is none,
-/// trisect::Error for a model that cannot be read.
-[[nodiscard]] std::optional<PairScene> make_pair_scene(const std::string& name, Size size);
+/// With that many frames, or as many as the scene is made for. Nothing when its models are not
+/// there. \throw trisect::UsageError for a name that is none, trisect::Error for a model that
+/// cannot be read.
+[[nodiscard]] std::optional<PairScene> make_pair_scene(const std::string& name, Size size,
+                                                       std::uint32_t frames = 0);
 
 /// Many bodies.
 struct SwarmScene {

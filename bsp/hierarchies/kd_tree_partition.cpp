@@ -9,11 +9,9 @@
 // Wald and V. Havran, On building fast kd-trees for ray tracing (2006).
 
 #include <algorithm>
-#include <chrono>
 
-#include <trisect/bsp/hierarchies/partition.h>
 #include <trisect/bsp/hierarchies/partitions.h>
-#include <trisect/bsp/hierarchies/space_tree.h>
+#include <trisect/bsp/hierarchies/space_tree_partition.h>
 
 namespace trisect::hierarchies {
 
@@ -82,43 +80,19 @@ std::vector<Box> best_cut(const Box& cell, std::span<const std::uint32_t> list,
     return parts;
 }
 
-class KdTreePartition final : public Partition {
-public:
-    KdTreePartition(const InterferenceModel& a, const InterferenceModel& b) : Partition(a, b) {
-        const auto start = std::chrono::steady_clock::now();
-        const auto divide = [this](const Box& cell, std::span<const std::uint32_t> list) {
-            return best_cut(cell, list, fixed());
-        };
-        const auto may_meet = [](std::uint32_t, const Box&) { return true; };
-        tree_ = SpaceTree(fixed(), fixed().bounds(), divide, may_meet);
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
-    std::string_view name() const override { return "kd-tree"; }
-    BuildReport build_report() const override {
-        return {seconds_, tree_.bytes() + common_bytes(), tree_.node_count(), tree_.depth()};
-    }
-
-protected:
-    bool find_in_cells(const Box& box, FunctionRef<bool(std::uint32_t)> offer,
-                       CostCounters& counters) override {
-        return tree_.find_in_cells(box, offer, counters);
-    }
-    void find_near_cells(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
-                         CostCounters& counters) override {
-        tree_.find_near_cells(box, limit, offer, counters);
-    }
-
-private:
-    SpaceTree tree_;
-    double seconds_ = 0;
-};
+SpaceTree kd_tree(const detail::InterferenceModelData&, const TriangleBoxes& boxes) {
+    const auto divide = [&boxes](const Box& cell, std::span<const std::uint32_t> list) {
+        return best_cut(cell, list, boxes);
+    };
+    const auto may_meet = [](std::uint32_t, const Box&) { return true; };
+    return {boxes, boxes.bounds(), divide, may_meet};
+}
 
 }  // namespace
 
 std::unique_ptr<PairStructure> make_kd_tree_partition(const InterferenceModel& a,
                                                       const InterferenceModel& b) {
-    return std::make_unique<KdTreePartition>(a, b);
+    return std::make_unique<SpaceTreePartition>("kd-tree", kd_tree, a, b);
 }
 
 }  // namespace trisect::hierarchies

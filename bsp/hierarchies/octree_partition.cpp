@@ -8,13 +8,11 @@
 // Geometric modeling using octree encoding (1982).
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <trisect/bsp/detail/triangle_in_boxes.h>
-#include <trisect/bsp/hierarchies/partition.h>
 #include <trisect/bsp/hierarchies/partitions.h>
-#include <trisect/bsp/hierarchies/space_tree.h>
+#include <trisect/bsp/hierarchies/space_tree_partition.h>
 
 namespace trisect::hierarchies {
 
@@ -41,58 +39,33 @@ std::vector<Box> octants(const Box& cell) {
     return parts;
 }
 
-class OctreePartition final : public Partition {
-public:
-    OctreePartition(const InterferenceModel& a, const InterferenceModel& b) : Partition(a, b) {
-        const auto start = std::chrono::steady_clock::now();
-        std::vector<detail::TriangleInBoxes> triangles;
-        triangles.reserve(fixed().size());
-        for (const detail::ModelTriangle& t : data_a().triangles)
-            triangles.emplace_back(std::array{data_a().position(t.vertex[0]),
-                                              data_a().position(t.vertex[1]),
-                                              data_a().position(t.vertex[2])});
-        const auto may_meet = [&](std::uint32_t i, const Box& cell) {
-            std::array<double, 3> middle{};
-            double half = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                middle[k] = 0.5 * cell.lo[k] + 0.5 * cell.hi[k];
-                half = std::max({half, cell.hi[k] - middle[k], middle[k] - cell.lo[k]});
-            }
-            // A cube that contains the cell, grown by what positions are off by.
-            return triangles[i].may_meet(middle, half * (1 + 0x1p-40) + 4 * fixed().error());
-        };
-        const auto divide = [](const Box& cell, std::span<const std::uint32_t>) {
-            return octants(cell);
-        };
-        tree_ = SpaceTree(fixed(), cube_around(fixed().bounds()), divide, may_meet);
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
-    std::string_view name() const override { return "octree"; }
-    BuildReport build_report() const override {
-        return {seconds_, tree_.bytes() + common_bytes(), tree_.node_count(), tree_.depth()};
-    }
-
-protected:
-    bool find_in_cells(const Box& box, FunctionRef<bool(std::uint32_t)> offer,
-                       CostCounters& counters) override {
-        return tree_.find_in_cells(box, offer, counters);
-    }
-    void find_near_cells(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
-                         CostCounters& counters) override {
-        tree_.find_near_cells(box, limit, offer, counters);
-    }
-
-private:
-    SpaceTree tree_;
-    double seconds_ = 0;
-};
+SpaceTree octree(const detail::InterferenceModelData& model, const TriangleBoxes& boxes) {
+    std::vector<detail::TriangleInBoxes> triangles;
+    triangles.reserve(boxes.size());
+    for (const detail::ModelTriangle& t : model.triangles)
+        triangles.emplace_back(std::array{model.position(t.vertex[0]), model.position(t.vertex[1]),
+                                          model.position(t.vertex[2])});
+    const auto may_meet = [&](std::uint32_t i, const Box& cell) {
+        std::array<double, 3> middle{};
+        double half = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = 0.5 * cell.lo[k] + 0.5 * cell.hi[k];
+            half = std::max({half, cell.hi[k] - middle[k], middle[k] - cell.lo[k]});
+        }
+        // A cube that contains the cell, grown by what positions are off by.
+        return triangles[i].may_meet(middle, half * (1 + 0x1p-40) + 4 * boxes.error());
+    };
+    const auto divide = [](const Box& cell, std::span<const std::uint32_t>) {
+        return octants(cell);
+    };
+    return {boxes, cube_around(boxes.bounds()), divide, may_meet};
+}
 
 }  // namespace
 
 std::unique_ptr<PairStructure> make_octree_partition(const InterferenceModel& a,
                                                      const InterferenceModel& b) {
-    return std::make_unique<OctreePartition>(a, b);
+    return std::make_unique<SpaceTreePartition>("octree", octree, a, b);
 }
 
 }  // namespace trisect::hierarchies
