@@ -303,24 +303,6 @@ std::unique_ptr<Play> make_play(const std::string& name, const Options& options)
     return std::make_unique<Swarm>(options.bodies);
 }
 
-const char* name_of(Relation relation) {
-    switch (relation) {
-        case Relation::Disjoint:
-            return "disjoint";
-        case Relation::Touching:
-            return "touching";
-        case Relation::Overlapping:
-            return "overlapping";
-        case Relation::Inside:
-            return "inside";
-        case Relation::Contains:
-            return "contains";
-        case Relation::Equal:
-            return "equal";
-    }
-    return "";
-}
-
 /// Of all frames.
 struct Record {
     std::vector<std::vector<std::pair<Pair, Relation>>> answers;
@@ -368,7 +350,7 @@ Record play_ours(const std::string& name, const Options& options) {
         auto& answers = record.answers.emplace_back();
         for (const trisect::ScenePair& p : found) {
             answers.emplace_back(Pair(p.a.index, p.b.index), p.relation);
-            ++relations[name_of(p.relation)];
+            ++relations[to_string(p.relation)];
         }
         record.poses.push_back(play->poses(scene));
     }
@@ -421,7 +403,7 @@ void play_peer(const std::string& name, const Options& options, const std::strin
                 ++theirs;
                 ++agreed;
             } else {
-                ++missed[name_of(relation)];
+                ++missed[to_string(relation)];
             }
         }
         extra += static_cast<std::size_t>(found.end() - theirs);

@@ -13,60 +13,15 @@
 // against all triangles per cell. About 3 ms for two operands of 16 triangles each.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "canonical_boundary.h"
+#include "expression.h"
+#include "operand.h"
 #include "plane.h"
 #include "rational.h"
 
 namespace reference {
-
-// Corners counter-clockwise seen from outside. Triangles without area are admitted and ignored.
-using Triangle = std::array<LatticePoint, 3>;
-using Operand = std::vector<Triangle>;
-
-// Whether every directed edge occurs as often as its opposite, compared by coordinates: then the
-// winding number of every point off the surface is defined.
-bool is_balanced(const Operand& operand);
-
-// Sum of the winding number over space: the exact volume of an operand that does not overlap
-// itself.
-Rational signed_volume(const Operand& operand);
-
-enum class InsideRule { Positive, NonZero };
-
-// A set expression over operands. Union, Intersection and Xor take one child or more, Difference
-// subtracts all further children from the first, Complement takes one.
-struct Expression {
-    enum class Kind { Leaf, Union, Intersection, Difference, Xor, Complement };
-
-    Kind kind = Kind::Leaf;
-    std::size_t operand = 0;  // of a leaf
-    std::vector<Expression> children;
-
-    static Expression leaf(std::size_t operand) { return {Kind::Leaf, operand, {}}; }
-    static Expression node(Kind kind, std::vector<Expression> children) {
-        return {kind, 0, std::move(children)};
-    }
-};
-
-// For two operands: operand 0 kind operand 1.
-Expression pair_expression(Expression::Kind kind);
-
-// Value of the expression for a point whose membership of each operand is given.
-bool holds(const Expression& expression, const std::vector<bool>& memberships);
-
-// For messages, e.g. "((0 + 1) - ~2)": + union, * intersection, - difference, ^ xor, ~ complement.
-std::string to_string(const Expression& expression);
-
-// Whether a point with these winding numbers, one per operand, is in the set.
-using Indicator = std::function<bool(const std::vector<int>& windings)>;
-
-Indicator make_indicator(Expression expression, InsideRule rule = InsideRule::Positive);
 
 // A convex piece of the result's boundary, corners counter-clockwise seen from outside; collinear
 // corners occur. Interiors of cells are disjoint.
@@ -93,10 +48,6 @@ enum class Location { Outside, OnBoundary, Inside };
 
 // Membership of a point in the regularised result.
 Location locate(const Result& result, const Point3& point);
-
-// The triangles of an operand, or of any triangulated result with integer corners, as polygons;
-// those without area are left out.
-std::vector<Polygon> polygons_of(const Operand& triangles);
 
 CanonicalBoundary canonical_boundary(const std::vector<ConvexCell>& cells);
 
