@@ -21,9 +21,9 @@
 #include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/brep/detail/real_root.h>
 #include <trisect/bsp/detail/ball_motion.h>
-#include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/motion_piece.h>
+#include <trisect/bsp/detail/proof_body.h>
 #include <trisect/bsp/detail/triangle_distance.h>
 
 namespace trisect {
@@ -36,6 +36,7 @@ using detail::BallVector;
 using detail::IntegerPolynomial;
 using detail::MotionPiece;
 using detail::PolynomialVector;
+using detail::ProofBody;
 using detail::RealRoot;
 using GmpVector = std::array<mpq_class, 3>;
 using Approximate = std::array<double, 3>;
@@ -66,71 +67,9 @@ GmpVector exact(const Approximate& v) {
     return {mpq_class(v[0]), mpq_class(v[1]), mpq_class(v[2])};
 }
 
-// A solid's corners in the user's units, and its triangles, neighbours near each other.
-struct Body {
-    std::vector<GmpVector> points;
-    std::vector<Approximate> near;
-    std::vector<CertifiedTriangle> triangles;
-
-    explicit Body(const detail::InterferenceModelData& model) {
-        for (const Point& p : model.brep.points()) {
-            const detail::ExactPlace place = detail::exact_place(p);
-            GmpVector& x = points.emplace_back();
-            Approximate& y = near.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const ExactRational c = place.c[k].scaled(model.brep.lattice().exponent);
-                x[k] = detail::to_gmp(c);
-                y[k] = c.to_double();
-            }
-        }
-        for (const auto& t : model.triangles) triangles.push_back({t.face, t.vertex});
-        order(0, triangles.size());
-    }
-    [[nodiscard]] BallVector ball(std::uint32_t v) const {
-        const Approximate& x = near[v];
-        return {Ball::rounded(x[0]), Ball::rounded(x[1]), Ball::rounded(x[2])};
-    }
-    [[nodiscard]] std::vector<std::uint32_t> corners(std::size_t from, std::size_t to) const {
-        std::vector<std::uint32_t> r;
-        for (std::size_t i = from; i < to; ++i)
-            for (const VertexId v : triangles[i].vertex) r.push_back(v.index);
-        std::ranges::sort(r);
-        r.erase(std::unique(r.begin(), r.end()), r.end());
-        return r;
-    }
-
-private:
-    [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t k) const {
-        return near[t.vertex[0].index][k] + near[t.vertex[1].index][k] + near[t.vertex[2].index][k];
-    }
-    void order(std::size_t from, std::size_t to) {
-        if (to - from < 2) return;
-        std::size_t axis = 0;
-        double longest = -1;
-        for (std::size_t k = 0; k < 3; ++k) {
-            double lo = std::numeric_limits<double>::infinity();
-            double hi = -lo;
-            for (std::size_t i = from; i < to; ++i) {
-                lo = std::min(lo, centre(triangles[i], k));
-                hi = std::max(hi, centre(triangles[i], k));
-            }
-            if (hi - lo > longest) {
-                longest = hi - lo;
-                axis = k;
-            }
-        }
-        const auto at = [this](std::size_t i) {
-            return triangles.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        const std::size_t middle = (from + to) / 2;
-        std::nth_element(at(from), at(middle), at(to),
-                         [&](const CertifiedTriangle& s, const CertifiedTriangle& t) {
-                             return centre(s, axis) < centre(t, axis);
-                         });
-        order(from, middle);
-        order(middle, to);
-    }
-};
+BallVector ball(const Approximate& x) {
+    return {Ball::rounded(x[0]), Ball::rounded(x[1]), Ball::rounded(x[2])};
+}
 
 // Integers in place of fractions: a point times a weight.
 struct Scaled {
@@ -203,7 +142,7 @@ public:
         double upper = 0;
     };
 
-    FreedomBuilder(const Body& a, const MotionPiece& piece_a, const Body& b,
+    FreedomBuilder(const ProofBody& a, const MotionPiece& piece_a, const ProofBody& b,
                    const MotionPiece& piece_b, std::optional<Contact> contact, std::size_t limit)
         : a_(a),
           b_(b),
@@ -290,14 +229,14 @@ private:
                    m.weight.value;
         return y;
     }
-    static Approximate middle(const Body& body, std::span<const std::uint32_t> corners) {
+    static Approximate middle(const ProofBody& body, std::span<const std::uint32_t> corners) {
         Approximate sum{};
         for (const std::uint32_t v : corners)
             for (std::size_t k = 0; k < 3; ++k) sum[k] += body.near[v][k];
         for (double& c : sum) c /= static_cast<double>(corners.size());
         return sum;
     }
-    static double size_of(const Body& body, std::span<const std::uint32_t> corners) {
+    static double size_of(const ProofBody& body, std::span<const std::uint32_t> corners) {
         const Approximate m = middle(body, corners);
         double square = 0;
         for (const std::uint32_t v : corners) {
@@ -365,12 +304,12 @@ private:
         const BallVector direction{Ball(d[0]), Ball(d[1]), Ball(d[2])};
         double highest = -HUGE_VAL;
         for (const std::uint32_t v : of_a)
-            highest = std::max(highest, detail::dot(direction, a_.ball(v)).upper());
+            highest = std::max(highest, detail::dot(direction, ball(a_.near[v])).upper());
         double lowest = HUGE_VAL;
         std::vector<std::vector<Ball>> heights;
         for (const std::uint32_t v : of_b) {
             auto& h = heights.emplace_back();
-            const BallVector x = b_.ball(v);
+            const BallVector x = ball(b_.near[v]);
             for (std::size_t k = 0; k <= motion.degree; ++k) {
                 const BallMotion::Maps& m = motion.maps[k];
                 h.push_back(detail::dot(direction, m.matrix * x + m.shift));
@@ -396,9 +335,11 @@ private:
         if (roots.empty()) return true;
         return roots.size() == 1 && roots[0].compare(contact_->time) == 0;
     }
-    std::array<GmpVector, 3> corners_of(const Body& body, std::size_t t) const {
+    std::array<GmpVector, 3> corners_of(const ProofBody& body, std::size_t t) const {
         std::array<GmpVector, 3> r;
-        for (std::size_t i = 0; i < 3; ++i) r[i] = body.points[body.triangles[t].vertex[i].index];
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                r[i][k] = detail::to_gmp(body.points[body.triangles[t].vertex[i].index][k]);
         return r;
     }
 
@@ -580,8 +521,8 @@ private:
                    0;
     }
 
-    const Body& a_;
-    const Body& b_;
+    const ProofBody& a_;
+    const ProofBody& b_;
     MotionPiece to_a_;
     MotionPiece to_b_;
     std::optional<Contact> contact_;
@@ -640,8 +581,8 @@ ContactCertificate certify_first_contact(const InterferenceModel& a, const Motio
         c.is_complete = c.at_start.is_complete;
         return c;
     }
-    Body body_a(a.data());
-    Body body_b(b.data());
+    ProofBody body_a(a.data());
+    ProofBody body_b(b.data());
     std::size_t pieces = std::max(motion_a.piece_count(), motion_b.piece_count());
     std::optional<FreedomBuilder::Contact> last;
     if (c.is_contact) {

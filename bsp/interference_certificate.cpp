@@ -23,6 +23,7 @@
 #include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
+#include <trisect/bsp/detail/proof_body.h>
 
 namespace trisect {
 
@@ -30,6 +31,7 @@ using detail::ExactPlace;
 using detail::InterferenceModelData;
 using detail::MeetingPair;
 using detail::PosedModels;
+using detail::ProofBody;
 
 namespace {
 
@@ -51,69 +53,11 @@ Vector exact(const Approximate& v) {
             ExactRational::from_double(v[2])};
 }
 
-// A model's vertices in the world, and its triangles in an order in which neighbours are near.
-struct Placed {
-    std::vector<Vector> points;
-    std::vector<Approximate> near;
-    std::vector<CertifiedTriangle> triangles;
-
-    Placed(const InterferenceModelData& model, const Pose& pose) {
-        for (const Point& p : model.brep.points()) {
-            points.push_back(in_world(detail::exact_place(p), model.brep.lattice(), pose));
-            const Vector& x = points.back();
-            near.push_back({x[0].to_double(), x[1].to_double(), x[2].to_double()});
-        }
-        for (const auto& t : model.triangles) triangles.push_back({t.face, t.vertex});
-        order(0, triangles.size());
-    }
-    [[nodiscard]] std::vector<std::uint32_t> corners(std::size_t from, std::size_t to) const {
-        std::vector<std::uint32_t> out;
-        for (std::size_t i = from; i < to; ++i)
-            for (const VertexId v : triangles[i].vertex) out.push_back(v.index);
-        std::ranges::sort(out);
-        out.erase(std::unique(out.begin(), out.end()), out.end());
-        return out;
-    }
-
-private:
-    [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t k) const {
-        return near[t.vertex[0].index][k] + near[t.vertex[1].index][k] + near[t.vertex[2].index][k];
-    }
-    // Halves along the longest extent, as the tree does.
-    void order(std::size_t from, std::size_t to) {
-        if (to - from < 2) return;
-        std::size_t axis = 0;
-        double longest = -1;
-        for (std::size_t k = 0; k < 3; ++k) {
-            double lo = std::numeric_limits<double>::infinity();
-            double hi = -lo;
-            for (std::size_t i = from; i < to; ++i) {
-                lo = std::min(lo, centre(triangles[i], k));
-                hi = std::max(hi, centre(triangles[i], k));
-            }
-            if (hi - lo > longest) {
-                longest = hi - lo;
-                axis = k;
-            }
-        }
-        const std::size_t middle = (from + to) / 2;
-        const auto at = [&](std::size_t i) {
-            return triangles.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        std::nth_element(at(from), at(middle), at(to),
-                         [&](const CertifiedTriangle& s, const CertifiedTriangle& t) {
-                             return centre(s, axis) < centre(t, axis);
-                         });
-        order(from, middle);
-        order(middle, to);
-    }
-};
-
 // A plane with `below` strictly on its lower side and `above` on the upper one; or weakly, when
 // that is enough.
 std::optional<SeparatingPlane> plane_along(const Vector& direction,
-                                           std::span<const std::uint32_t> below, const Placed& a,
-                                           std::span<const std::uint32_t> above, const Placed& b,
+                                           std::span<const std::uint32_t> below, const ProofBody& a,
+                                           std::span<const std::uint32_t> above, const ProofBody& b,
                                            bool strict) {
     std::optional<ExactRational> highest;
     std::optional<ExactRational> lowest;
@@ -130,9 +74,9 @@ std::optional<SeparatingPlane> plane_along(const Vector& direction,
 }
 
 // The directions of separating planes of two triangles or convex sets are among these.
-std::vector<Vector> directions_of(const Placed& a, const CertifiedTriangle& s, const Placed& b,
-                                  const CertifiedTriangle& t) {
-    const auto sides = [](const Placed& p, const CertifiedTriangle& x) {
+std::vector<Vector> directions_of(const ProofBody& a, const CertifiedTriangle& s,
+                                  const ProofBody& b, const CertifiedTriangle& t) {
+    const auto sides = [](const ProofBody& p, const CertifiedTriangle& x) {
         std::array<Vector, 3> e;
         for (std::size_t i = 0; i < 3; ++i)
             e[i] = minus(p.points[x.vertex[(i + 1) % 3].index], p.points[x.vertex[i].index]);
@@ -155,7 +99,7 @@ Vector opposite(const Vector& v) { return {-v[0], -v[1], -v[2]}; }
 
 class TreeBuilder {
 public:
-    TreeBuilder(const Placed& a, const Placed& b) : a_(a), b_(b) {}
+    TreeBuilder(const ProofBody& a, const ProofBody& b) : a_(a), b_(b) {}
 
     // Nothing when some triangles meet.
     std::optional<std::vector<ApartNode>> build() {
@@ -194,7 +138,7 @@ private:
     // Axes and the line between the middles, when the gap is far above rounding.
     std::optional<SeparatingPlane> quick_plane(std::span<const std::uint32_t> below,
                                                std::span<const std::uint32_t> above) const {
-        const auto middle = [](const Placed& p, std::span<const std::uint32_t> corners) {
+        const auto middle = [](const ProofBody& p, std::span<const std::uint32_t> corners) {
             Approximate sum{};
             for (const std::uint32_t v : corners)
                 for (std::size_t k = 0; k < 3; ++k) sum[k] += p.near[v][k];
@@ -228,8 +172,8 @@ private:
         return std::nullopt;
     }
 
-    const Placed& a_;
-    const Placed& b_;
+    const ProofBody& a_;
+    const ProofBody& b_;
     std::vector<ApartNode> nodes_;
 };
 
@@ -370,7 +314,7 @@ private:
 };
 
 // A plane that no interior reaches beyond: those of faces in contact, and between edges.
-std::optional<SeparatingPlane> touching_plane(const Placed& a, const Placed& b,
+std::optional<SeparatingPlane> touching_plane(const ProofBody& a, const ProofBody& b,
                                               const PosedModels& models,
                                               const std::vector<MeetingPair>& pairs) {
     std::vector<std::uint32_t> below(a.points.size());
@@ -420,7 +364,7 @@ private:
     std::array<Vector, 3> columns_;
 };
 
-std::vector<detail::ConvexPolygon> polygons_of(const Placed& placed) {
+std::vector<detail::ConvexPolygon> polygons_of(const ProofBody& placed) {
     std::vector<detail::ConvexPolygon> r;
     for (const CertifiedTriangle& t : placed.triangles) {
         detail::ConvexPolygon& p = r.emplace_back();
@@ -471,8 +415,8 @@ private:
                 [this](const Vector& p) { return in_b_.is_inside(p); }, goal, std::move(visit)};
     }
 
-    Placed a_;
-    Placed b_;
+    ProofBody a_;
+    ProofBody b_;
     FromWorld in_a_;
     FromWorld in_b_;
 };
@@ -512,8 +456,8 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
                     c.on_both = in_world(place_of(models, pair, p), a.lattice(), pose_a);
     };
     if (pairs.empty()) {
-        Placed pa(a.data(), pose_a);
-        Placed pb(b.data(), pose_b);
+        ProofBody pa(a.data(), pose_a);
+        ProofBody pb(b.data(), pose_b);
         if (auto tree = TreeBuilder(pa, pb).build()) {
             c.apart = std::move(*tree);
             c.triangles_a = std::move(pa.triangles);
@@ -526,8 +470,8 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
             break;
         case Relation::Touching: {
             note_common_point();
-            c.plane =
-                touching_plane(Placed(a.data(), pose_a), Placed(b.data(), pose_b), models, pairs);
+            c.plane = touching_plane(ProofBody(a.data(), pose_a), ProofBody(b.data(), pose_b),
+                                     models, pairs);
             if (!c.plane) Cells(a.data(), pose_a, b.data(), pose_b).prove(c);
             c.is_complete = c.on_both && (c.plane || !c.cells.empty());
             break;

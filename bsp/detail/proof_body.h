@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ProofBody: a solid as those who look for certificates see it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/interference_certificate.h>
+#include <trisect/kernel/pose.h>
+
+namespace trisect::detail {
+
+/// Corners of a boundary in the user's units, exactly and as the nearest doubles, and its
+/// triangles: halving a range of them, again and again, halves the longest extent of the centres.
+struct ProofBody {
+    std::vector<RationalPoint> points;  ///< by vertex
+    std::vector<std::array<double, 3>> near;
+    std::vector<CertifiedTriangle> triangles;
+
+    /// Where it was modelled.
+    explicit ProofBody(const InterferenceModelData& model);
+    /// In the world.
+    ProofBody(const InterferenceModelData& model, const Pose& pose);
+
+    /// The vertices of a range of triangles, each once, in ascending order.
+    [[nodiscard]] std::vector<std::uint32_t> corners(std::size_t from, std::size_t to) const;
+
+private:
+    void add(RationalPoint point);
+    void order(std::size_t from, std::size_t to);
+    [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t axis) const;
+};
+
+}  // namespace trisect::detail
