@@ -26,6 +26,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/detail/digits.h>
+#include <trisect/kernel/detail/filters.h>
 
 namespace trisect {
 
@@ -169,6 +170,10 @@ int sign_of_dot(const Plane& a, const Plane& b) {
     return sign_of(sum);
 }
 
+std::array<double, 3> approx_normal(const Plane& p) {
+    return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
+}
+
 bool all_narrow(const Plane& p, const Plane& q, const Plane& r) {
     return p.is_narrow() && q.is_narrow() && r.is_narrow();
 }
@@ -296,21 +301,12 @@ std::optional<HomogeneousPoint> intersect(const Plane& p, const Plane& q, const 
 }
 
 int sign_of_det(const Plane& a, const Plane& b, const Plane& c) {
-    // Filter: the same bound as for w in double_cramer.
-    double w = 0;
-    double magnitude = 0;
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3;
-        const int l = (i + 2) % 3;
-        const double s = b.approx_normal(j) * c.approx_normal(l);
-        const double t = b.approx_normal(l) * c.approx_normal(j);
-        w += a.approx_normal(i) * (s - t);
-        magnitude += std::fabs(a.approx_normal(i)) * (std::fabs(s) + std::fabs(t));
-    }
+    const int filtered =
+        detail::filter_det(approx_normal(a), approx_normal(b), approx_normal(c)).sign();
     auto& counters = predicate_counters();
-    if (std::fabs(w) > relative_bound * magnitude) {
+    if (filtered != 0) {
         ++counters.filtered;
-        return w > 0 ? 1 : -1;
+        return filtered;
     }
     if (all_narrow(a, b, c)) {
         ++counters.exact_narrow;
@@ -465,16 +461,13 @@ std::strong_ordering compare_coordinate(const HomogeneousPoint& a, const Homogen
 int sign_of_cross(const Plane& a, const Plane& b, int axis) {
     const int j = (axis + 1) % 3;
     const int l = (axis + 2) % 3;
-    const double s = a.approx_normal(j) * b.approx_normal(l);
-    const double t = a.approx_normal(l) * b.approx_normal(j);
+    const auto filtered = detail::filter_cross(a.approx_normal(j), a.approx_normal(l),
+                                               b.approx_normal(j), b.approx_normal(l));
     auto& counters = predicate_counters();
-    if (std::fabs(s - t) > 0x1p-50 * (std::fabs(s) + std::fabs(t))) {
+    // The bound is 0 where both products are, and then they are exactly 0: they are of integers.
+    if (filtered.sign() != 0 || filtered.bound == 0) {
         ++counters.filtered;
-        return s > t ? 1 : -1;
-    }
-    if (s == 0 && t == 0) {  // products of integers: zero only when exactly zero
-        ++counters.filtered;
-        return 0;
+        return filtered.sign();
     }
     if (a.is_narrow() && b.is_narrow()) {
         ++counters.exact_narrow;
@@ -485,18 +478,11 @@ int sign_of_cross(const Plane& a, const Plane& b, int axis) {
 }
 
 int sign_of_dot(const Plane& a, const Plane& b) {
-    double sum = 0;
-    double magnitude = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double t = a.approx_normal(i) * b.approx_normal(i);
-        sum += t;
-        magnitude += std::fabs(t);
-    }
-    // A product of two rounded factors is within 3u of itself, two additions make it 5u.
+    const int filtered = detail::filter_dot(approx_normal(a), approx_normal(b)).sign();
     auto& counters = predicate_counters();
-    if (std::fabs(sum) > 0x1p-50 * magnitude) {
+    if (filtered != 0) {
         ++counters.filtered;
-        return sum > 0 ? 1 : -1;
+        return filtered;
     }
     if (a.is_narrow() && b.is_narrow()) {
         ++counters.exact_narrow;
