@@ -27,6 +27,7 @@
 #include <trisect/bsp/detail/broad_phase.h>
 #include <trisect/bsp/detail/scene_bodies.h>
 #include <trisect/bsp/hierarchies/broad_phases.h>
+#include <trisect/bsp/hierarchies/chain_boxes.h>
 #include <trisect/bsp/interference_query.h>
 #include <trisect/kernel/error.h>
 
@@ -90,6 +91,8 @@ std::unique_ptr<detail::BroadPhase> make_broad_phase(SceneBroadPhase kind) {
             return hierarchies::make_octree_phase();
         case SceneBroadPhase::KdTree:
             return hierarchies::make_kd_tree_phase();
+        case SceneBroadPhase::ChainBoxes:
+            return hierarchies::make_chain_boxes();
     }
     return detail::make_sweep_and_prune();
 }

@@ -46,7 +46,8 @@ enum class SceneBroadPhase : std::uint8_t {
     HashGrid,          ///< a uniform grid: bodies of similar size (bsp/hierarchies/broad_phases.h)
     HierarchicalGrid,  ///< grids of all sizes
     Octree,            ///< a loose one
-    KdTree
+    KdTree,
+    ChainBoxes  ///< a tree in the order of adding: long chains (bsp/hierarchies/chain_boxes.h)
 };
 
 struct SceneOptions {

@@ -63,6 +63,7 @@ struct SwarmScene {
 /// - convex: 1,000 convex polytopes of 26 faces (92 triangles, 48 corners; cubes cut at corners and
 ///   edges) of similar size, flying about in a box and turning.
 /// - giants: a giant plate, two giant rods and 600 dwarfs of 1/100 of their size.
+/// - chain: 400 links, each overlapping the next, that coil into a helix of some turns.
 [[nodiscard]] std::vector<std::string> swarm_scene_names();
 /// \throw trisect::UsageError
 [[nodiscard]] SwarmScene make_swarm_scene(const std::string& name, Size size);

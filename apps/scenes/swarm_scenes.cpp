@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numbers>
 
 #include <trisect/kernel/error.h>
 
@@ -145,16 +145,58 @@ SwarmScene giants(Size size) {
     return s;
 }
 
+// A chain on the floor that coils into a helix: each link is bent against the one before.
+SwarmScene chain(Size size) {
+    SwarmScene s;
+    s.shapes = {cut_cube({3, 1, 1})};
+    const std::size_t links = size == Size::Full ? 400 : 30;
+    s.shape_of.assign(links, 0);
+    const int frames = size == Size::Full ? 60 : 4;
+    const double most_bend = 0.1;
+    for (int f = 0; f < frames; ++f) {
+        auto& poses = s.frames.emplace_back();
+        const double bend = most_bend * f / frames;
+        Point3d p{};
+        for (std::size_t i = 0; i < links; ++i) {
+            const double angle = bend * static_cast<double>(i);
+            poses.push_back(
+                rows_of(shapes::rotation({0, 0, 1}, angle * 180 / std::numbers::pi), p));
+            // Half a length from middle to joint in both directions: links overlap a little.
+            const double next = angle + bend;
+            p = {p[0] + 8 * (std::cos(angle) + std::cos(next)),
+                 p[1] + 8 * (std::sin(angle) + std::sin(next)), p[2] + 0.12};
+        }
+    }
+    return s;
+}
+
+struct Entry {
+    const char* name;
+    const char* about;
+    SwarmScene (*make)(Size);
+};
+
+constexpr std::array entries{
+    Entry{"convex", "1,000 convex bodies of similar size", convex},
+    Entry{"giants", "giants among 600 dwarfs", giants},
+    Entry{"chain", "a chain of 400 links that coils", chain},
+};
+
 }  // namespace
 
-std::vector<std::string> swarm_scene_names() { return {"convex", "giants"}; }
+std::vector<std::string> swarm_scene_names() {
+    std::vector<std::string> r;
+    for (const Entry& e : entries) r.emplace_back(e.name);
+    return r;
+}
 
 SwarmScene make_swarm_scene(const std::string& name, Size size) {
-    if (name != "convex" && name != "giants")
-        throw trisect::UsageError("no scene has the name '" + name + "'");
-    SwarmScene s = name == "convex" ? convex(size) : giants(size);
-    s.name = name;
-    s.about = name == "convex" ? "1,000 convex bodies of similar size" : "giants among 600 dwarfs";
+    const auto found =
+        std::ranges::find_if(entries, [&name](const Entry& e) { return name == e.name; });
+    if (found == entries.end()) throw trisect::UsageError("no scene has the name '" + name + "'");
+    SwarmScene s = found->make(size);
+    s.name = found->name;
+    s.about = found->about;
     return s;
 }
 

@@ -57,6 +57,8 @@ public:
     virtual void pairs(std::vector<BodyPair>& out) = 0;
 
     [[nodiscard]] const BroadPhaseWork& work() const { return counts_; }
+    /// Memory of boxes and what orders them: what is in use, not what is reserved.
+    [[nodiscard]] virtual std::size_t bytes() const = 0;
 
 protected:
     BroadPhaseWork counts_;

@@ -45,6 +45,7 @@ public:
         if (want > slots_.size()) rehash(want);
     }
     [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t bytes() const { return slots_.size() * sizeof(Slot); }
 
     /// The value stored for the key; stores `value` first if there is none. Second: inserted?
     std::pair<std::int32_t, bool> insert(const Key128& key, std::int32_t value) {

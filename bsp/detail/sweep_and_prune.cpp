@@ -52,6 +52,10 @@ public:
         std::sort(out.begin(), out.end());
     }
 
+    [[nodiscard]] std::size_t bytes() const override {
+        return entries_.size() * sizeof(Entry) + entry_of_.size() * sizeof(entry_of_[0]);
+    }
+
 private:
     struct Entry {
         BodyBox box;

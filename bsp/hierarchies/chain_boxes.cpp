@@ -41,6 +41,7 @@ public:
         within(1, out);
         std::sort(out.begin(), out.end());
     }
+    [[nodiscard]] std::size_t bytes() const override { return nodes_.size() * sizeof(Node); }
 
 private:
     struct Node {

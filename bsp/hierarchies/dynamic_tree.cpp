@@ -369,6 +369,7 @@ public:
         counts_ = {counters.volume_tests, tree_.updates() - updates_};
         updates_ = tree_.updates();
     }
+    [[nodiscard]] std::size_t bytes() const override { return tree_.bytes(); }
 
 private:
     DynamicTree tree_;

@@ -49,6 +49,9 @@ public:
     [[nodiscard]] double quality() const;
     /// Boxes written since the beginning: Nu.
     [[nodiscard]] std::uint64_t updates() const { return updates_; }
+    [[nodiscard]] std::size_t bytes() const {
+        return nodes_.size() * sizeof(Node) + (free_.size() + leaf_.size()) * sizeof(leaf_[0]);
+    }
     [[nodiscard]] unsigned depth() const;
     /// Whether links go both ways and every inner box is the box of its children; for tests.
     [[nodiscard]] bool is_sound() const;

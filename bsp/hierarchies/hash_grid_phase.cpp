@@ -63,6 +63,10 @@ class HashGridPhase final : public PackedPhase {
         }
     }
 
+    [[nodiscard]] std::size_t cell_bytes() const override {
+        return cells_.bytes() + large_.size() * sizeof(large_[0]);
+    }
+
     [[nodiscard]] CellRange range_of(std::size_t i) const {
         return CellRange::of(boxes()[i].lo, boxes()[i].hi, size_);
     }

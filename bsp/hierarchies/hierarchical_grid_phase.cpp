@@ -105,6 +105,11 @@ public:
         std::sort(out.begin(), out.end());
     }
 
+    [[nodiscard]] std::size_t bytes() const override {
+        return entries_.size() * sizeof(Entry) + heads_.size() * sizeof(heads_[0]) +
+               numbers_.bytes();
+    }
+
 private:
     // A member of a doubly linked list.
     struct Entry {

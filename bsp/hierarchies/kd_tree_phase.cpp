@@ -64,6 +64,12 @@ class KdTreePhase final : public PackedPhase {
         }
     }
 
+    [[nodiscard]] std::size_t cell_bytes() const override {
+        std::size_t sum = leaves_.size() * sizeof(Leaf);
+        for (const Leaf& leaf : leaves_) sum += leaf.list.size() * sizeof(leaf.list[0]);
+        return sum;
+    }
+
     /// At the median of centres along the axis where that separates most.
     bool cut(const Leaf& leaf, Leaf& low, Leaf& high, std::size_t& budget) const {
         const std::size_t n = leaf.list.size();

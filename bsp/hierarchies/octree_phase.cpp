@@ -42,6 +42,10 @@ class OctreePhase final : public PackedPhase {
         counts_.cells = boxes().size();
     }
 
+    [[nodiscard]] std::size_t cell_bytes() const override {
+        return cells_.size() * sizeof(Cell) + next_.size() * sizeof(next_[0]);
+    }
+
     [[nodiscard]] Cell root() const {
         BodyBox all{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
         for (const BodyBox& b : boxes()) {

@@ -41,6 +41,11 @@ void PackedPhase::remove(std::uint32_t slot) {
     stale_ = true;
 }
 
+std::size_t PackedPhase::bytes() const {
+    return by_slot_.size() * sizeof(by_slot_[0]) + finite_.size() * sizeof(finite_[0]) +
+           (slot_.size() + unbounded_.size()) * sizeof(slot_[0]) + cell_bytes();
+}
+
 void PackedPhase::pairs(std::vector<BodyPair>& out) {
     counts_ = {};
     out.clear();

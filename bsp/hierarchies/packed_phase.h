@@ -22,10 +22,12 @@ public:
     void update(std::uint32_t slot, const detail::BodyBox& box) final;
     void remove(std::uint32_t slot) final;
     void pairs(std::vector<detail::BodyPair>& out) final;
+    [[nodiscard]] std::size_t bytes() const final;
 
 protected:
     /// Makes cells for boxes(). Counts `cells`.
     virtual void pack() = 0;
+    [[nodiscard]] virtual std::size_t cell_bytes() const = 0;
     /// Calls meet(i, j) for candidates, each pair once.
     virtual void find_pairs() = 0;
 

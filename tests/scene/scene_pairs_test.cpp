@@ -263,7 +263,8 @@ TEST_P(ScenePairs, RandomScenesAsBruteForce) {
 }
 
 std::string name_of(const testing::TestParamInfo<SceneBroadPhase>& kind) {
-    constexpr std::array names{"Sweep", "Tree", "HashGrid", "HierarchicalGrid", "Octree", "KdTree"};
+    constexpr std::array names{"Sweep",  "Tree",   "HashGrid",  "HierarchicalGrid",
+                               "Octree", "KdTree", "ChainBoxes"};
     return names[static_cast<std::size_t>(kind.param)];
 }
 
@@ -271,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ScenePairs,
                          testing::Values(SceneBroadPhase::SweepAndPrune, SceneBroadPhase::BoxTree,
                                          SceneBroadPhase::HashGrid,
                                          SceneBroadPhase::HierarchicalGrid, SceneBroadPhase::Octree,
-                                         SceneBroadPhase::KdTree),
+                                         SceneBroadPhase::KdTree, SceneBroadPhase::ChainBoxes),
                          name_of);
 
 }  // namespace
