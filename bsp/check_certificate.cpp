@@ -37,21 +37,8 @@ enum class Where { Inside, Outside, Boundary, Unknown };
 // A boundary in the world.
 class PlacedBoundary {
 public:
-    PlacedBoundary(const Brep& brep, const Pose& pose) : brep_(&brep) {
-        for (const Point& p : brep.points()) {
-            const HomogeneousPoint h = p.homogeneous();
-            Vector x;
-            for (std::size_t i = 0; i < 3; ++i)
-                x[i] =
-                    (ExactRational(h.xyz[i]) / ExactRational(h.w)).scaled(brep.lattice().exponent);
-            Vector y;
-            for (std::size_t i = 0; i < 3; ++i) {
-                y[i] = ExactRational(pose.translation(i));
-                for (std::size_t j = 0; j < 3; ++j) y[i] += ExactRational(pose.matrix(i, j)) * x[j];
-                y[i] /= ExactRational(pose.denominator());
-            }
-            points_.push_back(std::move(y));
-        }
+    PlacedBoundary(const Brep& brep, const Pose& pose)
+        : brep_(&brep), points_(detail::corners_in_world(brep, pose)) {
         for (const FaceId f : brep.faces()) normals_.push_back(normal_of(f));
     }
 
@@ -61,9 +48,7 @@ public:
 
     [[nodiscard]] Where locate(const Vector& p) const {
         for (const FaceId f : brep_->faces())
-            if (dot(normals_[f.index], minus(at(corner(f)), p)).sign() == 0 &&
-                in_face(f, p) != Where::Outside)
-                return Where::Boundary;
+            if (is_on_face(f, p)) return Where::Boundary;
         // Directions of no special meaning; one that meets no edge is found soon.
         std::int64_t seed = 1;
         const auto number = [&seed] {
@@ -88,6 +73,12 @@ public:
         }
         std::ranges::sort(all);
         return all;
+    }
+
+    [[nodiscard]] bool is_on_face(FaceId f, const Vector& p) const {
+        return f.index < brep_->faces().size() &&
+               dot(normals_[f.index], minus(at(corner(f)), p)).sign() == 0 &&
+               in_face(f, p) != Where::Outside;
     }
 
     // Whether triangles fill all faces: in each face their sides, cancelled, are its halfedges. Two
@@ -259,10 +250,10 @@ private:
         const auto all = [&](const PlacedBoundary& boundary,
                              const std::vector<CertifiedTriangle>& triangles, std::size_t from,
                              std::size_t to, int sign) {
-            for (std::size_t i = from; i < to; ++i)
-                for (const VertexId v : triangles[i].vertex)
-                    if (value_at(plane, boundary.at(v)).sign() != sign) return false;
-            return true;
+            return std::ranges::all_of(
+                detail::corners_of_range(triangles, from, to), [&](std::uint32_t v) {
+                    return value_at(plane, boundary.at(VertexId(v))).sign() == sign;
+                });
         };
         return all(a_, c_.triangles_a, a0, a1, -1) && all(b_, c_.triangles_b, b0, b1, 1);
     }
@@ -418,6 +409,39 @@ private:
 };
 
 }  // namespace
+
+std::vector<RationalPoint> detail::corners_in_world(const Brep& brep, const Pose& pose) {
+    std::vector<RationalPoint> r;
+    for (const Point& p : brep.points()) {
+        const HomogeneousPoint h = p.homogeneous();
+        Vector x;
+        for (std::size_t i = 0; i < 3; ++i)
+            x[i] = (ExactRational(h.xyz[i]) / ExactRational(h.w)).scaled(brep.lattice().exponent);
+        Vector y;
+        for (std::size_t i = 0; i < 3; ++i) {
+            y[i] = ExactRational(pose.translation(i));
+            for (std::size_t j = 0; j < 3; ++j) y[i] += ExactRational(pose.matrix(i, j)) * x[j];
+            y[i] /= ExactRational(pose.denominator());
+        }
+        r.push_back(std::move(y));
+    }
+    return r;
+}
+
+bool detail::is_on_face(const RationalPoint& point, FaceId face, const Brep& brep,
+                        const Pose& pose) {
+    return PlacedBoundary(brep, pose).is_on_face(face, point);
+}
+
+std::vector<std::uint32_t> detail::corners_of_range(const std::vector<CertifiedTriangle>& triangles,
+                                                    std::size_t from, std::size_t to) {
+    std::vector<std::uint32_t> r;
+    for (std::size_t i = from; i < to; ++i)
+        for (const VertexId v : triangles[i].vertex) r.push_back(v.index);
+    std::ranges::sort(r);
+    r.erase(std::unique(r.begin(), r.end()), r.end());
+    return r;
+}
 
 bool detail::triangles_fill_faces(const std::vector<CertifiedTriangle>& triangles,
                                   const Brep& brep) {

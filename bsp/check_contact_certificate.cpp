@@ -212,17 +212,6 @@ struct Relative {
     [[nodiscard]] PolynomialVector direction(const Vector& v) const { return m * constant(v); }
 };
 
-std::vector<Vector> corners_of(const Brep& brep) {
-    std::vector<Vector> r;
-    for (const Point& p : brep.points()) {
-        const HomogeneousPoint h = p.homogeneous();
-        Vector& x = r.emplace_back();
-        for (std::size_t i = 0; i < 3; ++i)
-            x[i] = (ExactRational(h.xyz[i]) / ExactRational(h.w)).scaled(brep.lattice().exponent);
-    }
-    return r;
-}
-
 // ---------------------------------------------------------------- the checker
 
 class Checker {
@@ -234,8 +223,8 @@ public:
           brep_b_(b),
           motion_a_(motion_a),
           motion_b_(motion_b),
-          a_(corners_of(a)),
-          b_(corners_of(b)) {}
+          a_(detail::corners_in_world(a, Pose())),
+          b_(detail::corners_in_world(b, Pose())) {}
 
     std::string run() {
         const Pose pose_a = motion_a_.pose_at(0);
@@ -458,18 +447,9 @@ private:
         }
         return {};
     }
-    static std::vector<std::uint32_t> corners(const std::vector<CertifiedTriangle>& triangles,
-                                              std::size_t from, std::size_t to) {
-        std::vector<std::uint32_t> r;
-        for (std::size_t i = from; i < to; ++i)
-            for (const VertexId v : triangles[i].vertex) r.push_back(v.index);
-        std::ranges::sort(r);
-        r.erase(std::unique(r.begin(), r.end()), r.end());
-        return r;
-    }
     [[nodiscard]] bool are_apart(const Range& r, const MovingSeparator& s) const {
-        const auto of_a = corners(c_.triangles_a, r.a0, r.a1);
-        const auto of_b = corners(c_.triangles_b, r.b0, r.b1);
+        const auto of_a = detail::corners_of_range(c_.triangles_a, r.a0, r.a1);
+        const auto of_b = detail::corners_of_range(c_.triangles_b, r.b0, r.b1);
         if (s.kind == MovingSeparator::Kind::Edges) return are_apart_by_edges(r, s, of_a, of_b);
         const bool is_of_a = s.kind == MovingSeparator::Kind::OfA;
         const auto& resting = is_of_a ? a_ : b_;
