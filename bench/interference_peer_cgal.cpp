@@ -19,7 +19,7 @@ using Affine = CGAL::Aff_transformation_3<Kernel>;
 class Cgal : public Peer {
 public:
     Cgal(bool inclusion, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
-         std::span<const Placement> placements)
+         std::span<const Placement> placements, const Placement& home)
         : inclusion_(inclusion), a_(mesh(a)), b_(mesh(b)) {
         const auto start = std::chrono::steady_clock::now();
         first_ = detection_.add_mesh(a_);
@@ -27,9 +27,8 @@ public:
         detection_.get_all_intersections(first_);
         build_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         second_ = detection_.add_mesh(b_);
-        for (const Placement& p : placements)
-            poses_.emplace_back(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10],
-                                p[11]);
+        detection_.set_transformation(first_, affine(home));
+        for (const Placement& p : placements) poses_.push_back(affine(p));
     }
     [[nodiscard]] std::string name() const override {
         return inclusion_ ? "CGAL with inclusion" : "CGAL surfaces";
@@ -44,6 +43,9 @@ public:
     }
 
 private:
+    static Affine affine(const Placement& p) {
+        return {p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11]};
+    }
     static Mesh mesh(const trisect::PolygonMesh& m) {
         Mesh r;
         for (const auto& p : m.points) r.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
@@ -68,9 +70,9 @@ private:
 }  // namespace
 
 void add_cgal(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
-              std::span<const Placement> placements) {
-    peers.push_back(std::make_unique<Cgal>(false, a, b, placements));
-    peers.push_back(std::make_unique<Cgal>(true, a, b, placements));
+              std::span<const Placement> placements, const Placement& home) {
+    peers.push_back(std::make_unique<Cgal>(false, a, b, placements, home));
+    peers.push_back(std::make_unique<Cgal>(true, a, b, placements, home));
 }
 
 }  // namespace interference_peers

@@ -11,6 +11,21 @@ namespace interference_peers {
 namespace {
 
 using Transform = fcl::Transform3<double>;
+using Transforms = std::vector<Transform, Eigen::aligned_allocator<Transform>>;
+
+Transform transform(const Placement& p) {
+    Transform t = Transform::Identity();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) t.linear()(i, j) = p[static_cast<std::size_t>(4 * i + j)];
+        t.translation()[i] = p[static_cast<std::size_t>(4 * i + 3)];
+    }
+    return t;
+}
+Transforms transforms(std::span<const Placement> placements) {
+    Transforms out;
+    for (const Placement& p : placements) out.push_back(transform(p));
+    return out;
+}
 
 template <class Volume>
 class Fcl : public Peer {
@@ -18,21 +33,17 @@ public:
     using Model = fcl::BVHModel<Volume>;
 
     Fcl(std::string name, bool distance, bool slow, const trisect::PolygonMesh& a,
-        const trisect::PolygonMesh& b, std::span<const Placement> placements)
-        : name_(std::move(name)), distance_(distance), slow_(slow) {
+        const trisect::PolygonMesh& b, std::span<const Placement> placements,
+        const Placement& home = home_placement)
+        : name_(std::move(name)),
+          distance_(distance),
+          slow_(slow),
+          home_(transform(home)),
+          poses_(transforms(placements)) {
         const auto start = std::chrono::steady_clock::now();
         a_ = model(a);
         build_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         b_ = model(b);
-        for (const Placement& p : placements) {
-            Transform t = Transform::Identity();
-            for (int i = 0; i < 3; ++i) {
-                for (int j = 0; j < 3; ++j)
-                    t.linear()(i, j) = p[static_cast<std::size_t>(4 * i + j)];
-                t.translation()[i] = p[static_cast<std::size_t>(4 * i + 3)];
-            }
-            poses_.push_back(t);
-        }
     }
 
     [[nodiscard]] std::string name() const override { return "FCL " + name_; }
@@ -76,24 +87,59 @@ private:
     std::string name_;
     bool distance_;
     bool slow_;
+    Transform home_;
+    Transforms poses_;
     double build_ = 0;
     std::shared_ptr<Model> a_;
     std::shared_ptr<Model> b_;
-    Transform home_ = Transform::Identity();
-    std::vector<Transform, Eigen::aligned_allocator<Transform>> poses_;
+};
+
+class FclBoxes : public Peer {
+public:
+    FclBoxes(const std::array<double, 3>& a, const std::array<double, 3>& b,
+             std::span<const Placement> placements, const Placement& home)
+        : a_(a[0], a[1], a[2]),
+          b_(b[0], b[1], b[2]),
+          home_(transform(home)),
+          poses_(transforms(placements)) {}
+
+    [[nodiscard]] std::string name() const override { return "FCL boxes"; }
+    [[nodiscard]] double build_seconds() const override { return 0; }
+    [[nodiscard]] bool collide(std::size_t i) override {
+        const fcl::CollisionRequest<double> request(1, false);
+        fcl::CollisionResult<double> result;
+        fcl::collide(&a_, home_, &b_, poses_[i], request, result);
+        return result.isCollision();
+    }
+    [[nodiscard]] std::optional<double> distance(std::size_t i) override {
+        const fcl::DistanceRequest<double> request(false, true);
+        fcl::DistanceResult<double> result;
+        return fcl::distance(&a_, home_, &b_, poses_[i], request, result);
+    }
+
+private:
+    fcl::Box<double> a_;
+    fcl::Box<double> b_;
+    Transform home_;
+    Transforms poses_;
 };
 
 }  // namespace
 
 void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
-             std::span<const Placement> p) {
+             std::span<const Placement> p, const Placement& home) {
     using std::make_unique;
-    peers.push_back(make_unique<Fcl<fcl::OBB<double>>>("OBB", false, false, a, b, p));
-    peers.push_back(make_unique<Fcl<fcl::OBBRSS<double>>>("OBBRSS", true, false, a, b, p));
-    peers.push_back(make_unique<Fcl<fcl::RSS<double>>>("RSS", true, true, a, b, p));
-    peers.push_back(make_unique<Fcl<fcl::kIOS<double>>>("kIOS", true, false, a, b, p));
-    peers.push_back(make_unique<Fcl<fcl::KDOP<double, 16>>>("KDOP16", false, true, a, b, p));
-    peers.push_back(make_unique<Fcl<fcl::AABB<double>>>("AABB", false, true, a, b, p));
+    peers.push_back(make_unique<Fcl<fcl::OBB<double>>>("OBB", false, false, a, b, p, home));
+    peers.push_back(make_unique<Fcl<fcl::OBBRSS<double>>>("OBBRSS", true, false, a, b, p, home));
+    peers.push_back(make_unique<Fcl<fcl::RSS<double>>>("RSS", true, true, a, b, p, home));
+    peers.push_back(make_unique<Fcl<fcl::kIOS<double>>>("kIOS", true, false, a, b, p, home));
+    peers.push_back(make_unique<Fcl<fcl::KDOP<double, 16>>>("KDOP16", false, true, a, b, p, home));
+    peers.push_back(make_unique<Fcl<fcl::AABB<double>>>("AABB", false, true, a, b, p, home));
+}
+
+void add_fcl_boxes(Peers& peers, const std::array<double, 3>& a, const std::array<double, 3>& b,
+                   std::span<const Placement> placements, const Placement& home) {
+    peers.push_back(std::make_unique<FclBoxes>(a, b, placements, home));
 }
 
 void add_fcl_volumes(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,

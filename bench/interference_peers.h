@@ -18,6 +18,8 @@ namespace interference_peers {
 /// A 3x4 matrix, row by row: where the second body is put. The first one stays.
 using Placement = std::array<double, 12>;
 
+constexpr Placement home_placement{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
 /// Two bodies prepared, and the placements, in the peer's own form; a query names a placement.
 class Peer {
 public:
@@ -35,14 +37,17 @@ public:
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
-/// FCL with each of its volumes.
+/// FCL with each of its volumes. The first body is at `home`.
 void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
-             std::span<const Placement> placements);
+             std::span<const Placement> placements, const Placement& home = home_placement);
 /// FCL with the volumes that we have too: AABB, KDOP16, KDOP18, KDOP24, OBB.
 void add_fcl_volumes(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
                      std::span<const Placement> placements);
 /// CGAL Rigid_triangle_mesh_collision_detection: surfaces, and with inclusion.
 void add_cgal(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
-              std::span<const Placement> placements);
+              std::span<const Placement> placements, const Placement& home = home_placement);
+/// FCL's own bodies: two boxes about the origin with these sides, by its solvers for shapes.
+void add_fcl_boxes(Peers& peers, const std::array<double, 3>& a, const std::array<double, 3>& b,
+                   std::span<const Placement> placements, const Placement& home);
 
 }  // namespace interference_peers
