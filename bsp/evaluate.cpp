@@ -71,6 +71,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     state->root = std::move(evaluation.root);
     state->embedded = true;
     state->incomplete = all_incomplete(std::move(evaluation.incomplete), states);
+    state->crossings = std::move(evaluation.crossings);
     evaluation.stats.lattice = lattice;
     if (stats != nullptr) *stats = evaluation.stats;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));

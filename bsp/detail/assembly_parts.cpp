@@ -23,6 +23,7 @@
 
 #include <trisect/bsp/detail/fragment_group.h>
 #include <trisect/bsp/detail/near_points.h>
+#include <trisect/bsp/detail/traced_facets.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -48,9 +49,11 @@ public:
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) mark_facets(leaf);
         number_facets();
+        if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
+        const std::size_t traced = edges_.size();
         for (Leaf& leaf : leaves_) make_parts(leaf);
         merge_equal_points();
-        conform_edges();
+        conform_edges(traced);
         out_.representatives = std::move(same_);
         out_.stats.leaves = leaves_.size();
         out_.stats.worked_facets = out_.facets.size();
@@ -69,7 +72,7 @@ private:
     void note_part(const Leaf& leaf, BoundaryFacet& facet);
     void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
     void merge_equal_points();
-    void conform_edges();
+    void conform_edges(std::size_t traced);
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -77,7 +80,7 @@ private:
     BoundaryParts& out_;
     std::vector<Leaf> leaves_;
     std::size_t last_table_ = 0;
-    std::vector<BoundaryEdge> edges_;  // of the parts, leaf by leaf
+    std::vector<BoundaryEdge> edges_;  // of traced facets, then of the parts, leaf by leaf
     std::vector<PointId> same_;
     EdgeSplitter splitter_;
     // Of the group of fragments in the making.
@@ -214,7 +217,7 @@ void Gatherer::make_parts(Leaf& leaf) {
         const FacetMarks& marks = out_.sources[table(source)];
         const bool flipped = polygons.flipped() != leaf.complemented;
         const auto make = [&](std::uint32_t f) {
-            if (marks.takes_part(f, flipped))
+            if (marks.takes_part(f, flipped) && !marks.is_traced(f))
                 make_part({source, nullptr, f, polygons.flipped(), false}, leaf,
                           marks.number_of_worked(f, flipped));
         };
@@ -252,7 +255,7 @@ void Gatherer::make_list_parts(const Leaf& leaf) {
         const PolygonRef r = polygons[i++];
         const FacetMarks& marks = out_.sources[table(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
-        if (!marks.takes_part(r.facet, flipped)) continue;
+        if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
         if (r.fragment == nullptr || !ends_at_walls(*r.fragment, leaf.cell)) {
             make_part(r, leaf, facet);
@@ -373,12 +376,14 @@ void Gatherer::merge_equal_points() {
         while (same_[u(p)] != p) p = same_[u(p)];
 }
 
-void Gatherer::conform_edges() {
+// Edges of traced facets come first and have all their vertices.
+void Gatherer::conform_edges(std::size_t traced) {
     for (BoundaryEdge& e : edges_) {
         e.from = same_[u(e.from)];
         e.to = same_[u(e.to)];
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
+    out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
     for (const Leaf& leaf : leaves_) {
         const auto edges =
             std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);

@@ -68,6 +68,7 @@ struct Shared {
     std::size_t slots;
     MemoryBudget memory;
     bool parallel = false;
+    bool collect_crossings = false;
     tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
 
     Worker& worker();
@@ -78,7 +79,9 @@ struct Shared {
 class Worker {
 public:
     explicit Worker(Shared& shared)
-        : shared_(shared), options_(shared.options), values_(shared.slots, -1) {}
+        : shared_(shared), options_(shared.options), values_(shared.slots, -1) {
+        arranger_.collect_crossings(shared.collect_crossings);
+    }
 
     CellRef solve(CellTask& task);
     // Winding number of a solid, given by the node of a cell, at a point of the cell.
@@ -86,6 +89,7 @@ public:
                                   const FinePoint& p);
     [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
     [[nodiscard]] const std::vector<FacetName>& incomplete() const { return incomplete_; }
+    [[nodiscard]] const Crossings& crossings() const { return arranger_.crossings(); }
     [[nodiscard]] StackArena& arena() { return arena_; }
 
 private:
@@ -792,12 +796,64 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
     return root;
 }
 
+// Crossings of two different meshes, as they were imported, that are to be collected. Nothing where
+// one of their boundaries may bound the result on both sides of the other one, or on none.
+std::optional<Crossings> crossings_of(const Residual& formula,
+                                      std::span<const std::shared_ptr<const SolidState>> states) {
+    if (states.size() != 2) return std::nullopt;
+    Crossings out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const CellRef& root = states[i]->root;
+        const PolygonList& polygons = root.node->polygons();
+        if (!root.node->is_leaf() || !polygons.has_all_facets() || !states[i]->embedded ||
+            polygons.whole_source()->is_half_space())
+            return std::nullopt;
+        Crossings::Operand& o = out.operands[i];
+        o.serial = polygons.whole_source()->serial();
+        o.flipped = polygons.flipped() != root.complemented;
+        const auto result = [&](int own, int other) {
+            SlotValues values(2);
+            values[i] = static_cast<std::int8_t>(own);
+            values[1 - i] = static_cast<std::int8_t>(other);
+            return value_of(formula, values);
+        };
+        const bool outside = result(0, 0) != result(1, 0);
+        if (outside == (result(0, 1) != result(1, 1))) return std::nullopt;
+        o.keep = outside ? 0 : 1;
+        o.inside_above = result(o.flipped ? 1 : 0, o.keep);
+    }
+    if (out.operands[0].serial == out.operands[1].serial) return std::nullopt;
+    return out;
+}
+
+void append(const Crossings& part, Crossings& all) {
+    all.pairs.insert(all.pairs.end(), part.pairs.begin(), part.pairs.end());
+    for (std::size_t i = 0; i < 2; ++i)
+        all.doubtful[i].insert(all.doubtful[i].end(), part.doubtful[i].begin(),
+                               part.doubtful[i].end());
+}
+
+// A pair was found in every cell that its segment runs through.
+void arrange(Crossings& crossings) {
+    auto& pairs = crossings.pairs;
+    std::ranges::sort(pairs, {}, &FacetCrossing::facets);
+    const auto twice = std::ranges::unique(pairs, {}, &FacetCrossing::facets);
+    pairs.erase(twice.begin(), twice.end());
+    for (auto& facets : crossings.doubtful) {
+        std::ranges::sort(facets);
+        const auto again = std::ranges::unique(facets);
+        facets.erase(again.begin(), again.end());
+    }
+}
+
 }  // namespace
 
 Evaluation evaluate_formula(const Residual::Ref& formula,
                             std::span<const std::shared_ptr<const SolidState>> solids,
                             const EvaluateOptions& options) {
-    Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false, {}};
+    std::optional<Crossings> crossings = crossings_of(*formula, solids);
+    Shared shared{options, solids.size(),         MemoryBudget(options.max_memory),
+                  false,   crossings.has_value(), {}};
     std::uint64_t polygons = 0;
     for (const auto& s : solids) polygons += s->root.node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
@@ -810,6 +866,11 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         arena.execute([&] { result.root = solve_root(shared, formula, solids); });
     } else {
         result.root = solve_root(shared, formula, solids);
+    }
+    if (crossings) {
+        for (const auto& worker : shared.workers) append(worker->crossings(), *crossings);
+        arrange(*crossings);
+        result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }
     for (const auto& worker : shared.workers) {
         const EvaluateStats& s = worker->stats();

@@ -18,6 +18,7 @@ struct Evaluation {
     CellRef root;
     /// Facets that lost a part to a coincident one (SolidState::incomplete); unordered.
     std::vector<FacetName> incomplete;
+    std::shared_ptr<const Crossings> crossings;  ///< as in SolidState
     EvaluateStats stats;
 };
 

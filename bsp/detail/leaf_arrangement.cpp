@@ -45,8 +45,11 @@ class LeafArranger::Impl {
 public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
     std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem, EvaluateStats& stats);
+    void collect_crossings(bool collect) { collect_ = collect; }
+    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
 
 private:
+    void note_doubtful(const LeafProblem& problem);
     void arrange_embedded();
     void arrange_any(SlotValues& values);
     void emit_remains(LeafIndex i, const LeafRemains& remains);
@@ -64,6 +67,8 @@ private:
     LeafAnchors anchors_;
     LeafCutting cutting_;
     LeafFormula formula_;
+    bool collect_ = false;
+    Crossings crossings_;
     std::vector<PolygonRef> out_;
     std::vector<std::pair<const WorkPolygon*, LeafSides>> kept_;
 };
@@ -75,6 +80,10 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
                                  EvaluateStats& stats) {
     return impl_->arrange(problem, values, stats);
 }
+
+void LeafArranger::collect_crossings(bool collect) { impl_->collect_crossings(collect); }
+
+const Crossings& LeafArranger::crossings() const { return impl_->crossings(); }
 
 std::optional<LeafResult> LeafArranger::arrange_across_axes(const LeafProblem& problem,
                                                             EvaluateStats& stats) {
@@ -91,15 +100,27 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
         const PolygonList freed(std::move(out_));  // the fragments made so far
         throw;
     }
+    note_doubtful(problem);
     result.polygons = std::move(out_);
     return result;
+}
+
+void LeafArranger::Impl::note_doubtful(const LeafProblem& problem) {
+    if (!collect_) return;
+    for (const LeafOperand& o : problem.operands)
+        for (const PolygonRef& r : o.polygons)
+            crossings_.doubtful[static_cast<std::size_t>(o.slot)].push_back(r.facet);
 }
 
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
     if (auto result = arrange_across_axes(problem, stats)) return *std::move(result);
     out_.clear();
-    if (plain_.arrange(problem, stats, out_)) return {std::move(out_), {}};
+    if (plain_.arrange(problem, stats, out_)) {
+        if (collect_ && problem.operands.size() == 2) plain_.add_crossings(crossings_.pairs);
+        return {std::move(out_), {}};
+    }
+    note_doubtful(problem);
     work_.start(problem, stats);
     pairs_.relate_all(work_);
     const bool embedded = std::all_of(problem.operands.begin(), problem.operands.end(),

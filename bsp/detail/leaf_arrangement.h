@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
 #include <trisect/bsp/detail/residual.h>
@@ -37,6 +38,10 @@ public:
     /// to.
     [[nodiscard]] LeafResult arrange(const LeafProblem& problem, SlotValues& values,
                                      EvaluateStats& stats);
+    /// Whether leaves of two operands have their crossings collected.
+    void collect_crossings(bool collect);
+    /// What was collected so far; unordered, and pairs may be there several times.
+    [[nodiscard]] const Crossings& crossings() const;
     /// The same when all polygons are across an axis and the leaf is not too large for that; else
     /// nothing. Such leaves may be much larger than others.
     [[nodiscard]] std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem,

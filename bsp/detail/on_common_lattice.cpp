@@ -209,6 +209,7 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
     auto out = std::make_shared<SolidState>(*state);
     out->lattice = lattice;
     out->incomplete.clear();  // refining clips every facet to its cell
+    out->crossings.reset();
     out->root = Refiner(state->lattice.exponent, lattice.exponent).refine(state->root);
     return out;
 }

@@ -143,21 +143,11 @@ PlaneName PlainCutting::plane_of(PlainLine line) const {
     return PlaneName::support(other.source, other.facet);
 }
 
-// The same point in the lattice's coordinates.
-Approximation PlainCutting::from_lattice_origin(Approximation at) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto origin = static_cast<double>(facets_->origin()[k]);
-        at.c[k] += origin;
-        at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
-    }
-    return at;
-}
-
 int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
     const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
     const PolygonRef& ref = (*facets_)[item_].ref;
     if (vertex < 3) return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
-    return trisect::sign_of(side_of(from_lattice_origin(v.at), ref.source->support(ref.facet),
+    return trisect::sign_of(side_of(facets_->in_lattice(v.at), ref.source->support(ref.facet),
                                     plane_of(v.lines[0]).plane(), plane_of(v.lines[1]).plane(),
                                     plane));
 }
@@ -709,7 +699,7 @@ PolygonRef PlainCutting::fragment(const PlainPart& part) const {
             box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + low);
             box.hi[k] = std::max(box.hi[k], facets_->origin()[k] + high);
         }
-        vertices[i] = from_lattice_origin(a);
+        vertices[i] = facets_->in_lattice(a);
     }
     PolygonRef out = (*facets_)[item_].ref;
     out.fragment = Fragment::make(std::span(edges).first(part.size),

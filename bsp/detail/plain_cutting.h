@@ -132,7 +132,6 @@ private:
     [[nodiscard]] bool is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
                                      const Direction& direction) const;
     [[nodiscard]] PlaneName plane_of(PlainLine line) const;
-    [[nodiscard]] Approximation from_lattice_origin(Approximation at) const;
     [[nodiscard]] int exact_sign(std::int16_t vertex, const Plane& plane) const;
     [[nodiscard]] Approximation exact_point(const std::array<PlainLine, 2>& lines) const;
     [[nodiscard]] bool passes(const PlainVertex& vertex, std::size_t contact) const;

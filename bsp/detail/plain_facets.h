@@ -98,6 +98,16 @@ public:
     /// From where coordinates of this leaf count, in lattice units.
     [[nodiscard]] const std::array<std::int64_t, 3>& origin() const { return origin_; }
 
+    /// A point of the leaf in the lattice's coordinates.
+    [[nodiscard]] Approximation in_lattice(Approximation at) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto origin = static_cast<double>(origin_[k]);
+            at.c[k] += origin;
+            at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
+        }
+        return at;
+    }
+
 private:
     void set_origin(const LatticePoint& origin);
     void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);

@@ -59,6 +59,17 @@ bool PlainLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats,
     return true;
 }
 
+void PlainLeaf::add_crossings(std::vector<FacetCrossing>& out) const {
+    for (const PlainCrossing& c : pairs_.crossings()) {
+        FacetCrossing& made = out.emplace_back();
+        for (std::size_t k = 0; k < 2; ++k) {
+            made.facets[k] = facets_[c.items[k]].ref.facet;
+            const PlainEnd& end = c.ends[k];
+            made.ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
+        }
+    }
+}
+
 // The outside faces upwards, unless flipped.
 void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result,
                      std::vector<PolygonRef>& out) {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/leaf_formula.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/plain_cutting.h>
@@ -24,6 +25,9 @@ public:
     /// tell; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
+    /// Appends the pairs of facets that cross in the last leaf. \pre it was arranged, and has two
+    /// operands.
+    void add_crossings(std::vector<FacetCrossing>& out) const;
 
 private:
     [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats,

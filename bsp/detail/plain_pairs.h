@@ -44,6 +44,7 @@ public:
     [[nodiscard]] const PlainCrossing& crossing(std::int32_t i) const {
         return crossings_[static_cast<std::size_t>(i)];
     }
+    [[nodiscard]] std::span<const PlainCrossing> crossings() const { return crossings_; }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
         const auto i = LeafWork::u(item);

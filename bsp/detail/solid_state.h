@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/crossings.h>
 
 namespace trisect::detail {
 
@@ -28,6 +29,9 @@ struct SolidState {
     /// facet of another operand spoke for them there. Sorted. Elsewhere that operand may have
     /// dropped out of the formula, so such a facet may be listed whole without being whole. Rare.
     std::vector<FacetName> incomplete;
+    /// Of the result of two imported meshes; else null. It says nothing about what is made of the
+    /// result in turn.
+    std::shared_ptr<const Crossings> crossings;
     bool lattice_matters = true;  ///< false for the empty set and whole space
 };
 

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/kernel/error.h>
+
 #include "engines.h"
 
 namespace {
@@ -108,6 +112,48 @@ TEST(GeneralPosition, BarsWhoseSidesAreCutInTwoTriangles) {
                          100, leaves);
     }
     EXPECT_GT(leaves.plain * 10, leaves.mixed * 8);
+}
+
+// The outlines of cut facets follow from their crossings, or pieces are put together: the same
+// mesh, corner by corner. Some walls of cells run through the crossings.
+TEST(GeneralPosition, TracedOutlinesAreThoseOfThePieces) {
+    std::uint64_t traced = 0;
+    std::uint64_t worked = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 340000);
+        std::vector<trisect::Expression> terms;
+        for (int i = 0; i < 2; ++i) {
+            const trisect::Solid solid =
+                engines::solid(mapped(reference::random_embedded_solid(random), random),
+                               trisect::Embedding::Assume);
+            terms.push_back(random.between(0, 1) == 0 ? trisect::Expression(solid) : ~solid);
+        }
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = seed % 3 == 0 ? 3 : (seed % 3 == 1 ? 10 : 100);
+        const trisect::Expression expression =
+            seed % 2 == 0 ? ~(terms[0] | terms[1]) : terms[0] - terms[1];
+        const trisect::Solid result = trisect::evaluate(expression, options);
+        trisect::detail::SolidState without = *result.state();
+        without.crossings.reset();
+        trisect::detail::AssemblyStats stats;
+        trisect::PolygonMesh expected;
+        try {
+            expected = trisect::detail::assemble_mesh(without);
+        } catch (const trisect::UnsupportedError&) {
+            continue;  // unbounded
+        }
+        const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*result.state(), &stats);
+        traced += stats.traced_facets;
+        worked += stats.worked_facets;
+        EXPECT_EQ(mesh.corners, expected.corners);
+        EXPECT_TRUE(mesh.points == expected.points);
+        const trisect::Brep brep = trisect::detail::assemble_brep(*result.state(), {});
+        const trisect::Brep joined = trisect::detail::assemble_brep(without, {});
+        EXPECT_EQ(brep.vertices().size(), joined.vertices().size());
+        EXPECT_EQ(brep.faces().size(), joined.faces().size());
+    }
+    EXPECT_GT(traced * 10, worked * 7);
 }
 
 // Whatever touches is left to the exact way.
