@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -167,6 +168,31 @@ private:
     std::vector<Vector> points_;
     std::vector<Vector> normals_;
 };
+
+// Of a point and a triangle.
+ExactRational squared_distance(const Vector& p, const std::array<Vector, 3>& t) {
+    const Vector n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const ExactRational nn = dot(n, n);
+    bool above = nn.sign() != 0;
+    for (std::size_t i = 0; above && i < 3; ++i)
+        above = dot(cross(n, minus(t[(i + 1) % 3], t[i])), minus(p, t[i])).sign() >= 0;
+    if (above) {
+        const ExactRational h = dot(n, minus(p, t[0]));
+        return h * h / nn;
+    }
+    std::optional<ExactRational> least;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector d = minus(t[(i + 1) % 3], t[i]);
+        const Vector w = minus(p, t[i]);
+        const ExactRational dd = dot(d, d);
+        ExactRational part = dd.sign() == 0 ? ExactRational() : dot(w, d) / dd;
+        part = std::clamp(part, ExactRational(), ExactRational(1));
+        const Vector way{w[0] - part * d[0], w[1] - part * d[1], w[2] - part * d[2]};
+        const ExactRational squared = dot(way, way);
+        if (!least || squared < *least) least = squared;
+    }
+    return *least;
+}
 
 ExactRational value_at(const SeparatingPlane& plane, const Vector& p) {
     return dot(plane.normal, p) + plane.offset;
@@ -431,6 +457,27 @@ std::vector<RationalPoint> detail::corners_in_world(const Brep& brep, const Pose
 bool detail::is_on_face(const RationalPoint& point, FaceId face, const Brep& brep,
                         const Pose& pose) {
     return PlacedBoundary(brep, pose).is_on_face(face, point);
+}
+
+bool detail::is_deep_inside(const RationalPoint& point, const ExactRational& radius,
+                            const std::vector<CertifiedTriangle>& triangles, const Brep& brep,
+                            const Pose& pose) {
+    const PlacedBoundary boundary(brep, pose);
+    for (const CertifiedTriangle& t : triangles) {
+        std::array<Vector, 3> c;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (t.vertex[i].index >= boundary.points().size()) return false;
+            c[i] = boundary.at(t.vertex[i]);
+        }
+        // Far off along an axis.
+        bool far = false;
+        for (std::size_t k = 0; k < 3 && !far; ++k)
+            far =
+                std::ranges::all_of(c, [&](const Vector& v) { return v[k] - point[k] > radius; }) ||
+                std::ranges::all_of(c, [&](const Vector& v) { return point[k] - v[k] > radius; });
+        if (!far && squared_distance(point, c) <= radius * radius) return false;
+    }
+    return boundary.locate(point) == Where::Inside;
 }
 
 std::vector<std::uint32_t> detail::corners_of_range(const std::vector<CertifiedTriangle>& triangles,

@@ -16,10 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/bsp/contact_certificate.h>
+#include <trisect/bsp/detail/certified_polynomial.h>
 #include <trisect/bsp/detail/certified_triangles.h>
-#include <trisect/bsp/detail/motion_piece.h>
 
 namespace trisect {
 
@@ -27,126 +26,15 @@ namespace {
 
 using Vector = RationalPoint;
 
-// ---------------------------------------------------------------- polynomials
+using detail::certified::common_divisor;
+using detail::certified::constant;
+using detail::certified::Piece;
+using detail::certified::piece_of;
+using detail::certified::Polynomial;
+using detail::certified::PolynomialVector;
+using detail::certified::roots_between;
+using detail::certified::Rows;
 
-// Coefficients, constant one first, the last one not 0.
-class Polynomial {
-public:
-    Polynomial() = default;
-    Polynomial(const ExactRational& c) : c_{c} { trim(); }  // NOLINT
-    explicit Polynomial(std::vector<ExactRational> c) : c_(std::move(c)) { trim(); }
-
-    [[nodiscard]] bool is_zero() const { return c_.empty(); }
-    [[nodiscard]] std::size_t degree() const { return c_.size() - 1; }
-    [[nodiscard]] ExactRational value_at(const ExactRational& s) const {
-        ExactRational r;
-        for (std::size_t i = c_.size(); i-- > 0;) r = r * s + c_[i];
-        return r;
-    }
-    [[nodiscard]] int sign_at(const ExactRational& s) const { return value_at(s).sign(); }
-    [[nodiscard]] Polynomial derivative() const {
-        std::vector<ExactRational> r;
-        for (std::size_t i = 1; i < c_.size(); ++i)
-            r.push_back(c_[i] * ExactRational(static_cast<std::int64_t>(i)));
-        return Polynomial(std::move(r));
-    }
-    friend Polynomial operator+(const Polynomial& a, const Polynomial& b) {
-        std::vector<ExactRational> r(std::max(a.c_.size(), b.c_.size()));
-        for (std::size_t i = 0; i < a.c_.size(); ++i) r[i] += a.c_[i];
-        for (std::size_t i = 0; i < b.c_.size(); ++i) r[i] += b.c_[i];
-        return Polynomial(std::move(r));
-    }
-    friend Polynomial operator-(const Polynomial& a) {
-        std::vector<ExactRational> r;
-        for (const ExactRational& c : a.c_) r.push_back(-c);
-        return Polynomial(std::move(r));
-    }
-    friend Polynomial operator-(const Polynomial& a, const Polynomial& b) { return a + (-b); }
-    friend Polynomial operator*(const Polynomial& a, const Polynomial& b) {
-        if (a.is_zero() || b.is_zero()) return {};
-        std::vector<ExactRational> r(a.c_.size() + b.c_.size() - 1);
-        for (std::size_t i = 0; i < a.c_.size(); ++i)
-            for (std::size_t j = 0; j < b.c_.size(); ++j) r[i + j] += a.c_[i] * b.c_[j];
-        return Polynomial(std::move(r));
-    }
-    // Remainder of the division, with a leading coefficient of 1 or -1. \pre b is not zero
-    friend Polynomial remainder(Polynomial a, const Polynomial& b) {
-        while (a.c_.size() >= b.c_.size()) {
-            const ExactRational factor = a.c_.back() / b.c_.back();
-            const std::size_t shift = a.c_.size() - b.c_.size();
-            for (std::size_t i = 0; i < b.c_.size(); ++i) a.c_[shift + i] -= factor * b.c_[i];
-            a.c_.pop_back();
-            a.trim();
-        }
-        if (a.is_zero()) return a;
-        const ExactRational size = a.c_.back().sign() > 0 ? a.c_.back() : -a.c_.back();
-        for (ExactRational& c : a.c_) c /= size;
-        return a;
-    }
-
-private:
-    void trim() {
-        while (!c_.empty() && c_.back().sign() == 0) c_.pop_back();
-    }
-    std::vector<ExactRational> c_;
-};
-
-Polynomial common_divisor(Polynomial a, Polynomial b) {
-    while (!b.is_zero()) {
-        Polynomial r = remainder(std::move(a), b);
-        a = std::exchange(b, std::move(r));
-    }
-    return a;
-}
-
-// Distinct roots in the open interval; nothing when an end is a root. \pre p is not zero
-std::optional<int> roots_between(const Polynomial& p, const ExactRational& from,
-                                 const ExactRational& to) {
-    if (p.sign_at(from) == 0 || p.sign_at(to) == 0) return std::nullopt;
-    int lost = 0;
-    Polynomial a = p;
-    Polynomial b = p.derivative();
-    int at_from = a.sign_at(from);
-    int at_to = a.sign_at(to);
-    while (!b.is_zero()) {
-        const int from_next = b.sign_at(from);
-        const int to_next = b.sign_at(to);
-        if (from_next != 0) {
-            lost += from_next != at_from ? 1 : 0;
-            at_from = from_next;
-        }
-        if (to_next != 0) {
-            lost -= to_next != at_to ? 1 : 0;
-            at_to = to_next;
-        }
-        Polynomial r = -remainder(std::move(a), b);
-        a = std::exchange(b, std::move(r));
-    }
-    return lost;
-}
-
-using PolynomialVector = std::array<Polynomial, 3>;
-using Rows = std::array<PolynomialVector, 3>;
-
-PolynomialVector operator+(const PolynomialVector& a, const PolynomialVector& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-PolynomialVector operator*(const Polynomial& f, const PolynomialVector& a) {
-    return {f * a[0], f * a[1], f * a[2]};
-}
-Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-PolynomialVector operator*(const Rows& m, const PolynomialVector& v) {
-    return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
-}
-PolynomialVector constant(const Vector& v) { return {v[0], v[1], v[2]}; }
 Vector minus(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
 ExactRational dot(const Vector& u, const Vector& v) {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
@@ -155,31 +43,6 @@ Vector cross(const Vector& u, const Vector& v) {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 bool is_zero(const Vector& v) { return v[0].sign() == 0 && v[1].sign() == 0 && v[2].sign() == 0; }
-
-// ---------------------------------------------------------------- motions
-
-struct Piece {
-    Rows m;
-    PolynomialVector t;
-    Polynomial w;
-};
-
-Polynomial converted(const detail::IntegerPolynomial& p) {
-    std::vector<ExactRational> c;
-    for (const mpz_class& v : p.coefficients()) c.push_back(detail::from_gmp(mpq_class(v)));
-    return Polynomial(std::move(c));
-}
-
-Piece piece_of(const Motion& motion, std::size_t i) {
-    const detail::MotionPiece& p = motion.piece(std::min(i, motion.piece_count() - 1));
-    Piece r;
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t j = 0; j < 3; ++j) r.m[k][j] = converted(p.matrix[k][j]);
-        r.t[k] = converted(p.shift[k]);
-    }
-    r.w = converted(p.weight);
-    return r;
-}
 
 // What one solid sees of the other: points are at (m x + t) / w.
 struct Relative {

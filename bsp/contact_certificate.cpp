@@ -274,28 +274,11 @@ private:
                 p[i] = a_.near[of_a[i]];
                 q[i] = place(motion, half, b_.near[of_b[i]]);
             }
-            add_directions(p, q, directions);
+            detail::add_proof_directions(p, q, directions);
         }
         for (const Approximate& d : directions)
             if (auto s = resting_plane_along(d, motion, of_a, of_b)) return s;
         return std::nullopt;
-    }
-    static void add_directions(const detail::TriangleCorners& p, const detail::TriangleCorners& q,
-                               std::vector<Approximate>& directions) {
-        const detail::ClosestPoints closest = detail::closest_points(p, q);
-        Approximate way{};
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                way[k] += closest.on_q[i] * q[i][k] - closest.on_p[i] * p[i][k];
-        directions.insert(directions.begin(), way);
-        for (const detail::TriangleCorners& t : {p, q}) {
-            const Approximate u = minus(t[1], t[0]);
-            const Approximate v = minus(t[2], t[0]);
-            const Approximate n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                u[0] * v[1] - u[1] * v[0]};
-            directions.push_back(n);
-            directions.push_back({-n[0], -n[1], -n[2]});
-        }
     }
     std::optional<MovingSeparator> resting_plane_along(const Approximate& d,
                                                        const BallMotion& motion,
@@ -392,7 +375,7 @@ private:
             }
         }
         std::vector<Approximate> ways;
-        add_directions(p, q, ways);
+        detail::add_proof_directions(p, q, ways);
         // The other one's normals and the way between the middles, too.
         ways.push_back({});
         for (std::size_t i = 0; i < 3; ++i)

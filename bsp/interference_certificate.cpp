@@ -237,6 +237,12 @@ private:
         return m == 0 ? 0 : std::ilogb(m);
     }
 
+    static Vector of_size_one(Vector v) {
+        const int size = magnitude(v);
+        for (ExactRational& x : v) x = x.scaled(-size);
+        return v;
+    }
+
     // Beside the middle of the segment in which two faces cross, in the quadrants between them.
     void try_beside_crossing(const MeetingPair& pair) {
         const auto& c = pair.contact;
@@ -244,8 +250,11 @@ private:
         const ExactPlace q = place_of(models_, pair, c.points[1]);
         const Vector along = minus(q.c, p.c);
         const ExactPlace middle = shifted(p, along, ExactRational(1) / ExactRational(2));
-        const Vector n = normal(models_.a.brep.plane(models_.a.triangles[pair.a].face));
-        const Vector m = normal_of_b(models_.b.brep.plane(models_.b.triangles[pair.b].face));
+        // Of one size, or the point would be much nearer to one of the faces.
+        const Vector n =
+            of_size_one(normal(models_.a.brep.plane(models_.a.triangles[pair.a].face)));
+        const Vector m =
+            of_size_one(normal_of_b(models_.b.brep.plane(models_.b.triangles[pair.b].face)));
         // d = x n + y m with d·n = s n·n and d·m = t m·m, by Cramer's rule without the division.
         const ExactRational nn = dot(n, n);
         const ExactRational nm = dot(n, m);

@@ -20,6 +20,7 @@
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/contact_certificate.h>
 #include <trisect/bsp/distance_certificate.h>
+#include <trisect/bsp/enclosed_certificate.h>
 #include <trisect/bsp/enclosed_contact.h>
 #include <trisect/bsp/enclosed_motion.h>
 #include <trisect/bsp/expression.h>

@@ -25,6 +25,12 @@ namespace trisect::detail {
 [[nodiscard]] bool is_on_face(const RationalPoint& point, FaceId face, const Brep& brep,
                               const Pose& pose);
 
+/// Whether a point is inside a solid under a pose, and farther than `radius` from all triangles.
+/// They must fill the faces for that to mean anything.
+[[nodiscard]] bool is_deep_inside(const RationalPoint& point, const ExactRational& radius,
+                                  const std::vector<CertifiedTriangle>& triangles, const Brep& brep,
+                                  const Pose& pose);
+
 /// The vertices of a range of triangles, each once.
 [[nodiscard]] std::vector<std::uint32_t> corners_of_range(
     const std::vector<CertifiedTriangle>& triangles, std::size_t from, std::size_t to);

@@ -84,4 +84,25 @@ void ProofBody::order(std::size_t from, std::size_t to) {
     order(middle, to);
 }
 
+void add_proof_directions(const TriangleCorners& p, const TriangleCorners& q,
+                          std::vector<std::array<double, 3>>& directions) {
+    const ClosestPoints closest = closest_points(p, q);
+    std::array<double, 3> way{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            way[k] += closest.on_q[i] * q[i][k] - closest.on_p[i] * p[i][k];
+    directions.insert(directions.begin(), way);
+    const auto minus = [](const std::array<double, 3>& u, const std::array<double, 3>& v) {
+        return std::array<double, 3>{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+    };
+    for (const TriangleCorners& t : {p, q}) {
+        const std::array<double, 3> u = minus(t[1], t[0]);
+        const std::array<double, 3> v = minus(t[2], t[0]);
+        const std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                      u[0] * v[1] - u[1] * v[0]};
+        directions.push_back(n);
+        directions.push_back({-n[0], -n[1], -n[2]});
+    }
+}
+
 }  // namespace trisect::detail

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/triangle_distance.h>
 #include <trisect/bsp/interference_certificate.h>
 #include <trisect/kernel/pose.h>
 
@@ -34,5 +35,10 @@ private:
     void order(std::size_t from, std::size_t to);
     [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t axis) const;
 };
+
+/// Puts the way between the closest points of two triangles in front of `directions`, and the
+/// normals of both, either way round, at its end: normals of planes that may keep them apart.
+void add_proof_directions(const TriangleCorners& p, const TriangleCorners& q,
+                          std::vector<std::array<double, 3>>& directions);
 
 }  // namespace trisect::detail

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finding certificates of contact under enclosed motions. What is found need not be right: the
+// checker says.
+//
+// Planes rest in the world, so that each enclosure is looked at by itself and its deviation is a
+// plain distance. Where solids move far in the time looked at, or come near each other, time is
+// halved: shortly before a contact at constant speed half of the time left has half of the gap, so
+// there are as many halvings as the answer has bits, and few triangles take part in the last ones.
+
+#include <trisect/bsp/enclosed_certificate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <trisect/bsp/detail/ball_motion.h>
+#include <trisect/bsp/detail/certified_triangles.h>
+#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/motion_piece.h>
+#include <trisect/bsp/detail/proof_body.h>
+
+namespace trisect {
+
+namespace {
+
+using detail::Ball;
+using detail::BallMotion;
+using detail::BallVector;
+using detail::ProofBody;
+using Approximate = std::array<double, 3>;
+using Node = EnclosedFreedomNode;
+
+constexpr int max_depth = 300;
+
+Approximate minus(const Approximate& u, const Approximate& v) {
+    return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
+}
+double dot(const Approximate& u, const Approximate& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+double sum_of_magnitudes(const Approximate& v) {
+    return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+}
+BallVector ball(const Approximate& x) {
+    return {Ball::rounded(x[0]), Ball::rounded(x[1]), Ball::rounded(x[2])};
+}
+BallVector direction(const Approximate& d) { return {Ball(d[0]), Ball(d[1]), Ball(d[2])}; }
+
+// A solid's enclosure over a range of time.
+struct View {
+    BallMotion motion;
+    double by_length;
+    double constant;
+
+    explicit View(const MotionEnclosure& e)
+        : motion(BallMotion::of_points(e.motion.piece(0))),
+          by_length(e.by_length),
+          constant(e.constant) {}
+
+    [[nodiscard]] double deviation(const Approximate& x) const {
+        return (by_length * sum_of_magnitudes(x) + constant) * (1 + 0x1p-30);
+    }
+    [[nodiscard]] Approximate place(std::size_t k, const Approximate& x) const {
+        const BallMotion::Maps& m = motion.maps[k];
+        Approximate y{};
+        for (std::size_t i = 0; i < 3; ++i)
+            y[i] = (m.matrix[i][0].value * x[0] + m.matrix[i][1].value * x[1] +
+                    m.matrix[i][2].value * x[2] + m.shift[i].value) /
+                   m.weight.value;
+        return y;
+    }
+};
+
+class FreedomFinder {
+public:
+    FreedomFinder(const ProofBody& a, const EnclosedMotion& motion_a, const ProofBody& b,
+                  const EnclosedMotion& motion_b, std::vector<double> breaks, std::size_t limit)
+        : a_(a),
+          motion_a_(motion_a),
+          b_(b),
+          motion_b_(motion_b),
+          breaks_(std::move(breaks)),
+          limit_(limit) {}
+
+    // Nothing where it fails.
+    std::optional<std::vector<Node>> find(double from, double to) {
+        nodes_.clear();
+        if (!add({from, to, 0, a_.triangles.size(), 0, b_.triangles.size()}, 0))
+            return std::nullopt;
+        return std::move(nodes_);
+    }
+
+private:
+    struct Range {
+        double from;
+        double to;
+        std::size_t a0, a1, b0, b1;
+    };
+    struct Views {
+        View a;
+        View b;
+    };
+    using Indices = std::span<const std::uint32_t>;
+
+    const Views& views(double from, double to) {
+        auto at = views_.find({from, to});
+        if (at == views_.end())
+            at = views_
+                     .emplace(std::pair{from, to}, Views{View(motion_a_.enclose(from, to)),
+                                                         View(motion_b_.enclose(from, to))})
+                     .first;
+        return at->second;
+    }
+
+    bool add(const Range& r, int depth) {
+        if (nodes_.size() >= limit_ || depth > max_depth) return false;
+        const std::size_t at = nodes_.size();
+        nodes_.emplace_back();
+        Range first = r;
+        Range second = r;
+        const auto split_time = [&](double time) {
+            nodes_[at].kind = Node::Kind::SplitTime;
+            nodes_[at].time = time;
+            first.to = second.from = time;
+        };
+        const bool single = r.a1 - r.a0 == 1 && r.b1 - r.b0 == 1;
+        const auto kink = std::upper_bound(breaks_.begin(), breaks_.end(), r.from);
+        if (kink != breaks_.end() && *kink < r.to) {
+            split_time(*kink);
+        } else {
+            const Views& v = views(r.from, r.to);
+            const auto of_a = a_.corners(r.a0, r.a1);
+            const auto of_b = b_.corners(r.b0, r.b1);
+            if (auto plane = plane_between(v, of_a, of_b, single)) {
+                nodes_[at].plane = std::move(*plane);
+                return true;
+            }
+            const double middle = r.from + (r.to - r.from) / 2;
+            const bool can_split_time = r.from < middle && middle < r.to;
+            if (single && !can_split_time) return false;
+            if (can_split_time && (single || moves_far(v, of_a, of_b))) {
+                split_time(middle);
+            } else if (r.a1 - r.a0 >= r.b1 - r.b0) {
+                nodes_[at].kind = Node::Kind::SplitA;
+                first.a1 = second.a0 = (r.a0 + r.a1) / 2;
+            } else {
+                nodes_[at].kind = Node::Kind::SplitB;
+                first.b1 = second.b0 = (r.b0 + r.b1) / 2;
+            }
+        }
+        if (!add(first, depth + 1)) return false;
+        nodes_[at].other = static_cast<std::uint32_t>(nodes_.size());
+        return add(second, depth + 1);
+    }
+
+    static Approximate middle_of(const ProofBody& body, Indices corners) {
+        Approximate sum{};
+        for (const std::uint32_t v : corners)
+            for (std::size_t k = 0; k < 3; ++k) sum[k] += body.near[v][k];
+        for (double& c : sum) c /= static_cast<double>(corners.size());
+        return sum;
+    }
+    static double squared_size(const ProofBody& body, Indices corners) {
+        const Approximate m = middle_of(body, corners);
+        double square = 0;
+        for (const std::uint32_t v : corners) {
+            const Approximate d = minus(body.near[v], m);
+            square = std::max(square, dot(d, d));
+        }
+        return square;
+    }
+    static double squared_way(const View& view, const ProofBody& body, Indices corners) {
+        double square = 0;
+        for (const std::uint32_t v : {corners.front(), corners.back()}) {
+            const Approximate& x = body.near[v];
+            const Approximate d = minus(view.place(view.motion.degree, x), view.place(0, x));
+            square = std::max(square, dot(d, d));
+        }
+        return square;
+    }
+    // Either solid farther than half of what is larger, or by an unknown way.
+    bool moves_far(const Views& v, Indices of_a, Indices of_b) const {
+        if (!std::isfinite(v.a.by_length + v.a.constant + v.b.by_length + v.b.constant))
+            return true;
+        const double way = std::max(squared_way(v.a, a_, of_a), squared_way(v.b, b_, of_b));
+        return 4 * way > std::max(squared_size(a_, of_a), squared_size(b_, of_b));
+    }
+
+    std::optional<SeparatingPlane> plane_between(const Views& v, Indices of_a, Indices of_b,
+                                                 bool single) const {
+        const std::size_t half_a = v.a.motion.degree / 2;
+        const std::size_t half_b = v.b.motion.degree / 2;
+        const Approximate from = v.a.place(half_a, middle_of(a_, of_a));
+        const Approximate to = v.b.place(half_b, middle_of(b_, of_b));
+        std::vector<Approximate> directions{minus(to, from), {1, 0, 0},  {0, 1, 0}, {0, 0, 1},
+                                            {-1, 0, 0},      {0, -1, 0}, {0, 0, -1}};
+        if (single) {
+            detail::TriangleCorners p;
+            detail::TriangleCorners q;
+            for (std::size_t i = 0; i < 3; ++i) {
+                p[i] = v.a.place(half_a, a_.near[of_a[i]]);
+                q[i] = v.b.place(half_b, b_.near[of_b[i]]);
+            }
+            detail::add_proof_directions(p, q, directions);
+        }
+        for (const Approximate& d : directions)
+            if (auto plane = plane_along(d, v, of_a, of_b)) return plane;
+        return std::nullopt;
+    }
+
+    // Heights of a body's corners along a direction: bounds of all coefficients, over the weight,
+    // with `sign` times the deviation.
+    struct Heights {
+        std::vector<std::vector<Ball>> all;  // by corner and coefficient
+        std::vector<double> margins;
+        double extreme;
+    };
+    static Heights heights(const Approximate& d, const View& view, const ProofBody& body,
+                           Indices corners, int sign) {
+        Heights r{{}, {}, -HUGE_VAL};
+        const BallVector e = direction(d);
+        const double length = sum_of_magnitudes(d) * (1 + 0x1p-30);
+        for (const std::uint32_t v : corners) {
+            const BallVector x = ball(body.near[v]);
+            auto& h = r.all.emplace_back();
+            const double margin = length * view.deviation(body.near[v]);
+            r.margins.push_back(margin);
+            for (std::size_t k = 0; k <= view.motion.degree; ++k) {
+                const BallMotion::Maps& m = view.motion.maps[k];
+                h.push_back(detail::dot(e, m.matrix * x + m.shift));
+                r.extreme = std::max(r.extreme, sign * h.back().value / m.weight.value + margin);
+            }
+        }
+        r.extreme *= sign;
+        return r;
+    }
+    static bool are_beyond(double at, const View& view, const Heights& h, int side) {
+        for (std::size_t i = 0; i < h.all.size(); ++i)
+            for (std::size_t k = 0; k <= view.motion.degree; ++k) {
+                const Ball limit =
+                    (Ball(at) + Ball(side * h.margins[i])) * view.motion.maps[k].weight;
+                if ((h.all[i][k] - limit).sign() != side) return false;
+            }
+        return true;
+    }
+    std::optional<SeparatingPlane> plane_along(const Approximate& d, const Views& v, Indices of_a,
+                                               Indices of_b) const {
+        const Heights a = heights(d, v.a, a_, of_a, 1);
+        if (!std::isfinite(a.extreme)) return std::nullopt;
+        const Heights b = heights(d, v.b, b_, of_b, -1);
+        const double at = a.extreme + (b.extreme - a.extreme) / 2;
+        if (!(a.extreme <= at) || !std::isfinite(at)) return std::nullopt;
+        if (!are_beyond(at, v.a, a, -1) || !are_beyond(at, v.b, b, 1)) return std::nullopt;
+        SeparatingPlane plane;
+        for (std::size_t k = 0; k < 3; ++k) plane.normal[k] = ExactRational::from_double(d[k]);
+        plane.offset = -ExactRational::from_double(at);
+        return plane;
+    }
+
+    const ProofBody& a_;
+    const EnclosedMotion& motion_a_;
+    const ProofBody& b_;
+    const EnclosedMotion& motion_b_;
+    std::vector<double> breaks_;
+    std::size_t limit_;
+    std::vector<Node> nodes_;
+    std::map<std::pair<double, double>, Views> views_;
+};
+
+std::vector<double> all_breaks(const EnclosedMotion& a, const EnclosedMotion& b) {
+    std::vector<double> r;
+    if (!a.is_still()) r.assign(a.breaks().begin(), a.breaks().end());
+    if (!b.is_still()) r.insert(r.end(), b.breaks().begin(), b.breaks().end());
+    std::ranges::sort(r);
+    return r;
+}
+
+// The times that are not undecided, up to a contact or the end.
+std::vector<TimeSpan> free_spans(const EnclosedContact& answer, double duration) {
+    std::vector<TimeSpan> r;
+    double from = 0;
+    for (const TimeSpan& u : answer.undecided) {
+        if (from < u.from) r.push_back({from, u.from});
+        from = u.to;
+    }
+    const double end = answer.contact_by.value_or(duration);
+    if (from < end) r.push_back({from, end});
+    return r;
+}
+
+// How far a solid may be from its enclosure at a moment, at most.
+ExactRational deviation_of(const MotionEnclosure& e, const Brep& brep) {
+    ExactRational reach;
+    for (const RationalPoint& p : detail::corners_in_world(brep, Pose())) {
+        ExactRational sum;
+        for (const ExactRational& c : p) sum += c.sign() < 0 ? -c : c;
+        reach = std::max(reach, sum);
+    }
+    return ExactRational::from_double(e.by_length) * reach + ExactRational::from_double(e.constant);
+}
+
+bool prove_contact(EnclosedCertificate& c, double time, const InterferenceModel& a,
+                   const EnclosedMotion& motion_a, const InterferenceModel& b,
+                   const EnclosedMotion& motion_b) {
+    const MotionEnclosure ea = motion_a.enclose(time, time);
+    const MotionEnclosure eb = motion_b.enclose(time, time);
+    const Pose pose_a = ea.motion.pose_at(0);
+    const Pose pose_b = eb.motion.pose_at(0);
+    const InterferenceCertificate s = certify(a, pose_a, b, pose_b);
+    if (!s.in_both) return false;
+    if (!detail::is_deep_inside(*s.in_both, deviation_of(ea, a.brep()), c.triangles_a, a.brep(),
+                                pose_a) ||
+        !detail::is_deep_inside(*s.in_both, deviation_of(eb, b.brep()), c.triangles_b, b.brep(),
+                                pose_b))
+        return false;
+    c.in_both = s.in_both;
+    return true;
+}
+
+}  // namespace
+
+EnclosedCertificate certify_enclosed_contact(
+    const InterferenceModel& a, const EnclosedMotion& motion_a, const InterferenceModel& b,
+    const EnclosedMotion& motion_b, const EnclosedContactOptions& options, std::size_t max_nodes) {
+    EnclosedCertificate c;
+    c.answer = enclosed_first_contact(a, motion_a, b, motion_b, options);
+    if (a.is_empty() || b.is_empty()) {
+        c.is_complete = true;
+        return c;
+    }
+    ProofBody body_a(a.data());
+    ProofBody body_b(b.data());
+    c.triangles_a = body_a.triangles;
+    c.triangles_b = body_b.triangles;
+    const double duration = motion_a.is_still() ? motion_b.duration() : motion_a.duration();
+    FreedomFinder finder(body_a, motion_a, body_b, motion_b, all_breaks(motion_a, motion_b),
+                         max_nodes);
+    for (const TimeSpan& span : free_spans(c.answer, duration)) {
+        FreeSpan s;
+        s.span = span;
+        auto start = finder.find(span.from, span.from);
+        auto freedom = finder.find(span.from, span.to);
+        if (!start || !freedom) return c;
+        s.start = std::move(*start);
+        s.freedom = std::move(*freedom);
+        s.at_start = certify(a, motion_a.enclose(span.from, span.from).motion.pose_at(0), b,
+                             motion_b.enclose(span.from, span.from).motion.pose_at(0));
+        if (!s.at_start.is_complete || s.at_start.relation != Relation::Disjoint) return c;
+        c.free.push_back(std::move(s));
+    }
+    c.is_complete =
+        !c.answer.contact_by || prove_contact(c, *c.answer.contact_by, a, motion_a, b, motion_b);
+    return c;
+}
+
+}  // namespace trisect
