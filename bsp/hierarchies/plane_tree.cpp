@@ -5,7 +5,8 @@
 // way of y through the tree ends on a node's plane, that of t; x is in the closure of every region
 // on that way. At each node x is on the side of y or on the plane, and where it is on the plane, or
 // so near that doubles cannot tell, both sides are visited. So the polygon, cut on the safe side,
-// comes to that node and touches its plane, where t is listed.
+// comes to that node and touches its plane, where t is listed. Walls above change nothing: y is on
+// none of them.
 //
 // Cuts. A corner's value n·x + d has an error below 2^-49 of the sum of magnitudes, and what the
 // corner's own error makes of it; `bound` is the largest of both. A polygon is cut at twice the
@@ -50,6 +51,20 @@ Value value_of(const Double3& n, double d, const Double3& p, double error) {
         normals += std::abs(n[k]);
     }
     return {at + d, 0x1p-49 * terms + 1.01 * (error * normals)};
+}
+
+// Its triangle may reach out of the cell that it is indexed in.
+MspPolygon msp_polygon(const detail::InterferenceModelData& model,
+                       const detail::ModelTriangle& triangle) {
+    std::array<LatticePoint, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = model.brep.point(triangle.vertex[k]).lattice();
+    MspPolygon r{ConvexPolygon::from_triangle(p[0], p[1], p[2]), triangle.face.index, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_diagonal = !triangle.edge[k].is_valid();
+        r.edges.push_back(is_diagonal ? MspPolygon::none : triangle.edge[k].index);
+        r.vertices.push_back(triangle.vertex[k].index);
+    }
+    return r;
 }
 
 }  // namespace
@@ -133,35 +148,37 @@ bool PlaneTree::push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t
         if (offer(i)) return true;
     tasks_.assign(1, {root_, false, polygon});
     while (!tasks_.empty()) {
-        const Task task = tasks_.back();
+        Task task = tasks_.back();
         tasks_.pop_back();
+        // What is on one side of a plane goes on as it is.
+        while (task.ref >= 0) {
+            ++counters.volume_tests;
+            const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+            const Values values = values_of(node, task.polygon);
+            if (values.all_below(task.polygon.count)) {
+                task.ref = node.below;
+                continue;
+            }
+            if (values.all_above(task.polygon.count)) {
+                task.ref = node.above;
+                continue;
+            }
+            const RoughPolygon below = part(task.polygon, values, 1);
+            // A line in a node's plane has regions of faces on both sides; they are visited.
+            if (!task.is_flat && node.on != out && node.on != in)
+                tasks_.push_back({node.on, true, part(below, values_of(node, below), -1)});
+            const RoughPolygon above = part(task.polygon, values, -1);
+            if (above.count != 0) tasks_.push_back({node.above, task.is_flat, above});
+            task.polygon = below;
+            task.ref = below.count != 0 ? node.below : nowhere;
+        }
+        if (task.ref == nowhere) continue;
         if (task.ref <= first_list) {
             for (const std::uint32_t i : list(task.ref))
                 if (offer(i)) return true;
-            continue;
+        } else if (!task.is_flat && leaf(task.ref == in, task.polygon)) {
+            return true;
         }
-        if (task.ref < 0) {
-            if (!task.is_flat && leaf(task.ref == in, task.polygon)) return true;
-            continue;
-        }
-        ++counters.volume_tests;
-        const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
-        const Values values = values_of(node, task.polygon);
-        if (values.all_below(task.polygon.count)) {
-            tasks_.push_back({node.below, task.is_flat, task.polygon});
-            continue;
-        }
-        if (values.all_above(task.polygon.count)) {
-            tasks_.push_back({node.above, task.is_flat, task.polygon});
-            continue;
-        }
-        const RoughPolygon below = part(task.polygon, values, 1);
-        const RoughPolygon above = part(task.polygon, values, -1);
-        if (below.count != 0) tasks_.push_back({node.below, task.is_flat, below});
-        if (above.count != 0) tasks_.push_back({node.above, task.is_flat, above});
-        // A line in a node's plane has regions of faces on both sides; they are visited.
-        if (!task.is_flat && node.on != out && node.on != in)
-            tasks_.push_back({node.on, true, part(below, values_of(node, below), -1)});
     }
     return false;
 }
@@ -284,64 +301,90 @@ void PlaneTree::list_triangles(const detail::InterferenceModelData& model,
         for (; e < entries.size() && entries[e].first == static_cast<Ref>(at); ++e)
             lists_.push_back(entries[e].second);
         first_.push_back(static_cast<std::uint32_t>(lists_.size()));
-        nodes_[at].on = first_list - static_cast<Ref>(at);
+        nodes_[at].on = first_[at] == first_[at + 1] ? out : first_list - static_cast<Ref>(at);
     }
 }
 
-PlaneTree PlaneTree::classic(const detail::InterferenceModelData& model) {
-    PlaneTree r;
-    std::vector<Plane> planes;
-    if (model.all_lattice) {
-        std::vector<ConvexPolygon> polygons;
-        for (const detail::ModelTriangle& t : model.triangles) {
-            std::array<LatticePoint, 3> p;
-            for (std::size_t k = 0; k < 3; ++k) p[k] = model.brep.point(t.vertex[k]).lattice();
-            polygons.push_back(ConvexPolygon::from_triangle(p[0], p[1], p[2]));
-        }
-        const BspTree tree = build_bsp(polygons);
-        const auto ref = [](BspTree::NodeId id) {
-            if (!id.is_leaf()) return static_cast<Ref>(id.index());
-            return id.label() == BspTree::Label::In ? in : out;
-        };
-        for (const BspTree::Node& n : tree.nodes()) {
-            r.nodes_.push_back(node_of(n.plane));
-            r.nodes_.back().below = ref(n.below);
-            r.nodes_.back().above = ref(n.above);
-            planes.push_back(n.plane);
-        }
-        r.root_ = ref(tree.root());
-    } else {
-        // Nodes of lower dimension are left where they are, without a way to them.
-        r = of_regions(MspTree::from_brep(model.brep), planes);
+PlaneTree::Ref PlaneTree::graft(const BspTree& tree, std::vector<Plane>& planes) {
+    const auto first = static_cast<Ref>(nodes_.size());
+    const auto ref = [first](BspTree::NodeId id) {
+        if (!id.is_leaf()) return first + static_cast<Ref>(id.index());
+        return id.label() == BspTree::Label::In ? in : out;
+    };
+    for (const BspTree::Node& n : tree.nodes()) {
+        Node& node = nodes_.emplace_back(node_of(n.plane));
+        node.below = ref(n.below);
+        node.above = ref(n.above);
+        planes.push_back(n.plane);
     }
-    r.list_triangles(model, planes);
-    return r;
+    return ref(tree.root());
 }
 
-PlaneTree PlaneTree::of_regions(const MspTree& tree, std::vector<Plane>& planes) {
-    PlaneTree r;
-    const auto ref = [](MspTree::Ref t) {
-        if (!t.is_leaf()) return static_cast<Ref>(t.index());
+PlaneTree::Ref PlaneTree::graft(const MspTree& tree, std::vector<Plane>& planes) {
+    const auto first = static_cast<Ref>(nodes_.size());
+    const auto ref = [first](MspTree::Ref t) {
+        if (!t.is_leaf()) return first + static_cast<Ref>(t.index());
         if (t.kind() == MspTree::Leaf::OnFace) return first_list - static_cast<Ref>(t.entity());
         return t.kind() == MspTree::Leaf::In ? in : out;
     };
     for (std::size_t i = 0; i < tree.node_count(); ++i) {
         const MspTree::Node& n = tree.node(MspTree::Ref::node(i));
         planes.push_back(tree.plane(n));
-        r.nodes_.push_back(node_of(planes.back()));
-        Node& node = r.nodes_.back();
+        Node& node = nodes_.emplace_back(node_of(planes.back()));
         node.below = ref(n.below);
         node.above = ref(n.above);
         // What is on a line in a plane is not needed.
         node.on = tree.dimension(MspTree::Ref::node(i)) == 3 ? ref(n.on) : out;
     }
-    r.root_ = ref(tree.root());
+    return ref(tree.root());
+}
+
+void PlaneTree::build_under_walls(const detail::InterferenceModelData& model,
+                                  std::vector<Plane>& planes,
+                                  FunctionRef<Ref(const WallCells::Cell& cell)> graft_cell) {
+    const WallCells walls = WallCells::over(model, most_in_cell);
+    for (const WallCells::Wall& w : walls.walls) {
+        nodes_.push_back(node_of(w.plane));
+        planes.push_back(w.plane);
+    }
+    std::vector<Ref> roots;
+    for (const WallCells::Cell& cell : walls.cells) roots.push_back(graft_cell(cell));
+    const auto ref = [&roots](WallCells::Ref r) {
+        return r < 0 ? roots[static_cast<std::size_t>(~r)] : r;
+    };
+    for (std::size_t i = 0; i < walls.walls.size(); ++i) {
+        nodes_[i].below = ref(walls.walls[i].below);
+        nodes_[i].above = ref(walls.walls[i].above);
+    }
+    root_ = ref(walls.root());
+}
+
+PlaneTree PlaneTree::classic(const detail::InterferenceModelData& model) {
+    PlaneTree r;
+    std::vector<Plane> planes;
+    if (model.all_lattice)
+        r.build_under_walls(model, planes, [&](const WallCells::Cell& cell) {
+            return r.graft(build_bsp(cell.polygons), planes);
+        });
+    else
+        // Nodes of lower dimension are left where they are, without a way to them.
+        r.root_ = r.graft(MspTree::from_brep(model.brep), planes);
+    r.list_triangles(model, planes);
     return r;
 }
 
 PlaneTree PlaneTree::multidimensional(const detail::InterferenceModelData& model) {
+    PlaneTree r;
     std::vector<Plane> planes;
-    PlaneTree r = of_regions(MspTree::from_brep(model.brep), planes);
+    if (model.all_lattice)
+        r.build_under_walls(model, planes, [&](const WallCells::Cell& cell) {
+            std::vector<MspPolygon> polygons;
+            for (const std::uint32_t i : cell.triangles)
+                polygons.push_back(msp_polygon(model, model.triangles[i]));
+            return r.graft(MspTree::from_polygons(polygons, cell.walls), planes);
+        });
+    else
+        r.root_ = r.graft(MspTree::from_brep(model.brep), planes);
     r.first_ = model.first_triangle;
     r.lists_.resize(model.triangles.size());
     for (std::uint32_t i = 0; i < r.lists_.size(); ++i) r.lists_[i] = i;

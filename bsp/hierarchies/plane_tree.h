@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@
 #include <trisect/bsp/hierarchies/cost.h>
 #include <trisect/bsp/hierarchies/function_ref.h>
 #include <trisect/bsp/hierarchies/triangle_boxes.h>
+#include <trisect/bsp/hierarchies/wall_cells.h>
 #include <trisect/bsp/msp_tree.h>
 
 namespace trisect::hierarchies {
@@ -42,8 +44,11 @@ struct RoughPolygon {
 /// leaves name faces (from an MspTree). Lists and faces are offered as triangles.
 ///
 /// Signs are those of doubles with error bounds: where they cannot tell, both sides are visited; so
-/// every triangle with a point in common with the one that is pushed down is offered. No way is
-/// shorter than the tree is deep, and the tree of a convex solid is a list. Nothing recurses.
+/// every triangle with a point in common with the one that is pushed down is offered.
+///
+/// Axis-parallel walls above divide the boundary into cells of few triangles, and each of these has
+/// a tree of its own (WallCells): without them the tree of a convex solid would be a list. A model
+/// with vertices that are not lattice points has no walls. Nothing recurses.
 ///
 /// A tree is that of a solid only if its boundary is embedded. Of boundaries that are not, it may
 /// have lost parts of faces; triangles of which a part has no place are strays, offered always.
@@ -84,6 +89,9 @@ private:
     static constexpr Ref out = -1;
     static constexpr Ref in = -2;
     static constexpr Ref first_list = -3;
+    static constexpr Ref nowhere = std::numeric_limits<Ref>::min();
+    /// Cells with more polygons are divided by walls.
+    static constexpr std::size_t most_in_cell = 32;
 
     struct Node {
         std::array<double, 3> normal{};
@@ -109,8 +117,13 @@ private:
     };
 
     [[nodiscard]] static Node node_of(const Plane& plane);
-    /// Nodes alone; leaves that name a face refer to the list of its number.
-    [[nodiscard]] static PlaneTree of_regions(const MspTree& tree, std::vector<Plane>& planes);
+    /// Adds the nodes of a tree and says where it begins. Of an MspTree, leaves that name a face
+    /// refer to the list of its number.
+    Ref graft(const BspTree& tree, std::vector<Plane>& planes);
+    Ref graft(const MspTree& tree, std::vector<Plane>& planes);
+    /// Walls, and a tree of its own for each cell below them. \pre there are no nodes.
+    void build_under_walls(const detail::InterferenceModelData& model, std::vector<Plane>& planes,
+                           FunctionRef<Ref(const WallCells::Cell& cell)> graft_cell);
     [[nodiscard]] static Values values_of(const Node& node, const RoughPolygon& polygon);
     /// The part where sign · value is not above a margin; the whole where it is not worth cutting.
     [[nodiscard]] static RoughPolygon part(const RoughPolygon& polygon, const Values& values,
