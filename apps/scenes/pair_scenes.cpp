@@ -214,10 +214,10 @@ PolygonMesh in_triangles(const PolygonMesh& m) {
     return r;
 }
 
-PairScene fly_through(const Detail& detail) {
+PairScene field_of_obstacles(int n, const PolygonMesh& body, std::uint32_t frames) {
     PairScene s;
+    s.b = body;
     shapes::Random random(5);
-    const int n = detail.size == Size::Full ? 10 : 3;
     // Of each cube of side 8 a cut cube takes at most the middle 6: they do not meet.
     for (int x = 0; x < n; ++x)
         for (int y = 0; y < n; ++y)
@@ -230,8 +230,6 @@ PairScene fly_through(const Detail& detail) {
                         p[k] = half * p[k] + 0.5 * jitter[k] + 8 * std::array<int, 3>{x, y, z}[k];
                 shapes::append(s.a, one);
             }
-    s.b = torus(0.3, detail.fineness(16, 8), detail.fineness(10, 5));
-    const std::uint32_t frames = detail.frames(500, 8);
     for (std::uint32_t i = 0; i < frames; ++i) {
         const double t = 1.0 * i / frames;
         const double way = 4.0 * n - 4;
@@ -243,6 +241,12 @@ PairScene fly_through(const Detail& detail) {
         s.frames.push_back(rows_of(shapes::rotation({1, 2, 3}, 3000 * t), by));
     }
     return s;
+}
+
+PairScene fly_through(const Detail& detail) {
+    return field_of_obstacles(detail.size == Size::Full ? 10 : 3,
+                              torus(0.3, detail.fineness(16, 8), detail.fineness(10, 5)),
+                              detail.frames(500, 8));
 }
 
 struct Entry {
@@ -273,6 +277,14 @@ std::vector<std::string> pair_scene_names() {
     std::vector<std::string> r;
     for (const Entry& e : entries) r.emplace_back(e.name);
     return r;
+}
+
+PairScene make_fly_through(int side, std::uint32_t frames) {
+    PairScene s = field_of_obstacles(side, torus(0.3, 16, 10), frames);
+    s.name = "fly-through";
+    s.about = "a small torus among " + std::to_string(side * side * side) + " obstacles";
+    on_one_lattice(s);
+    return s;
 }
 
 std::optional<PairScene> make_pair_scene(const std::string& name, Size size, std::uint32_t frames) {

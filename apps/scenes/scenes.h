@@ -51,6 +51,9 @@ enum class Size : std::uint8_t {
 [[nodiscard]] std::optional<PairScene> make_pair_scene(const std::string& name, Size size,
                                                        std::uint32_t frames = 0);
 
+/// The fly-through with side^3 obstacles, equally dense whatever their number.
+[[nodiscard]] PairScene make_fly_through(int side, std::uint32_t frames);
+
 /// Many bodies.
 struct SwarmScene {
     std::string name;

@@ -232,6 +232,101 @@ std::optional<bool> PlaneTree::is_inside(const Double3& p, double error,
     return at == in;
 }
 
+// A concave function is climbed by its subgradients: always away from the nearest plane, in steps
+// that become smaller, from anywhere.
+InnerBall PlaneTree::ball_below(std::span<const Step> steps, std::uint32_t last,
+                                const InnerBall& start) {
+    InnerBall best;
+    Double3 p = start.center;
+    double step = start.radius;
+    for (int round = 0; round < 64; ++round, step *= 0.9) {
+        double depth = HUGE_VAL;
+        std::uint32_t nearest = 0;
+        for (std::uint32_t s = last; s != 0; s = steps[s].before) {
+            const double d = depth_below(p, steps[s].plane);
+            if (d < depth) {
+                depth = d;
+                nearest = s;
+            }
+        }
+        if (depth > best.radius) best = {p, depth * (1 - 0x1p-40)};
+        const Double3& n = steps[nearest].plane.normal;
+        const double norm = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (std::size_t k = 0; k < 3; ++k) p[k] -= step * (n[k] / norm);
+    }
+    return best;
+}
+
+std::vector<InnerBall> PlaneTree::inner_balls(const Box& bounds, std::size_t most) const {
+    struct Open {
+        Ref ref = out;
+        std::uint32_t step = 0;  // the last one of the way there
+        Box box;                 // around the region
+    };
+    // The first step is none.
+    std::vector<Step> steps(1);
+    std::vector<Open> open{{root_, 0, bounds}};
+    const auto add = [&](Open from, const RoughPlane& plane, Ref ref) {
+        if (ref == out || ref <= first_list) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double at = -plane.offset / plane.normal[k];
+            if (plane.normal[(k + 1) % 3] != 0 || plane.normal[(k + 2) % 3] != 0) continue;
+            if (plane.normal[k] > 0)
+                from.box.hi[k] = std::min(from.box.hi[k], at);
+            else
+                from.box.lo[k] = std::max(from.box.lo[k], at);
+        }
+        steps.push_back({plane, from.step});
+        open.push_back({ref, static_cast<std::uint32_t>(steps.size() - 1), from.box});
+    };
+    std::vector<InnerBall> found;
+    while (!open.empty()) {
+        const Open at = open.back();
+        open.pop_back();
+        if (at.ref == in) {
+            InnerBall start;
+            for (std::size_t k = 0; k < 3; ++k) {
+                start.center[k] = 0.5 * at.box.lo[k] + 0.5 * at.box.hi[k];
+                start.radius = std::max(start.radius, 0.25 * (at.box.hi[k] - at.box.lo[k]));
+            }
+            const InnerBall ball = ball_below(steps, at.step, start);
+            if (ball.radius > 0) found.push_back(ball);
+            continue;
+        }
+        if (at.ref < 0) continue;
+        const Node& node = nodes_[static_cast<std::size_t>(at.ref)];
+        add(at, {node.normal, node.offset}, node.below);
+        add(at, {{-node.normal[0], -node.normal[1], -node.normal[2]}, -node.offset}, node.above);
+    }
+    std::sort(found.begin(), found.end(),
+              [](const InnerBall& a, const InnerBall& b) { return a.radius > b.radius; });
+    if (found.size() > most) found.resize(most);
+    return found;
+}
+
+bool PlaneTree::has_inside(const InnerBall& ball, CostCounters& counters) const {
+    // What is left of a ball at a corner is soon nothing.
+    const double least = ball.radius * 0x1p-8;
+    std::vector<BallTask> open{{ball, root_}};
+    while (!open.empty()) {
+        const BallTask task = open.back();
+        open.pop_back();
+        if (task.ref == in) return true;
+        if (task.ref < 0 || task.ball.radius < least) continue;
+        ++counters.volume_tests;
+        const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+        const RoughPlane plane{node.normal, node.offset};
+        const auto below = part_below(task.ball, plane);
+        const auto above = part_above(task.ball, plane);
+        // The larger part is taken from the stack first.
+        const bool first_below = below && (!above || below->radius < above->radius);
+        if (first_below) open.push_back({*below, node.below});
+        if (above) open.push_back({*above, node.above});
+        if (below && !first_below) open.push_back({*below, node.below});
+    }
+    return false;
+}
+
 unsigned PlaneTree::depth() const {
     unsigned deepest = 0;
     std::vector<std::pair<Ref, unsigned>> open{{root_, 1}};

@@ -16,6 +16,7 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/hierarchies/cost.h>
 #include <trisect/bsp/hierarchies/function_ref.h>
+#include <trisect/bsp/hierarchies/inner_balls.h>
 #include <trisect/bsp/hierarchies/triangle_boxes.h>
 #include <trisect/bsp/hierarchies/wall_cells.h>
 #include <trisect/bsp/msp_tree.h>
@@ -74,6 +75,13 @@ public:
     [[nodiscard]] std::optional<bool> is_inside(const std::array<double, 3>& p, double error,
                                                 CostCounters& counters) const;
 
+    /// The largest balls in leaves that are inside, one a leaf, the largest first. Some twenty
+    /// microseconds a leaf. \pre the boundary is embedded and within the bounds.
+    [[nodiscard]] std::vector<InnerBall> inner_balls(const Box& bounds, std::size_t most) const;
+    /// Whether a leaf inside certainly has volume in common with a ball. It may have some that is
+    /// not found. One test for each plane that cuts the ball or a part of it.
+    [[nodiscard]] bool has_inside(const InnerBall& ball, CostCounters& counters) const;
+
     [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
     /// None when the boundary is embedded.
     [[nodiscard]] std::size_t stray_count() const { return strays_.size(); }
@@ -111,12 +119,24 @@ private:
         bool is_flat = false;  // in a node's plane
         RoughPolygon polygon;
     };
+    struct BallTask {
+        InnerBall ball;
+        Ref ref = out;
+    };
+    // A plane on the way to a region, turned so that the region is below.
+    struct Step {
+        RoughPlane plane;
+        std::uint32_t before = 0;
+    };
     struct NearTask {
         double least = 0;
         Ref ref = out;
     };
 
     [[nodiscard]] static Node node_of(const Plane& plane);
+    /// A ball below all planes on a way, the largest if that is found; of radius 0 if none is.
+    [[nodiscard]] static InnerBall ball_below(std::span<const Step> steps, std::uint32_t last,
+                                              const InnerBall& start);
     /// Adds the nodes of a tree and says where it begins. Of an MspTree, leaves that name a face
     /// refer to the list of its number.
     Ref graft(const BspTree& tree, std::vector<Plane>& planes);
