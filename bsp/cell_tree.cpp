@@ -108,8 +108,31 @@ std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, Cel
     return n;
 }
 
-// Depth is bounded by the bits of the coordinates (each wall halves a range or peels a slab), so
-// the recursion of the default destruction of children is bounded as well.
-CellNode::~CellNode() = default;
+// A chain of cuts along a part makes trees as deep as the chain is long. So nodes end one by one,
+// and those to come hang on a pointer that a node of their kind does not use: no memory is needed.
+CellNode::~CellNode() {
+    using Ref = std::shared_ptr<const CellNode>;
+    const auto unused_pointer = [](CellNode& n) -> Ref& {
+        return n.is_leaf() ? n.child_[0].node : n.kept_refinement_;
+    };
+    Ref doomed;
+    const auto doom = [&](Ref& ref) {
+        if (ref == nullptr || ref.use_count() != 1) return ref.reset();
+        Ref n = std::move(ref);
+        unused_pointer(const_cast<CellNode&>(*n)) = std::move(doomed);  // nobody else sees it
+        doomed = std::move(n);
+    };
+    const auto doom_children = [&](CellNode& n) {
+        if (n.is_leaf()) return doom(n.kept_refinement_);
+        for (CellRef& c : n.child_) doom(c.node);
+    };
+    doom_children(*this);
+    while (doomed != nullptr) {
+        const Ref n = std::move(doomed);
+        auto& node = const_cast<CellNode&>(*n);
+        doomed = std::move(unused_pointer(node));
+        doom_children(node);
+    }
+}
 
 }  // namespace trisect::detail

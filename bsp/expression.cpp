@@ -5,21 +5,11 @@
 #include <array>
 #include <utility>
 
+#include <trisect/bsp/detail/end_graph.h>
+
 namespace trisect {
 
-Expression::Node::~Node() {
-    // Children that nobody else holds are taken apart here, one by one, so that a chain of a
-    // hundred thousand operations does not recurse a hundred thousand times.
-    std::vector<std::shared_ptr<const Node>> doomed = std::move(children);
-    while (!doomed.empty()) {
-        std::shared_ptr<const Node> n = std::move(doomed.back());
-        doomed.pop_back();
-        if (n.use_count() != 1) continue;
-        auto& inner = const_cast<Node&>(*n).children;  // nobody else can see it any more
-        for (auto& c : inner) doomed.push_back(std::move(c));
-        inner.clear();
-    }
-}
+Expression::Node::~Node() { detail::end_children(children); }
 
 Expression::Expression(const Solid& solid) {
     auto n = std::make_shared<Node>();

@@ -21,6 +21,7 @@
 #include <optional>
 #include <tuple>
 
+#include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/fragment_group.h>
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/bsp/detail/traced_facets.h>
@@ -128,9 +129,9 @@ void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& 
     }
     for (int i = 0; i < 2; ++i) {
         const CellRef& c = node.child(i);
-        list_leaves(
-            *c.node, c.complemented != complemented,
-            i == 0 ? cell.below(node.axis(), node.wall()) : cell.above(node.axis(), node.wall()));
+        const Cell part =
+            i == 0 ? cell.below(node.axis(), node.wall()) : cell.above(node.axis(), node.wall());
+        with_enough_stack([&] { list_leaves(*c.node, c.complemented != complemented, part); });
     }
 }
 

@@ -19,6 +19,7 @@
 #include <bit>
 #include <tuple>
 
+#include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
 #include <trisect/bsp/detail/work_budget.h>
 
@@ -174,7 +175,7 @@ void AxisLeaf::evaluate(const Residual& formula, Units& out) {
             return;
         }
         case Kind::Not:
-            evaluate(*formula.children[0], out);
+            with_enough_stack([&] { evaluate(*formula.children[0], out); });
             for (std::uint64_t& w : out) w = ~w & all;
             break;
         case Kind::And:
@@ -187,7 +188,7 @@ void AxisLeaf::evaluate(const Residual& formula, Units& out) {
                 if (c->kind == Kind::Slot) {
                     term = units_of_slot(c->slot);
                 } else {
-                    evaluate(*c, made);
+                    with_enough_stack([&] { evaluate(*c, made); });
                     term = made.data();
                 }
                 for (std::size_t w = 0; w < out.size(); ++w) {
@@ -303,6 +304,7 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
     PolygonRef ref = p.ref;
     ref.touched = ref.touched || touches_others(p, units);
     if (!ref.touched) ++stats_->untouched_polygons;
+    make_room(*out_);
     if (ref.touched && !p.contained) {
         const auto part = clip_to_cell(bench_, ref, problem_->cell);
         if (!part) return;  // the box of a fragment may be too large
@@ -394,6 +396,7 @@ void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low)
             if (!shape.is_empty())
                 shape = bench_.clipped(std::move(shape), bench_.plane(e.plane), e.above ? 1 : -1);
         if (shape.is_empty()) continue;
+        make_room(*out_);
         PolygonRef ref = make_fragment(bench_, p.ref, shape);
         ref.flipped = inside_low == (p.plane.sign < 0);
         out_->push_back(ref);

@@ -36,6 +36,7 @@
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/handover.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/leaf_problem.h>
@@ -84,6 +85,9 @@ public:
     }
 
     CellRef solve(CellTask& task);
+    CellRef deep_solve(CellTask& task) {
+        return with_enough_stack([&] { return solve(task); });
+    }
     // Winding number of a solid, given by the node of a cell, at a point of the cell.
     std::optional<int> winding_at(const CellNode& root, bool complemented, const Cell& cell,
                                   const FinePoint& p);
@@ -292,10 +296,10 @@ std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
     std::optional<LeafResult> kept = arrange(problem);
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
     if (!kept) return std::nullopt;
-    incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
     const std::uint64_t bytes = bytes_of_result(kept->polygons);
-    PolygonList list(
-        std::move(kept->polygons));  // keeps fragments, whatever is thrown from here on
+    // Keeps fragments, whatever is thrown from here on.
+    PolygonList list(std::move(kept->polygons));
+    incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
     shared_.memory.keep(bytes);
     return CellRef{CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
@@ -306,13 +310,16 @@ void Worker::flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonR
     const CellNode& node = *tree.node;
     if (!node.is_leaf()) {
         for (std::size_t i = 0; i < 2; ++i)
-            flatten(child_of(node, tree.complemented, i),
-                    i == 0 ? cell.below(node.axis(), node.wall())
-                           : cell.above(node.axis(), node.wall()),
-                    out);
+            with_enough_stack([&] {
+                flatten(child_of(node, tree.complemented, i),
+                        i == 0 ? cell.below(node.axis(), node.wall())
+                               : cell.above(node.axis(), node.wall()),
+                        out);
+            });
         return;
     }
     for (const PolygonRef& r : node.polygons()) {
+        make_room(out);
         auto part = clip_to_cell(bench_, r, cell);
         if (!part) continue;
         part->flipped = part->flipped != tree.complemented;
@@ -325,7 +332,12 @@ void Worker::make_leaf(CellOperand& operand, const Cell& cell) {
     if (operand.is_list || operand.node->is_leaf()) return;
     std::vector<PolygonRef> parts;
     bench_.clear();
-    flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
+    try {
+        flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
+    } catch (...) {
+        end_fragments(parts);
+        throw;
+    }
     made_.push_back(CellNode::leaf(PolygonList(std::move(parts)), {}, 0, true));
     operand.node = made_.back().get();
     operand.complemented = false;
@@ -640,7 +652,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
         });
         std::exception_ptr failure;
         try {
-            results[0] = solve(children[0]);
+            results[0] = deep_solve(children[0]);
         } catch (...) {
             failure = std::current_exception();
             group.cancel();
@@ -649,7 +661,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
         result.take();
         if (failure) std::rethrow_exception(failure);
     } else {
-        for (std::size_t i = 0; i < 2; ++i) results[i] = solve(children[i]);
+        for (std::size_t i = 0; i < 2; ++i) results[i] = deep_solve(children[i]);
     }
     // A subtree that comes back unchanged is shared as a whole.
     for (const CellOperand& o : task.operands) {

@@ -25,6 +25,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/index_bricks.h>
 #include <trisect/bsp/detail/index_grid_lists.h>
 #include <trisect/bsp/detail/index_signs.h>
@@ -240,14 +241,16 @@ void IndexTreeBuilder::find_bounds(const CellRef& root) {
     while (static_cast<double>(reach) >= 0x1p51 * quantum_) quantum_ *= 2;
 }
 
-// Depth is bounded by the cell tree's own, here and in add_cells.
+// As deep as the cell tree, here and in add_cells.
 void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref, bool turned,
                                      const Cell& cell) {
     turned = turned != ref.complemented;
     const CellNode& n = *ref.node;
     if (!n.is_leaf()) {
-        note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.wall()));
-        note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.wall()));
+        with_enough_stack([&] {
+            note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.wall()));
+            note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.wall()));
+        });
         return;
     }
     const auto& incomplete = state.incomplete;
@@ -267,8 +270,10 @@ void IndexTreeBuilder::add_cells(const CellRef& ref, bool turned, const Cell& ce
     const auto children = static_cast<std::uint32_t>(t_.nodes_.size());
     t_.nodes_.resize(t_.nodes_.size() + 2);
     t_.nodes_[node] = {n.wall(), children, static_cast<std::uint32_t>(n.axis())};
-    add_cells(n.child(0), turned, cell.below(n.axis(), n.wall()), children, depth + 1);
-    add_cells(n.child(1), turned, cell.above(n.axis(), n.wall()), children + 1, depth + 1);
+    with_enough_stack([&] {
+        add_cells(n.child(0), turned, cell.below(n.axis(), n.wall()), children, depth + 1);
+        add_cells(n.child(1), turned, cell.above(n.axis(), n.wall()), children + 1, depth + 1);
+    });
 }
 
 void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell,

@@ -97,7 +97,7 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
     try {
         if (!axis_.arrange(problem, stats, out_, result.incomplete)) return std::nullopt;
     } catch (...) {
-        const PolygonList freed(std::move(out_));  // the fragments made so far
+        end_fragments(out_);  // those made so far
         throw;
     }
     note_doubtful(problem);
@@ -132,7 +132,7 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
             arrange_any(values);
         }
     } catch (...) {
-        const PolygonList freed(std::move(out_));  // the fragments made so far
+        end_fragments(out_);  // those made so far
         throw;
     }
     ++stats.mixed_leaves;
@@ -154,6 +154,7 @@ void LeafArranger::Impl::arrange_embedded() {
 
 void LeafArranger::Impl::emit_remains(LeafIndex i, const LeafRemains& remains) {
     const LeafItem& item = work_.item(i);
+    make_room(out_);
     switch (remains.kind) {
         case LeafRemains::Kind::Nothing:
             return;
@@ -167,8 +168,10 @@ void LeafArranger::Impl::emit_remains(LeafIndex i, const LeafRemains& remains) {
             }
             return;
         case LeafRemains::Kind::Parts:
-            for (const LeafPart& part : cutting_.parts())
+            for (const LeafPart& part : cutting_.parts()) {
+                make_room(out_);
                 emit(make_fragment(work_.bench, item.ref, part.shape), part.inside_above);
+            }
             return;
     }
 }
@@ -213,12 +216,15 @@ void LeafArranger::Impl::emit_pieces(LeafIndex i, std::size_t first, std::size_t
     if (kept_.size() == last - first && uniform) {
         // Every cut was in vain here: keep what there was. What cuts a facet somewhere must show in
         // every cell, though (see PolygonRef), so only a facet within the cell stays whole.
+        make_room(out_);
         if (const auto part = clip_to_cell(work_.bench, item.ref, work_.problem->cell))
             emit(*part, kept_.front().second.above);
         return;
     }
-    for (const auto& [shape, sides] : kept_)
+    for (const auto& [shape, sides] : kept_) {
+        make_room(out_);
         emit(make_fragment(work_.bench, item.ref, *shape), sides.above);
+    }
 }
 
 // The outside faces upwards, unless flipped.

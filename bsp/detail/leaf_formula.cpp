@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <bit>
 
+#include <trisect/bsp/detail/deep_recursion.h>
+
 namespace trisect::detail {
 
 using Kind = Residual::Kind;
@@ -57,7 +59,7 @@ std::int32_t LeafFormula::compile(const Residual& formula) {
             node.inside += c->value ? 1 : 0;
             continue;
         }
-        terms.push_back(compile(*c));
+        terms.push_back(with_enough_stack([&] { return compile(*c); }));
         const int v = terms.back() >= 0 ? nodes_[static_cast<std::size_t>(terms.back())].value : -1;
         node.inside += v > 0 ? 1 : 0;
         node.unknown += v < 0 ? 1 : 0;

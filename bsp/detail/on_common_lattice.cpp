@@ -20,6 +20,7 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
+#include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
@@ -33,6 +34,9 @@ namespace {
 class Refiner {
 public:
     Refiner(int from, int to) : shift_(from - to), exponent_(to) {}
+    Refiner(const Refiner&) = delete;
+    Refiner& operator=(const Refiner&) = delete;
+    ~Refiner() { end_fragments(out_); }  // where an exception ended the walk
 
     CellRef refine(const CellRef& root) {
         visit(root, Cell{});
@@ -97,8 +101,9 @@ private:
             for (int i = 0; i < 2; ++i) {
                 CellRef c = node.child(i);
                 c.complemented = c.complemented != ref.complemented;
-                visit(c, i == 0 ? cell.below(node.axis(), node.wall())
-                                : cell.above(node.axis(), node.wall()));
+                const Cell part = i == 0 ? cell.below(node.axis(), node.wall())
+                                         : cell.above(node.axis(), node.wall());
+                with_enough_stack([&] { visit(c, part); });
             }
             return;
         }
@@ -109,6 +114,7 @@ private:
             if (!part) continue;
             // Holds a clipped fragment until its copy on the new lattice is made.
             const PolygonList hold({*part});
+            make_room(out_);
             out_.push_back(renamed(*part));
             out_.back().flipped = part->flipped != ref.complemented;
         }

@@ -13,19 +13,19 @@
 
 #include <trisect/bsp/detail/plain_leaf.h>
 
+#include <trisect/bsp/detail/polygon_in_cell.h>
+
 namespace trisect::detail {
 
 bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
     const EvaluateStats before = stats;
-    const std::size_t first = out.size();
     bool done = false;
     const auto undo = [&] {
         stats = before;
-        std::vector<PolygonRef> made(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
-        const PolygonList freed(std::move(made));  // the fragments made so far
-        out.resize(first);
+        end_fragments(out);  // those made so far
+        out.clear();
     };
     try {
         done = arrange_listed(problem, stats, out);
@@ -81,10 +81,14 @@ void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result,
         // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a facet
         // within the cell stays whole.
         const bool part = !pairs_.contacts(item).empty() && cutting_.was_clipped();
+        make_room(out);
         add(part ? cutting_.fragment(cutting_.clipped()) : facets_[item].ref, result.inside_above);
     } else if (result.kind == PlainCutting::Remains::Parts) {
-        for (const PlainPart& p : cutting_.parts())
-            if (p.state == PlainPart::State::Kept) add(cutting_.fragment(p), p.inside_above);
+        for (const PlainPart& p : cutting_.parts()) {
+            if (p.state != PlainPart::State::Kept) continue;
+            make_room(out);
+            add(cutting_.fragment(p), p.inside_above);
+        }
     }
 }
 

@@ -21,7 +21,7 @@ namespace trisect::detail {
 /// returns depends on the problem alone.
 class PlainLeaf {
 public:
-    /// Appends what bounds the result. False when the leaf is of another kind or doubles cannot
+    /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind or doubles cannot
     /// tell; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);

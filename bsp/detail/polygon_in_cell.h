@@ -4,6 +4,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <trisect/bsp/cell_tree.h>
 #include <trisect/bsp/detail/workbench.h>
@@ -17,6 +19,17 @@ namespace trisect::detail {
 
 /// Whether a polygon has area in the cell; its box may reach into cells that it misses.
 [[nodiscard]] bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell);
+
+/// Room for one more polygon, to be made before its fragment is: a fragment that no list holds yet
+/// would be lost when the list cannot grow.
+inline void make_room(std::vector<PolygonRef>& list) {
+    if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
+}
+
+/// Ends the fragments of a list that did not become a PolygonList: those that nobody else holds.
+inline void end_fragments(std::vector<PolygonRef>& list) {
+    const PolygonList freed(std::move(list));
+}
 
 /// A new fragment of `ref` with the polygon's edges.
 [[nodiscard]] PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,

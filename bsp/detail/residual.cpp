@@ -113,7 +113,7 @@ public:
         if (!remembers_) return of_operation(formula);
         if (const auto known = known_.find(formula.get()); known != known_.end())
             return known->second;
-        Ref result = of_operation(formula);
+        Ref result = with_enough_stack([&] { return of_operation(formula); });
         known_.emplace(formula.get(), result);
         return result;
     }
@@ -159,7 +159,7 @@ public:
         if (formula.kind == Kind::Slot) return values_[static_cast<std::size_t>(formula.slot)];
         if (!remembers_) return of_operation(formula);
         if (const auto known = known_.find(&formula); known != known_.end()) return known->second;
-        const int result = of_operation(formula);
+        const int result = with_enough_stack([&] { return of_operation(formula); });
         known_.emplace(&formula, result);
         return result;
     }

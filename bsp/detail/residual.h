@@ -15,12 +15,20 @@
 #include <unordered_set>
 #include <vector>
 
+#include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/end_graph.h>
+
 namespace trisect::detail {
 
 /// Formula over numbered slots. Immutable, shared between cells.
 struct Residual {
     enum class Kind : std::uint8_t { Constant, Slot, Not, And, Or, Xor };
     using Ref = std::shared_ptr<const Residual>;
+
+    Residual() = default;
+    Residual(const Residual&) = delete;
+    Residual& operator=(const Residual&) = delete;
+    ~Residual() { end_children(children); }  // formulas may be deep
 
     Kind kind = Kind::Constant;
     bool value = false;  ///< of a constant
@@ -64,7 +72,9 @@ void for_each_slot(const Residual& formula, Visit&& visit) {
     const auto walk = [&](const auto& self, const Residual& r) -> void {
         if (r.kind == Residual::Kind::Slot) visit(r.slot);
         if (formula.is_large() && !r.children.empty() && !seen.insert(&r).second) return;
-        for (const auto& c : r.children) self(self, *c);
+        with_enough_stack([&] {
+            for (const auto& c : r.children) self(self, *c);
+        });
     };
     walk(walk, formula);
 }

@@ -14,6 +14,7 @@
 
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/axis_trace.h>
+#include <trisect/bsp/detail/deep_recursion.h>
 
 namespace trisect::detail {
 
@@ -75,7 +76,7 @@ void Covering::walk(const Residual& formula) {
         if (formula.kind == Kind::Or && c->kind == Kind::Slot) slots.push_back(c->slot);
         if (formula.kind == Kind::And && c->kind == Kind::Not && c->children[0]->kind == Kind::Slot)
             slots.push_back(c->children[0]->slot);
-        walk(*c);
+        with_enough_stack([&] { walk(*c); });
     }
     if (slots.size() > 1) unions_.push_back(std::move(slots));
 }
