@@ -4,17 +4,17 @@
 // the points stays what it is and each combination adds a rounding of numbers that are no larger
 // than the largest one at the start: u = 2^-53 of it for a mean, 3 u for (1 - t) a + t b.
 //
-// Bounds on derivatives. Let N(u, v) and W(u, v) be numerator and denominator of the surface as
-// seen from a centre c, N = Σ w (P - c) B B. They are polynomials, and a derivative of one is
-// bounded by the largest difference of its control numbers times the degree. With S = N / W, and
-// R the largest distance of a control point from c, so that |S| <= R,
+// Derivatives. Let N(u, v) and W(u, v) be numerator and denominator of the surface as seen from a
+// centre c, N = Σ w (P - c) B B. They are polynomials, and a derivative of one is a mean of the
+// differences of its control numbers, times the degree: a range of each number, not a bound on
+// magnitudes alone, so that derivatives that cancel each other do so. With S = N / W,
 //
 //     S_u  = (N_u - S W_u) / W
 //     S_uu = (N_uu - 2 S_u W_u - S W_uu) / W
 //     S_uv = (N_uv - S_u W_v - S_v W_u - S W_uv) / W
 //
-// bound the second derivatives of a rational patch. R and all differences shrink when the patch is
-// halved, so the bounds converge to the derivatives. For equal weights only N_uu / W is left.
+// are computed in interval arithmetic. The ranges shrink when the patch is halved, and converge to
+// the derivatives.
 
 #include <trisect/brep/curved/control_net.h>
 
@@ -43,17 +43,39 @@ Homogeneous between(const Homogeneous& a, const Homogeneous& b, double t) {
 
 double length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
-// The largest distances between neighbours, and second differences, of numerators and denominators.
-struct Differences {
-    double n = 0;
-    double w = 0;
-    void include(const Homogeneous& d) {
-        n = std::max(n, length(d[0], d[1], d[2]));
-        w = std::max(w, std::abs(d[3]));
+// Every operation on ranges rounds outwards.
+Range around(double lo, double hi) {
+    const double slack = 0x1p-51 * std::max(std::abs(lo), std::abs(hi));
+    return {lo - slack, hi + slack};
+}
+Range operator-(Range a, Range b) { return around(a.lo - b.hi, a.hi - b.lo); }
+Range operator*(Range a, Range b) {
+    const auto [lo, hi] = std::minmax({a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi});
+    return around(lo, hi);
+}
+// \pre b.lo > 0
+Range operator/(Range a, Range b) {
+    const auto [lo, hi] = std::minmax({a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi});
+    return around(lo, hi);
+}
+constexpr Range no_number{HUGE_VAL, -HUGE_VAL};
+
+// Of each homogeneous coordinate of some points.
+struct HomogeneousRange {
+    std::array<Range, 4> of{no_number, no_number, no_number, no_number};
+    void include(const Homogeneous& h) {
+        for (std::size_t k = 0; k < 4; ++k)
+            of[k] = {std::min(of[k].lo, h[k]), std::max(of[k].hi, h[k])};
     }
-    void scale(double factor, double error) {
-        n = factor * outward * (n + 1.8 * error);
-        w = factor * outward * (w + error);
+    // Of a derivative: differences, each off by an error, times a factor. Nothing was included
+    // where the degree is too low for one: 0.
+    [[nodiscard]] HomogeneousRange times(double factor, double error) const {
+        HomogeneousRange r;
+        for (std::size_t k = 0; k < 4; ++k)
+            r.of[k] = of[k].lo > of[k].hi
+                          ? Range{}
+                          : around(factor * (of[k].lo - error), factor * (of[k].hi + error));
+        return r;
     }
 };
 
@@ -169,14 +191,23 @@ SecondDerivatives ControlNet::second_derivatives() const {
         for (std::size_t k = 0; k < 3; ++k) h[k] -= c[k] * h[3];
     const double error = outward * (error_ * (1 + size) + 4 * rounding * largest_ * (1 + size));
 
-    double radius = 0;
-    double least = INFINITY;
+    // Of the surface: its points are means of these.
+    VectorRange surface{no_number, no_number, no_number};
+    HomogeneousRange whole;
     for (const Homogeneous& h : seen) {
-        const double w = h[3] - error;
-        least = std::min(least, w);
-        radius = std::max(radius, (length(h[0], h[1], h[2]) + 1.8 * error) / w);
+        const Range w = around(h[3] - error, h[3] + error);
+        if (!(w.lo > 0)) {
+            constexpr Range any{-HUGE_VAL, HUGE_VAL};
+            constexpr VectorRange unknown{any, any, any};
+            return {unknown, unknown, unknown};
+        }
+        whole.include(h);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Range x = around(h[k] - error, h[k] + error) / w;
+            surface[k] = {std::min(surface[k].lo, x.lo), std::max(surface[k].hi, x.hi)};
+        }
     }
-    if (!(least > 0)) return {INFINITY, INFINITY, INFINITY};
+    const Range weight = whole.times(1, error).of[3];
 
     const auto p = static_cast<double>(degree_u_);
     const auto q = static_cast<double>(degree_v_);
@@ -185,11 +216,11 @@ SecondDerivatives ControlNet::second_derivatives() const {
         for (std::size_t k = 0; k < 4; ++k) a[k] -= b[k];
         return a;
     };
-    Differences u;
-    Differences v;
-    Differences uu;
-    Differences uv;
-    Differences vv;
+    HomogeneousRange u;
+    HomogeneousRange v;
+    HomogeneousRange uu;
+    HomogeneousRange uv;
+    HomogeneousRange vv;
     for (std::size_t i = 0; i <= degree_u_; ++i)
         for (std::size_t j = 0; j <= degree_v_; ++j) {
             if (i < degree_u_) u.include(minus(at(i + 1, j), at(i, j)));
@@ -204,18 +235,22 @@ SecondDerivatives ControlNet::second_derivatives() const {
         }
     // Rounding of the differences is less than what the factors of `error` leave.
     const double e = 2 * error + 4 * rounding * largest_ * (1 + size);
-    u.scale(p, e);
-    v.scale(q, e);
-    uu.scale(p * (p - 1), 2 * e);
-    vv.scale(q * (q - 1), 2 * e);
-    uv.scale(p * q, 2 * e);
+    u = u.times(p, e);
+    v = v.times(q, e);
+    uu = uu.times(p * (p - 1), 2 * e);
+    vv = vv.times(q * (q - 1), 2 * e);
+    uv = uv.times(p * q, 2 * e);
 
-    const double s_u = (u.n + radius * u.w) / least;
-    const double s_v = (v.n + radius * v.w) / least;
+    const Range two{2, 2};
     SecondDerivatives r;
-    r.uu = outward * (uu.n + 2 * s_u * u.w + radius * uu.w) / least;
-    r.vv = outward * (vv.n + 2 * s_v * v.w + radius * vv.w) / least;
-    r.uv = outward * (uv.n + s_u * v.w + s_v * u.w + radius * uv.w) / least;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Range s = surface[k];
+        const Range s_u = (u.of[k] - s * u.of[3]) / weight;
+        const Range s_v = (v.of[k] - s * v.of[3]) / weight;
+        r.uu[k] = (uu.of[k] - two * s_u * u.of[3] - s * uu.of[3]) / weight;
+        r.uv[k] = (uv.of[k] - s_u * v.of[3] - s_v * u.of[3] - s * uv.of[3]) / weight;
+        r.vv[k] = (vv.of[k] - two * s_v * v.of[3] - s * vv.of[3]) / weight;
+    }
     return r;
 }
 

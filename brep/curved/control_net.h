@@ -17,12 +17,19 @@ namespace trisect::detail {
 /// (w x, w y, w z, w)
 using Homogeneous = std::array<double, 4>;
 
-/// The bounds of second derivatives of a surface, in the user's units, over a unit square of
-/// parameters.
+/// All numbers from lo to hi.
+struct Range {
+    double lo = 0;
+    double hi = 0;
+};
+/// Of each coordinate of a vector.
+using VectorRange = std::array<Range, 3>;
+
+/// The second derivatives of a surface over a unit square of parameters, in the user's units.
 struct SecondDerivatives {
-    double uu = 0;
-    double uv = 0;
-    double vv = 0;
+    VectorRange uu{};
+    VectorRange uv{};
+    VectorRange vv{};
 };
 
 class ControlNet {
@@ -48,7 +55,7 @@ public:
         double radius = 0;
     };
     [[nodiscard]] Hull hull() const;
-    /// Upper bounds.
+    /// Certified; infinite where weights are too near to 0 for doubles.
     [[nodiscard]] SecondDerivatives second_derivatives() const;
     /// The longest way through control points in a direction: which one to halve.
     [[nodiscard]] double length_in_u() const;

@@ -22,8 +22,9 @@ struct Tessellation {
     double deviation = 0;
 };
 
-/// Each patch becomes a grid of cells fine enough for its second derivatives (Filip, Magedson and
-/// Markot 1986), each cell two triangles; cells along a side that the neighbour divides more finely
+/// Each patch becomes a grid of cells fine enough for its second derivatives (after Filip, Magedson
+/// and Markot 1986, by ranges of vectors instead of bounds on magnitudes), each cell two triangles;
+/// cells along a side that the neighbour divides more finely
 /// take over its vertices.
 ///
 /// That the mesh does not pass through itself is not implied: surfaces nearer to each other than

@@ -40,6 +40,62 @@ void for_points_of(const PolygonMesh& mesh, Visit&& visit) {
         }
 }
 
+// The distance of a point from a triangle (Ericson, Real-time collision detection, 5.1.5).
+double distance_from(const Point3d& p, const std::array<Point3d, 3>& t) {
+    const auto minus = [](const Point3d& a, const Point3d& b) {
+        return Point3d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    };
+    const auto dot = [](const Point3d& a, const Point3d& b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
+    const auto from_side = [&](const Point3d& a, const Point3d& b) {
+        const Point3d along = minus(b, a);
+        const double s = std::clamp(dot(minus(p, a), along) / dot(along, along), 0.0, 1.0);
+        Point3d d = minus(p, a);
+        for (std::size_t k = 0; k < 3; ++k) d[k] -= s * along[k];
+        return std::sqrt(dot(d, d));
+    };
+    double least = std::min({from_side(t[0], t[1]), from_side(t[1], t[2]), from_side(t[2], t[0])});
+    const Point3d u = minus(t[1], t[0]);
+    const Point3d v = minus(t[2], t[0]);
+    const Point3d w = minus(p, t[0]);
+    const double det = dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v);
+    const double a = (dot(v, v) * dot(u, w) - dot(u, v) * dot(v, w)) / det;
+    const double b = (dot(u, u) * dot(v, w) - dot(u, v) * dot(u, w)) / det;
+    if (a >= 0 && b >= 0 && a + b <= 1) {
+        Point3d d = w;
+        for (std::size_t k = 0; k < 3; ++k) d[k] -= a * u[k] + b * v[k];
+        least = std::min(least, std::sqrt(dot(d, d)));
+    }
+    return least;
+}
+
+// Random points of the surface, and the triangles of their patch.
+void expect_surface_within(const CurvedBoundary& boundary, const Tessellation& t, int points) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> parameter(0, 1);
+    for (int n = 0; n < points; ++n) {
+        const auto patch =
+            static_cast<std::uint32_t>(static_cast<std::size_t>(n) % boundary.patches().size());
+        const Point3d p =
+            evaluate(boundary.patches()[patch], parameter(random), parameter(random)).position;
+        double least = HUGE_VAL;
+        for (std::size_t f = 0; f < t.mesh.face_count(); ++f) {
+            if (t.patch_of_face[f] != patch) continue;
+            std::array<Point3d, 3> corners{};
+            for (std::size_t k = 0; k < 3; ++k) corners[k] = t.mesh.points[t.mesh.face(f)[k]];
+            least = std::min(least, distance_from(p, corners));
+        }
+        EXPECT_LE(least, t.deviation * (1 + 1e-9)) << patch;
+    }
+}
+
+// Four times the fewest that a smooth surface of these curvatures needs would be too many.
+TEST(Tessellate, NotManyMoreTrianglesThanTheCurvaturesAskFor) {
+    EXPECT_LE(tessellate(trisect::make_curved_sphere(3), 0.01).mesh.face_count(), 7000U);
+    EXPECT_LE(tessellate(trisect::make_curved_torus(5, 2), 0.01).mesh.face_count(), 18000U);
+}
+
 TEST(Tessellate, SphereWithinItsDeviation) {
     const CurvedBoundary sphere = trisect::make_curved_sphere(3);
     std::size_t last = 0;
@@ -53,7 +109,7 @@ TEST(Tessellate, SphereWithinItsDeviation) {
             farthest = std::max(farthest, std::abs(std::hypot(p[0], p[1], p[2]) - 3));
         });
         EXPECT_LE(farthest, t.deviation);
-        EXPECT_GT(farthest, 0.05 * deviation);  // not far too fine
+        EXPECT_GT(farthest, 0.2 * deviation);  // not far too fine
         EXPECT_TRUE(trisect::validate(t.mesh).is_solid());
     }
 }
@@ -68,6 +124,7 @@ TEST(Tessellate, TorusWithinItsDeviation) {
     });
     EXPECT_LE(farthest, t.deviation);
     EXPECT_TRUE(trisect::validate(t.mesh).is_solid());
+    expect_surface_within(torus, t, 300);
     const double volume = trisect::volume(trisect::import_mesh(t.mesh).mesh);
     const double exact = 2 * std::numbers::pi * std::numbers::pi * 5 * 4;
     const double area = 4 * std::numbers::pi * std::numbers::pi * 5 * 2;
@@ -98,6 +155,7 @@ TEST(Tessellate, BumpyRingOfBSplines) {
         EXPECT_LE(t.deviation, deviation);
         EXPECT_TRUE(trisect::validate(t.mesh).is_solid());
         EXPECT_EQ(t.patch_of_face.size(), t.mesh.face_count());
+        expect_surface_within(ring, t, 300);
     }
 }
 
