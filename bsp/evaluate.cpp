@@ -44,6 +44,7 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     constant_cells += part.constant_cells;
     mixed_leaves += part.mixed_leaves;
     plain_leaves += part.plain_leaves;
+    prism_leaves += part.prism_leaves;
     listed_polygons += part.listed_polygons;
     pairs_boxes += part.pairs_boxes;
     pairs_cutting += part.pairs_cutting;

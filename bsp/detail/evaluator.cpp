@@ -42,6 +42,7 @@
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/partition.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
+#include <trisect/bsp/detail/prism_facets.h>
 #include <trisect/bsp/detail/refine_leaf.h>
 #include <trisect/bsp/detail/slab.h>
 #include <trisect/bsp/detail/stack_arena.h>
@@ -58,6 +59,8 @@ namespace {
 constexpr std::uint64_t parallel_size = 4096;
 // Leaves may be so many times as large where all polygons are across an axis.
 constexpr std::uint64_t axis_leaf_factor = 8;
+// And where all operands are prisms along one axis.
+constexpr std::uint64_t prism_leaf_factor = 40;
 // Where rounded positions get this coarse for what has to be parted, a finer frame is made.
 constexpr int coarse_extent = 128;
 
@@ -106,6 +109,7 @@ private:
     CellRef share_list(const CellTask& task, const CellOperand& o, bool negated);
     CellRef resolve(CellTask& task);
     std::optional<CellRef> resolve_across_axes(CellTask& task);
+    std::optional<CellRef> resolve_prisms(CellTask& task);
     template <class Arrange>
     std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
     CellRef divide(CellTask& task);
@@ -275,6 +279,20 @@ std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
     if (!std::ranges::all_of(task.operands, is_across_axis)) return std::nullopt;
     return resolve_by(
         task, [&](const LeafProblem& p) { return arranger_.arrange_across_axes(p, stats_); });
+}
+
+// Where operands are prisms along one axis: then a facet is across that axis or a right triangle
+// along it.
+std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
+    if (task.operands.size() < 2) return std::nullopt;
+    const auto may_be_prism = [&](const CellOperand& o) {
+        if (!o.embedded || (!o.is_list && !o.node->is_leaf())) return false;
+        const PolygonRef first = o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0];
+        return PrismFacets::may_be_of_prism(first) && task.cell.contains(first.box());
+    };
+    if (!std::ranges::all_of(task.operands, may_be_prism)) return std::nullopt;
+    return resolve_by(task,
+                      [&](const LeafProblem& p) { return arranger_.arrange_prisms(p, stats_); });
 }
 
 template <class Arrange>
@@ -725,6 +743,8 @@ CellRef Worker::solve(CellTask& task) {
     if (total <= options_.leaf_polygons) return resolve(task);
     if (total <= axis_leaf_factor * options_.leaf_polygons)
         if (auto leaf = resolve_across_axes(task)) return *std::move(leaf);
+    if (total <= prism_leaf_factor * options_.leaf_polygons)
+        if (auto leaf = resolve_prisms(task)) return *std::move(leaf);
     return divide(task);
 }
 

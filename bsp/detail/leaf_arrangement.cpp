@@ -38,6 +38,7 @@
 #include <trisect/bsp/detail/leaf_pieces.h>
 #include <trisect/bsp/detail/leaf_work.h>
 #include <trisect/bsp/detail/plain_leaf.h>
+#include <trisect/bsp/detail/prism_leaf.h>
 
 namespace trisect::detail {
 
@@ -45,6 +46,7 @@ class LeafArranger::Impl {
 public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
     std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem, EvaluateStats& stats);
+    std::optional<LeafResult> arrange_prisms(const LeafProblem& problem, EvaluateStats& stats);
     void collect_crossings(bool collect) { collect_ = collect; }
     [[nodiscard]] const Crossings& crossings() const { return crossings_; }
 
@@ -59,6 +61,7 @@ private:
 
     AxisLeaf axis_;
     PlainLeaf plain_;
+    PrismLeaf prisms_;
     LeafWork work_;
     LeafPairs pairs_;
     LeafLinks links_;
@@ -88,6 +91,24 @@ const Crossings& LeafArranger::crossings() const { return impl_->crossings(); }
 std::optional<LeafResult> LeafArranger::arrange_across_axes(const LeafProblem& problem,
                                                             EvaluateStats& stats) {
     return impl_->arrange_across_axes(problem, stats);
+}
+
+std::optional<LeafResult> LeafArranger::arrange_prisms(const LeafProblem& problem,
+                                                       EvaluateStats& stats) {
+    return impl_->arrange_prisms(problem, stats);
+}
+
+std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& problem,
+                                                             EvaluateStats& stats) {
+    out_.clear();
+    try {
+        if (!prisms_.arrange(problem, stats, out_)) return std::nullopt;
+    } catch (...) {
+        end_fragments(out_);  // those made so far
+        throw;
+    }
+    note_doubtful(problem);
+    return LeafResult{std::move(out_), {}};
 }
 
 std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProblem& problem,
@@ -120,6 +141,7 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
         if (collect_ && problem.operands.size() == 2) plain_.add_crossings(crossings_.pairs);
         return {std::move(out_), {}};
     }
+    if (auto result = arrange_prisms(problem, stats)) return *std::move(result);
     note_doubtful(problem);
     work_.start(problem, stats);
     pairs_.relate_all(work_);

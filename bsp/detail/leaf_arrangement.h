@@ -46,6 +46,9 @@ public:
     /// nothing. Such leaves may be much larger than others.
     [[nodiscard]] std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem,
                                                                 EvaluateStats& stats);
+    /// The same when all operands are prisms along one axis, whole within the cell; else nothing.
+    [[nodiscard]] std::optional<LeafResult> arrange_prisms(const LeafProblem& problem,
+                                                           EvaluateStats& stats);
 
 private:
     class Impl;

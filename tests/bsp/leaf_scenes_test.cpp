@@ -156,7 +156,12 @@ INSTANTIATE_TEST_SUITE_P(Pockets, EngravedPlate, ::testing::Values(10, 32, 100))
 // by all the others, and both kinds of leaf engine must say the same.
 TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
     constexpr int count = 12;
-    const auto united = [&](Embedding embedding, EvaluateStats& stats) {
+    // A pyramid within the boxes, whose sides are neither across the axis nor along it.
+    LatticeMesh sides;
+    sides.points = {{-1, -1, 1}, {2, 0, 1}, {0, 2, 1}, {0, 0, 3}};
+    sides.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const Solid pyramid = Solid::from_lattice_mesh(sides);
+    const auto united = [&](Embedding embedding, bool with_pyramid, EvaluateStats& stats) {
         std::vector<Expression> boxes;
         trisect::SolidOptions options;
         options.embedding = embedding;
@@ -165,18 +170,28 @@ TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
                 trisect::transformed(trisect::make_box({-8, -3, 0}, {8, 3, 5}),
                                      trisect::AffineMap::rotation({0, 0, 1}, 180.0 * i / count)),
                 options));
-        return evaluate(Expression::any_of(boxes), {}, &stats);
+        if (with_pyramid) boxes.emplace_back(pyramid);
+        trisect::EvaluateOptions one_leaf;
+        one_leaf.leaf_polygons = 1000;
+        return evaluate(Expression::any_of(boxes), one_leaf, &stats);
     };
     EvaluateStats stats;
+    EvaluateStats long_stats;
     EvaluateStats resolved_stats;
-    const Solid fan = united(Embedding::Assume, stats);
-    const Solid resolved = united(Embedding::Resolve, resolved_stats);
-    EXPECT_GT(stats.cuts_undone, 0U);
+    const auto fan = united(Embedding::Assume, false, stats).to_brep();
+    const auto long_way = united(Embedding::Assume, true, long_stats).to_brep();
+    const auto resolved = united(Embedding::Resolve, false, resolved_stats).to_brep();
+    EXPECT_EQ(stats.prism_leaves, 1U);
+    EXPECT_EQ(long_stats.prism_leaves, 0U);
+    EXPECT_GT(long_stats.cuts_undone, 0U);
     // Twelve facets a box, each in a few parts for every other box; not in n² parts.
-    EXPECT_LT(stats.pieces, 24U * count * count);
-    EXPECT_LT(4 * stats.pieces, resolved_stats.pieces);
-    EXPECT_EQ(exact_volume(fan.to_brep()), exact_volume(resolved.to_brep()));
-    EXPECT_EQ(fan.to_brep().counts().faces, resolved.to_brep().counts().faces);
+    EXPECT_LT(long_stats.pieces, 24U * count * count);
+    EXPECT_LT(4 * long_stats.pieces, resolved_stats.pieces);
+    EXPECT_LT(4 * stats.pieces, long_stats.pieces);
+    EXPECT_EQ(exact_volume(fan), exact_volume(resolved));
+    EXPECT_EQ(exact_volume(fan), exact_volume(long_way));
+    EXPECT_EQ(fan.counts().faces, resolved.counts().faces);
+    EXPECT_EQ(fan.counts().faces, long_way.counts().faces);
 }
 
 Solid cube_at(double x, double y, double z) {

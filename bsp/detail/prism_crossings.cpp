@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/prism_crossings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <trisect/bsp/detail/work_budget.h>
+
+namespace trisect::detail {
+
+namespace {
+
+int sign(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
+Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
+
+// Two neighbours in one outline: in a common corner, and nowhere else.
+bool are_neighbours(const PrismWall& s, const PrismWall& t, bool in_line) {
+    if (s.operand != t.operand || s.lo != t.lo || s.hi != t.hi) return false;
+    // `from` is the smaller end, so walls in one line that share the same end overlap.
+    if (s.to == t.from || s.from == t.to) return true;
+    return !in_line && (s.from == t.from || s.to == t.to);
+}
+
+}  // namespace
+
+int compare_places(const PrismCrossing& a, const PrismCrossing& b) {
+    if (const double gap = a.at - b.at; std::fabs(gap) > 0x1p-50) return gap < 0 ? -1 : 1;
+    const WideInt<4> s = multiply<4>(WideInt<2>(a.part), WideInt<2>(b.whole));
+    const WideInt<4> t = multiply<4>(WideInt<2>(b.part), WideInt<2>(a.whole));
+    return s < t ? -1 : (t < s ? 1 : 0);
+}
+
+bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall> walls,
+                          EvaluateStats& stats) {
+    found_.clear();
+    order_.resize(walls.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    const auto wall = [&](LeafIndex i) -> const PrismWall& { return walls[LeafWork::u(i)]; };
+    std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
+        return wall(a).from[0] != wall(b).from[0] ? wall(a).from[0] < wall(b).from[0] : a < b;
+    });
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        check_budget(*problem.options, stats);
+        const PrismWall& s = wall(order_[i]);
+        const auto [low, high] = std::minmax(s.from[1], s.to[1]);
+        for (std::size_t j = i + 1; j < order_.size(); ++j) {
+            const PrismWall& t = wall(order_[j]);
+            if (t.from[0] > s.to[0]) break;
+            if (std::max(t.from[1], t.to[1]) < low || std::min(t.from[1], t.to[1]) > high ||
+                t.lo > s.hi || t.hi < s.lo)
+                continue;
+            ++stats.pairs_boxes;
+            if (!compare(walls, order_[i], order_[j])) return false;
+        }
+    }
+    stats.pairs_touching += found_.size() / 2;
+    stats.pairs_cutting += found_.size() / 2;
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+        if (a.on != b.on) return a.on < b.on;
+        const int order = compare_places(a.crossing, b.crossing);
+        return order != 0 ? order < 0 : a.crossing.wall < b.crossing.wall;
+    });
+    sorted_.clear();
+    first_.assign(walls.size() + 1, 0);
+    for (const Found& f : found_) {
+        sorted_.push_back(f.crossing);
+        ++first_[LeafWork::u(f.on) + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    return true;
+}
+
+bool PrismCrossings::compare(std::span<const PrismWall> walls, LeafIndex s, LeafIndex t) {
+    const PrismWall& a = walls[LeafWork::u(s)];
+    const PrismWall& b = walls[LeafWork::u(t)];
+    const Int128 b_from = flat_turn(a.from, a.to, b.from);
+    const Int128 b_to = flat_turn(a.from, a.to, b.to);
+    if (sign(b_from) * sign(b_to) > 0) return true;
+    const Int128 a_from = flat_turn(b.from, b.to, a.from);
+    const Int128 a_to = flat_turn(b.from, b.to, a.to);
+    if (sign(a_from) * sign(a_to) > 0) return true;
+    if (b_from == 0 || b_to == 0 || a_from == 0 || a_to == 0)
+        return are_neighbours(a, b, b_from == 0 && b_to == 0);
+    if (a.operand == b.operand) return false;
+    const auto add = [&](LeafIndex on, LeafIndex other, Int128 from, Int128 to) {
+        const Int128 whole = magnitude(from) + magnitude(to);
+        found_.push_back({on,
+                          {other, static_cast<double>(magnitude(from)) / static_cast<double>(whole),
+                           magnitude(from), whole}});
+    };
+    add(s, t, a_from, a_to);
+    add(t, s, b_from, b_to);
+    return true;
+}
+
+}  // namespace trisect::detail
