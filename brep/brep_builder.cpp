@@ -27,6 +27,7 @@
 #include <trisect/brep/radial_order.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 
@@ -35,12 +36,12 @@ public:
     explicit BrepConnector(BrepBuilder&& input) : in_(std::move(input)) {}
 
     Brep run() {
-        lay_out_loops();
-        sort_directed_edges();
-        pair_halfedges();
-        number_edges();
-        split_vertices();
-        find_shells();
+        for (const auto step : {&BrepConnector::lay_out_loops, &BrepConnector::sort_directed_edges,
+                                &BrepConnector::pair_halfedges, &BrepConnector::number_edges,
+                                &BrepConnector::split_vertices, &BrepConnector::find_shells}) {
+            detail::check_stop(in_.corners_.size());
+            (this->*step)();
+        }
         return std::move(out_);
     }
 

@@ -29,6 +29,7 @@
 #include <trisect/brep/detail/refit_faces.h>
 #include <trisect/brep/detail/volume_sign.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 
@@ -42,10 +43,12 @@ public:
         : input_(mesh), options_(options) {}
 
     ImportedMesh run() {
+        detail::check_stop(input_.face_count());
         detail::check_indices(input_);
         prepare();
         apply_nonplanar_policy();
         report_faces();
+        detail::check_stop();
         if (!out_.report.lattice.lossless) count_flipped_faces();
         check_closed();
         move_result();
@@ -67,6 +70,7 @@ private:
     }
 
     void weld_and_triangulate() {
+        detail::check_stop(lattice_points_.size());
         mesh_ = detail::weld_mesh(input_, lattice_points_);
         detail::triangulate_faces(mesh_);
         out_.report.welded_points = mesh_.welded_points;
@@ -126,6 +130,7 @@ private:
     void check_closed() {
         const auto edges =
             detail::find_net_edges(mesh_.points.size(), mesh_.loop_begin, mesh_.corners);
+        detail::check_stop(edges.size());
         const auto open = detail::find_uncancelled(mesh_.points, edges);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             if (!open[i]) {

@@ -11,6 +11,7 @@
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/translate.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 
@@ -66,7 +67,9 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const Solid& s : t.slots) states.push_back(s.state());
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
-    detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, options);
+    EvaluateOptions with_flag = options;
+    if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
+    detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, with_flag);
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice.lattice;
     state->root = std::move(evaluation.root);

@@ -40,3 +40,4 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/point.h>
+#include <trisect/kernel/stop_scope.h>

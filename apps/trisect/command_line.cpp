@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_line.h"
 
+#include <trisect/kernel/stop_scope.h>
+
 #include <algorithm>
 #include <csignal>
 #include <functional>
@@ -247,6 +249,7 @@ int run_request(Console& console, const std::string& name, const Request& reques
     Outcome outcome;
     try {
         const Limits limits(request.common);
+        const StopScope scope(&supervisor.stop_flag());  // reading, import, checks, assembly
         Session session(request.common, console, supervisor);
         outcome = run_command(session, name, request);
     } catch (...) {

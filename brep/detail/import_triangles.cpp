@@ -35,6 +35,7 @@
 #include <trisect/brep/detail/volume_sign.h>
 #include <trisect/brep/detail/weld_points.h>
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -82,12 +83,16 @@ public:
     std::optional<ImportedMesh> run() {
         const Lattice lattice = options_.lattice.value_or(choose_lattice(input_.points));
         out_.mesh.lattice = lattice;
+        check_stop(input_.points.size());
         points() = to_lattice(input_.points, lattice, out_.report.lattice);
+        check_stop(input_.face_count());
         // A closed surface has half as many points as triangles, give or take.
         names_ = weld_in_place(points(), input_.face_count() / 2 + input_.face_count() / 16);
         out_.report.welded_points = input_.points.size() - points().size();
+        check_stop();
         rename_corners();
         look_at_triangles();
+        check_stop();
         if (!sides_cancel(points().size(), triangles())) return std::nullopt;
         out_.report.inside_out = is_inside_out();
         drop_degenerate();

@@ -11,6 +11,7 @@
 #include <trisect/brep/detail/weld_points.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -64,6 +65,7 @@ void triangulate_faces(PreparedMesh& mesh) {
                            std::min(mesh.corners.size(), 2 * mesh.face_count()));
     mesh.face_of_triangle.reserve(mesh.triangles.capacity());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        check_stop();
         const auto whole = mesh.loop(f);
         if (whole.size() == 3) {
             if (are_collinear(mesh.points[whole[0]], mesh.points[whole[1]],

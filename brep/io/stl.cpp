@@ -27,6 +27,8 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/kernel/stop_scope.h>
+
 namespace trisect::detail {
 namespace {
 
@@ -256,6 +258,7 @@ std::optional<PolygonMesh> read_records_quickly(const InputText& source, std::ui
     std::array<Point3d, VertexWelder::block> points;
     const char* record = source.begin() + stl_header_size;
     for (std::size_t i = 0; i < count; i += block) {
+        detail::check_stop(block);
         const std::size_t n = std::min(block, static_cast<std::size_t>(count) - i);
         if (!load_corners(record, n, points.data())) return std::nullopt;
         welder.vertices({points.data(), 3 * n}, &mesh.corners[3 * i]);

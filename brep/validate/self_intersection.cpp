@@ -14,6 +14,7 @@
 #include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -37,6 +38,7 @@ std::vector<FoundPair> find_pairs(const CheckedMesh& m, std::uint64_t pair_limit
     std::vector<FoundPair> found;
     std::uint64_t pairs = 0;
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+        check_stop();
         if (++pairs > pair_limit)
             throw LimitError("validation stopped after " + std::to_string(pair_limit) +
                              " pairs of faces");

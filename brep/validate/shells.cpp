@@ -20,6 +20,7 @@
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -85,6 +86,7 @@ private:
     std::vector<std::pair<std::uint32_t, std::int64_t>> net_by_shell(
         std::span<const EdgeUse> uses) {
         std::vector<std::pair<std::uint32_t, std::int64_t>> nets;
+        check_stop();
         for (const EdgeUse& u : uses) {
             const std::uint32_t r = find(u.face());
             const auto it =

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <trisect/kernel/stop_scope.h>
+
 namespace trisect::detail {
 
 TriangleTree::TriangleTree(std::span<const LatticePoint> points,
@@ -20,6 +22,7 @@ TriangleTree::TriangleTree(std::span<const LatticePoint> points,
 
 // Recursive, but halving: 32 levels at most.
 std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
+    check_stop();
     const auto self = static_cast<std::uint32_t>(nodes_.size());
     Node node;
     node.begin = begin;

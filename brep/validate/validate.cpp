@@ -8,6 +8,7 @@
 #include <trisect/brep/brep.h>
 #include <trisect/brep/detail/weld_points.h>
 #include <trisect/brep/validate/checked_mesh.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 
@@ -32,19 +33,19 @@ void find_odd_points(CheckedMesh& m, std::size_t point_count,
 ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options) {
     ValidationReport report(options.list_limit);
     report.set_lattice(m.mesh.report);
-    detail::check_open_edges(m, report);
-    detail::check_non_manifold_edges(m, report);
-    detail::check_non_manifold_vertices(m, report);
-    detail::check_repeated_corners(m, report);
-    detail::check_degenerate_faces(m, report);
-    detail::check_non_planar_faces(m, report);
-    detail::check_non_simple_faces(m, report);
-    detail::check_duplicate_faces(m, report);
+    for (const auto check : {detail::check_open_edges, detail::check_non_manifold_edges,
+                             detail::check_non_manifold_vertices, detail::check_repeated_corners,
+                             detail::check_degenerate_faces, detail::check_non_planar_faces,
+                             detail::check_non_simple_faces, detail::check_duplicate_faces}) {
+        detail::check_stop(m.mesh.triangles.size());
+        check(m, report);
+    }
     detail::check_self_intersections(m, options, report);
-    detail::check_duplicate_points(m, report);
-    detail::check_unused_points(m, report);
-    detail::check_shells(m, report);
-    detail::check_emptiness(m, report);
+    for (const auto check : {detail::check_duplicate_points, detail::check_unused_points,
+                             detail::check_shells, detail::check_emptiness}) {
+        detail::check_stop();
+        check(m, report);
+    }
     report.sort();
     return report;
 }
@@ -63,6 +64,7 @@ ValidationReport validate_on_lattice(const PolygonMesh& mesh, const LatticeRepor
 }  // namespace
 
 ValidationReport validate(const PolygonMesh& mesh, const ValidateOptions& options) {
+    detail::check_stop(mesh.face_count());
     detail::check_indices(mesh);
     LatticeReport lattice;
     const auto points =

@@ -23,6 +23,7 @@
 #include <trisect/bsp/detail/boundary_vertices.h>
 #include <trisect/bsp/detail/face_loops.h>
 #include <trisect/bsp/detail/whole_facets.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -72,6 +73,7 @@ private:
 
     // All faces of the facet that edges[first] belongs to; returns where the next facet begins.
     std::size_t write_cut(std::span<const BoundaryEdge> edges, std::size_t first) {
+        check_stop();
         std::size_t end = first;
         while (end < edges.size() && edges[end].facet == edges[first].facet) ++end;
         const BoundaryFacet& f = parts_.facets[u(edges[first].facet)];

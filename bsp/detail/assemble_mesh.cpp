@@ -16,6 +16,7 @@
 #include <trisect/bsp/detail/boundary_edges.h>
 #include <trisect/bsp/detail/face_loops.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -151,6 +152,7 @@ private:
     // The facet whose edges come next.
     void write_worked() {
         const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
+        check_stop();
         std::size_t n = 1;
         while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
         make_room(n);

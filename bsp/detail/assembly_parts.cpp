@@ -26,6 +26,7 @@
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/bsp/detail/traced_facets.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -48,12 +49,19 @@ public:
 
     void run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
-        for (const Leaf& leaf : leaves_) mark_facets(leaf);
+        for (const Leaf& leaf : leaves_) {
+            check_stop(1 + leaf.node->polygons().size());
+            mark_facets(leaf);
+        }
         number_facets();
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
-        for (Leaf& leaf : leaves_) make_parts(leaf);
+        for (Leaf& leaf : leaves_) {
+            check_stop(1 + leaf.node->polygons().size());
+            make_parts(leaf);
+        }
         merge_equal_points();
+        check_stop(edges_.size());
         conform_edges(traced);
         out_.representatives = std::move(same_);
         out_.stats.leaves = leaves_.size();
@@ -386,6 +394,7 @@ void Gatherer::conform_edges(std::size_t traced) {
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
     out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
     for (const Leaf& leaf : leaves_) {
+        check_stop();
         const auto edges =
             std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
         if (!leaf.node->is_mixed()) {

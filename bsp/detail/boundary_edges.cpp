@@ -20,6 +20,7 @@
 #include <trisect/bsp/detail/edge_chains.h>
 #include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -124,6 +125,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
         const std::span<BoundaryEdge> group = std::span(edges).subspan(i, j - i);
         i = j;
+        check_stop(group.size());
         const std::size_t first = out.size();
         const bool conforms = !parts.facets[u(group[0].facet)].in_several_cells;
         if (parts.facets[u(group[0].facet)].parts == 1) {  // nothing to join
@@ -236,6 +238,7 @@ void arrange_all(std::span<BoundaryEdge> edges) {
 
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
                                  std::vector<BoundaryEdge>& edges) {
+    check_stop(edges.size());
     std::vector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
     const auto root = [&](std::int32_t f) {

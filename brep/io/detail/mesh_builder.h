@@ -11,6 +11,7 @@
 
 #include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/polygon_mesh.h>
+#include <trisect/kernel/stop_scope.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -48,6 +49,7 @@ public:
     }
     /// To be called after a point was added to points().
     void check_point_count(const char* at) const {
+        check_stop();
         if (mesh_.points.size() > vertex_limit_) {
             source_.fail_limit(at, "more than " + std::to_string(vertex_limit_) +
                                        " vertices, the limit for a file");
@@ -63,6 +65,7 @@ public:
 
     /// Ends the face; `at` is where it stands.
     void end_face(const char* at) {
+        check_stop();
         const std::size_t n = mesh_.corners.size() - mesh_.face_begin.back();
         if (n < 3) {
             source_.fail(at, "a face with " + std::to_string(n) +

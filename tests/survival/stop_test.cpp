@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything that takes long can be stopped, at every place where it looks: the budget of a scope
+// is set to every number of units that a call takes, and the call has to end in LimitError, without
+// a trace, until the budget suffices.
+
+#include <trisect/kernel/stop_scope.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include <trisect/brep/io/exact_boundary.h>
+#include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+namespace {
+
+using trisect::MeshFormat;
+using trisect::PolygonMesh;
+using trisect::Solid;
+using trisect::StopScope;
+
+std::string bytes_of(const PolygonMesh& mesh) {
+    return trisect::format_mesh(mesh, {.format = MeshFormat::Off}).bytes;
+}
+
+// `least`: places at which the call has to look.
+void stop_everywhere(std::uint64_t least, const std::function<std::string()>& call) {
+    std::string expected;
+    std::uint64_t units = 0;
+    {
+        const StopScope counting(nullptr);
+        expected = call();
+        units = counting.work();
+    }
+    EXPECT_GE(units, least);
+    std::uint64_t stopped = 0;
+    for (std::uint64_t budget = 1; budget <= units; budget += 1 + units / 400) {
+        const StopScope scope(nullptr, budget);
+        try {
+            EXPECT_EQ(call(), expected);
+            EXPECT_EQ(budget, units);
+        } catch (const trisect::LimitError& e) {
+            ++stopped;
+            EXPECT_NE(std::string(e.what()).find("work budget"), std::string::npos);
+        }
+    }
+    EXPECT_GT(stopped, 0U);
+    const std::atomic<bool> cancel = true;
+    const StopScope scope(&cancel);
+    EXPECT_THROW((void)call(), trisect::CancelledError);
+}
+
+Solid cut_ball() {
+    const Solid ball = Solid::from_mesh(trisect::make_icosphere(1, 3));
+    const Solid box = Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2}));
+    trisect::EvaluateOptions options;
+    options.threads = 1;
+    return evaluate(ball - box, options);
+}
+
+TEST(Stop, ImportOfTriangles) {
+    const PolygonMesh mesh = trisect::make_icosphere(1, 3);
+    stop_everywhere(mesh.face_count(), [&] {
+        return std::to_string(trisect::import_mesh(mesh).mesh.triangles.size());
+    });
+}
+
+TEST(Stop, ImportOfPolygons) {
+    const PolygonMesh mesh = trisect::make_uv_sphere(1, 24, 16);
+    stop_everywhere(mesh.face_count(), [&] {
+        return std::to_string(trisect::import_mesh(mesh).mesh.triangles.size());
+    });
+}
+
+TEST(Stop, Readers) {
+    const PolygonMesh mesh = trisect::make_icosphere(1, 2);
+    for (const MeshFormat format :
+         {MeshFormat::Obj, MeshFormat::Off, MeshFormat::StlAscii, MeshFormat::StlBinary}) {
+        const std::string file = trisect::format_mesh(mesh, {.format = format}).bytes;
+        stop_everywhere(1, [&] { return bytes_of(trisect::read_mesh(file, format, "memory")); });
+    }
+}
+
+TEST(Stop, Validation) {
+    const PolygonMesh mesh = trisect::make_icosphere(1, 2);
+    stop_everywhere(mesh.face_count(), [&] { return trisect::validate(mesh).to_string(); });
+}
+
+TEST(Stop, AssemblyOfTriangles) {
+    const Solid s = cut_ball();
+    stop_everywhere(100, [&] { return bytes_of(s.to_mesh()); });
+}
+
+TEST(Stop, AssemblyOfMaximalFaces) {
+    const Solid s = cut_ball();
+    stop_everywhere(100, [&] { return trisect::exact_text(s.to_brep()); });
+}
+
+TEST(Stop, EvaluationTakesTheFlagOfItsThread) {
+    const Solid a = Solid::from_mesh(trisect::make_icosphere(1, 3));
+    const Solid b = Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2}));
+    const std::atomic<bool> cancel = true;
+    const std::atomic<bool> go_on = false;
+    const StopScope scope(&cancel);
+    EXPECT_THROW((void)evaluate(a - b), trisect::CancelledError);
+    trisect::EvaluateOptions options;
+    options.cancel = &go_on;
+    EXPECT_FALSE(evaluate(a - b, options).is_empty());
+}
+
+TEST(Stop, OuterScopesStopInnerOnes) {
+    const StopScope outer(nullptr, 10);
+    StopScope inner(nullptr, 1000);
+    trisect::detail::check_stop(10);
+    EXPECT_THROW(trisect::detail::check_stop(), trisect::LimitError);
+    EXPECT_EQ(inner.work(), 11U);
+}
+
+TEST(Stop, NothingIsCountedOutsideOfAScope) {
+    { const StopScope scope(nullptr, 1); }
+    EXPECT_NO_THROW(trisect::detail::check_stop(1'000'000));
+}
+
+}  // namespace
