@@ -352,24 +352,21 @@ void AxisLeaf::emit_rectangles(Polygons group, UnitRows rows, bool inside_low) {
     }
 }
 
-// Counter-clockwise seen from above the polygon's support.
-void AxisLeaf::list_edges(const AxisPolygon& polygon, const Rectangle& r,
-                          std::vector<EdgeName>& out) const {
+// Of planes that the grid knows.
+AxisRectangle AxisLeaf::with_names(const Rectangle& r) const {
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
-    const std::size_t u = (axis_ + 1) % 3;
-    const std::size_t v = (axis_ + 2) % 3;
-    const auto edge = [&](std::size_t axis, bool is_low) {
+    AxisRectangle out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t axis = (axis_ + 1 + i) % 3;
         const bool is_row = axis == frame.row_axis;
-        const std::size_t plane =
-            is_low ? (is_row ? r.row : r.bit) : (is_row ? r.end_row : r.end_bit);
-        const AxisUnits::Position& p = grid_.units(axis).plane(plane);
-        out.push_back({p.name, is_low == (p.sign > 0)});
-    };
-    edge(v, true);
-    edge(u, false);
-    edge(v, false);
-    edge(u, true);
-    if (polygon.plane.sign < 0) std::reverse(out.begin(), out.end());
+        for (const bool is_low : {true, false}) {
+            const std::size_t plane =
+                is_low ? (is_row ? r.row : r.bit) : (is_row ? r.end_row : r.end_bit);
+            const AxisUnits::Position& p = grid_.units(axis).plane(plane);
+            out.sides[i][is_low ? 0 : 1] = {p.at, {p.name, is_low == (p.sign > 0)}};
+        }
+    }
+    return out;
 }
 
 bool AxisLeaf::overlaps(const AxisPolygon& p, const Rectangle& r) const {
@@ -384,22 +381,28 @@ bool AxisLeaf::overlaps(const AxisPolygon& p, const Rectangle& r) const {
     return p.meets(cell);
 }
 
+std::optional<PolygonRef> AxisLeaf::clip_slowly(const AxisPolygon& p, const AxisRectangle& r) {
+    WorkPolygon shape = bench_.polygon(p.ref);
+    bench_.with_edges(shape, p.ref);
+    for (const auto& sides : r.sides)
+        for (const AxisRectangle::Side& s : sides)
+            if (!shape.is_empty())
+                shape = bench_.clipped(std::move(shape), bench_.plane(s.edge.plane),
+                                       s.edge.above ? 1 : -1);
+    if (shape.is_empty()) return std::nullopt;
+    return make_fragment(bench_, p.ref, shape);
+}
+
 // What the polygons have of a rectangle.
 void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low) {
+    const AxisRectangle rectangle = with_names(r);
     for (const AxisPolygon& p : group) {
         if (clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 || !overlaps(p, r)) continue;
-        std::vector<EdgeName> edges;
-        list_edges(p, r, edges);
-        WorkPolygon shape = bench_.polygon(p.ref);
-        bench_.with_edges(shape, p.ref);
-        for (const EdgeName& e : edges)
-            if (!shape.is_empty())
-                shape = bench_.clipped(std::move(shape), bench_.plane(e.plane), e.above ? 1 : -1);
-        if (shape.is_empty()) continue;
-        make_room(*out_);
-        PolygonRef ref = make_fragment(bench_, p.ref, shape);
-        ref.flipped = inside_low == (p.plane.sign < 0);
-        out_->push_back(ref);
+        std::optional<PolygonRef> part =
+            p.slanted_count < 2 ? clip_to_rectangle(p, rectangle) : clip_slowly(p, rectangle);
+        if (!part) continue;
+        part->flipped = inside_low == (p.plane.sign < 0);
+        out_->push_back(*part);
         ++stats_->pieces;
     }
 }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include <trisect/bsp/detail/axis_clip.h>
 #include <trisect/bsp/detail/axis_grid.h>
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/leaf_problem.h>
@@ -69,8 +70,9 @@ private:
     [[nodiscard]] UnitRows overlapped(const AxisPolygon& p) const;
     [[nodiscard]] bool overlaps(const AxisPolygon& p, const Rectangle& r) const;
     [[nodiscard]] bool touches_others(const AxisPolygon& p, const UnitRows& rows) const;
-    void list_edges(const AxisPolygon& polygon, const Rectangle& r,
-                    std::vector<EdgeName>& out) const;
+    [[nodiscard]] AxisRectangle with_names(const Rectangle& r) const;
+    [[nodiscard]] std::optional<PolygonRef> clip_slowly(const AxisPolygon& p,
+                                                        const AxisRectangle& r);
 
     const LeafProblem* problem_ = nullptr;
     EvaluateStats* stats_ = nullptr;

@@ -123,6 +123,40 @@ TEST(EngineAgreement, EmbeddedFormulasOverCopies) {
     }
 }
 
+// Leaves across the axes, whose planes cross the diagonals of sides in fractions; and a chain, in
+// which they cross diagonals of fragments.
+TEST(EngineAgreement, BoxesWhoseDiagonalsAreCutAnywhere) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        reference::Random random(seed + 66000);
+        std::vector<reference::Operand> operands;
+        for (int i = 0; i < 4; ++i) {
+            reference::LatticePoint lo{};
+            reference::LatticePoint hi{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                lo[k] = random.between(0, 60);
+                hi[k] = lo[k] + random.between(1, 101);
+            }
+            operands.push_back(reference::box(lo, hi));
+        }
+        const auto expression = reference::random_expression(random, 4, 3 + seed % 3);
+        EXPECT_EQ(disagreement(operands, expression, {}, trisect::Embedding::Assume), "")
+            << "seed " << seed << " " << reference::to_string(expression);
+        trisect::Solid chain = engines::solid(operands[0], trisect::Embedding::Assume);
+        auto steps = reference::Expression::leaf(0);
+        for (std::size_t i = 1; i < operands.size(); ++i) {
+            const Kind kind = kinds[random.below(4)];
+            chain = trisect::evaluate(
+                engines::formula(reference::pair_expression(kind),
+                                 {chain, engines::solid(operands[i], trisect::Embedding::Assume)}));
+            steps = reference::Expression::node(kind, {steps, reference::Expression::leaf(i)});
+        }
+        const auto expected = reference::evaluate(operands, steps);
+        EXPECT_EQ(
+            engines::difference(chain.to_brep(), reference::canonical_boundary(expected.cells)), "")
+            << "seed " << seed << " " << reference::to_string(steps);
+    }
+}
+
 // A chain evaluates every step on the tree of the step before.
 TEST(EngineAgreement, ChainsStepByStep) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
