@@ -49,7 +49,7 @@ struct Detail {
 PairScene linked(const Detail& detail) {
     PairScene s;
     s.a = s.b = torus(0.2, detail.fineness(50, 14), detail.fineness(50, 8));
-    const std::uint32_t n = detail.frames(200, 5);
+    const std::uint32_t n = detail.frames(100, 5);
     const Matrix up = shapes::rotation({1, 0, 0}, 90);
     for (std::uint32_t i = 0; i < n; ++i) {
         const double t = 1.0 * i / n;
