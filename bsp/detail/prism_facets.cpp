@@ -69,7 +69,10 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
                 !problem.cell.contains(ref.box()))
                 return false;
         }
-    if (!join_halves() || !find_layers()) return false;
+    // Where everything is across an axis other ways are shorter.
+    const bool is_grid = std::ranges::all_of(
+        walls_, [](const PrismWall& w) { return w.from[0] == w.to[0] || w.from[1] == w.to[1]; });
+    if (is_grid || !join_halves() || !find_layers()) return false;
     find_outside(problem);
     return true;
 }
