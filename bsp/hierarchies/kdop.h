@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/bsp/hierarchies/float_above.h>
 #include <trisect/bsp/hierarchies/tree_frame.h>
 
 namespace trisect::hierarchies {
@@ -64,17 +65,28 @@ struct KDop {
 
     KDop() { h.fill(-std::numeric_limits<float>::infinity()); }
 
-    /// A point, known within `error` in each coordinate, and |x_i| <= 2^10.
+    /// Points, known within `error` in each coordinate, and |x_i| <= 2^10. \pre there are some
     ///
     /// Sums of three numbers are rounded by less than 3·2^-53 of the sum of magnitudes.
-    void add(const std::array<double, 3>& x, double error) {
-        const double off =
-            3.01 * error + 0x1p-50 * (std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+    void add(std::span<const std::array<double, 3>> points, double error) {
+        std::array<double, n> reach;
+        std::array<double, n> back;
+        reach.fill(-std::numeric_limits<double>::infinity());
+        back.fill(-std::numeric_limits<double>::infinity());
+        double size = 0;
+        for (const std::array<double, 3>& x : points) {
+            size = std::max(size, std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+            for (std::size_t i = 0; i < n; ++i) {
+                const double v =
+                    directions[i][0] * x[0] + directions[i][1] * x[1] + directions[i][2] * x[2];
+                reach[i] = std::max(reach[i], v);
+                back[i] = std::max(back[i], -v);
+            }
+        }
+        const double off = 3.01 * error + 0x1p-50 * size;
         for (std::size_t i = 0; i < n; ++i) {
-            const double v =
-                directions[i][0] * x[0] + directions[i][1] * x[1] + directions[i][2] * x[2];
-            h[i] = std::max(h[i], up(v + off));
-            h[n + i] = std::max(h[n + i], up(off - v));
+            h[i] = std::max(h[i], float_above(reach[i] + off));
+            h[n + i] = std::max(h[n + i], float_above(back[i] + off));
         }
     }
     void add(const KDop& o) {
@@ -121,12 +133,6 @@ struct KDop {
     }
 
 private:
-    static float up(double v) {
-        const auto f = static_cast<float>(v);
-        return static_cast<double>(f) < v
-                   ? std::nextafter(f, std::numeric_limits<float>::infinity())
-                   : f;
-    }
     static constexpr double inverse_length(std::size_t i) {
         const auto& d = directions[i];
         const int square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];

@@ -23,6 +23,7 @@
 #include <cmath>
 
 #include <trisect/bsp/detail/obb_fit.h>
+#include <trisect/bsp/hierarchies/frame_hull.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/bsp/hierarchies/volume_hierarchy.h>
 
@@ -140,15 +141,21 @@ struct BoxKind {
 
     static constexpr bool has_unite = false;
     static Volume fit(std::span<const Double3> corners, double error) {
-        detail::Frame frame;
-        if (corners.size() == 3) {
-            frame = detail::triangle_frame(corners[0], corners[1], corners[2]);
-        } else {
-            detail::AreaMoments moments;
-            for (std::size_t i = 0; i < corners.size(); i += 3)
-                moments.add(corners[i], corners[i + 1], corners[i + 2]);
-            frame = detail::principal_frame(moments);
-        }
+        if (corners.size() == 3) return fit_to_triangle(corners, error);
+        detail::AreaMoments moments;
+        for (std::size_t i = 0; i < corners.size(); i += 3)
+            moments.add(corners[i], corners[i + 1], corners[i + 2]);
+        return fit_along(detail::principal_frame(moments), corners, error);
+    }
+    static double size(const Box& b) { return b.half[0] + b.half[1] + b.half[2]; }
+
+protected:
+    static Volume fit_to_triangle(std::span<const Double3> corners, double error) {
+        return fit_along(detail::triangle_frame(corners[0], corners[1], corners[2]), corners,
+                         error);
+    }
+    static Volume fit_along(const detail::Frame& frame, std::span<const Double3> corners,
+                            double error) {
         Box box;
         box.axis = frame.axis;
         Double3 middle{};
@@ -174,7 +181,16 @@ struct BoxKind {
         }
         return box;
     }
-    static double size(const Box& b) { return b.half[0] + b.half[1] + b.half[2]; }
+};
+
+// Along the principal axes of the hull's surface, as the paper has it: what is within the hull does
+// not turn the box, however much surface there is.
+struct HullBoxKind : BoxKind {
+    static Volume fit(std::span<const Double3> corners, double error) {
+        if (corners.size() == 3) return fit_to_triangle(corners, error);
+        const detail::AreaMoments moments = surface_moments(frame_hull(corners));
+        return fit_along(detail::principal_frame(moments), corners, error);
+    }
 };
 
 }  // namespace
@@ -187,6 +203,10 @@ std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a, const I
 std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
                                              const InterferenceModel& b) {
     return make_obb_tree(a, b, TreeOptions{});
+}
+std::unique_ptr<PairStructure> make_hull_obb_tree(const InterferenceModel& a,
+                                                  const InterferenceModel& b) {
+    return std::make_unique<VolumeHierarchy<HullBoxKind>>(a, b, TreeOptions{}, "obb-hull");
 }
 std::unique_ptr<PairStructure> make_wide_obb_tree(const InterferenceModel& a,
                                                   const InterferenceModel& b) {

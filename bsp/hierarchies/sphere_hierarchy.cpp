@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 
+#include <trisect/bsp/hierarchies/float_above.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/bsp/hierarchies/volume_hierarchy.h>
 
@@ -39,12 +40,6 @@ const Double3& farthest(std::span<const Double3> points, const Double3& from) {
         }
     }
     return *best;
-}
-
-float up(double v) {
-    const auto f = static_cast<float>(v);
-    return static_cast<double>(f) < v ? std::nextafter(f, std::numeric_limits<float>::infinity())
-                                      : f;
 }
 
 // Towards the farthest point by falling steps.
@@ -77,7 +72,8 @@ SphereKind::Moved SphereKind::Pose::moved(const Volume& v) const {
         r.center[k] = static_cast<float>(c[k]);
         largest = std::max(largest, std::abs(c[k]));
     }
-    r.radius = up(stretch_ * static_cast<double>(v.radius) + 1.8 * 0x1p-24 * largest + error_);
+    r.radius =
+        float_above(stretch_ * static_cast<double>(v.radius) + 1.8 * 0x1p-24 * largest + error_);
     return r;
 }
 
@@ -86,7 +82,8 @@ SphereKind::Volume SphereKind::fit_about(const Double3& center, std::span<const 
     Volume r;
     for (std::size_t k = 0; k < 3; ++k) r.center[k] = static_cast<float>(center[k]);
     const Double3 m = r.middle();
-    r.radius = up(std::sqrt(squared_distance(farthest(corners, m), m)) + 0x1p-48 + 1.7321 * error);
+    r.radius = float_above(std::sqrt(squared_distance(farthest(corners, m), m)) + 0x1p-48 +
+                           1.7321 * error);
     return r;
 }
 

@@ -21,13 +21,17 @@ enum class StructureKind : std::uint8_t {
     Kdop14,
     Kdop18,
     Kdop26,
+    Kdop18Refit,  ///< B's fitted anew to each pose
+    Kdop18Climb,  ///< B's found by climbing along hulls
     Sphere,
     SphereOctree,    ///< sphere trees of the lecture: around an octree's cubes,
     SphereMedial,    ///< about the medial axis,
     SphereVertices,  ///< about vertices
     Obb,             ///< oriented boxes, a binary tree
-    ObbWide,         ///< the same with four children to a node
+    ObbHull,         ///< along the axes of the hull's covariance instead of the surface's
+    ObbWide,         ///< oriented boxes with four children to a node
     ObbPacked,       ///< the tree of interfere(): four boxes at a time, in floats
+    Hull,            ///< convex hulls of few corners
     Octree,          ///< A's space divided, B's triangles entered; and so on below
     KdTree,
     RTree,

@@ -45,7 +45,7 @@ struct KDopKind {
     static constexpr bool has_unite = true;
     static Volume fit(std::span<const std::array<double, 3>> corners, double error) {
         Volume r;
-        for (const auto& c : corners) r.add(c, error);
+        r.add(corners, error);
         return r;
     }
     static Volume unite(std::span<const Volume> volumes) {
@@ -56,38 +56,46 @@ struct KDopKind {
     static float size(const Volume& v) { return v.size(); }
 };
 
-// Boxes that are fitted to the moved triangles of B at every pose, from the leaves up.
-class RefittedBoxes final : public VolumeHierarchy<KDopKind<6>> {
+// Slabs that are fitted to the moved triangles of B at every pose, from the leaves up.
+template <std::size_t K>
+class RefittedSlabs final : public VolumeHierarchy<KDopKind<K>> {
+    using Base = VolumeHierarchy<KDopKind<K>>;
+
 public:
-    using VolumeHierarchy::VolumeHierarchy;
+    using Base::Base;
 
 protected:
     void update(CostCounters& counters) override {
-        VolumeHierarchy::update(counters);
-        const detail::InterferenceModelData& model = data_b();
-        const FrameMap map(a_.frame, b_.frame, placement().to_a);
+        Base::update(counters);
+        const detail::InterferenceModelData& model = this->data_b();
+        const TreeFrame& frame = this->b_.frame;
+        const FrameMap map(this->a_.frame, frame, this->placement().to_a);
         points_.resize(model.positions.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
-            points_[i] = map(b_.frame(model.positions[i]));
-        const double error = 2 * map.stretch * b_.frame.error + map.error();
-        for (std::size_t i = moved_.size(); i-- > 0;) {
-            const TreeNode& node = b_.shape.nodes[i];
-            KDop<6> box;
+            points_[i] = map(frame(model.positions[i]));
+        const double error = 2 * map.stretch * frame.error + map.error();
+        auto& moved = this->moved_;
+        for (std::size_t i = moved.size(); i-- > 0;) {
+            const TreeNode& node = this->b_.shape.nodes[i];
+            KDop<K> slabs;
             if (node.leaf) {
-                for (const std::uint32_t t : b_.shape.things(node))
+                corners_.clear();
+                for (const std::uint32_t t : this->b_.shape.things(node))
                     for (const VertexId v : model.triangles[t].vertex)
-                        box.add(points_[v.index], error);
+                        corners_.push_back(points_[v.index]);
+                slabs.add(corners_, error);
             } else {
-                for (std::uint32_t k = 0; k < node.count; ++k) box.add(moved_[node.first + k]);
+                for (std::uint32_t k = 0; k < node.count; ++k) slabs.add(moved[node.first + k]);
             }
-            moved_[i] = box;
-            moved_at_[i] = pose_number_;
+            moved[i] = slabs;
+            this->moved_at_[i] = this->pose_number_;
         }
-        counters.updates += moved_.size();
+        counters.updates += moved.size();
     }
 
 private:
     std::vector<std::array<double, 3>> points_;
+    std::vector<std::array<double, 3>> corners_;
 };
 
 template <std::size_t K>
@@ -101,7 +109,11 @@ std::unique_ptr<PairStructure> make_kdop_tree(const InterferenceModel& a,
 
 std::unique_ptr<PairStructure> make_aabb_tree(const InterferenceModel& a,
                                               const InterferenceModel& b) {
-    return std::make_unique<RefittedBoxes>(a, b, TreeOptions{}, "aabb");
+    return std::make_unique<RefittedSlabs<6>>(a, b, TreeOptions{}, "aabb");
+}
+std::unique_ptr<PairStructure> make_refitted_kdop18_tree(const InterferenceModel& a,
+                                                         const InterferenceModel& b) {
+    return std::make_unique<RefittedSlabs<18>>(a, b, TreeOptions{}, "kdop18-refit");
 }
 std::unique_ptr<PairStructure> make_kdop6_tree(const InterferenceModel& a,
                                                const InterferenceModel& b) {

@@ -28,6 +28,17 @@ namespace trisect::hierarchies {
 [[nodiscard]] std::unique_ptr<PairStructure> make_kdop26_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
 
+/// The same with B's fitted again to each pose, like make_aabb_tree's; and with B's slabs found by
+/// climbing along the hulls of what is below, where a walk comes to them. Both as tight as can be.
+[[nodiscard]] std::unique_ptr<PairStructure> make_refitted_kdop18_tree(const InterferenceModel& a,
+                                                                       const InterferenceModel& b);
+[[nodiscard]] std::unique_ptr<PairStructure> make_climbed_kdop18_tree(const InterferenceModel& a,
+                                                                      const InterferenceModel& b);
+
+/// Convex hulls of at most 24 corners and a radius around them.
+[[nodiscard]] std::unique_ptr<PairStructure> make_hull_volumes(const InterferenceModel& a,
+                                                               const InterferenceModel& b);
+
 /// Spheres around the triangles below.
 [[nodiscard]] std::unique_ptr<PairStructure> make_sphere_tree(const InterferenceModel& a,
                                                               const InterferenceModel& b);
@@ -39,6 +50,9 @@ namespace trisect::hierarchies {
                                                            const TreeOptions& options);
 [[nodiscard]] std::unique_ptr<PairStructure> make_obb_tree(const InterferenceModel& a,
                                                            const InterferenceModel& b);
+/// Along the principal axes of the hull of what is below, not of the surface.
+[[nodiscard]] std::unique_ptr<PairStructure> make_hull_obb_tree(const InterferenceModel& a,
+                                                                const InterferenceModel& b);
 [[nodiscard]] std::unique_ptr<PairStructure> make_wide_obb_tree(const InterferenceModel& a,
                                                                 const InterferenceModel& b);
 [[nodiscard]] std::unique_ptr<PairStructure> make_packed_obb_tree(const InterferenceModel& a,

@@ -14,6 +14,7 @@
 #include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/hierarchies/kdop.h>
+#include <trisect/bsp/hierarchies/small_hull.h>
 #include <trisect/bsp/hierarchies/sphere_kind.h>
 #include <trisect/bsp/hierarchies/tree_frame.h>
 #include <trisect/kernel/detail/relative_pose.h>
@@ -71,13 +72,37 @@ bool contains(const Sphere& s, const Exact3& z) {
     return square <= r * r;
 }
 
+// In none of 26 directions beyond the corners by more than the radius.
+bool contains(const SmallHull& hull, const Exact3& z) {
+    for (std::size_t i = 0; i < 26; ++i) {
+        std::array<double, 3> d{};
+        for (std::size_t k = 0; k < 3; ++k)
+            d[k] = (i < 13 ? 1 : -1) * KDop<26>::directions[i % 13][k];
+        double most = -1000;
+        for (std::size_t v = 0; v < hull.count; ++v) {
+            const auto p = hull.point(v);
+            // Of floats, so that the sum is off by an ulp of a double at most.
+            most = std::max(most, d[0] * p[0] + d[1] * p[1] + d[2] * p[2]);
+        }
+        ExactRational beyond = ExactRational(0) - exact(most + 0x1p-48);
+        double square = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            beyond = beyond + exact(d[k]) * z[k];
+            square += d[k] * d[k];
+        }
+        const ExactRational radius = exact(static_cast<double>(hull.radius));
+        if (beyond.sign() > 0 && exact(square) * radius * radius < beyond * beyond) return false;
+    }
+    return true;
+}
+
 template <std::size_t K>
 struct OfSlabs {
     KDopTurn turn;
     explicit OfSlabs(const FrameMap& map) : turn(KDop<K>::directions, map) {}
     static KDop<K> fit(const std::vector<std::array<double, 3>>& corners, double error) {
         KDop<K> r;
-        for (const auto& c : corners) r.add(c, error);
+        r.add(corners, error);
         return r;
     }
     [[nodiscard]] KDop<K> moved(const KDop<K>& v) const { return v.turned(turn); }
@@ -92,8 +117,17 @@ struct OfSpheres {
     [[nodiscard]] Sphere moved(const Sphere& v) const { return pose.moved(v); }
 };
 
+struct OfHulls {
+    FrameMap map;
+    explicit OfHulls(const FrameMap& m) : map(m) {}
+    static SmallHull fit(const std::vector<std::array<double, 3>>& corners, double error) {
+        return SmallHull::around(corners, error);
+    }
+    [[nodiscard]] SmallHull moved(const SmallHull& v) const { return v.moved(map); }
+};
+
 template <class Kind>
-void expect_containment() {
+void expect_containment(std::int64_t most_triangles = 9) {
     Random random(11);
     const InterferenceModel whole(Solid::from_mesh(make_torus(3, 1, 16, 9)));
     const auto& m = whole.data();
@@ -101,7 +135,7 @@ void expect_containment() {
     for (int round = 0; round < 60; ++round) {
         std::vector<std::array<double, 3>> corners;
         std::vector<std::uint32_t> triangles;
-        const std::int64_t count = random.between(1, 9);
+        const std::int64_t count = random.between(1, most_triangles);
         for (std::int64_t i = 0; i < count; ++i) {
             triangles.push_back(static_cast<std::uint32_t>(
                 random.between(0, static_cast<std::int64_t>(m.triangles.size()) - 1)));
@@ -144,7 +178,32 @@ TEST(VolumeContainment, OfSlabsOfThreeDirections) { expect_containment<OfSlabs<6
 TEST(VolumeContainment, OfSlabsOfSevenDirections) { expect_containment<OfSlabs<14>>(); }
 TEST(VolumeContainment, OfSlabsOfNineDirections) { expect_containment<OfSlabs<18>>(); }
 TEST(VolumeContainment, OfSlabsOfThirteenDirections) { expect_containment<OfSlabs<26>>(); }
+TEST(VolumeContainment, OfHullsOfAFewTriangles) { expect_containment<OfHulls>(); }
+TEST(VolumeContainment, OfHullsWithFewerCornersThanPoints) { expect_containment<OfHulls>(40); }
 TEST(VolumeContainment, OfSpheres) { expect_containment<OfSpheres>(); }
+
+// The gap of hulls of two boxes that face each other, and 0 where they overlap.
+TEST(VolumeContainment, HullsOfBoxesHaveTheGapOfTheBoxes) {
+    std::vector<std::array<double, 3>> box;
+    for (const double x : {-0.5, 0.0})
+        for (const double y : {-0.25, 0.25})
+            for (const double z : {-0.25, 0.25}) box.push_back({x, y, z});
+    const SmallHull a = SmallHull::around(box, 0);
+    for (const double gap : {0.5, 0.125, 0.001, -0.1}) {
+        std::vector<std::array<double, 3>> other = box;
+        for (auto& p : other) p[0] += 0.5 + gap;
+        const SmallHull b = SmallHull::around(other, 0);
+        for (const GapEffort effort : {GapEffort::Sign, GapEffort::Value}) {
+            std::array<double, 3> direction{0.1, 0.9, -0.3};
+            const double found = gap_of(a, b, effort, direction);
+            EXPECT_LE(found, std::max(0.0, gap));
+            if (effort == GapEffort::Value) {
+                EXPECT_GE(found, 0.9 * gap - 1e-5);
+            }
+            EXPECT_EQ(found > 0, gap > 0);
+        }
+    }
+}
 
 // Turned slabs are as tight as they can be where a quarter turn brings directions onto others.
 TEST(VolumeContainment, TurnedByQuartersNothingGrows) {
