@@ -29,7 +29,8 @@ enum class Question : std::uint8_t {
 struct UnitCosts {
     double update = 0;          ///< Cu
     double volume_test = 0;     ///< Cbv
-    double primitive_test = 0;  ///< Cp
+    double primitive_test = 0;  ///< Cp: of a pair that is seen to be apart, or farther than others
+    double closest_test = 0;    ///< more than that where closest points are computed
     double exact_test = 0;
     double frame = 0;  ///< what a pose costs whatever happens
 
@@ -38,9 +39,9 @@ struct UnitCosts {
 };
 
 /// Unit costs of a kind of structure for a question on this machine, from poses of two tori of
-/// 1,600 and 12,800 triangles at many distances: Cp from the time of all pairs without a structure
-/// (of distances, fitted too), the others by least squares of relative errors, none of them
-/// negative. Half a second.
+/// 1,600 and 5,120 triangles at many distances: those of pairs of triangles from pairs that are
+/// played back without a structure, the others by least squares of relative errors, none of them
+/// negative. Half a second. In calibration.cpp.
 [[nodiscard]] UnitCosts calibrate(trisect::hierarchies::StructureKind kind, Question question);
 
 struct QuestionCost {

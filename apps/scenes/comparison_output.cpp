@@ -24,18 +24,21 @@ double per_frame(std::uint64_t n, std::size_t frames) {
 
 std::string table_of(const Comparison& c) {
     std::string out =
-        "| structure | question | build ms | bytes | depth | Nu | Nbv | Np | exact | F predicted "
+        "| structure | question | build ms | bytes | depth | Nu | Nbv | Np | closest | exact | F "
+        "predicted "
         "us "
-        "| F measured us |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+        "| F measured us |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for (const StructureCost& s : c.structures)
         for (const QuestionCost& q : s.questions)
             out += fmt::format(
-                "| {} | {} | {:.2f} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {} | {:.2f} "
+                "| {} | {} | {:.2f} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {} | "
+                "{:.2f} "
                 "|\n",
                 s.name, to_string(q.question), 1e3 * s.build.seconds, s.build.bytes, s.build.depth,
                 per_frame(q.counters.updates, c.frames),
                 per_frame(q.counters.volume_tests, c.frames),
                 per_frame(q.counters.primitive_tests, c.frames),
+                per_frame(q.counters.closest_tests, c.frames),
                 per_frame(q.counters.exact_tests, c.frames),
                 q.predicted > 0 ? fmt::format("{:.2f}", micro(q.predicted, c.frames)) : "-",
                 micro(q.measured, c.frames));

@@ -54,6 +54,7 @@ Json question_json(const scenes::QuestionCost& q) {
     out["updates"] = q.counters.updates;
     out["volume_tests"] = q.counters.volume_tests;
     out["primitive_tests"] = q.counters.primitive_tests;
+    out["closest_tests"] = q.counters.closest_tests;
     out["exact_tests"] = q.counters.exact_tests;
     out["predicted_seconds"] = q.predicted;
     out["measured_seconds"] = q.measured;

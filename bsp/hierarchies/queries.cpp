@@ -135,6 +135,7 @@ Nearest nearest(PairStructure& s, CostCounters& counters) {
         [&](std::uint32_t a, std::uint32_t b) {
             ++counters.primitive_tests;
             const DistanceCandidate c = pairs.compare(a, b, upper);
+            if (c.bounds.upper < infinite) ++counters.closest_tests;
             if (!(c.bounds.lower <= upper)) return limit;
             r.pairs.push_back(c);
             if (c.bounds.upper < upper) {
