@@ -2,10 +2,11 @@
 //
 // Unit costs, from poses of two tori at many distances.
 //
-// Pairs of triangles first, without any structure: the pairs that one visits are written down and
-// played back, so that what is measured is leaf tests and nothing else, of such pairs and in such
-// an order as they come in. Least squares over the poses part them into kinds. With these known,
-// the time of a structure is divided among updates, volumes and poses in the same way.
+// Pairs of triangles first, alone: the pairs that the structure visits are written down and played
+// back, so that what is measured is leaf tests and nothing else, of such pairs and in such an order
+// as they come in: loose volumes leave pairs that are far apart, which are seen to be so at once.
+// Least squares over the poses part them into kinds. With these known, the time of the structure is
+// divided among updates, volumes and poses in the same way.
 //
 // Poses take turns. One pose asked again and again is learnt by heart by the branch predictor, and
 // a structure that decides something for every triangle at every pose looks twice as fast as it is.
@@ -126,11 +127,15 @@ struct Sample {
     CostCounters n;
     double seconds = std::numeric_limits<double>::infinity();
 };
-std::vector<Sample> sample(PairStructure& s, std::span<const Pose> poses, Question question) {
+// before(i) readies the structure for pose i.
+template <class Before>
+std::vector<Sample> sample(PairStructure& s, std::span<const Pose> poses, Question question,
+                           Before&& before) {
     std::vector<Sample> samples(poses.size());
     double spent = 0;
     for (int round = 0; round < 3 || (round < 200 && spent < 0.1); ++round)
         for (std::size_t i = 0; i < poses.size(); ++i) {
+            before(i);
             const double begin = processor_seconds();
             samples[i].n = run(s, poses.subspan(i, 1), question);
             const double took = processor_seconds() - begin;
@@ -160,16 +165,8 @@ public:
         recording_ = nullptr;
         at_ = 0;
     }
-    [[nodiscard]] std::vector<Sample> sample_all(std::span<const Pose> poses, Question question) {
-        std::vector<Sample> samples(poses.size());
-        for (int round = 0; round < 20; ++round)
-            for (at_ = 0; at_ < poses.size(); ++at_) {
-                const double begin = processor_seconds();
-                samples[at_].n = run(*this, poses.subspan(at_, 1), question);
-                samples[at_].seconds = std::min(samples[at_].seconds, processor_seconds() - begin);
-            }
-        return samples;
-    }
+    // From now on those of this pose.
+    void choose(std::size_t pose) { at_ = pose; }
 
     std::string_view name() const override { return "played-back"; }
     BuildReport build_report() const override { return {}; }
@@ -207,32 +204,6 @@ private:
     std::size_t at_ = 0;
 };
 
-// Costs of pairs of triangles alone.
-UnitCosts calibrate_leaves(Question question) {
-    Fit<3> fit;
-    const std::vector<Pose> poses = calibration_poses();
-    for (const InterferenceModel& m : calibration_models()) {
-        const auto s = make_structure(StructureKind::Kdop18, m, m);
-        PlayedBack played(m, m);
-        played.record(*s, poses, question);
-        for (const Sample& x : played.sample_all(poses, question))
-            fit.add({count(x.n.primitive_tests), count(x.n.closest_tests), 1}, 0, x.seconds);
-    }
-    const auto x = fit.solve();
-    UnitCosts costs;
-    costs.primitive_test = x[0];
-    costs.closest_test = x[1];
-    costs.exact_test = 2e-6;
-    return costs;
-}
-
-const UnitCosts& leaf_costs(Question question) {
-    static const std::array<UnitCosts, 3> costs{calibrate_leaves(Question::Meet),
-                                                calibrate_leaves(Question::Faces),
-                                                calibrate_leaves(Question::Distance)};
-    return costs[static_cast<std::size_t>(question)];
-}
-
 }  // namespace
 
 double UnitCosts::predict(const CostCounters& n, std::size_t frames) const {
@@ -242,16 +213,32 @@ double UnitCosts::predict(const CostCounters& n, std::size_t frames) const {
 }
 
 UnitCosts calibrate(StructureKind kind, Question question) {
-    UnitCosts costs = leaf_costs(question);
-    Fit<3> fit;
-    for (const InterferenceModel& m : calibration_models()) {
+    const std::vector<Pose> poses = calibration_poses();
+    // Without a structure there are too many pairs to write down, and one model is enough.
+    const bool all = kind == StructureKind::AllPairs;
+    const std::span models = std::span(calibration_models()).first(all ? 1 : 2);
+    Fit<3> leaves;
+    std::vector<Sample> samples;
+    for (const InterferenceModel& m : models) {
         const auto s = make_structure(kind, m, m);
-        const std::vector<Pose> poses = calibration_poses();
-        for (const Sample& x : sample(*s, poses, question))
-            fit.add({count(x.n.updates), count(x.n.volume_tests), 1}, costs.predict(x.n, 0),
-                    x.seconds);
+        for (const Sample& x : sample(*s, poses, question, [](std::size_t) {}))
+            samples.push_back(x);
+        PlayedBack played(m, m);
+        played.record(all ? *make_structure(StructureKind::Kdop18, m, m) : *s, poses, question);
+        for (const Sample& x :
+             sample(played, poses, question, [&played](std::size_t i) { played.choose(i); }))
+            leaves.add({count(x.n.primitive_tests), count(x.n.closest_tests), 1}, 0, x.seconds);
     }
-    const auto x = fit.solve();
+    UnitCosts costs;
+    const auto leaf = leaves.solve();
+    costs.primitive_test = leaf[0];
+    costs.closest_test = leaf[1];
+    costs.exact_test = 2e-6;
+    Fit<3> rest;
+    for (const Sample& x : samples)
+        rest.add({count(x.n.updates), count(x.n.volume_tests), 1}, costs.predict(x.n, 0),
+                 x.seconds);
+    const auto x = rest.solve();
     costs.update = x[0];
     costs.volume_test = x[1];
     costs.frame = x[2];

@@ -50,7 +50,6 @@ double least_time(PairStructure& s, std::span<const Pose> poses, Question questi
     double spent = 0;
     for (int round = 0; round < 1000; ++round) {
         if (round >= 2 && !(spent < seconds)) break;
-        if (round == 1 && spent > 1) break;
         const double begin = processor_seconds();
         (void)run(s, poses, question);
         const double took = processor_seconds() - begin;

@@ -16,8 +16,7 @@ namespace scenes {
 trisect::hierarchies::CostCounters run(trisect::hierarchies::PairStructure& structure,
                                        std::span<const trisect::Pose> poses, Question question);
 
-/// The least time of as many rounds as fit into `seconds`: at least two, or one if that alone takes
-/// longer than a second.
+/// The least time of as many rounds as fit into `seconds`: at least two.
 [[nodiscard]] double least_time(trisect::hierarchies::PairStructure& structure,
                                 std::span<const trisect::Pose> poses, Question question,
                                 double seconds);
