@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // compare_hierarchies [--scene NAME]... [--structure NAME]... [--small] [--seconds S]
-//                     [--charts FOLDER] [--builders] [--changes]
+//                     [--charts FOLDER] [--builders] [--changes] [--deformation] [--spheres]
 //
 // The tables of bench/results/hierarchies.md: every structure on every scene; with --builders, what
-// the rules for dividing do to trees of two volumes; with --changes, how trees of boxes age.
+// the rules for dividing do to trees of two volumes; with --changes, how trees of boxes age under
+// insertion, deletion and motion; with --deformation, what refitting a tree is worth; with
+// --spheres, how tightly sphere trees fit and what they know after how many tests.
 
 #include <cstdio>
 #include <cstring>
@@ -12,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/dynamic_tree.h>
 #include <trisect/bsp/hierarchies/volume_hierarchies.h>
 #include <trisect/kernel/error.h>
 
+#include "hierarchy_tables.h"
 #include "scenes/comparison.h"
 #include "scenes/scenes.h"
 
@@ -30,7 +32,7 @@ struct Options {
     scenes::Size size = scenes::Size::Full;
     std::string charts;
     bool builders = false;
-    bool changes = false;
+    void (*table)() = nullptr;  ///< instead of scenes
 };
 
 Options options_of(int argc, char** argv) {
@@ -53,7 +55,11 @@ Options options_of(int argc, char** argv) {
         } else if (option == "--builders") {
             o.builders = true;
         } else if (option == "--changes") {
-            o.changes = true;
+            o.table = print_changes;
+        } else if (option == "--deformation") {
+            o.table = print_deformation;
+        } else if (option == "--spheres") {
+            o.table = print_spheres;
         } else if (option == "--seconds") {
             o.comparison.seconds_per_cell = std::stod(value());
         } else if (option == "--charts") {
@@ -138,77 +144,13 @@ void run_builders(const std::string& name, const Options& options) {
     std::printf("\n");
 }
 
-// Triangles' boxes of a torus under the poses of a body that crawls along: moved, taken out and put
-// in again, ten thousand times; against a tree built anew.
-void run_changes() {
-    std::printf(
-        "| boxes | changes | kind | sum of areas, changed | rebuilt | ratio | tests a query, "
-        "changed | rebuilt | Nu a change |\n|---:|---:|---|---:|---:|---:|---:|---:|---:|\n");
-    for (const char* kind : {"small moves", "anywhere", "leave and enter"}) {
-        constexpr std::uint32_t n = 2000;
-        std::uint64_t state = 99;
-        const auto uniform = [&state] {
-            state = state * 6364136223846793005U + 1442695040888963407U;
-            return static_cast<double>(state >> 11) * 0x1p-53;
-        };
-        const auto somewhere = [&uniform] {
-            detail::BodyBox b;
-            for (std::size_t k = 0; k < 3; ++k) {
-                b.lo[k] = 100 * uniform();
-                b.hi[k] = b.lo[k] + 1 + 3 * uniform();
-            }
-            return b;
-        };
-        DynamicTree tree;
-        std::vector<detail::BodyBox> boxes;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            boxes.push_back(somewhere());
-            tree.insert(i, boxes[i]);
-        }
-        tree.rebuild();
-        const std::uint64_t before = tree.updates();
-        constexpr int changes = 10000;
-        for (int c = 0; c < changes; ++c) {
-            const auto i = static_cast<std::uint32_t>(n * uniform());
-            if (kind[0] == 's')
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const double by = 4 * uniform() - 2;
-                    boxes[i].lo[k] += by;
-                    boxes[i].hi[k] += by;
-                }
-            else
-                boxes[i] = somewhere();
-            if (kind[0] == 'l') {
-                tree.remove(i);
-                tree.insert(i, boxes[i]);
-            } else {
-                tree.update(i, boxes[i]);
-            }
-        }
-        const double updates = static_cast<double>(tree.updates() - before) / changes;
-        const auto tests = [&] {
-            CostCounters count;
-            for (const detail::BodyBox& b : boxes)
-                tree.find(
-                    b, [](std::uint32_t) {}, count);
-            return static_cast<double>(count.volume_tests) / n;
-        };
-        const double changed = tree.quality();
-        const double changed_tests = tests();
-        tree.rebuild();
-        std::printf("| %u | %d | %s | %.1f | %.1f | %.3f | %.1f | %.1f | %.1f |\n", n, changes,
-                    kind, changed, tree.quality(), changed / tree.quality(), changed_tests, tests(),
-                    updates);
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
         const Options options = options_of(argc, argv);
-        if (options.changes) {
-            run_changes();
+        if (options.table != nullptr) {
+            options.table();
             return 0;
         }
         if (options.builders) {

@@ -214,125 +214,180 @@ BodyBox box_of(const ConvexPolytope& p) {
     return r;
 }
 
-void schedule() {
-    const auto scene = scenes::make_swarm_scene("convex", scenes::Size::Full);
-    std::vector<ConvexPolytope> shapes;
-    std::vector<double> radius;  // of a ball about the origin that contains the shape
-    for (const PolygonMesh& m : scene.shapes) {
-        const InterferenceModel model(Solid::from_mesh(m));
-        const auto points = model.brep().points();
-        shapes.push_back(enclosing_hull({points.begin(), points.end()}, model.lattice()));
-        double most = 0;
-        for (const auto& p : m.points) most = std::max(most, std::hypot(p[0], p[1], p[2]));
-        radius.push_back(most * (1 + 1e-12));
-    }
-    const auto bodies = static_cast<std::uint32_t>(scene.shape_of.size());
-    const std::size_t frames = scene.frames.size();
-    std::vector<std::vector<Pose>> poses;
-    for (const auto& frame : scene.frames) {
-        poses.emplace_back();
-        for (const auto& rows : frame) poses.back().push_back(scenes::pose_of(rows));
-    }
-    std::vector<double> speeds(bodies, 0);
-    for (std::uint32_t i = 0; i < bodies; ++i)
-        for (std::size_t f = 1; f < frames; ++f)
-            speeds[i] = std::max(speeds[i], displacement_bound(box_of(shapes[scene.shape_of[i]]),
-                                                               poses[f - 1][i], poses[f][i]));
+using BodyPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-    ContactSchedule s(speeds);
-    std::vector<FeaturePair> last(s.pair_count());
-    WalkCounts counts;
-    std::uint64_t tests = 0;
-    std::uint64_t balls = 0;
-    std::uint64_t contacts = 0;
-    double seconds = 0;
-    std::uint64_t first = 0;
-    std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> found(frames);
-    for (std::size_t f = 0; f < frames; ++f) {
-        const double start = now();
-        const std::size_t tested =
-            s.due(static_cast<double>(f), [&](std::uint32_t i, std::uint32_t j) {
-                const std::size_t a = scene.shape_of[i];
-                const std::size_t b = scene.shape_of[j];
-                // Balls first: centres are translations, known within 2^-50 of themselves.
-                const auto& p = poses[f][i].approximate();
-                const auto& q = poses[f][j].approximate();
-                const double d = std::hypot(p[3] - q[3], p[7] - q[7], p[11] - q[11]) * (1 - 1e-12) -
-                                 1e-9 - 1.000001 * (radius[a] + radius[b]);
-                if (d > 0) {
-                    ++balls;
-                    return d;
-                }
-                const CommonFrame frame(poses[f][i], shapes[a].lattice(), shapes[a].largest(),
-                                        poses[f][j], shapes[b].lattice(), shapes[b].largest());
-                FeatureWalk walk(shapes[a], shapes[b], frame, &counts);
-                FeaturePair& pair = last[std::size_t{j} * (j - 1) / 2 + i];
-                const WalkEnd& end = walk.run(pair);
-                pair = end.pair;
-                if (end.meet) found[f].emplace_back(i, j);
-                return walk.bounds().lower;
-            });
-        if (f == 0) {
-            first = tested;
-        } else {
-            seconds += now() - start;
-            tests += tested;
+// The scene of 1,000 convex bodies.
+struct Swarm {
+    std::vector<ConvexPolytope> shapes;
+    std::vector<double> shape_radius;  // of a ball about the origin that contains the shape
+    std::vector<std::size_t> shape_of;
+    std::vector<std::vector<Pose>> poses;  // of each frame
+
+    Swarm() {
+        const auto scene = scenes::make_swarm_scene("convex", scenes::Size::Full);
+        for (const PolygonMesh& m : scene.shapes) {
+            const InterferenceModel model(Solid::from_mesh(m));
+            const auto points = model.brep().points();
+            shapes.push_back(enclosing_hull({points.begin(), points.end()}, model.lattice()));
+            double most = 0;
+            for (const auto& p : m.points) most = std::max(most, std::hypot(p[0], p[1], p[2]));
+            shape_radius.push_back(most * (1 + 1e-12));
         }
-        std::sort(found[f].begin(), found[f].end());
-        contacts += found[f].size();
+        shape_of.assign(scene.shape_of.begin(), scene.shape_of.end());
+        for (const auto& frame : scene.frames) {
+            poses.emplace_back();
+            for (const auto& rows : frame) poses.back().push_back(scenes::pose_of(rows));
+        }
     }
-    // What a sweep over boxes around the balls leaves, and takes.
+    [[nodiscard]] std::uint32_t bodies() const {
+        return static_cast<std::uint32_t>(shape_of.size());
+    }
+    [[nodiscard]] std::size_t frames() const { return poses.size(); }
+    [[nodiscard]] const ConvexPolytope& shape(std::uint32_t body) const {
+        return shapes[shape_of[body]];
+    }
+    [[nodiscard]] double radius(std::uint32_t body) const { return shape_radius[shape_of[body]]; }
+    [[nodiscard]] Point3d center(std::size_t frame, std::uint32_t body) const {
+        const auto& p = poses[frame][body].approximate();
+        return {p[3], p[7], p[11]};
+    }
+    // The largest displacement of a body between two frames.
+    [[nodiscard]] std::vector<double> speeds() const {
+        std::vector<double> r(bodies(), 0);
+        for (std::uint32_t i = 0; i < bodies(); ++i)
+            for (std::size_t f = 1; f < frames(); ++f)
+                r[i] = std::max(r[i],
+                                displacement_bound(box_of(shape(i)), poses[f - 1][i], poses[f][i]));
+        return r;
+    }
+    // A lower bound of the distance by balls: centres are translations, known within 2^-50 of
+    // themselves.
+    [[nodiscard]] double gap_of_balls(std::size_t frame, std::uint32_t i, std::uint32_t j) const {
+        const Point3d p = center(frame, i);
+        const Point3d q = center(frame, j);
+        return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) * (1 - 1e-12) - 1e-9 -
+               1.000001 * (radius(i) + radius(j));
+    }
+    [[nodiscard]] CommonFrame common_frame(std::size_t frame, std::uint32_t i,
+                                           std::uint32_t j) const {
+        const ConvexPolytope& a = shape(i);
+        const ConvexPolytope& b = shape(j);
+        return CommonFrame(poses[frame][i], a.lattice(), a.largest(), poses[frame][j], b.lattice(),
+                           b.largest());
+    }
+    [[nodiscard]] BodyBox box(std::size_t frame, std::uint32_t body) const {
+        BodyBox r;
+        const Point3d c = center(frame, body);
+        const double reach = 1.000001 * radius(body);
+        for (std::size_t k = 0; k < 3; ++k) {
+            r.lo[k] = c[k] - reach;
+            r.hi[k] = c[k] + reach;
+        }
+        return r;
+    }
+};
+
+struct ScheduleCost {
+    std::size_t pairs = 0;
+    std::uint64_t first = 0;  // tests of the first frame
+    std::uint64_t tests = 0;  // of all others
+    std::uint64_t balls = 0;
+    WalkCounts walks;
+    double seconds = 0;            // of all frames but the first
+    std::vector<BodyPairs> found;  // in contact, of each frame
+};
+
+// Pairs are tested when they are due: balls first, then a walk from the last features.
+ScheduleCost run_schedule(const Swarm& swarm) {
+    ScheduleCost r;
+    ContactSchedule schedule(swarm.speeds());
+    r.pairs = schedule.pair_count();
+    std::vector<FeaturePair> last(r.pairs);
+    r.found.resize(swarm.frames());
+    for (std::size_t f = 0; f < swarm.frames(); ++f) {
+        const auto test = [&](std::uint32_t i, std::uint32_t j) {
+            if (const double d = swarm.gap_of_balls(f, i, j); d > 0) {
+                ++r.balls;
+                return d;
+            }
+            const CommonFrame frame = swarm.common_frame(f, i, j);
+            FeatureWalk walk(swarm.shape(i), swarm.shape(j), frame, &r.walks);
+            FeaturePair& pair = last[std::size_t{j} * (j - 1) / 2 + i];
+            const WalkEnd& end = walk.run(pair);
+            pair = end.pair;
+            if (end.meet) r.found[f].emplace_back(i, j);
+            return walk.bounds().lower;
+        };
+        const double start = now();
+        const std::size_t tested = schedule.due(static_cast<double>(f), test);
+        if (f > 0) r.seconds += now() - start;
+        (f == 0 ? r.first : r.tests) += tested;
+        std::sort(r.found[f].begin(), r.found[f].end());
+    }
+    return r;
+}
+
+struct SweepCost {
+    std::uint64_t tests = 0;
+    std::uint64_t met = 0;
+    double seconds = 0;  // all of frames but the first
+};
+
+// What a sweep over boxes around the balls leaves, and takes.
+SweepCost run_sweep(const Swarm& swarm) {
+    SweepCost r;
     const auto sweep = trisect::detail::make_sweep_and_prune();
     std::vector<trisect::detail::BodyPair> met;
-    std::uint64_t box_tests = 0;
-    std::uint64_t boxes_met = 0;
-    double sweep_seconds = 0;
-    for (std::size_t f = 0; f < frames; ++f) {
+    for (std::size_t f = 0; f < swarm.frames(); ++f) {
         const double start = now();
-        for (std::uint32_t i = 0; i < bodies; ++i) {
-            BodyBox box;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double c = poses[f][i].approximate()[4 * k + 3];
-                const double r = 1.000001 * radius[scene.shape_of[i]];
-                box.lo[k] = c - r;
-                box.hi[k] = c + r;
-            }
-            f == 0 ? sweep->insert(i, box) : sweep->update(i, box);
-        }
+        for (std::uint32_t i = 0; i < swarm.bodies(); ++i)
+            f == 0 ? sweep->insert(i, swarm.box(f, i)) : sweep->update(i, swarm.box(f, i));
         sweep->pairs(met);
         if (f == 0) continue;
-        sweep_seconds += now() - start;
-        box_tests += sweep->work().box_tests;
-        boxes_met += met.size();
+        r.seconds += now() - start;
+        r.tests += sweep->work().box_tests;
+        r.met += met.size();
     }
-    // All pairs, walked, in some frames; a rotation of doubles keeps lengths but for 1e-6.
+    return r;
+}
+
+// All pairs, walked, in every sixth frame; a rotation of doubles keeps lengths but for 1e-6. Says
+// how many pairs there were.
+std::uint64_t compare_with_all_pairs(const Swarm& swarm, const std::vector<BodyPairs>& found) {
     std::uint64_t compared = 0;
-    for (std::size_t f = 0; f < frames; f += 6) {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
-        for (std::uint32_t j = 1; j < bodies; ++j)
-            for (std::uint32_t i = 0; i < j; ++i) {
-                const ConvexPolytope& a = shapes[scene.shape_of[i]];
-                const ConvexPolytope& b = shapes[scene.shape_of[j]];
-                const CommonFrame frame(poses[f][i], a.lattice(), a.largest(), poses[f][j],
-                                        b.lattice(), b.largest());
-                FeatureWalk walk(a, b, frame);
+    for (std::size_t f = 0; f < swarm.frames(); f += 6) {
+        BodyPairs all;
+        for (std::uint32_t j = 1; j < swarm.bodies(); ++j)
+            for (std::uint32_t i = 0; i < j; ++i, ++compared) {
+                const CommonFrame frame = swarm.common_frame(f, i, j);
+                FeatureWalk walk(swarm.shape(i), swarm.shape(j), frame);
                 if (walk.run().meet) all.emplace_back(i, j);
-                ++compared;
             }
         std::sort(all.begin(), all.end());
         if (all != found[f]) std::printf("DISAGREEMENT in frame %zu\n", f);
     }
-    const std::uint64_t pairs = s.pair_count() * (frames - 1);
-    std::printf("%u bodies, %zu frames, %llu contacts\n", bodies, frames, n(contacts));
-    std::printf("  first frame: %llu tests of %zu pairs\n", n(first), s.pair_count());
+    return compared;
+}
+
+void schedule() {
+    const Swarm swarm;
+    const std::size_t frames = swarm.frames();
+    const ScheduleCost s = run_schedule(swarm);
+    const SweepCost sweep = run_sweep(swarm);
+    const std::uint64_t compared = compare_with_all_pairs(swarm, s.found);
+    std::uint64_t contacts = 0;
+    for (const BodyPairs& found : s.found) contacts += found.size();
+    const std::uint64_t pairs = s.pairs * (frames - 1);
+    std::printf("%u bodies, %zu frames, %llu contacts\n", swarm.bodies(), frames, n(contacts));
+    std::printf("  first frame: %llu tests of %zu pairs\n", n(s.first), s.pairs);
     std::printf("  then: %llu tests of %llu pairs (%.2f %% saved), %.0f a frame, %.0f us a frame\n",
-                n(tests), n(pairs), 100 * (1 - each(tests, pairs)), each(tests, frames - 1),
-                seconds * 1e6 / static_cast<double>(frames - 1));
-    std::printf("  all tests: %llu by balls, %llu walks of %.2f steps\n", n(balls), n(counts.walks),
-                each(counts.steps, counts.walks));
+                n(s.tests), n(pairs), 100 * (1 - each(s.tests, pairs)), each(s.tests, frames - 1),
+                s.seconds * 1e6 / static_cast<double>(frames - 1));
+    std::printf("  all tests: %llu by balls, %llu walks of %.2f steps\n", n(s.balls),
+                n(s.walks.walks), each(s.walks.steps, s.walks.walks));
     std::printf("  a sweep: %.0f tests of boxes a frame, %.0f pairs meet, %.0f us a frame\n",
-                each(box_tests, frames - 1), each(boxes_met, frames - 1),
-                sweep_seconds * 1e6 / static_cast<double>(frames - 1));
+                each(sweep.tests, frames - 1), each(sweep.met, frames - 1),
+                sweep.seconds * 1e6 / static_cast<double>(frames - 1));
     std::printf("  %llu pairs of every sixth frame walked one by one: compared\n", n(compared));
 }
 

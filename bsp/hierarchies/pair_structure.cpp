@@ -5,7 +5,10 @@
 
 #include <trisect/bsp/hierarchies/pair_structure.h>
 
+#include <utility>
+
 #include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/hierarchies/deformation.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::hierarchies {
@@ -31,6 +34,18 @@ void PairStructure::place(const Pose& a, const Pose& b, CostCounters& counters) 
     }
     placement_.b_error = placement_.to_a.error_below(data_b().largest, data_b().position_error);
     if (has_doubles()) update(counters);
+}
+
+bool PairStructure::deform_b(const InterferenceModel& b, CostCounters& counters) {
+    const auto now = same_triangles(b_, b);
+    if (!now) return false;
+    const InterferenceModel before = std::exchange(b_, b);
+    if (!refit_b(*now, counters)) {
+        b_ = before;
+        return false;
+    }
+    placed_ = false;
+    return true;
 }
 
 bool PairStructure::candidates(PairVisit visit, CostCounters& counters) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <trisect/bsp/detail/approximate_map.h>
@@ -53,6 +54,13 @@ public:
     /// Counts `updates`. \throw LimitError when the poses are too wide for each other.
     void place(const Pose& a, const Pose& b, CostCounters& counters);
 
+    /// B in another shape: the same triangles (deformation.h) with corners elsewhere. Refits what
+    /// is there to them and is true, or leaves everything as it was and is false: the triangles are
+    /// others, or this kind of structure has to be built anew. Poses are to be placed again. Counts
+    /// `updates`. Only trees of volumes refit; answers stay exact, and trees become looser than new
+    /// ones where parts that were near each other no longer are.
+    bool deform_b(const InterferenceModel& b, CostCounters& counters);
+
     /// Visits every pair of triangles that has a common point, each pair at most once, and others
     /// that the structure cannot tell apart. Says whether it was stopped. Counts `volume_tests`;
     /// what the pairs cost, the caller counts.
@@ -81,6 +89,10 @@ protected:
     virtual void update(CostCounters& counters) = 0;
     virtual bool find_candidates(PairVisit visit, CostCounters& counters) = 0;
     virtual void find_near(double limit, NearVisit visit, CostCounters& counters) = 0;
+    /// B is the deformed model now, and triangle t has become now[t].
+    virtual bool refit_b(std::span<const std::uint32_t> /*now*/, CostCounters& /*counters*/) {
+        return false;
+    }
     virtual std::optional<Relation> find_early_relation(CostCounters&) { return std::nullopt; }
 
     [[nodiscard]] const detail::InterferenceModelData& data_a() const { return a_.data(); }

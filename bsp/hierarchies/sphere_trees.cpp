@@ -16,12 +16,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <span>
 #include <utility>
 
+#include <trisect/bsp/hierarchies/kdop.h>
 #include <trisect/bsp/hierarchies/medial_balls.h>
 #include <trisect/kernel/lattice.h>
 
@@ -378,6 +380,9 @@ std::vector<SphereLevel> tightness(const InterferenceModel& model, const SphereT
             const double p = protrusion(tree.volumes[n]);
             level.largest_protrusion = std::max(level.largest_protrusion, p);
             level.mean_protrusion += p / static_cast<double>(nodes.size());
+            const double radius =
+                lattice_unit * tree.frame.unit * static_cast<double>(tree.volumes[n].radius);
+            level.volume += 4.0 / 3 * std::numbers::pi * radius * radius * radius;
         }
         levels.push_back(level);
         std::vector<std::uint32_t> below;
@@ -408,6 +413,28 @@ std::string_view name_of(SphereConstruction construction) {
     return "sphere-vertices";
 }
 
+double reach_of(const Sphere& a, const Sphere& b) {
+    return static_cast<double>(a.radius) + static_cast<double>(b.radius);
+}
+
+// Points of the spheres are not farther apart than this.
+double farthest_points(const Sphere& a, const Sphere& b) {
+    return (std::sqrt(squared_distance(a.middle(), b.middle())) + reach_of(a, b)) * (1 + 0x1p-40);
+}
+
+// B moved along d, |d| = 1, by this or more does not meet A. Rounded up: numbers are of the size of
+// the distance and the radii, and a root of what is off by 2^-48 of a square by 2^-24 of it.
+double last_contact(const Sphere& a, const Sphere& b, const Double3& d) {
+    const Double3 w = detail::minus(b.middle(), a.middle());
+    const double along = detail::dot(w, d);
+    const double reach = reach_of(a, b);
+    const double scale = detail::dot(w, w) + reach * reach;
+    const double square = reach * reach - (detail::dot(w, w) - along * along) + 0x1p-46 * scale;
+    if (square < 0) return 0;
+    const double exit = std::sqrt(square) - along + 0x1p-46 * std::sqrt(scale);
+    return exit > 0 ? exit * (1 + 0x1p-40) : 0;
+}
+
 }  // namespace
 
 SphereTrees::SphereTrees(const InterferenceModel& a, const InterferenceModel& b,
@@ -419,6 +446,19 @@ SphereTrees::SphereTrees(const InterferenceModel& a, const InterferenceModel& b,
           },
           name_of(construction)) {}
 
+template <class Take>
+void SphereTrees::open_larger(std::uint32_t i, std::uint32_t j, Take&& take) const {
+    const TreeNode& na = a_.shape.nodes[i];
+    const TreeNode& nb = b_.shape.nodes[j];
+    const bool opens_b =
+        na.leaf || (!nb.leaf && b_.volumes[j].radius * static_cast<float>(b_.frame.unit) >
+                                    a_.volumes[i].radius * static_cast<float>(a_.frame.unit));
+    if (opens_b)
+        for (std::uint32_t k = 0; k < nb.count; ++k) take(i, nb.first + k);
+    else
+        for (std::uint32_t k = 0; k < na.count; ++k) take(na.first + k, j);
+}
+
 AnytimeAnswer SphereTrees::answer_within(std::uint64_t tests, CostCounters& counters) {
     if (!pose_) update(counters);
     struct Open {
@@ -429,9 +469,12 @@ AnytimeAnswer SphereTrees::answer_within(std::uint64_t tests, CostCounters& coun
     const auto later = [](const Open& x, const Open& y) { return x.gap > y.gap; };
     std::vector<Open> open;
     AnytimeAnswer answer;
+    answer.at_most = std::numeric_limits<double>::infinity();
     const auto push = [&](std::uint32_t i, std::uint32_t j, double least) {
         ++answer.tests;
         const Moved moved = pose_->moved(b_.volumes[j]);
+        answer.at_most =
+            std::min(answer.at_most, a_.frame.unit * farthest_points(a_.volumes[i], moved));
         open.push_back({std::max(least, a_.frame.unit * pose_->gap(a_.volumes[i], moved)), i, j});
         std::ranges::push_heap(open, later);
     };
@@ -443,19 +486,68 @@ AnytimeAnswer SphereTrees::answer_within(std::uint64_t tests, CostCounters& coun
         if (na.leaf && nb.leaf) break;  // spheres cannot tell more
         std::ranges::pop_heap(open, later);
         open.pop_back();
-        const bool opens_b =
-            na.leaf || (!nb.leaf && b_.volumes[o.b].radius * static_cast<float>(b_.frame.unit) >
-                                        a_.volumes[o.a].radius * static_cast<float>(a_.frame.unit));
-        for (std::uint32_t k = 0; k < (opens_b ? nb : na).count; ++k) {
-            if (opens_b)
-                push(o.a, nb.first + k, o.gap);
-            else
-                push(na.first + k, o.b, o.gap);
-        }
+        open_larger(o.a, o.b, [&](std::uint32_t i, std::uint32_t j) { push(i, j, o.gap); });
     }
     counters.volume_tests += answer.tests;
     answer.at_least = open.front().gap;
     answer.apart = answer.at_least > 0;
+    return answer;
+}
+
+// Spheres meet last, when B goes along d, where the distance of their centres w + s d is the sum of
+// their radii for the second time, or they never meet. When no spheres of a level meet any more the
+// boundaries do not meet from there on, and since the solids are apart in the end they are apart
+// all the way.
+AnytimeDepth SphereTrees::depth_within(std::uint64_t tests, CostCounters& counters) {
+    if (!pose_) update(counters);
+    struct Open {
+        double exit;
+        std::uint32_t a;
+        std::uint32_t b;
+    };
+    struct Direction {
+        Double3 d{};
+        std::vector<Open> open;  // a heap, the pair that is left last in front
+        bool done = false;
+        [[nodiscard]] double bound() const { return open.front().exit; }
+    };
+    const auto sooner = [](const Open& x, const Open& y) { return x.exit < y.exit; };
+    AnytimeDepth answer;
+    const auto push = [&](Direction& way, std::uint32_t i, std::uint32_t j, double most) {
+        ++answer.tests;
+        const double exit = last_contact(a_.volumes[i], pose_->moved(b_.volumes[j]), way.d);
+        way.open.push_back({std::min(most, exit), i, j});
+        std::ranges::push_heap(way.open, sooner);
+    };
+    std::vector<Direction> ways;
+    for (const double sign : {1.0, -1.0})
+        for (const auto& axis : KDop<26>::directions) {
+            Direction& way = ways.emplace_back();
+            const double length =
+                std::sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+            for (std::size_t k = 0; k < 3; ++k) way.d[k] = sign * axis[k] / length;
+            push(way, 0, 0, std::numeric_limits<double>::infinity());
+        }
+    const auto best_open = [&ways]() -> Direction* {
+        Direction* best = nullptr;
+        for (Direction& w : ways)
+            if (!w.done && (best == nullptr || w.bound() < best->bound())) best = &w;
+        return best;
+    };
+    for (Direction* way = best_open(); way != nullptr && answer.tests < tests; way = best_open()) {
+        const Open o = way->open.front();
+        if (!(o.exit > 0) || (a_.shape.nodes[o.a].leaf && b_.shape.nodes[o.b].leaf)) {
+            way->done = true;
+            continue;
+        }
+        std::ranges::pop_heap(way->open, sooner);
+        way->open.pop_back();
+        open_larger(o.a, o.b, [&](std::uint32_t i, std::uint32_t j) { push(*way, i, j, o.exit); });
+    }
+    counters.volume_tests += answer.tests;
+    const Direction& best = *std::ranges::min_element(ways, {}, &Direction::bound);
+    answer.at_most = a_.frame.unit * best.bound();
+    answer.direction = best.d;
     return answer;
 }
 

@@ -3,6 +3,7 @@
 // Sphere trees by the lecture's three ways, how tightly they fit, and an answer at any time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -32,7 +33,9 @@ using SphereTree = VolumeTree<SphereKind>;
 /// the leaves above it: they contain the boundary.
 struct SphereLevel {
     std::size_t spheres = 0;
-    /// No point of any of them is farther outside of the solid, in the user's units. Certified.
+    double volume = 0;  ///< the sum of theirs, in the user's units
+    /// No point of any of them is farther outside of the solid, in the user's units: a bound of the
+    /// Hausdorff distance between the solid and the solid with the spheres. Certified.
     double largest_protrusion = 0;
     double mean_protrusion = 0;
 };
@@ -42,11 +45,19 @@ struct SphereLevel {
 [[nodiscard]] std::vector<SphereLevel> tightness(const InterferenceModel& model,
                                                  const SphereTree& tree, std::size_t most = 4096);
 
-/// What is known after some tests.
+/// What is known after some tests. Lengths are in lattice units of A.
 struct AnytimeAnswer {
     bool apart = false;       ///< proved
-    double at_least = 0;      ///< the boundaries' distance is not less, in lattice units of A
+    double at_least = 0;      ///< the boundaries' distance is not less,
+    double at_most = 0;       ///< and not more: both spheres of a pair contain points of them
     std::uint64_t tests = 0;  ///< pairs of spheres compared
+};
+
+/// A way out: B moved this far in this direction, of length 1, or any farther, does not meet A.
+struct AnytimeDepth {
+    double at_most = 0;  ///< in lattice units of A; the depth of penetration is not more
+    std::array<double, 3> direction{};
+    std::uint64_t tests = 0;
 };
 
 /// Sphere trees as a structure like the others, which can be interrupted.
@@ -60,8 +71,18 @@ public:
     /// \pre has_doubles()
     [[nodiscard]] AnytimeAnswer answer_within(std::uint64_t tests, CostCounters& counters);
 
+    /// Likewise a bound on the depth of penetration, the least translation that parts the solids,
+    /// better with every test: of 26 directions the one that looks best is pursued, in it the pair
+    /// of spheres that is left last. 0 proves solids apart. \pre has_doubles()
+    [[nodiscard]] AnytimeDepth depth_within(std::uint64_t tests, CostCounters& counters);
+
     [[nodiscard]] const SphereTree& tree_a() const { return a_; }
     [[nodiscard]] const SphereTree& tree_b() const { return b_; }
+
+private:
+    // take(i, j) for the children of the larger of two spheres that can be opened.
+    template <class Take>
+    void open_larger(std::uint32_t i, std::uint32_t j, Take&& take) const;
 };
 
 [[nodiscard]] std::unique_ptr<PairStructure> make_octree_spheres(const InterferenceModel& a,

@@ -41,6 +41,27 @@ struct VolumeTree {
 
     VolumeTree(const detail::InterferenceModelData& model, const TreeOptions& options)
         : frame(model), shape(build_tree(items_of(model, frame), options)) {
+        fit_all(model);
+    }
+
+    /// Of volumes made elsewhere, one for each node of the shape, each around all that is below it.
+    VolumeTree(const TreeFrame& f, TreeShape s, std::vector<typename Kind::Volume> v)
+        : frame(f), shape(std::move(s)), volumes(std::move(v)) {}
+
+    /// To another shape of the model, of which now[t] is what triangle t has become. The tree keeps
+    /// its nodes.
+    void refit(const detail::InterferenceModelData& model, std::span<const std::uint32_t> now) {
+        frame = TreeFrame(model);
+        for (std::uint32_t& t : shape.order) t = now[t];
+        fit_all(model);
+    }
+
+    [[nodiscard]] std::size_t bytes() const {
+        return shape.bytes() + volumes.size() * sizeof(typename Kind::Volume);
+    }
+
+private:
+    void fit_all(const detail::InterferenceModelData& model) {
         volumes.resize(shape.nodes.size());
         // Children come after their parent.
         if constexpr (Kind::has_unite) {
@@ -55,16 +76,6 @@ struct VolumeTree {
             fit_below(model, 0, corners);
         }
     }
-
-    /// Of volumes made elsewhere, one for each node of the shape, each around all that is below it.
-    VolumeTree(const TreeFrame& f, TreeShape s, std::vector<typename Kind::Volume> v)
-        : frame(f), shape(std::move(s)), volumes(std::move(v)) {}
-
-    [[nodiscard]] std::size_t bytes() const {
-        return shape.bytes() + volumes.size() * sizeof(typename Kind::Volume);
-    }
-
-private:
     void append_corners(const detail::InterferenceModelData& model, const TreeNode& leaf,
                         std::vector<std::array<double, 3>>& corners) const {
         for (const std::uint32_t t : shape.things(leaf))
@@ -131,6 +142,12 @@ protected:
             std::ranges::fill(moved_at_, 0U);
             pose_number_ = 1;
         }
+    }
+
+    bool refit_b(std::span<const std::uint32_t> now, CostCounters& counters) override {
+        b_.refit(data_b(), now);
+        counters.updates += b_.volumes.size();
+        return true;
     }
 
     bool find_candidates(PairVisit visit, CostCounters& counters) override {

@@ -86,6 +86,35 @@ TEST(SphereTrees, DeeperLevelsAreTighter) {
     }
 }
 
+// A ball that is half in the tube of a torus: out it goes by its depth and a little more.
+TEST(SphereTrees, BoundsOfTheDepthGetBetterAndPartTheSolids) {
+    const InterferenceModel a(Solid::from_mesh(make_torus(4, 1, 24, 12)));
+    const InterferenceModel b(Solid::from_mesh(trisect::make_icosphere(1, 3)));
+    const double lattice_unit = std::ldexp(1.0, a.lattice().exponent);
+    for (const SphereConstruction c : constructions) {
+        SphereTrees trees(a, b, c);
+        CostCounters counters;
+        trees.place(Pose(), Pose::from_translation({5.5, 0, 0}), counters);
+        double last = 1e300;
+        for (const std::uint64_t tests : {26U, 200U, 2000U, 20000U, 200000U}) {
+            const auto now = trees.depth_within(tests, counters);
+            EXPECT_LE(now.at_most, last);
+            EXPECT_GT(now.at_most, 0);
+            last = now.at_most;
+            const double by = now.at_most * lattice_unit;
+            const auto out = [&](double s) {
+                return Pose::from_translation(
+                    {5.5 + s * now.direction[0], s * now.direction[1], s * now.direction[2]});
+            };
+            for (const double s : {by, 1.1 * by, 2 * by})
+                EXPECT_EQ(interfere(a, Pose(), b, out(s)).relation, trisect::Relation::Disjoint);
+        }
+        EXPECT_LT(last * lattice_unit, 1);
+        trees.place(Pose(), Pose::from_translation({7, 0, 0}), counters);
+        EXPECT_EQ(trees.depth_within(200000, counters).at_most, 0);
+    }
+}
+
 TEST(SphereTrees, AnswersGetBetterWithEveryTestAndNeverTooLarge) {
     const InterferenceModel a(Solid::from_mesh(make_torus(4, 1, 24, 12)));
     const InterferenceModel b(Solid::from_mesh(trisect::make_icosphere(1, 3)));
@@ -101,6 +130,7 @@ TEST(SphereTrees, AnswersGetBetterWithEveryTestAndNeverTooLarge) {
             for (const std::uint64_t tests : {1U, 20U, 200U, 2000U, 200000U}) {
                 const AnytimeAnswer now = trees.answer_within(tests, counters);
                 EXPECT_GE(now.at_least, last.at_least);
+                EXPECT_GE(now.at_most * lattice_unit, exact->lower);
                 EXPECT_LE(now.at_least * lattice_unit, exact->upper);
                 EXPECT_EQ(now.apart, now.at_least > 0);
                 last = now;

@@ -10,8 +10,8 @@
 #include <set>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/brep/primitives/torus.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/hierarchies/inner_balls.h>
 #include <trisect/bsp/hierarchies/plane_tree.h>
 #include <trisect/bsp/interference_model.h>
