@@ -6,6 +6,7 @@
 
 #include <trisect/bsp/detail/boundary_flags.h>
 #include <trisect/bsp/detail/coherent_walk.h>
+#include <trisect/bsp/detail/pose_reserve.h>
 #include <trisect/bsp/detail/quick_relation.h>
 
 namespace trisect {
@@ -14,20 +15,33 @@ using detail::CoherentWalk;
 
 struct InterferenceQuery::State {
     State(const InterferenceModel& one, const InterferenceModel& other)
-        : a(one), b(other), walk(a.data(), b.data()) {}
+        : a(one), b(other), walk(a.data(), b.data()), reserve(a.data(), b.data()) {}
 
     [[nodiscard]] Relation ask(const Pose& pose_a, const Pose& pose_b);
+    [[nodiscard]] Relation ask_walk(const Pose& pose_a, const Pose& pose_b);
 
     InterferenceModel a;
     InterferenceModel b;
     CoherentWalk walk;
-    std::optional<Relation> last_apart;  // the relation, when the last answer was apart
+    std::optional<Relation> last_apart;  // the relation, when the walk's last answer was apart
+    detail::PoseReserve reserve;
+    Relation reserved = Relation::Disjoint;  // the relation that it is for
     InterferenceQueryCounters counters;
 };
 
 Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
     ++counters.asked;
     if (a.is_empty() || b.is_empty()) return Relation::Disjoint;
+    if (reserve.covers(pose_a, pose_b)) {
+        ++counters.kept;
+        walk.note_spared();
+        return reserved;
+    }
+    return ask_walk(pose_a, pose_b);
+}
+
+Relation InterferenceQuery::State::ask_walk(const Pose& pose_a, const Pose& pose_b) {
+    reserve.clear();
     const auto map = detail::approximate_map(pose_a, a.lattice(), pose_b, b.lattice());
     if (!map.is_usable()) {
         ++counters.exact;
@@ -36,20 +50,24 @@ Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
         return interfere(a, pose_a, b, pose_b).relation;
     }
     const CoherentWalk::Answer answer = walk.ask(map);
-    counters.node_tests = walk.counters().node_tests;
-    counters.triangle_pairs = walk.counters().triangle_pairs;
-    counters.fresh_walks = walk.fresh_walks();
+    const auto keep = [&](Relation relation) {
+        reserved = relation;
+        if (walk.reserve() > 0) reserve.set(pose_a, pose_b, map, walk.reserve());
+        return relation;
+    };
     if (answer == CoherentWalk::Answer::Crossing) {
         last_apart.reset();
-        return Relation::Overlapping;
+        return keep(Relation::Overlapping);
     }
     if (answer == CoherentWalk::Answer::Apart) {
-        if (last_apart && walk.is_unmoved()) {
+        if (walk.is_far()) {
+            last_apart = Relation::Disjoint;
+        } else if (last_apart && walk.is_unmoved()) {
             ++counters.kept;
-            return *last_apart;
+        } else {
+            last_apart = detail::relation_of_apart(a.data(), pose_a, b.data(), pose_b, map);
         }
-        last_apart = detail::relation_of_apart(a.data(), pose_a, b.data(), pose_b, map);
-        if (last_apart) return *last_apart;
+        if (last_apart) return keep(*last_apart);
     }
     ++counters.exact;
     last_apart.reset();
@@ -68,7 +86,18 @@ Relation InterferenceQuery::relation(const Pose& pose_a, const Pose& pose_b) {
 void InterferenceQuery::forget() {
     state_->walk.forget();
     state_->last_apart.reset();
+    state_->reserve.clear();
 }
-const InterferenceQueryCounters& InterferenceQuery::counters() const { return state_->counters; }
+InterferenceQueryCounters InterferenceQuery::counters() const {
+    InterferenceQueryCounters r = state_->counters;
+    const detail::WalkCounters& walk = state_->walk.counters();
+    r.node_tests = walk.node_tests;
+    r.plane_tests = walk.plane_tests;
+    r.triangle_pairs = walk.triangle_pairs;
+    r.by_balls = walk.by_balls;
+    r.fresh_walks = state_->walk.fresh_walks();
+    r.resumed_fronts = state_->walk.resumed_fronts();
+    return r;
+}
 
 }  // namespace trisect

@@ -16,10 +16,15 @@ namespace trisect {
 struct InterferenceQueryCounters {
     std::uint64_t asked = 0;
     std::uint64_t node_tests = 0;      ///< tests of one box against four
+    std::uint64_t plane_tests = 0;     ///< the same by planes that were kept, or of two triangles
     std::uint64_t triangle_pairs = 0;  ///< pairs of triangles compared in doubles
     std::uint64_t fresh_walks = 0;     ///< from the roots of both trees
-    std::uint64_t kept = 0;            ///< answers that followed from the last one without a test
-    std::uint64_t exact = 0;           ///< left to interfere(), which needs exact poses
+    std::uint64_t resumed_fronts = 0;  ///< a lost crossing, and on from where all was apart before
+    std::uint64_t by_balls = 0;        ///< Overlapping by balls inside both solids
+    std::uint64_t kept = 0;   ///< relations that followed from the last one: the bodies had
+                              ///< moved less than what was between them, or no boundary
+                              ///< had met the other on the way
+    std::uint64_t exact = 0;  ///< left to interfere(), which needs exact poses
 };
 
 /// Answers what interfere() answers, and remembers where the solids were close or crossed. Any
@@ -38,7 +43,7 @@ public:
     [[nodiscard]] Relation relation(const Pose& pose_a, const Pose& pose_b);
     /// The next question starts from the roots.
     void forget();
-    [[nodiscard]] const InterferenceQueryCounters& counters() const;
+    [[nodiscard]] InterferenceQueryCounters counters() const;
 
 private:
     struct State;

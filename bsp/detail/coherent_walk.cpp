@@ -8,16 +8,29 @@
 // a bound on velocity is Mirtich's schedule, 1996, for pairs of bodies; here it is kept for pairs
 // of boxes.)
 //
+// What is due is asked first whether the planes still part the boxes that parted them when they
+// were last tested in full: one direction for each lane instead of sixteen, with A's side known (a
+// witness kept between frames, as Baraff 1990 does for convex polyhedra). Most of what is due is
+// done by that. It is also sharper than the odometer, which knows the body as a whole: a plane
+// feels the motion of its own box, along its own normal.
+//
 // The front is the leaves of the tree of all pairs that a walk opens, and the whole tree is kept.
 // Where a pair closes in it is divided further. Where everything below a pair is far apart by now,
 // the pair itself is asked again, and when its boxes are apart what is below is forgotten. So the
 // front is as coarse as the distances allow, and bodies that have parted cost a test now and then.
 //
-// Where boundaries cross, the pair of triangles that showed it is tried first. When it is lost the
-// search climbs from it: at each pair on the way from the roots to it the other lanes are searched,
-// the nearest first. At the root this has been a whole walk, no pair twice, so nothing is lost when
-// there is no crossing any more. A front from before the crossing is kept; while at most half of it
-// is due it is cheaper to go on from it.
+// Where boundaries cross, balls inside both solids are tried first, then the pair of triangles that
+// showed the crossing. Balls give a reserve: until something has moved by as much as they reach
+// into each other nothing need be asked at all (pose_reserve.h), and the same holds for the least
+// gap of a front. A crossing pair of a fine mesh is lost with every step; so balls are made where
+// it was found, as large as can touch the two faces from inside, which overlap unless the faces are
+// opposite.
+//
+// When nothing of this helps the search climbs from the lost pair: at each pair on the way from the
+// roots to it the other lanes are searched, the nearest first. At the root this has been a whole
+// walk, no pair twice, so nothing is lost when there is no crossing any more. A front from before
+// the crossing is kept, and unless nearly all of it is due it is cheaper to go on from it: planes
+// are a quarter of the cost of boxes.
 
 #include <trisect/bsp/detail/coherent_walk.h>
 
@@ -48,20 +61,6 @@ std::vector<ObbId> boxes_down_to(const ObbTree& t, ObbId id) {
     return way;
 }
 
-// About corner 0 of p, or the slack would be that of the lattice's origin.
-double certain_distance(TriangleCorners p, TriangleCorners q, double error) {
-    const auto origin = p[0];
-    double largest = 0;
-    for (auto* t : {&p, &q})
-        for (auto& c : *t)
-            for (std::size_t k = 0; k < 3; ++k) {
-                c[k] -= origin[k];
-                largest = std::max(largest, std::abs(c[k]));
-            }
-    // The differences are rounded once, by at most 2^-53 of the coordinates now.
-    return certify(p, q, closest_points(p, q), error + 0x1p-52 * largest).lower;
-}
-
 }  // namespace
 
 CoherentWalk::Opens CoherentWalk::opens(ObbId a, ObbId b) const {
@@ -73,13 +72,19 @@ CoherentWalk::Opens CoherentWalk::opens(ObbId a, ObbId b) const {
                : Opens::A;
 }
 
-// Two triangles by their places in the trees. Crossing ones that are not clear tell nothing.
-PairVerdict CoherentWalk::compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
-                                  TriangleCorners& q) {
+// Two triangles by their places in the trees, in A.
+void CoherentWalk::move_corners(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
+                                TriangleCorners& q) const {
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = a_->positions[a_->boxes.corners[i][k]];
         q[k] = map_(b_->positions[b_->boxes.corners[j][k]]);
     }
+}
+
+// Crossing ones that are not clear tell nothing.
+PairVerdict CoherentWalk::compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
+                                  TriangleCorners& q) {
+    move_corners(i, j, p, q);
     ++counters_.triangle_pairs;
     PairVerdict verdict = compare_triangles(p, q, error_);
     if (verdict == PairVerdict::Crossing &&
@@ -177,7 +182,7 @@ CoherentWalk::Answer CoherentWalk::search_from_witness() {
         searched = way[k];
         if (may_resume && counters_.node_tests - before > patience) {
             const double now = odometer_ + pose_->displacement_from(*front_pose_);
-            if (2 * due_.count_due(now) <= visits_.size() - unused_.size()) {
+            if (8 * due_.count_due(now) <= 7 * (visits_.size() - unused_.size())) {
                 ++resumed_;
                 witness_.reset();
                 return renew_front();
@@ -197,6 +202,7 @@ std::uint32_t CoherentWalk::add_visit(ObbId a, ObbId b, std::uint32_t parent, do
     std::uint32_t v = static_cast<std::uint32_t>(visits_.size());
     if (unused_.empty()) {
         visits_.emplace_back();
+        planes_.emplace_back();
     } else {
         v = unused_.back();
         unused_.pop_back();
@@ -211,27 +217,50 @@ std::uint32_t CoherentWalk::add_visit(ObbId a, ObbId b, std::uint32_t parent, do
     return v;
 }
 
-// Numbers of visits that are no more may stay in lists; they are known by their reading.
+// Numbers of visits that are no more may stay on the list of those to be made.
 void CoherentWalk::remove(std::uint32_t v) {
     for (std::size_t k = 0; k < 4; ++k)
         if ((visits_[v].open >> k & 1U) != 0) remove(visits_[v].below[k]);
-    visits_[v].due = std::numeric_limits<double>::quiet_NaN();
+    visits_[v].in_use = false;
+    due_.drop(v);
     unused_.push_back(v);
 }
 
-// Everything of the visit that has none below it is apart by the gap.
+// Everything of the visit that has none below it is apart by the gap, and stays so until then.
+void CoherentWalk::keep_apart(std::uint32_t v, double gap) {
+    due_.set(v, (odometer_ + gap) * (1 - 0x1p-52));
+}
+
+// The same, when it was not apart by the same planes before. It was apart, by the slack.
 void CoherentWalk::keep(std::uint32_t v, double gap) {
-    Visit& e = visits_[v];
-    if (!(e.slack + gap > step_)) unmoved_ = false;
-    e.due = (odometer_ + gap) * (1 - 0x1p-52);
-    if (gap < infinity) due_.push({e.due, v}, odometer_);
+    if (!(visits_[v].slack + gap > step_)) unmoved_ = false;
+    keep_apart(v, gap);
 }
 
 // True when a crossing was found.
 bool CoherentWalk::visit(std::uint32_t v) {
     if (visits_[v].opens == Opens::Neither) return visit_leaves(v);
-    visit_lanes(v);
+    if (!planes_part_lanes(v)) visit_lanes(v);
     return false;
+}
+
+// Planes that part B from A under two poses do so all along the straight ways of B's points.
+bool CoherentWalk::planes_part_lanes(std::uint32_t v) {
+    const Visit& e = visits_[v];
+    if (!e.has_planes || e.again) return false;
+    ++counters_.plane_tests;
+    const ObbTree& tb = b_->boxes;
+    const Planes& planes = planes_[v];
+    const Float4 gaps =
+        e.opens == Opens::B
+            ? pose_->gaps_along(planes.along, planes.reach, tb.nodes[tb.child(e.b).node()])
+            : pose_->gaps_along(planes.along, planes.reach, tb.box(e.b));
+    if ((bits_of(gaps > all_lanes(0)) | e.open) != 15) return false;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::uint32_t k = 0; k < 4; ++k)
+        if ((e.open >> k & 1U) == 0) least = std::min(least, gaps[k]);
+    keep_apart(v, static_cast<double>(least));
+    return true;
 }
 
 void CoherentWalk::visit_lanes(std::uint32_t v) {
@@ -243,12 +272,31 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
     const std::uint32_t number = open_b ? tb.child(e.b).node() : ta.child(e.a).node();
     const ObbNode& node = open_b ? tb.nodes[number] : ta.nodes[number];
     ++counters_.node_tests;
-    const Float4 gaps = open_b ? pose_->gaps(ta.box(e.a), node) : pose_->gaps(node, tb.box(e.b));
+    Planes planes;
+    Float4 gaps{};
+    Float4 kept{};  // what the planes say, which is what the next test by them goes on from
+    if (open_b) {
+        const OrientedBox box = ta.box(e.a);
+        gaps = pose_->gaps(box, node, planes.along);
+        planes.reach = ObbPose::reach_along(box, planes.along);
+        kept = pose_->gaps_along(planes.along, planes.reach, node);
+    } else {
+        const OrientedBox box = tb.box(e.b);
+        gaps = pose_->gaps(node, box, planes.along);
+        planes.reach = ObbPose::reach_along(node, planes.along);
+        kept = pose_->gaps_along(planes.along, planes.reach, box);
+    }
+    kept = larger(kept, all_lanes(0));
     const auto few_steps = static_cast<float>(2 * step_);
     std::uint8_t open = e.open;
     float least = std::numeric_limits<float>::infinity();
     for (std::uint32_t k = 0; k < 4; ++k) {
-        if (!(node.half[0][k] >= 0)) continue;
+        if (!(node.half[0][k] >= 0)) {
+            // Apart from everything.
+            for (Float4& c : planes.along) c[k] = 0;
+            planes.reach[k] = -std::numeric_limits<float>::infinity();
+            continue;
+        }
         const auto bit = static_cast<std::uint8_t>(1U << k);
         if ((open & bit) != 0) {
             if (!(gaps[k] > few_steps)) continue;
@@ -256,7 +304,7 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
             open = static_cast<std::uint8_t>(open & ~bit);
         }
         if (gaps[k] > 0) {
-            least = std::min(least, gaps[k]);
+            least = std::min(least, kept[k]);
             continue;
         }
         open = static_cast<std::uint8_t>(open | bit);
@@ -266,10 +314,14 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
         visits_[v].below[k] = below;
     }
     visits_[v].open = open;
+    visits_[v].again = false;
+    visits_[v].has_planes = open != 15;
+    planes_[v] = planes;
     keep(v, static_cast<double>(least));
     if (open == 0 && e.parent != none && step_ > 0 && least > 2 * few_steps &&
         least > 1.5F * e.tried) {
         visits_[v].tried = least;
+        visits_[e.parent].again = true;
         begin(e.parent);
     }
 }
@@ -277,9 +329,17 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
 bool CoherentWalk::visit_leaves(std::uint32_t v) {
     const ObbChild ca = a_->boxes.child(visits_[v].a);
     const ObbChild cb = b_->boxes.child(visits_[v].b);
-    double least = infinity;
     TriangleCorners p;
     TriangleCorners q;
+    if (visits_[v].has_planes) {
+        ++counters_.plane_tests;
+        move_corners(ca.first(), cb.first(), p, q);
+        if (const double gap = gap_along_plane(v, p, q); gap > 0) {
+            keep_apart(v, gap);
+            return false;
+        }
+    }
+    double least = infinity;
     for (std::uint32_t j = 0; j < cb.count(); ++j)
         for (std::uint32_t i = 0; i < ca.count(); ++i) {
             switch (compare(ca.first() + i, cb.first() + j, p, q)) {
@@ -290,17 +350,57 @@ bool CoherentWalk::visit_leaves(std::uint32_t v) {
                     least = 0;
                     break;
                 case PairVerdict::Apart:
-                    least = std::min(least, certain_distance(p, q, error_) / a_->boxes.unit);
+                    set_plane(v, p, q);
+                    least = std::min(least, std::max(gap_along_plane(v, p, q), 0.0));
                     break;
             }
         }
+    visits_[v].has_planes = least > 0 && ca.count() == 1 && cb.count() == 1;
     keep(v, least);
     return false;
 }
 
+// Across the way between closest points.
+void CoherentWalk::set_plane(std::uint32_t v, const TriangleCorners& p, const TriangleCorners& q) {
+    // About corner 0 of p, or rounding would be that of the lattice's origin.
+    TriangleCorners p0 = p;
+    TriangleCorners q0 = q;
+    for (auto* t : {&p0, &q0})
+        for (auto& c : *t)
+            for (std::size_t k = 0; k < 3; ++k) c[k] -= p[0][k];
+    const ClosestPoints closest = closest_points(p0, q0);
+    std::array<double, 3> way{};
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < 3; ++i)
+            way[k] += closest.on_q[i] * q0[i][k] - closest.on_p[i] * p0[i][k];
+        square += way[k] * way[k];
+    }
+    const double factor = square > 0 ? (1 - 0x1p-20) / std::sqrt(square) : 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        planes_[v].along[k][0] = static_cast<float>(way[k] * factor);
+}
+
+// In units. Along L, |L| <= 1: `error_` bounds the errors of a coordinate of p and one of q
+// together, √3 times it their effect; 2^50 times it also bounds the coordinates of q. So products
+// with L, three terms each, are off by less than 2^-51 · (3 largest + 3 · 2^50 error_).
+double CoherentWalk::gap_along_plane(std::uint32_t v, const TriangleCorners& p,
+                                     const TriangleCorners& q) const {
+    std::array<double, 3> along{};
+    for (std::size_t k = 0; k < 3; ++k) along[k] = static_cast<double>(planes_[v].along[k][0]);
+    double reach = -infinity;
+    double from = infinity;
+    for (std::size_t i = 0; i < 3; ++i) {
+        reach = std::max(reach, (along[0] * p[i][0] + along[1] * p[i][1]) + along[2] * p[i][2]);
+        from = std::min(from, (along[0] * q[i][0] + along[1] * q[i][1]) + along[2] * q[i][2]);
+    }
+    const double gap = from - reach - (4 * error_ + 0x1p-48 * a_->largest);
+    return gap * (1 - 0x1p-50) / a_->boxes.unit;
+}
+
 // Puts a visit on the list of those to be made.
 void CoherentWalk::begin(std::uint32_t v) {
-    visits_[v].slack = visits_[v].due - (odometer_ - step_);
+    visits_[v].slack = due_[v] - (odometer_ - step_);
     open_.push_back(v);
 }
 
@@ -309,14 +409,11 @@ CoherentWalk::Answer CoherentWalk::visit_open() {
     while (!open_.empty()) {
         const std::uint32_t v = open_.back();
         open_.pop_back();
-        if (std::isnan(visits_[v].due)) continue;
+        if (!visits_[v].in_use) continue;
         if (!visit(v)) continue;
         open_.push_back(v);
-        for (const std::uint32_t w : open_) {
-            if (std::isnan(visits_[w].due)) continue;
-            visits_[w].due = odometer_;
-            due_.push({odometer_, w}, odometer_);
-        }
+        for (const std::uint32_t w : open_)
+            if (visits_[w].in_use) due_.set(w, odometer_);
         open_.clear();
         return Answer::Crossing;
     }
@@ -326,13 +423,14 @@ CoherentWalk::Answer CoherentWalk::visit_open() {
 CoherentWalk::Answer CoherentWalk::make_front() {
     ++fresh_;
     visits_.clear();
+    planes_.clear();
     unused_.clear();
     open_.clear();
     odometer_ = 0;
     step_ = 0;
     unknown_ = 0;
     unmoved_ = false;
-    due_.reset(0x1p-16);
+    due_.clear();
     front_pose_ = pose_;
     add_visit(ObbId{}, ObbId{}, none, 0);
     const Answer found = visit_open();
@@ -346,12 +444,65 @@ CoherentWalk::Answer CoherentWalk::renew_front() {
     odometer_ = (odometer_ + step_) * (1 + 0x1p-52);
     front_pose_ = pose_;
     unmoved_ = last_from_front_;
-    due_.take(odometer_, [this](const DueList::Item& item) {
-        if (visits_[item.name].due == item.due) begin(item.name);
-    });
+    due_.take(odometer_, [this](std::uint32_t v) { begin(v); });
     const std::size_t live = visits_.size() - unused_.size();
     if (8 * open_.size() > 7 * live + 64) return make_front();
     return visit_open();
+}
+
+// Depth ------------------------------------------------------------------------------------------
+
+// Where a crossing was there may be depth.
+bool CoherentWalk::balls_overlap() {
+    const InsideBalls* balls_a = a_->balls_in_time();
+    const InsideBalls* balls_b = b_->balls_in_time();
+    if (balls_a == nullptr || balls_b == nullptr) return false;
+    std::optional<Relation> r;
+    if (balls_)
+        r = relation_by_ball_pair(*a_, balls_->first, *b_, *balls_b, balls_->second, map_,
+                                  &reserve_);
+    if (r)
+        ++served_;
+    else
+        r = relation_by_balls(*a_, *balls_a, *b_, *balls_b, map_, &reserve_);
+    if (r != Relation::Overlapping) {
+        reserve_ = 0;
+        return false;
+    }
+    ++counters_.by_balls;
+    return true;
+}
+
+// Balls that touch two faces at a crossing reach into each other unless the faces are opposite; the
+// larger they are the longer. Making them costs as much as some searches, so where they do not last
+// they are made less often.
+void CoherentWalk::find_balls() {
+    constexpr std::uint32_t enough = 4;
+    constexpr std::uint32_t longest = 64;
+    if (wait_ > 0) {
+        --wait_;
+        return;
+    }
+    const InsideBalls* balls_b = b_->balls_in_time();
+    if (a_->balls_in_time() == nullptr || balls_b == nullptr) return;
+    pause_ = served_ >= enough ? 0 : std::min(2 * pause_ + 1, longest);
+    wait_ = pause_;
+    served_ = 0;
+    balls_.reset();
+    const auto triangle_of = [](const InterferenceModelData& m, ObbId leaf) {
+        return m.boxes.order[m.boxes.child(leaf).first()];
+    };
+    const auto in_a = touching_ball(*a_, triangle_of(*a_, witness_->a));
+    if (!in_a) return;
+    const auto in_b = touching_ball(*b_, triangle_of(*b_, witness_->b));
+    if (!in_b) return;
+    balls_.emplace(*in_a, *in_b);
+    if (!relation_by_ball_pair(*a_, *in_a, *b_, *balls_b, *in_b, map_, &reserve_)) reserve_ = 0;
+}
+
+CoherentWalk::Answer CoherentWalk::crossing_answer() {
+    find_balls();
+    return Answer::Crossing;
 }
 
 CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
@@ -361,28 +512,32 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
     const bool continues = last_from_front_;
     last_from_front_ = false;
     unmoved_ = false;
-    if (witness_ && leaves_cross(witness_->a, witness_->b)) return Answer::Crossing;
-    // Where a crossing was there may be depth.
+    far_ = false;
+    reserve_ = 0;
     if (witness_) {
-        const InsideBalls* balls_a = a_->balls_in_time();
-        const InsideBalls* balls_b = b_->balls_in_time();
-        if (balls_a != nullptr && balls_b != nullptr &&
-            relation_by_balls(*a_, *balls_a, *b_, *balls_b, b_to_a) == Relation::Overlapping) {
-            ++counters_.by_balls;
-            return Answer::Crossing;
-        }
+        if (balls_overlap()) return Answer::Crossing;
+        if (leaves_cross(witness_->a, witness_->b)) return crossing_answer();
     }
     pose_.emplace(a_->boxes, b_->boxes, b_to_a);
-    if (witness_) return search_from_witness();
-    if (pose_->is_apart()) return Answer::Apart;
-    if (!front_pose_) {
-        const Answer found = make_front();
-        last_from_front_ = found != Answer::Crossing;
-        return found;
+    if (pose_->clearance() > 0) {
+        far_ = true;
+        witness_.reset();
+        reserve_ = pose_->clearance() * a_->boxes.unit;
+        return Answer::Apart;
     }
-    last_from_front_ = continues;
-    const Answer found = renew_front();
-    last_from_front_ = found != Answer::Crossing;
+    Answer found{};
+    if (witness_) {
+        found = search_from_witness();
+    } else {
+        last_from_front_ = continues;
+        found = front_pose_ ? renew_front() : make_front();
+    }
+    last_from_front_ = found != Answer::Crossing && front_pose_;
+    if (found == Answer::Crossing) return crossing_answer();
+    // Less than the last step had better not be kept.
+    if (found == Answer::Apart && front_pose_)
+        if (const double left = (due_.first() - odometer_) * (1 - 0x1p-50); left > step_)
+            reserve_ = left * a_->boxes.unit;
     return found;
 }
 

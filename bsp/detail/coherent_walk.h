@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/detail/due_list.h>
+#include <trisect/bsp/detail/inside_balls.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/obb_pose.h>
 #include <trisect/bsp/detail/obb_walk.h>
@@ -34,6 +36,13 @@ public:
     /// Of the last answer, Apart: whether the boundaries were apart before it, too, and all the way
     /// from there along straight lines. Then each shell is on the side on which it was.
     [[nodiscard]] bool is_unmoved() const { return unmoved_; }
+    /// Of the last answer, Apart: whether even balls around the bodies are apart.
+    [[nodiscard]] bool is_far() const { return far_; }
+    /// The last answer stays what it is while no point of B moves by as much, in lattice units of
+    /// A. Mostly 0 when it is not worth it.
+    [[nodiscard]] double reserve() const { return reserve_; }
+    /// A question was not asked, since the reserve sufficed.
+    void note_spared() { ++served_; }
     void forget();
 
     [[nodiscard]] const WalkCounters& counters() const { return counters_; }
@@ -48,7 +57,6 @@ private:
     // `open` lanes have visits of their own below; the others were apart by so much that they stay
     // apart until the odometer is at `due`.
     struct Visit {
-        double due = 0;    // not a number: not in use
         double slack = 0;  // in this question: how far everything was apart before it
         ObbId a;
         ObbId b;
@@ -56,13 +64,28 @@ private:
         float tried = 0;  // the gap with which the parent was last asked in vain
         std::uint8_t open = 0;
         Opens opens = Opens::Neither;
+        bool in_use = true;
+        bool has_planes = false;
+        bool again = false;  // to be tested in full, since what is below has parted
         std::array<std::uint32_t, 4> below{};
     };
     static constexpr std::uint32_t none = 0xffffffffU;
+    // For each lane that is not open a direction in A and how far A's side reaches along it: a
+    // plane between the two that stays where it is while B moves. Of a pair of triangles lane 0
+    // alone.
+    struct Planes {
+        ObbPose::Directions along{};
+        Float4 reach{};
+    };
 
     [[nodiscard]] Opens opens(ObbId a, ObbId b) const;
     [[nodiscard]] PairVerdict compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
                                       TriangleCorners& q);
+
+    // Overlap in depth.
+    bool balls_overlap();
+    void find_balls();
+    Answer crossing_answer();
 
     // Crossing pairs.
     bool leaves_cross(ObbId a, ObbId b);
@@ -75,9 +98,16 @@ private:
     std::uint32_t add_visit(ObbId a, ObbId b, std::uint32_t parent, double slack);
     void remove(std::uint32_t v);
     void keep(std::uint32_t v, double gap);
+    void keep_apart(std::uint32_t v, double gap);
     bool visit(std::uint32_t v);
     void visit_lanes(std::uint32_t v);
+    [[nodiscard]] bool planes_part_lanes(std::uint32_t v);
     bool visit_leaves(std::uint32_t v);
+    [[nodiscard]] double gap_along_plane(std::uint32_t v, const TriangleCorners& p,
+                                         const TriangleCorners& q) const;
+    void set_plane(std::uint32_t v, const TriangleCorners& p, const TriangleCorners& q);
+    void move_corners(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
+                      TriangleCorners& q) const;
     void begin(std::uint32_t v);
     Answer visit_open();
     Answer make_front();
@@ -91,12 +121,21 @@ private:
     double error_ = 0;
     std::uint64_t unknown_ = 0;  // pairs of triangles in this question
 
+    double reserve_ = 0;
+    bool far_ = false;
+
     std::optional<ObbWalk::Pair> witness_;  // of leaves
+    // A ball inside each solid, made where the boundaries crossed.
+    std::optional<std::pair<InsideBall, InsideBall>> balls_;
+    std::uint32_t served_ = 0;  // questions since they were made
+    std::uint32_t wait_ = 0;    // crossings to pass over before others are made
+    std::uint32_t pause_ = 0;   // the last wait
     ObbWalk::Stack stack_;
 
     std::vector<Visit> visits_;
+    std::vector<Planes> planes_;  // of visits that have some
     std::vector<std::uint32_t> unused_;
-    DueList due_;
+    DueList due_;                        // of visits
     std::vector<std::uint32_t> open_;    // visits to be made in this question
     std::optional<ObbPose> front_pose_;  // where the odometer stands
     double odometer_ = 0;  // bounds how far any point has moved since the front was made

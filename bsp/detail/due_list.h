@@ -3,8 +3,7 @@
 // DueList: things that have to be looked at when an odometer has come so far.
 #pragma once
 
-#include <array>
-#include <bit>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,71 +11,65 @@
 
 namespace trisect::detail {
 
-/// Numbers with the reading of an odometer at which each is due, in no order: all that is asked is
-/// what is due by now. Levels hold what lies between 2^(i-1) and 2^i quanta ahead and know the
-/// least reading in them, so a level is looked through when something in it is due, and what is
-/// not yet due moves down. An entry is touched about once for each halving of what lies ahead of
-/// it; those far ahead cost nothing. (Ahuja, Mehlhorn, Orlin and Tarjan 1990 keep a whole order in
-/// this way.)
+/// For each of the numbers 0, 1, ... the reading of an odometer at which it is due. Readings are
+/// side by side in blocks of which the least is known, and a question looks at all blocks and into
+/// those with something due: less than keeping an order, until there are some ten thousand.
 class DueList {
 public:
-    struct Item {
-        double due = 0;
-        std::uint32_t name = 0;
-    };
+    static constexpr double never = std::numeric_limits<double>::infinity();
 
-    /// Empty, with a new quantum > 0: about the least difference that matters.
-    void reset(double quantum) {
-        for (std::vector<Item>& l : levels_) l.clear();
-        next_.fill(never);
-        per_quantum_ = 1 / quantum;
+    void clear() {
+        readings_.clear();
+        least_.clear();
     }
-    void push(const Item& item, double now) {
-        const std::size_t l = level(item.due - now);
-        levels_[l].push_back(item);
-        if (item.due < next_[l]) next_[l] = item.due;
+    void set(std::uint32_t name, double due) {
+        if (name >= readings_.size()) {
+            least_.resize(name / block + 1, never);
+            readings_.resize(block * least_.size(), never);
+        }
+        readings_[name] = due;
+        least_[name / block] = std::min(least_[name / block], due);
     }
-    /// Calls visit(item) for all that are due and drops them. visit must not push.
+    /// Never due any more.
+    void drop(std::uint32_t name) { set(name, never); }
+    [[nodiscard]] double operator[](std::uint32_t name) const { return readings_[name]; }
+
+    /// Calls visit(name) for all that are due. visit must not set anything; what was due and is not
+    /// set to another reading or dropped afterwards may be forgotten.
     template <class Visit>
     void take(double now, Visit&& visit) {
-        for (std::size_t l = 0; l < levels_.size(); ++l) {
-            if (!(next_[l] <= now)) continue;
-            next_[l] = never;
-            scratch_.swap(levels_[l]);
-            for (const Item& item : scratch_) {
-                if (item.due <= now)
-                    visit(item);
+        for (std::size_t b = 0; b < least_.size(); ++b) {
+            if (!(least_[b] <= now)) continue;
+            double least = never;
+            for (std::size_t i = block * b; i < block * (b + 1); ++i) {
+                if (readings_[i] <= now)
+                    visit(static_cast<std::uint32_t>(i));
                 else
-                    push(item, now);
+                    least = std::min(least, readings_[i]);
             }
-            scratch_.clear();
+            least_[b] = least;
         }
     }
     [[nodiscard]] std::size_t count_due(double now) const {
         std::size_t n = 0;
-        for (std::size_t l = 0; l < levels_.size(); ++l)
-            if (next_[l] <= now)
-                for (const Item& item : levels_[l])
-                    if (item.due <= now) ++n;
+        for (std::size_t b = 0; b < least_.size(); ++b)
+            if (least_[b] <= now)
+                for (std::size_t i = block * b; i < block * (b + 1); ++i)
+                    n += readings_[i] <= now ? 1 : 0;
         return n;
+    }
+    /// No reading is less than this.
+    [[nodiscard]] double first() const {
+        double first = never;
+        for (const double d : least_) first = std::min(first, d);
+        return first;
     }
 
 private:
-    static constexpr double never = std::numeric_limits<double>::infinity();
-    static constexpr std::size_t level_count = 32;
+    static constexpr std::size_t block = 8;
 
-    [[nodiscard]] std::size_t level(double ahead) const {
-        const double quanta = ahead * per_quantum_;
-        if (!(quanta >= 1)) return 0;
-        const auto exponent = (std::bit_cast<std::uint64_t>(quanta) >> 52U) - 1023U;
-        return exponent + 1 < level_count ? static_cast<std::size_t>(exponent) + 1
-                                          : level_count - 1;
-    }
-
-    std::array<std::vector<Item>, level_count> levels_;
-    std::array<double, level_count> next_{};
-    std::vector<Item> scratch_;
-    double per_quantum_ = 1;
+    std::vector<double> readings_;
+    std::vector<double> least_;  // lower bounds of each block
 };
 
 }  // namespace trisect::detail

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/detail/obb_fit.h>
 
 namespace trisect::detail {
 
@@ -38,9 +39,27 @@ struct BoundaryDistance {
     ObbId nearest;
 };
 
-// How far every box at a leaf is at least from a point, in the tree's units about its origin.
+// Lower bounds of the distance of four boxes from a point, in the tree's units about its origin.
+Float4 distances_from_boxes(const ObbNode& n, const Point& p, float margin) {
+    std::array<Float4, 3> d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = all_lanes(static_cast<float>(p[k])) - n.center[k];
+    Float4 squares = all_lanes(0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Float4 along = (n.axis[i][0] * d[0] + n.axis[i][1] * d[1]) + n.axis[i][2] * d[2];
+        const Float4 excess =
+            larger(magnitude(along) - (n.half[i] + all_lanes(margin)), all_lanes(0));
+        squares += excess * excess;
+    }
+    return square_root(squares) * all_lanes(1 - 0x1p-19F);
+}
+
+float margin_at(const ObbTree& tree, const Point& p) {
+    return static_cast<float>(0x1p-19 * (length(p) + tree.reach));
+}
+
+// How far every box at a leaf is at least from a point.
 BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
-    const auto margin = static_cast<float>(0x1p-19 * (length(p) + tree.reach));
+    const float margin = margin_at(tree, p);
     BoundaryDistance best{std::numeric_limits<double>::infinity(), {}};
     std::vector<std::pair<float, std::uint32_t>> stack{{0.0F, 0}};
     while (!stack.empty()) {
@@ -48,17 +67,7 @@ BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
         stack.pop_back();
         if (static_cast<double>(bound) >= best.lower) continue;
         const ObbNode& n = tree.nodes[node];
-        std::array<Float4, 3> d;
-        for (std::size_t k = 0; k < 3; ++k)
-            d[k] = all_lanes(static_cast<float>(p[k])) - n.center[k];
-        Float4 squares = all_lanes(0);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Float4 along = (n.axis[i][0] * d[0] + n.axis[i][1] * d[1]) + n.axis[i][2] * d[2];
-            const Float4 excess =
-                larger(magnitude(along) - (n.half[i] + all_lanes(margin)), all_lanes(0));
-            squares += excess * excess;
-        }
-        const Float4 far = square_root(squares) * all_lanes(1 - 0x1p-19F);
+        const Float4 far = distances_from_boxes(n, p, margin);
         std::array<std::uint32_t, 4> order{0, 1, 2, 3};
         std::ranges::sort(order, [&far](auto i, auto j) { return far[i] > far[j]; });
         for (const std::uint32_t k : order) {
@@ -68,6 +77,43 @@ BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
             else if (static_cast<double>(far[k]) < best.lower)
                 best = {static_cast<double>(far[k]), ObbId::of(node, k)};
         }
+    }
+    return best;
+}
+
+// The same up to a limit and with few nodes: inside a tube all boxes around are equally far. The
+// nearest box first; where it ends the bound is that of a box which has not been opened.
+BoundaryDistance quick_distance_from_boundary(const ObbTree& tree, const Point& p, double limit) {
+    constexpr int most_nodes = 24;
+    const float margin = margin_at(tree, p);
+    struct Open {
+        float bound;
+        ObbId box;
+        bool operator<(const Open& other) const { return bound > other.bound; }
+    };
+    std::array<Open, 4 * most_nodes + 1> heap{};
+    std::size_t size = 0;
+    BoundaryDistance best{limit, {}};
+    const auto open_node = [&](std::uint32_t node) {
+        const ObbNode& n = tree.nodes[node];
+        const Float4 far = distances_from_boxes(n, p, margin);
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            if (!(n.half[0][k] >= 0) || !(static_cast<double>(far[k]) < best.lower)) continue;
+            if (n.child[k].is_leaf()) {
+                best = {static_cast<double>(far[k]), ObbId::of(node, k)};
+            } else {
+                heap[size++] = {far[k], ObbId::of(node, k)};
+                std::push_heap(heap.begin(), heap.begin() + static_cast<std::ptrdiff_t>(size));
+            }
+        }
+    };
+    open_node(0);
+    for (int opened = 1; size > 0; ++opened) {
+        const Open next = heap.front();
+        if (!(static_cast<double>(next.bound) < best.lower)) break;
+        if (opened == most_nodes) return {static_cast<double>(next.bound), next.box};
+        std::pop_heap(heap.begin(), heap.begin() + static_cast<std::ptrdiff_t>(size--));
+        open_node(tree.child(next.box).node());
     }
     return best;
 }
@@ -133,10 +179,12 @@ std::optional<double> similarity(const ApproximateMap& map) {
 // itself.
 constexpr double slack = 0x1p-22;
 
-// Whether A has a point outside the box around the image of B's bounds. A's bounds are exact or
-// outward by twice the error of positions and two roundings.
-bool sticks_out(const InterferenceModelData& a, const InterferenceModelData& b,
-                const ApproximateMap& to_a, double error) {
+// By how much at least a point of A is outside the box around the image of B's bounds; not positive
+// when none may be. A's bounds are exact or outward by twice the error of positions and two
+// roundings.
+double sticks_out(const InterferenceModelData& a, const InterferenceModelData& b,
+                  const ApproximateMap& to_a, double error) {
+    double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         double middle = to_a.t[i];
         double half = 0;
@@ -148,24 +196,71 @@ bool sticks_out(const InterferenceModelData& a, const InterferenceModelData& b,
         }
         const double reach =
             half + error + 0x1p-48 * (size + half + a.largest) + 3 * a.position_error;
-        if (a.hi[i] > middle + reach || a.lo[i] < middle - reach) return true;
+        most = std::max({most, a.hi[i] - (middle + reach), (middle - reach) - a.lo[i]});
     }
-    return false;
+    return most;
 }
 
-// Whether one of the farthest points of B is outside the bounds of A.
-bool has_point_outside(const InsideBalls& b, const InterferenceModelData& a,
-                       const ApproximateMap& to_a, double error) {
-    return std::ranges::any_of(b.extremes(), [&](const Point& p) {
+// By how much at least one of the farthest points of B is outside the bounds of A.
+double has_point_outside(const InsideBalls& b, const InterferenceModelData& a,
+                         const ApproximateMap& to_a, double error) {
+    double most = 0;
+    for (const Point& p : b.extremes()) {
         const Point x = to_a(p);
         for (std::size_t k = 0; k < 3; ++k)
-            if (x[k] - error > a.hi[k] || x[k] + error < a.lo[k]) return true;
-        return false;
-    });
+            most = std::max({most, (x[k] - error) - a.hi[k], a.lo[k] - (x[k] + error)});
+    }
+    return most;
 }
 
 double distance(const Point& p, const Point& q) {
     return length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
+}
+
+}  // namespace
+
+namespace {
+
+// By how much two balls reach into each other, at most by a radius; not positive when they do not.
+double depth_of(double radius, double other, double distance) {
+    return std::min({radius + other - distance, radius, other});
+}
+
+// Balls inside both have common points. When each solid has a point that is not in the other one
+// they overlap, and do so until something has moved by as much as they stick out.
+std::optional<Relation> overlap_if_both_stick_out(const InterferenceModelData& a,
+                                                  const InterferenceModelData& b,
+                                                  const InsideBalls& balls_b,
+                                                  const ApproximateMap& to_a, double depth,
+                                                  double* reserve) {
+    const double error = to_a.error_below(b.largest, b.position_error);
+    const double of_a = sticks_out(a, b, to_a, error);
+    if (!(of_a > 0)) return std::nullopt;
+    const double of_b = has_point_outside(balls_b, a, to_a, error);
+    if (!(of_b > 0)) return std::nullopt;
+    if (reserve != nullptr) *reserve = std::min({depth, of_a, of_b});
+    return Relation::Overlapping;
+}
+
+bool is_inside(const InterferenceModelData& model, Point p) {
+    for (double& c : p) c = std::ldexp(c, model.brep.lattice().exponent);
+    return model.index().locate(p).location == Location::Inside;
+}
+
+Point in_tree(const ObbTree& tree, const Point& p) {
+    Point r{};
+    for (std::size_t k = 0; k < 3; ++k) r[k] = (p[k] - tree.origin[k]) / tree.unit;
+    return r;
+}
+
+// A ball around a point, given a bound on the distance of its rounded place in the tree from the
+// boundary; none when it is not inside.
+std::optional<InsideBall> certified_ball(const InterferenceModelData& model, const Point& center,
+                                         double distance_in_tree) {
+    const ObbTree& tree = model.boxes;
+    const double radius = distance_in_tree - 0x1p-50 * (model.largest / tree.unit + 1);
+    if (!(radius > 0) || !is_inside(model, center)) return std::nullopt;
+    return InsideBall{center, tree.unit * radius * (1 - 0x1p-50)};
 }
 
 }  // namespace
@@ -184,10 +279,6 @@ InsideBalls::InsideBalls(const InterferenceModelData& model) {
         for (std::size_t k = 0; k < 3; ++k) x[k] = tree.origin[k] + tree.unit * c.p[k];
         return x;
     };
-    const auto is_inside = [&model](Point p) {
-        for (double& c : p) c = std::ldexp(c, model.brep.lattice().exponent);
-        return model.index().locate(p).location == Location::Inside;
-    };
     const auto is_held = [this](const Point& p, double part) {
         for (std::size_t i = 0; i < size_; ++i)
             if (distance(p, center_[i]) < part * radius_[i]) return true;
@@ -195,15 +286,11 @@ InsideBalls::InsideBalls(const InterferenceModelData& model) {
     };
     for (const Candidate& start : candidates_of(model)) {
         if (size_ == most || !(start.distance > 0)) break;
-        if (is_held(place(start), 0.8) || !is_inside(place(start))) continue;
+        if (is_held(place(start), 0.8) || !is_inside(model, place(start))) continue;
         const Point center = place(climbed(tree, start));
         if (is_held(center, 0.5)) continue;
-        // From the rounded centre again.
-        Point in_tree{};
-        for (std::size_t k = 0; k < 3; ++k) in_tree[k] = (center[k] - tree.origin[k]) / tree.unit;
-        const double radius =
-            distance_from_boundary(tree, in_tree).lower - 0x1p-50 * (model.largest / tree.unit + 1);
-        if (radius > 0 && is_inside(center)) add(center, tree.unit * radius * (1 - 0x1p-50));
+        const double far = distance_from_boundary(tree, in_tree(tree, center)).lower;
+        if (const auto ball = certified_ball(model, center, far)) add(ball->center, ball->radius);
     }
 }
 
@@ -221,27 +308,37 @@ void InsideBalls::add(const Point& center, double radius) {
 std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
                                           const InsideBalls& balls_a,
                                           const InterferenceModelData& b,
-                                          const InsideBalls& balls_b, const ApproximateMap& to_a) {
+                                          const InsideBalls& balls_b, const ApproximateMap& to_a,
+                                          double* reserve) {
     const std::optional<double> scale = similarity(to_a);
     if (!scale) return std::nullopt;
     // Of a moved point, as a distance.
     const double error = to_a.error_below(b.largest, b.position_error);
     const double way_error = 2 * error + 0x1p-48 * a.largest;
     const auto whole = [](const InterferenceModelData& m) {
-        return 1.0001 * (m.boxes.reach * m.boxes.unit);
+        return 1.0001 * (m.boxes.radius * m.boxes.unit);
     };
     const Point middle_of_b = to_a(b.boxes.origin);
     const double radius_of_b = *scale * (1 + slack) * whole(b);
-    for (std::size_t i = 0; i < balls_a.size_; ++i)
-        if (radius_of_b < balls_a.radius_[i] &&
-            1.0001 * distance(middle_of_b, balls_a.center_[i]) + radius_of_b + way_error <
-                balls_a.radius_[i])
-            return Relation::Contains;
+    for (std::size_t i = 0; i < balls_a.size_; ++i) {
+        if (!(radius_of_b < balls_a.radius_[i])) continue;
+        const double left =
+            balls_a.radius_[i] -
+            (1.0001 * distance(middle_of_b, balls_a.center_[i]) + radius_of_b + way_error);
+        if (!(left > 0)) continue;
+        if (reserve != nullptr) *reserve = left;
+        return Relation::Contains;
+    }
+    double deepest = 0;
     for (std::size_t j = 0; j < balls_b.size_; ++j) {
         const Point center = to_a(balls_b.center_[j]);
         const double radius = *scale * (1 - slack) * balls_b.radius_[j];
-        if (1.0001 * (distance(center, a.boxes.origin) + whole(a)) + way_error < radius)
+        if (const double left =
+                radius - (1.0001 * (distance(center, a.boxes.origin) + whole(a)) + way_error);
+            left > 0) {
+            if (reserve != nullptr) *reserve = left;
             return Relation::Inside;
+        }
         const std::array<Float4, 3> c{all_lanes(static_cast<float>(center[0])),
                                       all_lanes(static_cast<float>(center[1])),
                                       all_lanes(static_cast<float>(center[2]))};
@@ -257,14 +354,62 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
             for (std::size_t lane = 0; hits != 0; ++lane, hits >>= 1U) {
                 if ((hits & 1U) == 0) continue;
                 const std::size_t i = 4 * g + lane;
-                if (!(1.0001 * distance(center, balls_a.center_[i]) + way_error <
-                      radius + balls_a.radius_[i]))
-                    continue;
-                if (sticks_out(a, b, to_a, error) && has_point_outside(balls_b, a, to_a, error))
-                    return Relation::Overlapping;
-                return std::nullopt;
+                deepest = std::max(
+                    deepest, depth_of(radius, balls_a.radius_[i],
+                                      1.0001 * distance(center, balls_a.center_[i]) + way_error));
+                // For the answer alone any will do.
+                if (deepest > 0 && reserve == nullptr)
+                    return overlap_if_both_stick_out(a, b, balls_b, to_a, deepest, reserve);
             }
         }
+    }
+    if (!(deepest > 0)) return std::nullopt;
+    return overlap_if_both_stick_out(a, b, balls_b, to_a, deepest, reserve);
+}
+
+std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
+                                              const InsideBall& in_a,
+                                              const InterferenceModelData& b,
+                                              const InsideBalls& balls_b, const InsideBall& in_b,
+                                              const ApproximateMap& to_a, double* reserve) {
+    const std::optional<double> scale = similarity(to_a);
+    if (!scale) return std::nullopt;
+    const double error = to_a.error_below(b.largest, b.position_error);
+    const double depth = depth_of(
+        *scale * (1 - slack) * in_b.radius, in_a.radius,
+        1.0001 * distance(to_a(in_b.center), in_a.center) + 2 * error + 0x1p-48 * a.largest);
+    if (!(depth > 0)) return std::nullopt;
+    return overlap_if_both_stick_out(a, b, balls_b, to_a, depth, reserve);
+}
+
+std::optional<InsideBall> touching_ball(const InterferenceModelData& model,
+                                        std::uint32_t triangle) {
+    const ObbTree& tree = model.boxes;
+    std::array<Point, 3> corner{};
+    Point foot{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = in_tree(tree, model.position(model.triangles[triangle].vertex[i]));
+        for (std::size_t k = 0; k < 3; ++k) foot[k] += corner[i][k] / 3;
+    }
+    Point inward = cross(minus(corner[2], corner[0]), minus(corner[1], corner[0]));
+    const double size = length(inward);
+    if (!(size > 0)) return std::nullopt;
+    for (double& c : inward) c /= size;
+    // From a ball that is too large: through the nearest box each time, while that shrinks it.
+    double radius = 0.15 * tree.radius;
+    for (int round = 0; round < 6; ++round) {
+        Point center{};
+        for (std::size_t k = 0; k < 3; ++k)
+            center[k] = tree.origin[k] + tree.unit * (foot[k] + radius * inward[k]);
+        const BoundaryDistance d =
+            quick_distance_from_boundary(tree, in_tree(tree, center), radius);
+        if (d.lower > 0.93 * radius) return certified_ball(model, center, d.lower);
+        const OrientedBox box = tree.box(d.nearest);
+        Point way{};
+        for (std::size_t k = 0; k < 3; ++k) way[k] = static_cast<double>(box.center[k]) - foot[k];
+        const double along = dot(way, inward);
+        const double through = along > 0 ? dot(way, way) / (2 * along) : 0;
+        radius = std::clamp(through, 0.3 * radius, 0.93 * radius);
     }
     return std::nullopt;
 }

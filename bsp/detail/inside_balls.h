@@ -16,6 +16,12 @@ namespace trisect::detail {
 
 struct InterferenceModelData;
 
+/// Its interior is within the solid; in lattice units.
+struct InsideBall {
+    std::array<double, 3> center{};
+    double radius = 0;
+};
+
 /// Up to 16 balls whose interiors are within the solid, large ones, in lattice units; and points of
 /// the solid that reach farthest along the axes. Balls and not boxes: they need not be turned.
 class InsideBalls {
@@ -39,7 +45,7 @@ private:
                                                      const InsideBalls& balls_a,
                                                      const InterferenceModelData& b,
                                                      const InsideBalls& balls_b,
-                                                     const ApproximateMap& to_a);
+                                                     const ApproximateMap& to_a, double* reserve);
     void add(const std::array<double, 3>& center, double radius);
 
     std::size_t size_ = 0;
@@ -55,10 +61,23 @@ private:
 /// not in the other; Contains or Inside, when one solid is within a ball of the other; else
 /// nothing. `to_a` is the map from B into A; of maps that are not similarities nothing is told. 0.2
 /// us.
-[[nodiscard]] std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
-                                                        const InsideBalls& balls_a,
-                                                        const InterferenceModelData& b,
-                                                        const InsideBalls& balls_b,
-                                                        const ApproximateMap& to_a);
+///
+/// `reserve`: the answer stays right while no point of B is moved by as much, in lattice units of
+/// A.
+[[nodiscard]] std::optional<Relation> relation_by_balls(
+    const InterferenceModelData& a, const InsideBalls& balls_a, const InterferenceModelData& b,
+    const InsideBalls& balls_b, const ApproximateMap& to_a, double* reserve = nullptr);
+
+/// The same by one ball of each solid: Overlapping or nothing.
+[[nodiscard]] std::optional<Relation> relation_by_ball_pair(
+    const InterferenceModelData& a, const InsideBall& in_a, const InterferenceModelData& b,
+    const InsideBalls& balls_b, const InsideBall& in_b, const ApproximateMap& to_a,
+    double* reserve);
+
+/// A large ball inside that comes close to the boundary at the middle of a triangle (Ma, Bae and
+/// Choi, "3D medial axis point approximation using nearest neighbors and the normal field", 2012),
+/// if one is found. Some microseconds. \pre the index may be asked for
+[[nodiscard]] std::optional<InsideBall> touching_ball(const InterferenceModelData& model,
+                                                      std::uint32_t triangle);
 
 }  // namespace trisect::detail

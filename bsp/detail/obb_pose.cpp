@@ -47,6 +47,20 @@
 // √3·16 u |t| Λ, products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same
 // margin. The factor 1 - 2^-18 takes the lengths and the last roundings.
 //
+// Planes that were found under another pose (`gaps_along`). The boxes' second sets, centre + Σ s_i
+// axis_i, are within the slabs, and any L, |L| <= 1 + 2^-20, will do, whatever the map:
+//
+//     L·T + M'^T L · c_B s - Σ b'_j |M'^T L · u_j| - (L·c_A + Σ a_i |L·axis_i|) > 0
+//
+// M'^T L: 7 u; times c_B: 11 u s reach_B with the product by s; times u_j: 12 u of b'_j; L·T: 6 u
+// |T|; A's reach: 3 u |c_A| + 8 u Σ a_i, below 17 u reach_A; five sums: 5 u Λ. All below 40 u Λ +
+// 20 u Σ b', which is less than the margins' 64 u.
+//
+// Displacements. |ΔM x + Δt| <= |ΔM| |x| + |Δt|. Similarities are M = s Q + E, |E| < 2^-23 s, and
+// the difference of two rotations has singular values 0, σ, σ, so its norm is its Frobenius norm
+// over √2. With |s - s'|, √3 times that and the E in the Frobenius norm, and the scales as floats:
+// |ΔM| < |ΔM|_F / √2 + 2.5 |s - s'| + 2^-21 (s + s').
+//
 // A map that is not a similarity: scale is a bound on the length of any image of a unit vector, so
 // that again |r'| <= 1; (3) holds as it is, in (4) the products r'_k·L are computed (error below
 // 30 u), and no products of edges are tried.
@@ -86,7 +100,7 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
 
     matrix_ = m;
     way_ = t;
-    reach_ = b.reach;
+    radius_ = b.radius;
     inexact_ = 2 * way_error + 3 * matrix_error * b.reach;
 
     // The squares of lengths of images, and how far they are from one number.
@@ -108,11 +122,15 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     rigid_ = off <= 0x1p-25 * square && matrix_error <= 0x1p-28 * std::sqrt(square);
     const double scale = rigid_ ? std::sqrt(square) : 1.0001 * std::sqrt(rows) + 3 * matrix_error;
 
+    mirrors_ = dot(m[0], cross(m[1], m[2])) < 0;
+
     const double length = std::sqrt(dot(t, t));
     const double way = 1.0001 * sweep / a.unit;
     const double reach =
         1.001 * (a.reach + (scale + 3 * matrix_error) * b.reach) + 2 * way_error + way;
     apart_ = length > 1.001 * reach;
+    clearance_ = 0.9999 * length -
+                 1.0001 * (a.radius + (scale + 3 * matrix_error) * b.radius + way + 2 * way_error);
     const double lambda = length + reach;
     const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach + way;
     scale_ = static_cast<float>(scale);
@@ -127,7 +145,6 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
 }
 
 double ObbPose::displacement_from(const ObbPose& other) const {
-    // |ΔM x + Δt| <= |ΔM| |x| + |Δt| with the Frobenius norm; the factor takes the roundings.
     double squares = 0;
     double way = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -137,7 +154,14 @@ double ObbPose::displacement_from(const ObbPose& other) const {
         }
         way += (way_[i] - other.way_[i]) * (way_[i] - other.way_[i]);
     }
-    return 1.0001 * (std::sqrt(squares) * reach_ + std::sqrt(way)) + inexact_ + other.inexact_;
+    double stretch = std::sqrt(squares);
+    if (rigid_ && other.rigid_ && mirrors_ == other.mirrors_) {
+        const auto s = static_cast<double>(scale_);
+        const auto t = static_cast<double>(other.scale_);
+        stretch = std::min(stretch, 0.70711 * stretch + 2.5 * std::abs(s - t) + 0x1p-21 * (s + t));
+    }
+    // The factor takes the roundings.
+    return 1.0001 * (stretch * radius_ + std::sqrt(way)) + inexact_ + other.inexact_;
 }
 
 }  // namespace trisect::detail

@@ -19,12 +19,17 @@ namespace trisect::detail {
 /// obb_pose.cpp.
 class ObbPose {
 public:
+    /// A vector for each of four lanes, in units of A, of length at most 1 + 2^-20.
+    using Directions = std::array<Float4, 3>;
+
     /// \pre both trees have boxes. `sweep`: every point of B may be that far, in lattice units of
     /// A, from where the map takes it (a solid that moves while it is asked about).
     ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& b_to_a, double sweep = 0);
 
     /// Certainly no box of one meets a box of the other.
     [[nodiscard]] bool is_apart() const { return apart_; }
+    /// A lower bound of the distance of what is in the boxes, in units of A, by a ball around each.
+    [[nodiscard]] double clearance() const { return clearance_; }
     /// Bit i: box a and lane i of node b may meet.
     [[nodiscard]] unsigned overlaps(const OrientedBox& a, const ObbNode& b) const {
         return rigid_ ? may_meet<true>(lanes_of(a, b)) : may_meet<false>(lanes_of(a, b));
@@ -48,8 +53,20 @@ public:
     [[nodiscard]] Float4 best_gaps(const ObbNode& a, const OrientedBox& b) const {
         return gap(lanes_of(a, b), true);
     }
-    /// Bound on how far any point of a box of B is from where another pose of the same trees puts
-    /// it, in units of A.
+    /// The same as `gaps`, and for each lane a direction from A to B along which the boxes are
+    /// about so far apart; any direction when they overlap.
+    template <class BoxesA, class BoxesB>
+    [[nodiscard]] Float4 gaps(const BoxesA& a, const BoxesB& b, Directions& along) const;
+    /// How far box A, or each lane of node A, reaches along the directions.
+    template <class BoxesA>
+    [[nodiscard]] static Float4 reach_along(const BoxesA& a, const Directions& along);
+    /// A lower bound of the distance from what reaches no farther than `reach` along each direction
+    /// to box B, or to each lane of node B, in units of A; positive only if they are apart. A tenth
+    /// of the cost of `gaps`, and the planes stay where they are when B moves.
+    template <class BoxesB>
+    [[nodiscard]] Float4 gaps_along(const Directions& along, Float4 reach, const BoxesB& b) const;
+    /// Bound on how far any point below a box of B is from where another pose of the same trees
+    /// puts it, in units of A.
     [[nodiscard]] double displacement_from(const ObbPose& other) const;
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
@@ -65,23 +82,46 @@ private:
     [[nodiscard]] Lanes lanes_of(const OrientedBox& a, const ObbNode& b) const;
     [[nodiscard]] Lanes lanes_of(const ObbNode& a, const OrientedBox& b) const;
     [[nodiscard]] Float4 margin_of(const Lanes& l) const;
-    template <bool Rigid>
-    [[nodiscard]] Float4 gap_along_normals(const Lanes& l, Float4 margin) const;
-    [[nodiscard]] Float4 gap_along_products(const Lanes& l, Float4 margin) const;
-    [[nodiscard]] Float4 gap_along_centers(const Lanes& l, Float4 margin) const;
+    // The most of some gaps.
+    struct Most {
+        Float4 gap = all_lanes(-std::numeric_limits<float>::infinity());
+        void offer(Float4 g, std::int32_t) { gap = larger(g, gap); }
+    };
+    // And the number of the axis: A's normals 0 to 2, B's 3 to 5, products 6 + 3 i + j, the line of
+    // centres 15.
+    struct MostAndAxis {
+        Float4 gap = all_lanes(-std::numeric_limits<float>::infinity());
+        Mask4 axis{};
+        void offer(Float4 g, std::int32_t number) {
+            const Mask4 better = g > gap;
+            gap = larger(g, gap);
+            axis = (better & Mask4{number, number, number, number}) | (~better & axis);
+        }
+    };
+    template <bool Rigid, class Gap>
+    void offer_normals(const Lanes& l, Float4 margin, Gap& best) const;
+    template <class Gap>
+    void offer_products(const Lanes& l, Float4 margin, Gap& best) const;
+    template <class Gap>
+    void offer_centers(const Lanes& l, Float4 margin, Gap& best) const;
+    [[nodiscard]] static Directions directions(const Lanes& l, Mask4 axis);
     template <bool Rigid>
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
+    template <class Gap>
+    void find_gap(const Lanes& l, bool all, Gap& best) const;
     [[nodiscard]] Float4 gap(const Lanes& l, bool all) const;
 
     std::array<std::array<float, 3>, 3> m_{};  // divided by scale
     std::array<float, 3> t_{};
     std::array<std::array<double, 3>, 3> matrix_{};
     std::array<double, 3> way_{};
+    double clearance_ = 0;
     double inexact_ = 0;  // bound on the distance of a point of B from where these doubles put it
-    double reach_ = 0;    // of B's boxes, in its units
+    double radius_ = 0;   // of what is in B's boxes, in its units
     float scale_ = 1;
     float margin_ = 0;
     bool rigid_ = true;
+    bool mirrors_ = false;
     bool apart_ = false;
 };
 
@@ -91,16 +131,15 @@ inline Float4 ObbPose::margin_of(const Lanes& l) const {
 
 // How far the boxes are from each other along the six normals: the most, negative when they overlap
 // along all of them.
-template <bool Rigid>
-Float4 ObbPose::gap_along_normals(const Lanes& l, Float4 margin) const {
+template <bool Rigid, class Gap>
+void ObbPose::offer_normals(const Lanes& l, Float4 margin, Gap& best) const {
     const auto& r = l.r;
     const auto& t = l.t;
-    Float4 best = all_lanes(-std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < 3; ++i) {
         const Float4 reach =
             (((l.a[i] + margin) + magnitude(r[i][0]) * l.b[0]) + magnitude(r[i][1]) * l.b[1]) +
             magnitude(r[i][2]) * l.b[2];
-        best = larger(magnitude(t[i]) - reach, best);
+        best.offer(magnitude(t[i]) - reach, static_cast<std::int32_t>(i));
     }
     for (std::size_t j = 0; j < 3; ++j) {
         const Float4 along = (t[0] * r[0][j] + t[1] * r[1][j]) + t[2] * r[2][j];
@@ -113,16 +152,15 @@ Float4 ObbPose::gap_along_normals(const Lanes& l, Float4 margin) const {
                 reach +=
                     l.b[k] * magnitude((r[0][k] * r[0][j] + r[1][k] * r[1][j]) + r[2][k] * r[2][j]);
         }
-        best = larger(magnitude(along) - reach, best);
+        best.offer(magnitude(along) - reach, static_cast<std::int32_t>(3 + j));
     }
-    return best;
 }
 
 // The same along the products of an edge of A and an edge of B. Of rigid maps.
-inline Float4 ObbPose::gap_along_products(const Lanes& l, Float4 margin) const {
+template <class Gap>
+void ObbPose::offer_products(const Lanes& l, Float4 margin, Gap& best) const {
     const auto& r = l.r;
     const auto& t = l.t;
-    Float4 best = all_lanes(-std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t i1 = (i + 1) % 3;
         const std::size_t i2 = (i + 2) % 3;
@@ -134,14 +172,14 @@ inline Float4 ObbPose::gap_along_products(const Lanes& l, Float4 margin) const {
                 (((margin + l.a[i1] * magnitude(r[i2][j])) + l.a[i2] * magnitude(r[i1][j])) +
                  l.b[j1] * magnitude(r[i][j2])) +
                 l.b[j2] * magnitude(r[i][j1]);
-            best = larger(magnitude(along) - reach, best);
+            best.offer(magnitude(along) - reach, static_cast<std::int32_t>(6 + 3 * i + j));
         }
     }
-    return best;
 }
 
 // The same along the line of centres, the best direction for boxes far apart.
-inline Float4 ObbPose::gap_along_centers(const Lanes& l, Float4 margin) const {
+template <class Gap>
+void ObbPose::offer_centers(const Lanes& l, Float4 margin, Gap& best) const {
     const auto& r = l.r;
     const auto& t = l.t;
     const Float4 square = (t[0] * t[0] + t[1] * t[1]) + t[2] * t[2];
@@ -149,25 +187,133 @@ inline Float4 ObbPose::gap_along_centers(const Lanes& l, Float4 margin) const {
         (l.a[0] * magnitude(t[0]) + l.a[1] * magnitude(t[1])) + l.a[2] * magnitude(t[2]);
     for (std::size_t j = 0; j < 3; ++j)
         across += l.b[j] * magnitude((t[0] * r[0][j] + t[1] * r[1][j]) + t[2] * r[2][j]);
-    return (square - across) / larger(square_root(square), all_lanes(1e-30F)) - margin;
+    best.offer((square - across) / larger(square_root(square), all_lanes(1e-30F)) - margin, 15);
 }
 
 // A difference of two floats is positive exactly when one is the larger one.
 template <bool Rigid>
 unsigned ObbPose::may_meet(const Lanes& l) const {
     const Float4 margin = margin_of(l);
-    const unsigned apart = bits_of(gap_along_normals<Rigid>(l, margin) > all_lanes(0));
+    Most normals;
+    offer_normals<Rigid>(l, margin, normals);
+    const unsigned apart = bits_of(normals.gap > all_lanes(0));
     if (apart == 15 || !Rigid) return ~apart & 15U;
-    return ~(apart | bits_of(gap_along_products(l, margin) > all_lanes(0))) & 15U;
+    Most products;
+    offer_products(l, margin, products);
+    return ~(apart | bits_of(products.gap > all_lanes(0))) & 15U;
+}
+
+template <class Gap>
+void ObbPose::find_gap(const Lanes& l, bool all, Gap& best) const {
+    const Float4 margin = margin_of(l);
+    if (rigid_)
+        offer_normals<true>(l, margin, best);
+    else
+        offer_normals<false>(l, margin, best);
+    if (rigid_ && (all || bits_of(best.gap > all_lanes(0)) != 15)) offer_products(l, margin, best);
+    offer_centers(l, margin, best);
 }
 
 inline Float4 ObbPose::gap(const Lanes& l, bool all) const {
-    const Float4 margin = margin_of(l);
-    Float4 best = rigid_ ? gap_along_normals<true>(l, margin) : gap_along_normals<false>(l, margin);
-    if (rigid_ && (all || bits_of(best > all_lanes(0)) != 15))
-        best = larger(gap_along_products(l, margin), best);
-    best = larger(gap_along_centers(l, margin), best);
-    return larger(best, all_lanes(0)) * all_lanes(1 - 0x1p-18F);
+    Most best;
+    find_gap(l, all, best);
+    return larger(best.gap, all_lanes(0)) * all_lanes(1 - 0x1p-18F);
+}
+
+// In the frame of box A. Without branches: every lane has another axis.
+inline ObbPose::Directions ObbPose::directions(const Lanes& l, Mask4 axis) {
+    constexpr std::size_t zero = 0;
+    constexpr std::size_t one = 1;
+    constexpr auto r = [](std::size_t i, std::size_t j) { return 2 + 3 * i + j; };
+    constexpr auto minus_r = [](std::size_t i, std::size_t j) { return 11 + 3 * i + j; };
+    constexpr auto t = [](std::size_t i) { return 20 + i; };
+    // For each axis the places of its components in `all`.
+    constexpr auto places = [=] {
+        std::array<std::array<std::uint8_t, 3>, 16> p{};
+        const auto set = [&p](std::size_t n, std::size_t k, std::size_t place) {
+            p[n][k] = static_cast<std::uint8_t>(place);
+        };
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) set(i, k, i == k ? one : zero);
+            for (std::size_t k = 0; k < 3; ++k) set(3 + i, k, r(k, i));
+            for (std::size_t j = 0; j < 3; ++j) {
+                set(6 + 3 * i + j, i, zero);
+                set(6 + 3 * i + j, (i + 1) % 3, minus_r((i + 2) % 3, j));
+                set(6 + 3 * i + j, (i + 2) % 3, r((i + 1) % 3, j));
+            }
+            set(15, i, t(i));
+        }
+        return p;
+    }();
+    std::array<Float4, 23> all;
+    all[zero] = all_lanes(0);
+    all[one] = all_lanes(1);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            all[r(i, j)] = l.r[i][j];
+            all[minus_r(i, j)] = -l.r[i][j];
+        }
+        all[t(i)] = l.t[i];
+    }
+    Directions d{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto& place = places[static_cast<std::size_t>(axis[k])];
+        for (std::size_t i = 0; i < 3; ++i) d[i][k] = all[place[i]][k];
+    }
+    return d;
+}
+
+namespace obb_lanes {
+// A number of one box for four lanes, or of four.
+inline Float4 of(float v) { return all_lanes(v); }
+inline Float4 of(Float4 v) { return v; }
+template <class Vector>
+Float4 product(const std::array<Float4, 3>& v, const Vector& w) {
+    return (v[0] * of(w[0]) + v[1] * of(w[1])) + v[2] * of(w[2]);
+}
+}  // namespace obb_lanes
+
+template <class BoxesA, class BoxesB>
+Float4 ObbPose::gaps(const BoxesA& a, const BoxesB& b, Directions& along) const {
+    const Lanes l = lanes_of(a, b);
+    MostAndAxis best;
+    find_gap(l, false, best);
+    Directions d = directions(l, best.axis);
+    // Of unit length, towards B, in A's units.
+    const Float4 length = larger(square_root(obb_lanes::product(d, d)), all_lanes(1e-30F));
+    const Mask4 back = obb_lanes::product(d, l.t) < all_lanes(0);
+    const Float4 factor = (back ? all_lanes(-1) : all_lanes(1)) / length;
+    for (Float4& c : d) c *= factor;
+    for (std::size_t k = 0; k < 3; ++k)
+        along[k] = (d[0] * obb_lanes::of(a.axis[0][k]) + d[1] * obb_lanes::of(a.axis[1][k])) +
+                   d[2] * obb_lanes::of(a.axis[2][k]);
+    return larger(best.gap, all_lanes(0)) * all_lanes(1 - 0x1p-18F);
+}
+
+template <class BoxesA>
+Float4 ObbPose::reach_along(const BoxesA& a, const Directions& along) {
+    Float4 r = obb_lanes::product(along, a.center);
+    for (std::size_t i = 0; i < 3; ++i)
+        r += obb_lanes::of(a.half[i]) * magnitude(obb_lanes::product(along, a.axis[i]));
+    return r;
+}
+
+template <class BoxesB>
+Float4 ObbPose::gaps_along(const Directions& along, Float4 reach, const BoxesB& b) const {
+    Directions w;
+    for (std::size_t j = 0; j < 3; ++j)
+        w[j] = (along[0] * all_lanes(m_[0][j]) + along[1] * all_lanes(m_[1][j])) +
+               along[2] * all_lanes(m_[2][j]);
+    const Float4 way = obb_lanes::product(along, t_);
+    Float4 across = all_lanes(0);
+    Float4 halves = all_lanes(0);
+    for (std::size_t j = 0; j < 3; ++j) {
+        across += obb_lanes::of(b.half[j]) * magnitude(obb_lanes::product(w, b.axis[j]));
+        halves += obb_lanes::of(b.half[j]);
+    }
+    const Float4 of_b = obb_lanes::product(w, b.center) - (across + all_lanes(0x1p-18F) * halves);
+    return ((way - reach) + (all_lanes(scale_) * of_b - all_lanes(margin_))) *
+           all_lanes(1 - 0x1p-18F);
 }
 
 inline ObbPose::Lanes ObbPose::lanes_of(const OrientedBox& a, const ObbNode& b) const {

@@ -60,6 +60,7 @@ public:
             Double3 q = minus(p, tree.origin);
             for (double& c : q) c /= tree.unit;
             points_.push_back(q);
+            tree.radius = std::max(tree.radius, 1.0001 * std::sqrt(dot(q, q)) + slack_);
         }
         items_.resize(corners.size());
         for (std::uint32_t t = 0; t < corners.size(); ++t) {

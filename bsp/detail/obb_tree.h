@@ -99,8 +99,9 @@ struct ObbTree {
     std::vector<std::uint32_t> order;   ///< triangles as leaves name them
     std::vector<std::array<std::uint32_t, 3>> corners;  ///< of these triangles
     std::array<double, 3> origin{};
-    double unit = 1;   ///< a power of two
-    double reach = 0;  ///< every box is within this distance of the origin, in units
+    double unit = 1;    ///< a power of two
+    double reach = 0;   ///< every box is within this distance of the origin, in units
+    double radius = 0;  ///< and all that is in boxes within this one
     std::size_t depth = 0;
 };
 

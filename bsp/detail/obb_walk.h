@@ -25,6 +25,7 @@ struct WalkCounters {
     std::uint64_t crossing = 0;        ///< certainly crossing,
     std::uint64_t unknown = 0;         ///< left to exact tests
     std::uint64_t by_balls = 0;        ///< questions that balls inside both solids decided
+    std::uint64_t plane_tests = 0;     ///< tests of a box against four by planes that were kept
 
     WalkCounters& operator+=(const WalkCounters& o) {
         node_tests += o.node_tests;
@@ -33,6 +34,7 @@ struct WalkCounters {
         crossing += o.crossing;
         unknown += o.unknown;
         by_balls += o.by_balls;
+        plane_tests += o.plane_tests;
         return *this;
     }
 };

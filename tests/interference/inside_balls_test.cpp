@@ -27,8 +27,10 @@ using trisect::Pose;
 using trisect::Relation;
 using trisect::Solid;
 using trisect::detail::approximate_map;
+using trisect::detail::InsideBall;
 using trisect::detail::InsideBalls;
 using trisect::detail::relation_by_balls;
+using trisect::detail::touching_ball;
 
 InterferenceModel box(double lo, double hi) {
     return InterferenceModel(Solid::from_mesh(trisect::make_box({lo, lo, lo}, {hi, hi, hi})));
@@ -45,39 +47,49 @@ std::optional<Relation> by_balls(const InterferenceModel& a, const InterferenceM
                              approximate_map(Pose(), a.lattice(), pose, b.lattice()));
 }
 
+// A ball's centre is inside, and no corner or other point of a triangle is in the ball.
+void expect_inside(const InterferenceModel& model, const InsideBall& ball, Random& random) {
+    const auto& data = model.data();
+    std::array<double, 3> user = ball.center;
+    for (double& c : user) c = std::ldexp(c, model.lattice().exponent);
+    EXPECT_EQ(data.index().locate(user).location, trisect::Location::Inside);
+    for (const auto& t : data.triangles)
+        for (int n = 0; n < 20; ++n) {
+            // Corners first, then points within.
+            std::array<double, 3> w{n == 0 ? 1.0 : 0.0, n == 1 ? 1.0 : 0.0, n == 2 ? 1.0 : 0.0};
+            if (n > 2) {
+                for (double& c : w) c = static_cast<double>(random.between(0, 1000));
+                const double sum = w[0] + w[1] + w[2] + 1e-9;
+                for (double& c : w) c /= sum;
+            }
+            double square = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                double c = -ball.center[k];
+                for (std::size_t j = 0; j < 3; ++j) c += w[j] * data.position(t.vertex[j])[k];
+                square += c * c;
+            }
+            EXPECT_GT(std::sqrt(square) * (1 + 1e-6), ball.radius);
+        }
+}
+
 TEST(InsideBalls, NoPointOfTheBoundaryIsInThem) {
     Random random(81);
     const std::vector<InterferenceModel> models{
         InterferenceModel(Solid::from_mesh(trisect::make_torus(1, 0.25, 40, 24))), hollow_box(),
         InterferenceModel(Solid::from_mesh(trisect::make_icosphere(1, 3))), box(0, 1)};
     for (const InterferenceModel& model : models) {
-        const auto& data = model.data();
-        const InsideBalls& balls = data.balls();
+        const InsideBalls& balls = model.data().balls();
         ASSERT_GT(balls.size(), 0U);
-        for (std::size_t i = 0; i < balls.size(); ++i) {
-            std::array<double, 3> user = balls.center(i);
-            for (double& c : user) c = std::ldexp(c, model.lattice().exponent);
-            EXPECT_EQ(data.index().locate(user).location, trisect::Location::Inside);
-            for (const auto& t : data.triangles)
-                for (int n = 0; n < 20; ++n) {
-                    // Corners first, then points within.
-                    std::array<double, 3> w{n == 0 ? 1.0 : 0.0, n == 1 ? 1.0 : 0.0,
-                                            n == 2 ? 1.0 : 0.0};
-                    if (n > 2) {
-                        for (double& c : w) c = static_cast<double>(random.between(0, 1000));
-                        const double sum = w[0] + w[1] + w[2] + 1e-9;
-                        for (double& c : w) c /= sum;
-                    }
-                    double square = 0;
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        double c = -balls.center(i)[k];
-                        for (std::size_t j = 0; j < 3; ++j)
-                            c += w[j] * data.position(t.vertex[j])[k];
-                        square += c * c;
-                    }
-                    EXPECT_GT(std::sqrt(square) * (1 + 1e-6), balls.radius(i));
-                }
-        }
+        for (std::size_t i = 0; i < balls.size(); ++i)
+            expect_inside(model, {balls.center(i), balls.radius(i)}, random);
+        int found = 0;
+        const auto count = static_cast<std::uint32_t>(model.triangle_count());
+        for (std::uint32_t t = 0; t < count; t += 1 + count / 50)
+            if (const auto ball = touching_ball(model.data(), t)) {
+                expect_inside(model, *ball, random);
+                ++found;
+            }
+        EXPECT_GT(found, 3);
     }
 }
 

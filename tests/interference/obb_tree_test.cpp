@@ -23,6 +23,7 @@ using brute::Rational;
 using reference::Random;
 using trisect::detail::ApproximateMap;
 using trisect::detail::Double3;
+using trisect::detail::Float4;
 using trisect::detail::ObbChild;
 using trisect::detail::ObbId;
 using trisect::detail::ObbNode;
@@ -180,6 +181,7 @@ ObbTree frame_of_reference() {
     ObbTree t;
     t.nodes.resize(1);
     t.reach = 2;
+    t.radius = 2;
     return t;
 }
 
@@ -290,6 +292,95 @@ TEST(ObbPose, FarApartModelsAreApartAtOnce) {
     EXPECT_TRUE(ObbPose(frame, frame, map).is_apart());
     map.t = {3.9, 0, 0};
     EXPECT_FALSE(ObbPose(frame, frame, map).is_apart());
+}
+
+// Planes found under one pose, under another one with boxes that are no farther apart than a given
+// way: they never say more.
+TEST(ObbPose, PlanesKeptFromAnotherPoseNeverSayTooMuch) {
+    const ObbTree frame = frame_of_reference();
+    Random random(14);
+    int parted = 0;
+    for (const Kind kind : {Kind::Rotation, Kind::Mirror, Kind::Scaled, Kind::Affine})
+        for (int trial = 0; trial < 2000; ++trial) {
+            const std::array<OrientedBox, 4> four{random_box(random), random_box(random),
+                                                  random_box(random), random_box(random)};
+            const ObbNode node = node_of(four);
+            const OrientedBox one = random_box(random);
+            const std::size_t lane = static_cast<std::size_t>(trial % 4);
+            ApproximateMap map = random_map(random, kind);
+            const Double3 s{uniform(random), uniform(random), uniform(random)};
+            const Double3 r{uniform(random), uniform(random), uniform(random)};
+            const Double3 way{uniform(random), uniform(random), uniform(random)};
+            const double length = std::sqrt(trisect::detail::dot(way, way));
+            for (const bool single_a : {true, false}) {
+                const Double3 in_a = point_of(single_a ? one : four[lane], s);
+                const Double3 in_b = point_of(single_a ? four[lane] : one, r);
+                map.t = {};
+                map.t = trisect::detail::minus(in_a, map(in_b));
+                ApproximateMap before = random_map(random, kind);
+                before.t = map.t;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    map.t[k] += way[k];
+                    before.t[k] += 2 * way[k];
+                }
+                const ObbPose pose(frame, frame, map);
+                ObbPose::Directions along{};
+                Float4 reach{};
+                Float4 gaps{};
+                Float4 kept{};
+                for (const ObbPose& from : {ObbPose(frame, frame, before), pose}) {
+                    if (single_a) {
+                        gaps = from.gaps(one, node, along);
+                        reach = ObbPose::reach_along(one, along);
+                        kept = pose.gaps_along(along, reach, node);
+                    } else {
+                        gaps = from.gaps(node, one, along);
+                        reach = ObbPose::reach_along(node, along);
+                        kept = pose.gaps_along(along, reach, one);
+                    }
+                    ASSERT_LE(static_cast<double>(kept[lane]), length * (1 + 1e-6)) << trial;
+                    parted += kept[lane] > 0 ? 1 : 0;
+                }
+                // Now from the pose itself: what was found is kept.
+                ASSERT_LE(static_cast<double>(gaps[lane]), length * (1 + 1e-6)) << trial;
+                if (kind != Kind::Scaled && gaps[lane] > 1e-3F) {
+                    ASSERT_GT(kept[lane], 0.99F * gaps[lane] - 1e-4F) << trial;
+                }
+            }
+        }
+    EXPECT_GT(parted, 1000);
+}
+
+TEST(ObbPose, DisplacementIsAtLeastThatOfEveryPoint) {
+    const ObbTree frame = frame_of_reference();
+    Random random(15);
+    double closest = 0;
+    for (const Kind kind : {Kind::Rotation, Kind::Mirror, Kind::Scaled, Kind::Affine})
+        for (int trial = 0; trial < 2000; ++trial) {
+            ApproximateMap one = random_map(random, kind);
+            ApproximateMap other = random_map(random, trial % 3 == 0 ? Kind::Rotation : kind);
+            if (trial % 3 == 1) {  // nearly the same
+                other = one;
+                for (auto& row : other.m)
+                    for (double& c : row) c += 1e-9 * uniform(random);
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                one.t[k] = uniform(random);
+                other.t[k] = one.t[k] + (trial % 2 == 0 ? 0 : 0.01 * uniform(random));
+            }
+            const double bound =
+                ObbPose(frame, frame, one).displacement_from(ObbPose(frame, frame, other));
+            for (int n = 0; n < 20; ++n) {
+                Double3 x{uniform(random), uniform(random), uniform(random)};
+                const double length = std::sqrt(trisect::detail::dot(x, x)) + 1e-9;
+                for (double& c : x) c *= 2 / length;
+                const Double3 moved = trisect::detail::minus(one(x), other(x));
+                const double way = std::sqrt(trisect::detail::dot(moved, moved));
+                ASSERT_LE(way, bound);
+                closest = std::max(closest, way / bound);
+            }
+        }
+    EXPECT_GT(closest, 0.9);
 }
 
 }  // namespace

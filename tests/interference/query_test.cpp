@@ -106,6 +106,78 @@ TEST(InterferenceQuery, AnswersAreThoseOfFreshQuestions) {
         EXPECT_GT(seen[r], 5) << to_string(r);
 }
 
+// Questions enough that there are balls inside; both bodies move, together and against each other,
+// in and out of depth.
+TEST(InterferenceQuery, OverlapInDepthIsKeptWhileBodiesMoveLess) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 40, 24)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(0.5, 3)));
+    const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.03, 1)));
+    for (const InterferenceModel* m : {&torus, &ball, &speck})
+        for (int i = 0; i < 1100; ++i) (void)m->data().balls_in_time();
+    std::map<Relation, int> seen;
+    for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&torus, &torus),
+                               std::pair(&torus, &speck), std::pair(&speck, &ball)}) {
+        InterferenceQuery query(*a, *b);
+        for (int i = 0; i < 800; ++i) {
+            const double t = static_cast<double>(i);
+            const Pose pose_a = turned(0.2 * t, {0.01 * t, 0.3 * std::sin(0.002 * t), 0.5});
+            const Pose pose_b =
+                i % 200 < 50 ? turned(0.2 * t + 90, {0.01 * t + 0.9, 0.1, 0.5})
+                             : turned(0.3 * t, {0.01 * t + 1.1 * std::sin(0.01 * t), 0.1, 0.5});
+            const Relation r = query.relation(pose_a, pose_b);
+            ASSERT_EQ(r, interfere(*a, pose_a, *b, pose_b).relation) << i;
+            ++seen[r];
+        }
+        const auto counters = query.counters();
+        EXPECT_EQ(counters.asked, 800U);
+        EXPECT_GT(counters.kept, 100U);
+        if (a != &speck && b != &speck) {
+            EXPECT_GT(counters.by_balls, 0U);
+        }
+    }
+    for (const Relation r :
+         {Relation::Disjoint, Relation::Overlapping, Relation::Inside, Relation::Contains})
+        EXPECT_GT(seen[r], 20) << to_string(r);
+}
+
+// Poses that differ by a hair on both sides of a touch: a reserve never reaches across.
+TEST(InterferenceQuery, StepsTowardsATouchAndBack) {
+    const InterferenceModel box(Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2})));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 2)));
+    for (const InterferenceModel* b : {&box, &ball}) {
+        InterferenceQuery query(box, *b);
+        std::map<Relation, int> seen;
+        const double touch = b == &box ? 2 : 3;
+        for (int i = -40; i <= 40; ++i) {
+            const double gap = std::copysign(i == 0 ? 0 : std::ldexp(1.0, -std::abs(i)), i);
+            for (const double g : {gap, 0.0, -gap}) {
+                const Pose pose = Pose::from_translation({touch + g, 0.5, 0.25});
+                const Relation r = query.relation(Pose(), pose);
+                ASSERT_EQ(r, interfere(box, Pose(), *b, pose).relation) << i << " " << g;
+                ++seen[r];
+            }
+        }
+        EXPECT_GT(seen[Relation::Touching], 40);
+        EXPECT_GT(seen[Relation::Overlapping], 20);
+        EXPECT_GT(seen[Relation::Disjoint], 20);
+    }
+}
+
+TEST(InterferenceQuery, ALostCrossingGoesOnFromTheFrontBefore) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 60, 40)));
+    InterferenceQuery query(torus, torus);
+    for (int i = 0; i < 400; ++i) {
+        // In and out of contact along a short way.
+        const double gap = 0.005 * std::sin(0.3 * i);
+        const Pose pose = turned(90 + 0.01 * i, {1.12 + gap, 0, 0});
+        ASSERT_EQ(query.relation(Pose(), pose), interfere(torus, Pose(), torus, pose).relation)
+            << i;
+    }
+    EXPECT_GT(query.counters().resumed_fronts, 3U);
+    EXPECT_LT(query.counters().fresh_walks, 40U);
+    EXPECT_GT(query.counters().plane_tests, 0U);
+}
+
 // A body that jumps through a wall between two questions is on the other side.
 TEST(InterferenceQuery, ThinWallPassedBetweenTwoQuestions) {
     const InterferenceModel shell(
