@@ -83,13 +83,6 @@ RoughPolygon RoughPolygon::triangle(const Double3& a, const Double3& b, const Do
     return r;
 }
 
-Double3 RoughPolygon::middle() const {
-    Double3 r{};
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t k = 0; k < 3; ++k) r[k] += corner[i][k] / count;
-    return r;
-}
-
 bool PlaneTree::Values::all_below(std::uint32_t count) const {
     return std::all_of(at.begin(), at.begin() + count, [this](double v) { return v < -bound; });
 }
@@ -141,9 +134,8 @@ RoughPolygon PlaneTree::part(const RoughPolygon& polygon, const Values& values, 
     return r;
 }
 
-bool PlaneTree::push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t)> offer,
-                     FunctionRef<bool(bool inside, const RoughPolygon& part)> leaf,
-                     CostCounters& counters) {
+bool PlaneTree::push(const RoughPolygon& polygon, const Box& box,
+                     FunctionRef<bool(std::uint32_t)> offer, CostCounters& counters) {
     for (const std::uint32_t i : strays_)
         if (offer(i)) return true;
     tasks_.assign(1, {root_, false, polygon});
@@ -153,7 +145,16 @@ bool PlaneTree::push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t
         // What is on one side of a plane goes on as it is.
         while (task.ref >= 0) {
             ++counters.volume_tests;
-            const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+            const auto at = static_cast<std::size_t>(task.ref);
+            const Node& node = nodes_[at];
+            if (at < walls_.size()) {
+                const bool near_below = walls_[at].below.meets(box);
+                const bool near_above = walls_[at].above.meets(box);
+                if (!near_below || !near_above) {
+                    task.ref = near_below ? node.below : near_above ? node.above : nowhere;
+                    continue;
+                }
+            }
             const Values values = values_of(node, task.polygon);
             if (values.all_below(task.polygon.count)) {
                 task.ref = node.below;
@@ -172,18 +173,15 @@ bool PlaneTree::push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t
             task.polygon = below;
             task.ref = below.count != 0 ? node.below : nowhere;
         }
-        if (task.ref == nowhere) continue;
-        if (task.ref <= first_list) {
-            for (const std::uint32_t i : list(task.ref))
-                if (offer(i)) return true;
-        } else if (!task.is_flat && leaf(task.ref == in, task.polygon)) {
-            return true;
-        }
+        if (task.ref > first_list || task.ref == nowhere) continue;
+        for (const std::uint32_t i : list(task.ref))
+            if (offer(i)) return true;
     }
     return false;
 }
 
-// A region beyond a plane is at least as far as the plane; what is on a plane likewise.
+// A region beyond a plane is at least as far as the plane; what is on a plane likewise. Beyond a
+// wall it is as far as the box around the boundary there.
 void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
                           CostCounters& counters) {
     for (const std::uint32_t i : strays_) limit = offer(i);
@@ -198,7 +196,18 @@ void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::
         }
         if (task.ref < 0) continue;
         ++counters.volume_tests;
-        const Node& node = nodes_[static_cast<std::size_t>(task.ref)];
+        const auto index = static_cast<std::size_t>(task.ref);
+        const Node& node = nodes_[index];
+        if (index < walls_.size()) {
+            const double below = std::max(task.least, gap_between(walls_[index].below, box));
+            const double above = std::max(task.least, gap_between(walls_[index].above, box));
+            const bool first_below = below <= above;
+            near_tasks_.push_back(first_below ? NearTask{above, node.above}
+                                              : NearTask{below, node.below});
+            near_tasks_.push_back(first_below ? NearTask{below, node.below}
+                                              : NearTask{above, node.above});
+            continue;
+        }
         Double3 middle{};
         double reach = 0;
         double square = 0;
@@ -441,6 +450,7 @@ void PlaneTree::build_under_walls(const detail::InterferenceModelData& model,
     for (const WallCells::Wall& w : walls.walls) {
         nodes_.push_back(node_of(w.plane));
         planes.push_back(w.plane);
+        walls_.push_back({w.box_below, w.box_above});
     }
     std::vector<Ref> roots;
     for (const WallCells::Cell& cell : walls.cells) roots.push_back(graft_cell(cell));

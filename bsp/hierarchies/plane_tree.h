@@ -38,7 +38,6 @@ struct RoughPolygon {
     [[nodiscard]] static RoughPolygon triangle(const std::array<double, 3>& a,
                                                const std::array<double, 3>& b,
                                                const std::array<double, 3>& c, double error);
-    [[nodiscard]] std::array<double, 3> middle() const;
 };
 
 /// What is on a node's plane is a list of triangles (from a BspTree), or a tree in the plane whose
@@ -63,10 +62,9 @@ public:
     /// \throw as MspTree::from_brep.
     [[nodiscard]] static PlaneTree multidimensional(const detail::InterferenceModelData& model);
 
-    /// offer(triangle) for those that a polygon may meet, until it returns true. `leaf(inside,
-    /// part)` is told every part of the polygon that comes to a leaf, until it returns true.
-    bool push(const RoughPolygon& polygon, FunctionRef<bool(std::uint32_t)> offer,
-              FunctionRef<bool(bool inside, const RoughPolygon& part)> leaf,
+    /// offer(triangle) for those that a polygon, which is within the box, may meet, until it
+    /// returns true.
+    bool push(const RoughPolygon& polygon, const Box& box, FunctionRef<bool(std::uint32_t)> offer,
               CostCounters& counters);
     /// See Partition.
     void find_near(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
@@ -87,7 +85,7 @@ public:
     [[nodiscard]] std::size_t stray_count() const { return strays_.size(); }
     [[nodiscard]] unsigned depth() const;
     [[nodiscard]] std::size_t bytes() const {
-        return nodes_.size() * sizeof(Node) +
+        return nodes_.size() * sizeof(Node) + walls_.size() * sizeof(WallBoxes) +
                (first_.size() + lists_.size()) * sizeof(std::uint32_t);
     }
 
@@ -107,6 +105,11 @@ private:
         Ref below = out;
         Ref on = out;
         Ref above = out;
+    };
+    // Of the boundary below and above a wall. Walls are the first nodes.
+    struct WallBoxes {
+        Box below;
+        Box above;
     };
     struct Values {
         std::array<double, RoughPolygon::most_corners> at{};
@@ -159,6 +162,7 @@ private:
     }
 
     std::vector<Node> nodes_;
+    std::vector<WallBoxes> walls_;
     Ref root_ = out;
     std::vector<std::uint32_t> first_;  // of lists: by node, or by face
     std::vector<std::uint32_t> lists_;

@@ -16,8 +16,8 @@
 //    outside. Some vertices from all over B are tried, not all: where these say nothing, pairs of
 //    triangles do.
 //
-// The distance is a side line: regions have no boxes, only the planes on the way to them bound how
-// near they can be.
+// The distance is a side line: walls have boxes of what is beyond them, but of the regions below
+// only the planes on the way bound how near they can be.
 //
 // Source: W. Thibault and B. Naylor, Set operations on polyhedra using binary space partitioning
 // trees (SIGGRAPH 1987); B. Naylor, J. Amanatides and W. Thibault, Merging BSP trees yields
@@ -115,8 +115,7 @@ protected:
     }
     bool find_for(std::uint32_t b, FunctionRef<bool(std::uint32_t)> offer,
                   CostCounters& counters) override {
-        const auto go_on = [](bool, const RoughPolygon&) { return false; };
-        return a_->tree.push(polygon(b), offer, go_on, counters);
+        return a_->tree.push(polygon(b), moved()[b], offer, counters);
     }
     bool find_in_cells(const Box&, FunctionRef<bool(std::uint32_t)>, CostCounters&) override {
         return false;  // find_for has the triangle

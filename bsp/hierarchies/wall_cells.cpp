@@ -17,8 +17,6 @@
 #include <optional>
 #include <utility>
 
-#include <trisect/bsp/detail/broad_phase.h>
-
 namespace trisect::hierarchies {
 
 namespace {
@@ -27,7 +25,7 @@ using detail::BodyBox;
 
 struct Piece {
     ConvexPolygon shape;
-    BodyBox box;  // contains it, nearly; for choices
+    BodyBox box;  // contains it; positions of lattice points are exact
     std::uint32_t triangle = 0;
 };
 
@@ -91,6 +89,7 @@ public:
             open_.pop_back();
             if (!divide(task)) finish(std::move(task));
         }
+        fit_boxes();
         return std::move(result_);
     }
 
@@ -135,7 +134,7 @@ private:
             below.pieces.empty() || above.pieces.empty())
             return false;
         link(task, static_cast<Ref>(result_.walls.size()));
-        result_.walls.push_back({wall});
+        result_.walls.push_back({wall, 0, 0, {}, {}});
         open_.push_back(std::move(above));
         open_.push_back(std::move(below));
         return true;
@@ -147,8 +146,31 @@ private:
         for (Piece& p : task.pieces) {
             cell.polygons.push_back(std::move(p.shape));
             cell.triangles.push_back(p.triangle);
+            cell.box = cell.triangles.size() == 1 ? p.box : around(cell.box, p.box);
         }
         cell.walls = std::move(task.walls);
+    }
+
+    static BodyBox around(BodyBox a, const BodyBox& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            a.lo[k] = std::min(a.lo[k], b.lo[k]);
+            a.hi[k] = std::max(a.hi[k], b.hi[k]);
+        }
+        return a;
+    }
+
+    // A wall comes after the one that it is below or above of.
+    void fit_boxes() {
+        const auto box_of = [this](Ref ref) {
+            if (ref < 0) return result_.cells[static_cast<std::size_t>(~ref)].box;
+            const WallCells::Wall& wall = result_.walls[static_cast<std::size_t>(ref)];
+            return around(wall.box_below, wall.box_above);
+        };
+        for (std::size_t i = result_.walls.size(); i-- > 0;) {
+            WallCells::Wall& wall = result_.walls[i];
+            wall.box_below = box_of(wall.below);
+            wall.box_above = box_of(wall.above);
+        }
     }
 
     std::size_t most_;
