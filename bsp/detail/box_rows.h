@@ -53,6 +53,11 @@ public:
         return {
             {r.lo[0][i], r.lo[1][i], r.lo[2][i]}, {r.hi[0][i], r.hi[1][i], r.hi[2][i]}, r.group[i]};
     }
+    [[nodiscard]] static Probe probe(const Corner& lo, const Corner& hi, std::int32_t group) {
+        return {{below(lo[0]), below(lo[1]), below(lo[2])},
+                {-below(-hi[0]), -below(-hi[1]), -below(-hi[2])},
+                group};
+    }
     /// Which boxes of a row meet the probe and are of another group, a bit for each.
     [[nodiscard]] unsigned meeting(std::size_t row, const Probe& p) const {
         const Row& r = rows_[row];

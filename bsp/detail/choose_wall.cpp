@@ -32,6 +32,8 @@ Extents extents(const CellTask& task) {
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& a = task.operands[i];
         if (a.unbounded || a.box.is_empty()) continue;
+        // What is in the box of the contested part by now adds nothing to it.
+        if (e.contested.contains(a.box)) continue;
         if (!a.embedded) e.contested.add(a.box);
         for (std::size_t j = i + 1; j < task.operands.size(); ++j) {
             const CellOperand& b = task.operands[j];

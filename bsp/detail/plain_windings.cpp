@@ -8,6 +8,7 @@
 #include <trisect/bsp/detail/plain_windings.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -72,6 +73,7 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     pairs_ = &pairs;
     reference_ = facets.reference();
     operands_ = facets.operand_count();
+    has_boxes_ = false;
     ids_.clear();
     nodes_.clear();
     known_.clear();
@@ -159,28 +161,48 @@ bool PlainWindings::at_point(const Approximation& target, LeafIndex own, Evaluat
         lo[k] = std::min(reference_.c[k] - reference_.error, target.c[k] - target.error) - 1;
         hi[k] = std::max(reference_.c[k] + reference_.error, target.c[k] + target.error) + 1;
     }
-    for (LeafIndex i = 0; i < facets_->size(); ++i) {
-        PlainFacet& f = (*facets_)[i];
-        if (f.operand == own || !f.meets(lo, hi)) continue;
-        const PlainPlane& plane = facets_->plane(i);
-        const double at_target = plane.value(target.c);
-        const double target_error = plane.error(target);
-        const double at_start = plane.value(reference_.c);
-        const double start_error = plane.error(reference_);
-        const bool sure = std::fabs(at_start) > start_error && std::fabs(at_target) > target_error;
-        if (sure && (at_start > 0) == (at_target > 0)) continue;
-        Approximation x;
-        const int inside = sure && interpolate(reference_, at_start, target, at_target,
-                                               start_error + target_error, x)
-                               ? is_inside(f, x)
-                               : 0;
-        if (inside == 0) {
-            ++stats.traces_retried;
-            return false;
+    if (!has_boxes_) list_boxes();
+    const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
+    for (std::size_t row = 0; row < boxes_.row_count(); ++row)
+        for (unsigned met = boxes_.meeting(row, probe); met != 0; met &= met - 1) {
+            const std::size_t i = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
+            if (!add_crossing(static_cast<LeafIndex>(i), target, lo, hi, w)) {
+                ++stats.traces_retried;
+                return false;
+            }
         }
-        if (inside > 0) w[LeafWork::u(f.operand)] += at_start > 0 ? f.orientation : -f.orientation;
-    }
     return true;
+}
+
+// Counts a facet of another operand if the segment goes through it; false when that is doubtful.
+bool PlainWindings::add_crossing(LeafIndex i, const Approximation& target, const Vector3& lo,
+                                 const Vector3& hi, std::vector<int>& w) {
+    PlainFacet& f = (*facets_)[i];
+    if (!f.meets(lo, hi)) return true;
+    const PlainPlane& plane = facets_->plane(i);
+    const double at_target = plane.value(target.c);
+    const double target_error = plane.error(target);
+    const double at_start = plane.value(reference_.c);
+    const double start_error = plane.error(reference_);
+    const bool sure = std::fabs(at_start) > start_error && std::fabs(at_target) > target_error;
+    if (sure && (at_start > 0) == (at_target > 0)) return true;
+    Approximation x;
+    const int inside =
+        sure && interpolate(reference_, at_start, target, at_target, start_error + target_error, x)
+            ? is_inside(f, x)
+            : 0;
+    if (inside == 0) return false;
+    if (inside > 0) w[LeafWork::u(f.operand)] += at_start > 0 ? f.orientation : -f.orientation;
+    return true;
+}
+
+void PlainWindings::list_boxes() {
+    has_boxes_ = true;
+    boxes_.clear();
+    for (LeafIndex i = 0; i < facets_->size(); ++i) {
+        const PlainFacet& f = (*facets_)[i];
+        boxes_.add(f.lo, f.hi, f.operand);
+    }
 }
 
 void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/bsp/detail/box_rows.h>
 #include <trisect/bsp/detail/plain_facets.h>
 #include <trisect/bsp/detail/plain_pairs.h>
 
@@ -56,6 +57,9 @@ private:
     void join(LeafIndex a, LeafIndex b);
     void find_windings(LeafIndex root, EvaluateStats& stats);
     LeafIndex keep(std::span<const int> windings);
+    void list_boxes();
+    [[nodiscard]] bool add_crossing(LeafIndex item, const Approximation& target, const Vector3& lo,
+                                    const Vector3& hi, std::vector<int>& w);
 
     PlainFacets* facets_ = nullptr;
     const PlainPairs* pairs_ = nullptr;
@@ -67,6 +71,8 @@ private:
     std::vector<LeafIndex> first_;                    // a node of an item, -1 none
     std::vector<int> known_;                          // a row of `operands_` for each
     std::vector<int> traced_;
+    BoxRows boxes_;  // of all facets; made for the first trace
+    bool has_boxes_ = false;
 };
 
 }  // namespace trisect::detail
