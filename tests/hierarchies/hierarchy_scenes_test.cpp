@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/hierarchies/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
+#include <trisect/bsp/interference_scene.h>
 
 #include "scenes/scenes.h"
 
@@ -71,6 +73,44 @@ INSTANTIATE_TEST_SUITE_P(All, HierarchyScenes, testing::ValuesIn(scenes::pair_sc
                                  if (c == '-') c = '_';
                              return name;
                          });
+
+// The relation of every pair that interferes, in every frame.
+using Interfering = std::vector<std::tuple<std::uint32_t, std::uint32_t, Relation>>;
+
+std::vector<Interfering> interfering_pairs(const scenes::SwarmScene& swarm,
+                                           SceneBroadPhase broad_phase) {
+    SceneOptions options;
+    options.broad_phase = broad_phase;
+    Scene scene(options);
+    std::vector<InterferenceModel> models;
+    for (const PolygonMesh& m : swarm.shapes) models.emplace_back(Solid::from_mesh(m));
+    std::vector<BodyId> bodies;
+    for (const std::size_t shape : swarm.shape_of) bodies.push_back(scene.add(models[shape]));
+    std::vector<Interfering> found;
+    for (const auto& frame : swarm.frames) {
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            scene.set_pose(bodies[i], scenes::pose_of(frame[i]));
+        Interfering& now = found.emplace_back();
+        for (const ScenePair& p : scene.interfering())
+            now.emplace_back(p.a.index, p.b.index, p.relation);
+    }
+    return found;
+}
+
+TEST(SwarmScenes, HaveTheSameInterferingPairsByEveryBroadPhase) {
+    for (const std::string& name : scenes::swarm_scene_names()) {
+        const auto swarm = scenes::make_swarm_scene(name, scenes::Size::Small);
+        const auto expected = interfering_pairs(swarm, SceneBroadPhase::SweepAndPrune);
+        std::size_t count = 0;
+        for (const Interfering& frame : expected) count += frame.size();
+        EXPECT_GT(count, 0U) << name;
+        for (const auto kind : {SceneBroadPhase::BoxTree, SceneBroadPhase::HashGrid,
+                                SceneBroadPhase::HierarchicalGrid, SceneBroadPhase::Octree,
+                                SceneBroadPhase::KdTree, SceneBroadPhase::ChainBoxes})
+            EXPECT_EQ(interfering_pairs(swarm, kind), expected)
+                << name << " " << static_cast<int>(kind);
+    }
+}
 
 TEST(SwarmScenes, HaveClosedConvexBodiesAndAPoseForEachInEveryFrame) {
     for (const std::string& name : scenes::swarm_scene_names()) {
