@@ -59,10 +59,14 @@ ValidationReport checked(const PolygonMesh& mesh, bool self_intersection) {
     return validate(mesh, options);
 }
 
-/// Nothing when the work would go beyond the limit of validation.
+/// Nothing when the work would go beyond the limit of validation. Walls that collapsed are pairs
+/// of faces with the same corners, which validation counts by themselves.
 std::optional<std::size_t> self_intersecting_pairs(const PolygonMesh& mesh) {
     try {
-        return checked(mesh, true).count(DefectKind::SelfIntersection);
+        const ValidationReport report = checked(mesh, true);
+        return report.count(DefectKind::SelfIntersection) +
+               report.count(DefectKind::DuplicateFace) +
+               report.count(DefectKind::DuplicateOppositeFaces);
     } catch (const LimitError&) {
         return std::nullopt;
     }
@@ -70,10 +74,8 @@ std::optional<std::size_t> self_intersecting_pairs(const PolygonMesh& mesh) {
 
 }  // namespace
 
-Certificate certify(const Brep& brep, PolygonMesh mesh, Precision precision) {
-    if (precision == Precision::Float) round_to_floats(mesh);
+Certificate certify(const PolygonMesh& mesh) {
     Certificate out;
-    measure_moves(brep, mesh, out);
     const ValidationReport topology = checked(mesh, false);
     const auto has_none = [&](DefectKind kind) { return topology.count(kind) == 0; };
     out.closed = has_none(DefectKind::OpenEdge);
@@ -81,6 +83,13 @@ Certificate certify(const Brep& brep, PolygonMesh mesh, Precision precision) {
                    has_none(DefectKind::InsideOutShell) && has_none(DefectKind::ShellNesting);
     // On a lattice that rounds once more the answer would be about another mesh.
     if (topology.lattice().lossless) out.self_intersecting_pairs = self_intersecting_pairs(mesh);
+    return out;
+}
+
+Certificate certify(const Brep& brep, PolygonMesh mesh, Precision precision) {
+    if (precision == Precision::Float) round_to_floats(mesh);
+    Certificate out = certify(mesh);
+    measure_moves(brep, mesh, out);
     return out;
 }
 

@@ -19,8 +19,8 @@ namespace trisect {
 struct Certificate {
     bool closed = false;    ///< the written faces' boundaries cancel
     bool oriented = false;  ///< and the volume they enclose is not negative
-    /// Pairs of written faces that meet beyond the corners and edges they share; nothing when the
-    /// written coordinates span too many bits for an exact check.
+    /// Pairs of written faces that meet beyond the corners and edges they share, or have the same
+    /// corners; nothing when the written coordinates span too many bits for an exact check.
     std::optional<std::size_t> self_intersecting_pairs;
     double max_move = 0;               ///< largest change of one coordinate, user's units
     std::size_t rounded_vertices = 0;  ///< vertices with a changed coordinate
@@ -33,6 +33,9 @@ struct Certificate {
 
 /// How coordinates are written.
 enum class Precision : std::uint8_t { Double, Float };
+
+/// Of a mesh as it is; nothing is said about moves.
+[[nodiscard]] Certificate certify(const PolygonMesh& mesh);
 
 /// \pre `mesh` is to_polygon_mesh(brep): the same vertices. Costs a validation of the mesh.
 [[nodiscard]] Certificate certify(const Brep& brep, PolygonMesh mesh,

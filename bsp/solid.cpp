@@ -25,16 +25,6 @@ std::shared_ptr<const SolidState> constant_state(bool inside) {
     return s;
 }
 
-// Two units beyond the corner of a box, at even positions with different fractions along the axes,
-// so that segments between such points meet few edges and vertices of integer models.
-FinePoint beyond(const detail::Box& box) {
-    FinePoint p;
-    for (std::size_t k = 0; k < 3; ++k)
-        p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * detail::wall_scale +
-                 static_cast<std::int64_t>(12 + 22 * k);
-    return p;
-}
-
 bool is_constant(const SolidState& s, bool inside) {
     const CellNode& n = *s.root.node;
     return n.is_leaf() && n.polygons().empty() &&
@@ -77,7 +67,7 @@ Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
     const auto source = detail::Source::make(std::move(mesh));
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
-    state->root = {CellNode::fresh(*source, beyond(source->box()), 0, false), false};
+    state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
     state->embedded = embedding == Embedding::Assume;
     state->source = source->serial();
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));

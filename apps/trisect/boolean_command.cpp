@@ -27,6 +27,7 @@ struct BooleanResult {
     Description description;
     WriteReport written;
     std::optional<Certificate> certificate;
+    std::optional<CertifiedRounding> rounding;
     EvaluateStats stats;
 };
 
@@ -45,7 +46,15 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         result.description = describe(brep);
         result.description.lattice = result.stats.lattice;
     });
-    if (options.certificate) {
+    if (options.repair) {
+        session.interruptible_stage("certify", [&] {
+            result.rounding =
+                round_output(brep, format, session.evaluation_options(options.operands));
+            return 0;
+        });
+        result.certificate = result.rounding->certificate;
+        mesh = result.rounding->mesh;
+    } else if (options.certificate) {
         session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
     }
     session.stage("write", [&] {
@@ -67,6 +76,7 @@ Json document_of(const Session& session, const BooleanOptions& options,
     document["output"].update(to_json(result.description));
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
+    document["repair"] = result.rounding ? to_json(*result.rounding) : Json();
     document["cells"]["visited"] = result.stats.cells;
     document["cells"]["shared"] = result.stats.shared_cells;
     document["cells"]["resolved"] = result.stats.mixed_leaves;
@@ -83,6 +93,7 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
     if (result.certificate) {
         out += fmt::format("{:<11}{}\n", "certified", to_text(*result.certificate));
     }
+    if (result.rounding) out += fmt::format("{:<11}{}\n", "rounding", to_text(*result.rounding));
     double total = 0;
     for (const auto& seconds : session.seconds()) total += seconds.get<double>();
     return out + fmt::format("{:<11}{:.3f} s", "time", total);
@@ -90,7 +101,8 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
 
 CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
     CLI::App* command = app.add_subcommand(name, help);
-    command->add_option("A B", options.inputs, "mesh files, two or more")
+    command
+        ->add_option("A B", options.inputs, "mesh files or exact boundaries (.exact), two or more")
         ->required()
         ->expected(2, 1 << 20);
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
@@ -101,6 +113,10 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
                       "do not join coplanar faces of different origin");
     command->add_flag("!--no-certificate", options.certificate,
                       "do not check the rounded result for self-intersection");
+    command->add_flag(
+        "--repair", options.repair,
+        "move what rounding lets intersect until the result is certified; exit code 1 "
+        "if that fails");
     add_operand_options(*command, options.operands);
     return command;
 }
@@ -127,6 +143,7 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     note_rounding(session, result.stats.lattice, "the operands");
     deliver(session, options, solid, format, result);
     Outcome out;
+    if (result.rounding && !result.rounding->certificate.holds()) out.code = exit_findings;
     out.document = document_of(session, options, operands, result);
     out.remarks = remarks_of(session, options, result);
     return out;

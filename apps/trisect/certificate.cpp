@@ -9,9 +9,59 @@
 
 namespace trisect::app {
 
-Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format) {
+namespace {
+
+Precision precision_of(MeshFormat format) {
     const bool floats = format == MeshFormat::Stl || format == MeshFormat::StlBinary;
-    return certify(brep, std::move(mesh), floats ? Precision::Float : Precision::Double);
+    return floats ? Precision::Float : Precision::Double;
+}
+
+const char* name_of(CertifiedRounding::Outcome outcome) {
+    switch (outcome) {
+        case CertifiedRounding::Outcome::Plain:
+            return "plain";
+        case CertifiedRounding::Outcome::Gridded:
+            return "gridded";
+        case CertifiedRounding::Outcome::Repaired:
+            return "repaired";
+        default:
+            return "failed";
+    }
+}
+
+}  // namespace
+
+Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format) {
+    return certify(brep, std::move(mesh), precision_of(format));
+}
+
+CertifiedRounding round_output(const Brep& brep, MeshFormat format,
+                               const EvaluateOptions& evaluation) {
+    RoundingOptions options;
+    options.precision = precision_of(format);
+    options.evaluate = evaluation;
+    return certified_rounding(brep, options);
+}
+
+Json to_json(const CertifiedRounding& r) {
+    Json out;
+    out["outcome"] = name_of(r.outcome);
+    out["radius"] = r.radius;
+    out["unit"] = r.unit;
+    out["rounds"] = r.rounds;
+    out["snapped_vertices"] = r.snapped_vertices;
+    out["first_pairs"] = r.first_pairs;
+    return out;
+}
+
+std::string to_text(const CertifiedRounding& r) {
+    std::string out =
+        fmt::format("{}, the set moved by at most {}", name_of(r.outcome), number_text(r.radius));
+    if (r.unit > 0) out += fmt::format(", coordinates are multiples of {}", number_text(r.unit));
+    if (r.rounds > 0)
+        out += fmt::format("; {} pairs of faces met, {} rounds, {} vertices snapped", r.first_pairs,
+                           r.rounds, r.snapped_vertices);
+    return out;
 }
 
 Json to_json(const Certificate& c) {

@@ -5,6 +5,7 @@
 
 #include <trisect/brep/certificate.h>
 #include <trisect/brep/io/mesh_format.h>
+#include <trisect/bsp/certified_rounding.h>
 
 #include <string>
 
@@ -15,6 +16,12 @@ namespace trisect::app {
 /// Of the coordinates as the format holds them. \pre `mesh` is to_polygon_mesh(brep)
 [[nodiscard]] Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format);
 
+/// As the format holds them, repaired where that takes it.
+[[nodiscard]] CertifiedRounding round_output(const Brep& brep, MeshFormat format,
+                                             const EvaluateOptions& evaluation);
+
+[[nodiscard]] Json to_json(const CertifiedRounding& rounding);
+[[nodiscard]] std::string to_text(const CertifiedRounding& rounding);
 [[nodiscard]] Json to_json(const Certificate& certificate);
 [[nodiscard]] std::string to_text(const Certificate& certificate);
 

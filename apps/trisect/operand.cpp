@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "operand.h"
 
+#include <filesystem>
 #include <utility>
+
+#include <trisect/brep/io/exact_boundary.h>
 
 #include "commands.h"
 #include "mesh_files.h"
@@ -38,6 +41,25 @@ Json facts_of(const ImportedMesh& imported, const std::string& name, std::size_t
     return facts;
 }
 
+// By the extension, as for meshes.
+bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
+
+Operand exact_operand(const Session& session, const std::string& name, Embedding embedding) {
+    if (session.options().lattice)
+        throw UsageError("--lattice is for meshes: " + name +
+                         " has planes on a lattice of its own");
+    const Brep brep = read_exact(std::filesystem::path(name));
+    Json facts;
+    facts["file"] = name;
+    facts["faces"] = brep.faces().size();
+    facts["lattice"] = lattice_json(LatticeReport{brep.lattice()});
+    try {
+        return {Solid::from_brep(brep, embedding), std::move(facts)};
+    } catch (const Error& e) {
+        throw OperandError(e.code(), name, e.what());
+    }
+}
+
 }  // namespace
 
 void add_operand_options(CLI::App& command, OperandOptions& options) {
@@ -65,6 +87,10 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
     std::vector<Operand> operands;
     operands.reserve(names.size());
     for (const std::string& name : names) {
+        if (has_exact_boundary(name)) {
+            operands.push_back(exact_operand(session, name, embedding));
+            continue;
+        }
         const PolygonMesh mesh = read_input(session, name);
         ImportedMesh imported = import_input(session, mesh, name);
         require_solid(imported, name, options);

@@ -57,6 +57,7 @@ struct BooleanOptions {
     std::string exact;  ///< a file for the boundary without loss; empty: none
     bool source_faces = false;
     bool certificate = true;
+    bool repair = false;  ///< what is written must be certified
 };
 
 struct InfoOptions {

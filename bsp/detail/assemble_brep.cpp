@@ -32,8 +32,7 @@ namespace {
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 FaceSource source_of(const BoundaryFacet& f) {
-    return {static_cast<std::uint32_t>(f.source->serial()),
-            f.source->is_half_space() ? 0 : f.source->mesh().face_of(f.facet)};
+    return {static_cast<std::uint32_t>(f.source->serial()), f.source->face_of(f.facet)};
 }
 
 // Gives the builder faces in the order of facets.

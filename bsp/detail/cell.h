@@ -107,4 +107,14 @@ struct Cell {
     }
 };
 
+/// Two units beyond the corner of a box, at even positions with different fractions along the axes,
+/// so that segments between such points meet few edges and vertices of integer models.
+[[nodiscard]] inline FinePoint point_beyond(const Box& box) {
+    FinePoint p;
+    for (std::size_t k = 0; k < 3; ++k)
+        p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * wall_scale +
+                 static_cast<std::int64_t>(12 + 22 * k);
+    return p;
+}
+
 }  // namespace trisect::detail

@@ -765,7 +765,7 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sta
             continue;
         }
         for (const PolygonRef& r : polygons)
-            if (!r.source->is_half_space()) all.add(r.box());
+            if (r.fragment != nullptr || !r.source->is_half_space()) all.add(r.box());
     }
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)

@@ -186,8 +186,7 @@ std::vector<Point> IndexPolygons::corners(Id id) const {
 
 FaceSource IndexPolygons::face_source(Id id) const {
     const Source& s = source(id);
-    return {static_cast<std::uint32_t>(s.serial()),
-            s.is_half_space() ? 0 : s.mesh().face_of(facet(id))};
+    return {static_cast<std::uint32_t>(s.serial()), s.face_of(facet(id))};
 }
 
 std::size_t IndexPolygons::bytes() const {

@@ -148,7 +148,7 @@ std::unordered_set<const Source*> sources_of(const SolidState& state) {
 std::int64_t largest_coordinate(const std::unordered_set<const Source*>& sources) {
     std::int64_t largest = 0;
     for (const Source* s : sources) {
-        if (s->is_half_space()) continue;
+        if (s->is_unbounded()) continue;
         for (std::size_t k = 0; k < 3; ++k)
             largest = std::max({largest, std::abs(s->box().lo[k]), std::abs(s->box().hi[k])});
     }

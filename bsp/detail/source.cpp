@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
@@ -34,18 +35,25 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh) {
 }
 
 std::shared_ptr<const Source> Source::half_space(const Plane& plane, Lattice lattice) {
+    Box everywhere;
+    everywhere.lo.fill(-coordinate_limit);
+    everywhere.hi.fill(coordinate_limit);
+    return planes({plane}, lattice, everywhere);
+}
+
+std::shared_ptr<const Source> Source::planes(std::vector<Plane> planes, Lattice lattice,
+                                             const Box& box) {
+    TRISECT_EXPECTS(!planes.empty(), "a source of planes has some");
     auto* s = new Source;
     auto shared = share(s);
-    s->half_space_ = true;
-    s->plane_ = plane;
+    s->planes_ = std::move(planes);
     s->mesh_.lattice = lattice;
-    s->box_.lo.fill(-coordinate_limit);
-    s->box_.hi.fill(coordinate_limit);
+    s->box_ = box;
     return shared;
 }
 
 Plane Source::support(std::uint32_t facet) const {
-    if (half_space_) return plane_;
+    if (is_half_space()) return planes_[facet];
     return Plane::through(corner(facet, 0), corner(facet, 1), corner(facet, 2));
 }
 
@@ -67,14 +75,7 @@ std::shared_ptr<const Source> Source::numbered(std::shared_ptr<const Source> sou
 std::shared_ptr<const Source> Source::refined(int exponent) const {
     const int shift = mesh_.lattice.exponent - exponent;
     TRISECT_EXPECTS(shift >= 0, "a source can only move to a finer lattice");
-    if (half_space_) {
-        if (shift > 48)
-            throw LimitError("a half-space of unit 2^" + std::to_string(mesh_.lattice.exponent) +
-                             " cannot move to the lattice of unit 2^" + std::to_string(exponent));
-        const Plane p(plane_.normal(0), plane_.normal(1), plane_.normal(2),
-                      plane_.offset().shifted_left(shift));
-        return numbered(half_space(p, Lattice{exponent}), serial_);
-    }
+    if (is_half_space()) return refined_planes(exponent, shift);
     LatticeMesh fine = mesh_;
     fine.lattice.exponent = exponent;
     for (LatticePoint& p : fine.points) {
@@ -89,6 +90,24 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
         p = {p.x << shift, p.y << shift, p.z << shift};
     }
     return numbered(make(std::move(fine)), serial_);
+}
+
+std::shared_ptr<const Source> Source::refined_planes(int exponent, int shift) const {
+    if (shift > 48)
+        throw LimitError((facet_count() == 1 ? "a half-space of unit 2^" : "planes of unit 2^") +
+                         std::to_string(mesh_.lattice.exponent) +
+                         " cannot move to the lattice of unit 2^" + std::to_string(exponent));
+    std::vector<Plane> fine;
+    fine.reserve(planes_.size());
+    for (const Plane& p : planes_)
+        fine.emplace_back(p.normal(0), p.normal(1), p.normal(2), p.offset().shifted_left(shift));
+    Box box = box_;
+    if (!is_unbounded())
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.lo[k] *= std::int64_t{1} << shift;
+            box.hi[k] *= std::int64_t{1} << shift;
+        }
+    return numbered(planes(std::move(fine), Lattice{exponent}, box), serial_);
 }
 
 }  // namespace trisect::detail

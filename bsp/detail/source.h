@@ -17,7 +17,8 @@
 
 namespace trisect::detail {
 
-/// The facets of one imported mesh, or the one unbounded facet of a half-space. Immutable.
+/// The facets of one imported mesh, or whole planes: the one unbounded facet of a half-space, or
+/// the planes of an exact boundary, of which only fragments are listed. Immutable.
 ///
 /// `serial` orders sources by their time of creation. Reference-counted by the polygons that name
 /// it, so that a long chain of operations keeps exactly the sources that are still visible.
@@ -26,6 +27,9 @@ public:
     static std::shared_ptr<const Source> make(LatticeMesh mesh);
     /// The half-space below `plane`.
     static std::shared_ptr<const Source> half_space(const Plane& plane, Lattice lattice);
+    /// One facet for each plane; all that is listed of them lies in the box.
+    static std::shared_ptr<const Source> planes(std::vector<Plane> planes, Lattice lattice,
+                                                const Box& box);
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
@@ -35,11 +39,19 @@ public:
     }
 
     [[nodiscard]] std::uint64_t serial() const { return serial_; }
-    [[nodiscard]] bool is_half_space() const { return half_space_; }
+    /// Whether the facets are planes, without corners and edges.
+    [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
+    /// Whether the box says nothing.
+    [[nodiscard]] bool is_unbounded() const { return box_.hi[0] == coordinate_limit; }
     [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }
     [[nodiscard]] const LatticeMesh& mesh() const { return mesh_; }
     [[nodiscard]] std::uint32_t facet_count() const {
-        return half_space_ ? 1 : static_cast<std::uint32_t>(mesh_.triangles.size());
+        return static_cast<std::uint32_t>(is_half_space() ? planes_.size()
+                                                          : mesh_.triangles.size());
+    }
+    /// The face that a facet is a part of, by its number in what was imported.
+    [[nodiscard]] std::uint32_t face_of(std::uint32_t facet) const {
+        return is_half_space() ? facet : mesh_.face_of(facet);
     }
     [[nodiscard]] const LatticePoint& corner(std::uint32_t facet, int i) const {
         return mesh_.points[mesh_.triangles[facet][static_cast<std::size_t>(i)]];
@@ -50,7 +62,7 @@ public:
     /// Made from the corners: stored boxes would be twice the size of the mesh itself, and writing
     /// them would take as long as the rest of an import. Who needs many at a time packs them.
     [[nodiscard]] Box facet_box(std::uint32_t facet) const {
-        if (half_space_) return box_;
+        if (is_half_space()) return box_;
         Box b;
         for (int i = 0; i < 3; ++i) b.add(corner(facet, i));
         return b;
@@ -76,12 +88,12 @@ private:
     Source() = default;
     ~Source() = default;
     static std::shared_ptr<const Source> share(Source* source);
+    [[nodiscard]] std::shared_ptr<const Source> refined_planes(int exponent, int shift) const;
     static std::shared_ptr<const Source> numbered(std::shared_ptr<const Source> source,
                                                   std::uint64_t serial);
 
     LatticeMesh mesh_;
-    bool half_space_ = false;
-    Plane plane_;
+    std::vector<Plane> planes_;
     Box box_;
     std::uint64_t serial_ = 0;
     mutable std::atomic<std::uint32_t> count_{0};

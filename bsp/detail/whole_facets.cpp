@@ -20,9 +20,7 @@ using Index = BoundaryVertices::Index;
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-std::uint32_t face_of(const Source& source, std::uint32_t facet) {
-    return source.is_half_space() ? 0 : source.mesh().face_of(facet);
-}
+std::uint32_t face_of(const Source& source, std::uint32_t facet) { return source.face_of(facet); }
 
 // Whether doubles can tell that d is not on the plane of a, b, c. Differences, products and sums
 // are each rounded once: below 10 · 2^-53 of the sum of all products.

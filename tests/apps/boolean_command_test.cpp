@@ -74,6 +74,38 @@ TEST_F(BooleanCommand, CertificateTellsTheRounding) {
     EXPECT_LT(certificate["max_move"], 1e-15);
 }
 
+TEST_F(BooleanCommand, ExactBoundariesAreOperands) {
+    const std::string tetrahedron = write("t.obj",
+                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
+    const std::string kept = path("kept.exact");
+    const std::string rest = path("rest.exact");
+    (void)run("intersection", {tetrahedron, block, "--exact", kept});
+    (void)run("difference", {tetrahedron, block, "--exact", rest});
+    // Corners at thirds: together again it is the tetrahedron, and nothing is left between them.
+    EXPECT_EQ(run("union", {kept, rest})["output"]["volume"], 17.5);
+    EXPECT_EQ(run("xor", {kept, rest})["output"]["volume"], 17.5);
+    EXPECT_EQ(run("union", {kept, rest})["output"]["vertices"], 4);
+    EXPECT_EQ(run("intersection", {kept, rest})["output"]["faces"], 0);
+    EXPECT_EQ(run("difference", {tetrahedron, rest, kept})["output"]["faces"], 0);
+    EXPECT_EQ(run("difference", {kept, a_})["inputs"][0]["file"], kept);
+    EXPECT_EQ(trisect({"union", kept, path("none.exact"), "-o", out_}).code, 3);
+}
+
+TEST_F(BooleanCommand, RepairCertifiesWhatIsWritten) {
+    const std::string tetrahedron = write("t.obj",
+                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const json document =
+        run("intersection", {tetrahedron, box("d.obj", {-1, -1, 1}, {9, 9, 9}), "--repair"});
+    EXPECT_EQ(document["certificate"]["self_intersecting_pairs"], 0);
+    EXPECT_NE(document["repair"]["outcome"], "failed");
+    EXPECT_LT(document["repair"]["radius"], 1e-9);
+    EXPECT_EQ(trisect({"check", out_}).code, 0);
+    EXPECT_TRUE(run("union", {a_, b_})["repair"].is_null());
+}
+
 TEST_F(BooleanCommand, ManyOperands) {
     EXPECT_EQ(run("union", {a_, b_, c_})["output"]["volume"], 16);
     EXPECT_EQ(run("difference", {a_, b_, c_})["output"]["volume"], 7);

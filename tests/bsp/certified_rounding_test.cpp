@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Certified rounding: named configurations in which plain rounding fails, and random results.
+
+#include <trisect/bsp/certified_rounding.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/transform.h>
+#include <trisect/brep/validate/validate.h>
+#include <trisect/brep/winding_number.h>
+#include <trisect/bsp/brep_index.h>
+
+#include "engines/engines.h"
+#include "reference/random_solids.h"
+
+namespace {
+
+using trisect::Brep;
+using trisect::certified_rounding;
+using trisect::CertifiedRounding;
+using trisect::Expression;
+using trisect::PolygonMesh;
+using trisect::Precision;
+using trisect::RoundingOptions;
+using trisect::Solid;
+using Outcome = CertifiedRounding::Outcome;
+
+Solid box(double x0, double y0, double z0, double x1, double y1, double z1) {
+    return Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1}));
+}
+
+RoundingOptions floats() {
+    RoundingOptions o;
+    o.precision = Precision::Float;
+    return o;
+}
+
+// What is said of the mesh, asked again; and that the volume moved no more than it may.
+void expect_proved(const Brep& brep, const CertifiedRounding& r) {
+    EXPECT_TRUE(r.certificate.holds());
+    const trisect::ValidationReport report = trisect::validate(r.mesh);
+    EXPECT_TRUE(report.lattice().lossless);
+    EXPECT_TRUE(report.is_solid() || r.mesh.face_count() == 0) << report.to_string();
+    if (r.mesh.face_count() == 0) return;
+    const Solid exact = Solid::from_brep(brep);
+    const trisect::BrepIndex index(exact);
+    const trisect::BrepIndex of_mesh(Solid::from_mesh(r.mesh));
+    const double radius = r.radius;
+    for (int i = 0; i < 125; ++i) {
+        const trisect::Point3d p{0.37 + 1.7 * (i % 5), 0.41 + 1.7 * (i / 5 % 5),
+                                 0.43 + 1.7 * (i / 25)};
+        const auto nearest = index.nearest(p);
+        // Radius is in the maximum norm.
+        if (!nearest || std::sqrt(nearest->squared_distance.to_double()) <= 2 * radius) continue;
+        EXPECT_EQ(index.locate(p).location, of_mesh.locate(p).location);
+    }
+}
+
+TEST(CertifiedRounding, OfLatticeCornersIsPlain) {
+    const Brep brep =
+        evaluate(Expression(box(0, 0, 0, 4, 4, 4)) - Expression(box(1, 1, 1, 5, 5, 5))).to_brep();
+    const CertifiedRounding r = certified_rounding(brep);
+    EXPECT_EQ(r.outcome, Outcome::Plain);
+    EXPECT_EQ(r.radius, 0);
+    EXPECT_EQ(r.unit, 0);
+    EXPECT_EQ(r.mesh.points, trisect::to_polygon_mesh(brep).points);
+    expect_proved(brep, r);
+}
+
+TEST(CertifiedRounding, OfTheEmptySet) {
+    EXPECT_EQ(certified_rounding(Brep()).mesh.face_count(), 0U);
+}
+
+// Walls thinner than a float's last bit: rounded, both sides fall together or cross.
+TEST(CertifiedRounding, ThinWallsCollapseOrStay) {
+    for (const double thick : {0x1p-20, 0x1p-23, 0x1p-24, 0x1p-26, 0x1p-40}) {
+        const Solid frame =
+            evaluate(Expression(box(0, 0, 0, 8, 8, 8)) - Expression(box(1, 1, 5 + thick, 7, 7, 7)) -
+                     Expression(box(1, 1, 1, 7, 7, 5)));
+        const Brep brep = frame.to_brep();
+        const CertifiedRounding r = certified_rounding(brep, floats());
+        EXPECT_NE(r.outcome, Outcome::Failed) << thick;
+        EXPECT_LE(r.radius, 0x1p-18) << thick;
+        expect_proved(brep, r);
+    }
+}
+
+// A needle between two slanted planes: its sides cross when corners are rounded to floats.
+TEST(CertifiedRounding, SlantedSlivers) {
+    int repaired = 0;
+    for (int i = 1; i <= 20; ++i) {
+        const double slope = 0x1p-22 * i;
+        PolygonMesh wedge = trisect::make_box({0.1, 0.1, 0.1}, {7.3, 6.9, 5.7});
+        for (trisect::Point3d& p : wedge.points)
+            if (p[2] > 1) p[2] = 0.1 + slope * p[0] + slope / 3 * p[1];
+        const Solid thin = Solid::from_mesh(wedge);
+        const Solid ball = Solid::from_mesh(trisect::make_icosphere(5, 1));
+        const Brep brep = evaluate(Expression(thin) - Expression(ball)).to_brep();
+        const CertifiedRounding r = certified_rounding(brep, floats());
+        EXPECT_NE(r.outcome, Outcome::Failed) << i;
+        repaired += r.outcome == Outcome::Repaired ? 1 : 0;
+        expect_proved(brep, r);
+    }
+    RecordProperty("repaired", repaired);
+}
+
+TEST(CertifiedRounding, OfRandomResultsOnASmallGrid) {
+    reference::Random random(23);
+    std::array<int, 4> outcomes{};
+    for (int round = 0; round < 120; ++round) {
+        const Solid a = engines::solid(reference::random_embedded_solid(random));
+        const Solid b = engines::solid(reference::random_embedded_solid(random));
+        const Solid c = engines::solid(reference::random_embedded_solid(random));
+        const Brep brep = evaluate((Expression(a) ^ Expression(b)) - Expression(c)).to_brep();
+        const CertifiedRounding r =
+            certified_rounding(brep, round % 2 == 0 ? RoundingOptions{} : floats());
+        ++outcomes[static_cast<std::size_t>(r.outcome)];
+        EXPECT_NE(r.outcome, Outcome::Failed) << round;
+        expect_proved(brep, r);
+    }
+    RecordProperty("plain", outcomes[0]);
+    RecordProperty("gridded", outcomes[1]);
+    RecordProperty("repaired", outcomes[2]);
+}
+
+TEST(CertifiedRounding, RoundsAreBounded) {
+    RoundingOptions none = floats();
+    none.max_rounds = 0;
+    PolygonMesh wedge = trisect::make_box({0.1, 0.1, 0.1}, {7.3, 6.9, 5.7});
+    for (trisect::Point3d& p : wedge.points)
+        if (p[2] > 1) p[2] = 0.1 + 0x1p-30 * (p[0] + p[1]);
+    const Brep brep = evaluate(Expression(Solid::from_mesh(wedge)) -
+                               Expression(Solid::from_mesh(trisect::make_icosphere(5, 1))))
+                          .to_brep();
+    const CertifiedRounding r = certified_rounding(brep, none);
+    EXPECT_EQ(r.rounds, 0U);
+    EXPECT_EQ(r.outcome == Outcome::Failed, !r.certificate.holds());
+}
+
+}  // namespace
