@@ -105,8 +105,12 @@ void ContactInsertion::add_crossings(const Triangle& f, const Triangle& g) {
             const Point3d on_f = along(a, u, s);
             const Point3d on_g = along(c, v, t);
             const Point3d x = rounding_(along(on_f, minus(on_g, on_f), 0.5));
-            divide(a, b, x, length(minus(x, on_f)));
-            divide(c, d, x, length(minus(x, on_g)));
+            // Between edges that are nearly parallel it may be anywhere.
+            const double from_f = length(minus(x, on_f));
+            const double from_g = length(minus(x, on_g));
+            if (!(std::max(from_f, from_g) <= reach_)) continue;
+            divide(a, b, x, from_f);
+            divide(c, d, x, from_g);
         }
 }
 
