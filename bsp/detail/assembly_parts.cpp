@@ -57,7 +57,8 @@ public:
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
         for (Leaf& leaf : leaves_) {
-            check_stop(1 + leaf.node->polygons().size());
+            if (out_.stats.traced_facets == out_.facets.size()) break;
+            check_stop(1 + leaf.node->size());
             make_parts(leaf);
         }
         merge_equal_points();

@@ -32,6 +32,12 @@ int compare_along(std::size_t axis, const Approximation& a, const Approximation&
     return gap > error ? -1 : (gap < -error ? 1 : 0);
 }
 
+// Without a call, which std::floor is on the oldest processors of the family.
+std::int64_t floor_of(double v) {
+    const auto whole = static_cast<std::int64_t>(v);
+    return whole - (static_cast<double>(whole) > v ? 1 : 0);
+}
+
 // The axis along which two points are farthest apart.
 std::size_t longest_axis(const Approximation& a, const Approximation& b) {
     std::size_t axis = 0;
@@ -377,6 +383,10 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
     std::copy_n(sides_.begin() + static_cast<std::ptrdiff_t>(from.sides), 2 * row_,
                 sides_.begin() + static_cast<std::ptrdiff_t>(upper.sides));
     divide(from, line_of(contact), signs, cuts, lower, upper);
+    // Both are beside the segment, so the cutter's own solid is on one side of it.
+    const bool upright = (*facets_)[contacts_[contact].other].orientation > 0;
+    upper.winding = upright ? 0 : 1;
+    lower.winding = upright ? 1 : 0;
     return Split::Done;
 }
 
@@ -504,12 +514,18 @@ bool PlainCutting::change_to(const PlainPart& part, int attempt, std::size_t beg
 bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::size_t begin,
                               std::size_t end) {
     ++stats_->traces_within;
+    const auto set = [&](int w) {
+        formula_->set(above(part), LeafWork::u(operand), w);
+        formula_->set(below(part), LeafWork::u(operand), w);
+    };
+    if (part.winding >= 0) {
+        set(part.winding);
+        return true;
+    }
     for (int attempt = 0; attempt < 4; ++attempt) {
         int change = 0;
         if (!change_to(part, attempt, begin, end, change)) continue;
-        const int w = start_windings_[LeafWork::u(operand)] + change;
-        formula_->set(above(part), LeafWork::u(operand), w);
-        formula_->set(below(part), LeafWork::u(operand), w);
+        set(start_windings_[LeafWork::u(operand)] + change);
         return true;
     }
     return false;
@@ -628,6 +644,7 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
             const std::size_t sides = add_part().sides;
             parts_[first] = parts_[k];
             parts_[first].sides = sides;
+            parts_[first].winding = -1;
             std::copy_n(above(parts_[k]).begin(), 2 * row_, above(parts_[first]).begin());
         }
         // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
@@ -694,10 +711,8 @@ PolygonRef PlainCutting::fragment(const PlainPart& part) const {
         edges[i] = {plane_of(part.lines[i]), (part.above >> i & 1U) != 0};
         const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto low = static_cast<std::int64_t>(std::floor(a.c[k] - a.error));
-            const auto high = static_cast<std::int64_t>(std::ceil(a.c[k] + a.error));
-            box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + low);
-            box.hi[k] = std::max(box.hi[k], facets_->origin()[k] + high);
+            box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + floor_of(a.c[k] - a.error));
+            box.hi[k] = std::max(box.hi[k], facets_->origin()[k] - floor_of(-a.c[k] - a.error));
         }
         vertices[i] = facets_->in_lattice(a);
     }

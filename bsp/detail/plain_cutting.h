@@ -39,7 +39,8 @@ struct PlainPart {
     std::uint8_t size = 0;
     State state = State::Open;
     bool inside_above = false;
-    std::uint32_t above = 0;  ///< bit i: the part lies above the plane of line i instead of below
+    std::int8_t winding = -1;  ///< of the operand that cuts, where a cut of its has told: 0 or 1
+    std::uint32_t above = 0;   ///< bit i: the part lies above the plane of line i instead of below
     std::array<std::int16_t, max_size> vertices{};
     std::array<PlainLine, max_size> lines{};
     std::size_t sides = 0;  ///< place of its winding numbers

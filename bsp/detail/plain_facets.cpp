@@ -18,6 +18,19 @@ namespace {
 // Differences of lattice positions up to this are exact.
 constexpr double exact_limit = 0x1p53;
 
+// Corners lie anywhere in memory: they are asked for well before their turn.
+void look_ahead(std::span<const PolygonRef> polygons) {
+    constexpr std::size_t near = 6;
+    constexpr std::size_t far = 2 * near;
+    if (polygons.size() > far)
+        __builtin_prefetch(&polygons[far].source->mesh().triangles[polygons[far].facet]);
+    if (polygons.size() > near) {
+        const LatticeMesh& mesh = polygons[near].source->mesh();
+        for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
+            __builtin_prefetch(&mesh.points[v]);
+    }
+}
+
 }  // namespace
 
 void PlainFacets::set_origin(const LatticePoint& origin) {
@@ -59,7 +72,9 @@ bool PlainFacets::list(const LeafProblem& leaf) {
         const auto number = static_cast<LeafIndex>(o);
         const Source* source = nullptr;
         LeafIndex sheet = -1;
-        for (const PolygonRef& ref : operand.polygons) {
+        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
+            const PolygonRef& ref = operand.polygons[i];
+            look_ahead(operand.polygons.subspan(i));
             if (!has_origin) {
                 set_origin(ref.source->corner(ref.facet, 0));
                 low = high = reference_.c;

@@ -37,20 +37,24 @@ public:
 
     void run() {
         for (std::size_t side = 0; side < 2; ++side) {
-            const auto t = std::ranges::find(
-                parts_.sources, crossings_.operands[side].serial,
-                [](const FacetMarks& marks) { return marks.source()->serial(); });
+            const auto t =
+                std::ranges::find(parts_.sources, crossings_.operands[side].serial,
+                                  [](const FacetMarks& marks) { return marks.source()->serial(); });
             if (t == parts_.sources.end()) return;  // nothing of it is left
             marks_[side] = &*t;
         }
         ends_.assign(crossings_.pairs.size(), {-1, -1});
-        order_.resize(crossings_.pairs.size());
-        std::iota(order_.begin(), order_.end(), 0U);
-        trace_all(0);
-        std::ranges::sort(order_, {}, [&](std::uint32_t i) {
-            return std::pair(crossings_.pairs[i].facets[1], i);
-        });
-        trace_all(1);
+        edges_of_.assign(crossings_.pairs.size(), {-1, -1});
+        for (std::size_t side = 0; side < 2; ++side) {
+            order_[side].resize(crossings_.pairs.size());
+            std::iota(order_[side].begin(), order_[side].end(), 0U);
+            if (side == 1)
+                std::ranges::sort(order_[side], {}, [&](std::uint32_t i) {
+                    return std::pair(crossings_.pairs[i].facets[1], i);
+                });
+            name_planes(side);
+        }
+        for (std::size_t side = 0; side < 2; ++side) trace_all(side);
     }
 
 private:
@@ -61,14 +65,29 @@ private:
         bool opens = false;  // the result's part goes on from here along the edge
     };
 
+    // Looked up once for each facet.
+    void name_planes(std::size_t side) {
+        const Source* const source = marks_[side]->source();
+        std::uint32_t last = 0;
+        PlaneId edge = -1;
+        for (const std::uint32_t i : order_[side]) {
+            const std::uint32_t facet = crossings_.pairs[i].facets[side];
+            if (edge < 0 || facet != last)
+                edge = parts_.bench.plane(PlaneName::edge(source, facet, 0));
+            last = facet;
+            edges_of_[i][side] = edge;
+        }
+    }
+
     void trace_all(std::size_t side) {
         const Crossings::Operand& operand = crossings_.operands[side];
         const auto& doubtful = crossings_.doubtful[side];
-        for (std::size_t i = 0; i < order_.size();) {
-            const std::uint32_t facet = crossings_.pairs[order_[i]].facets[side];
+        const auto& order = order_[side];
+        for (std::size_t i = 0; i < order.size();) {
+            const std::uint32_t facet = crossings_.pairs[order[i]].facets[side];
             std::size_t j = i + 1;
-            while (j < order_.size() && crossings_.pairs[order_[j]].facets[side] == facet) ++j;
-            const auto pairs = std::span(order_).subspan(i, j - i);
+            while (j < order.size() && crossings_.pairs[order[j]].facets[side] == facet) ++j;
+            const auto pairs = std::span(order).subspan(i, j - i);
             i = j;
             if (!marks_[side]->takes_part(facet, operand.inside_above) ||
                 marks_[side]->is_worked(facet, !operand.inside_above) ||
@@ -87,9 +106,8 @@ private:
     bool trace(std::size_t side, std::uint32_t facet, std::span<const std::uint32_t> pairs) {
         const Crossings::Operand& operand = crossings_.operands[side];
         const Source* const source = marks_[side]->source();
-        const PlaneId own = parts_.bench.plane(PlaneName::edge(source, facet, 0));
-        const std::int32_t number =
-            marks_[side]->number_of_worked(facet, operand.inside_above);
+        const PlaneId own = edges_of_[pairs[0]][side];
+        const std::int32_t number = marks_[side]->number_of_worked(facet, operand.inside_above);
         const std::size_t first = edges_.size();
         on_edges_.clear();
         // Within the facet, to the left of the product of the normals, is what lies below the other
@@ -99,13 +117,12 @@ private:
         for (const std::uint32_t i : pairs) {
             const FacetCrossing& c = crossings_.pairs[i];
             const auto& points = ends_of(i);
-            const PlaneId other = parts_.bench.plane(
-                PlaneName::support(marks_[1 - side]->source(), c.facets[1 - side]));
+            const PlaneId other = parts_.bench.support_of(edges_of_[i][1 - side]);
             for (std::size_t end = 0; end < 2; ++end)
                 if (c.ends[end].of_second == (side == 1))
                     on_edges_.push_back({points[end], c.ends[end].edge, (end == 1) == along});
-            edges_.push_back({points[along ? 0 : 1], points[along ? 1 : 0], number,
-                              {other, !keep_below}});
+            edges_.push_back(
+                {points[along ? 0 : 1], points[along ? 1 : 0], number, {other, !keep_below}});
         }
         if (on_edges_.empty() || !sort_along(*source, facet)) return false;
         if (!add_between(*source, facet, own, number)) return false;
@@ -116,7 +133,7 @@ private:
             for (BoundaryEdge& e : made) std::swap(e.from, e.to);
         }
         BoundaryFacet& f = parts_.facets[u(number)];
-        f.support = parts_.bench.plane(PlaneName::support(source, facet));
+        f.support = parts_.bench.support_of(own);
         f.parts = 1;
         return true;
     }
@@ -130,11 +147,9 @@ private:
             const Source* const source = marks_[side]->source();
             const PolygonRef ref{source, nullptr, c.facets[side], false, false};
             Workbench& bench = parts_.bench;
-            const PlaneId edge = bench.plane(PlaneName::edge(source, ref.facet, c.ends[k].edge));
-            const PlaneId other = bench.plane(
-                PlaneName::support(marks_[1 - side]->source(), c.facets[1 - side]));
-            const PlaneId support = bench.plane(PlaneName::support(source, ref.facet));
-            ends[k] = bench.vertex(ref, support, edge, other, c.ends[k].at);
+            const PlaneId first = edges_of_[pair][side];
+            ends[k] = bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
+                                   bench.support_of(edges_of_[pair][1 - side]), c.ends[k].at);
         }
         return ends;
     }
@@ -155,8 +170,8 @@ private:
             distinct = distinct && order != 0;
             return order == (way[u(axis)] > 0 ? -1 : 1);
         });
-        return distinct && std::ranges::adjacent_find(on_edges_, {}, &EdgePoint::point) ==
-                               on_edges_.end();
+        return distinct &&
+               std::ranges::adjacent_find(on_edges_, {}, &EdgePoint::point) == on_edges_.end();
     }
 
     // What the part has of the facet's own edges.
@@ -202,8 +217,10 @@ private:
     std::vector<BoundaryEdge>& edges_;
     std::array<FacetMarks*, 2> marks_{};
     std::vector<std::array<PointId, 2>> ends_;  // of the pairs, where they were asked for
-    std::vector<std::uint32_t> order_;          // the pairs, by facet
-    std::vector<EdgePoint> on_edges_;           // of one facet
+    // Of the pairs and by operand: the first edge plane of the facet.
+    std::vector<std::array<PlaneId, 2>> edges_of_;
+    std::array<std::vector<std::uint32_t>, 2> order_;  // the pairs, by facet
+    std::vector<EdgePoint> on_edges_;                  // of one facet
     std::vector<PointId> from_;
     std::vector<PointId> to_;
 };

@@ -51,6 +51,8 @@ public:
         const std::int32_t at = planes_[u(id)].place;
         return at >= 0 ? made_.at(at) : make_plane(id);
     }
+    /// Of the plane of an edge: the support of its facet.
+    [[nodiscard]] PlaneId support_of(PlaneId edge) const { return planes_[u(edge)].support; }
     [[nodiscard]] const PlaneName& name(PlaneId id) const { return planes_[u(id)].name; }
     /// Records that two planes are the same point set.
     void declare_same(PlaneId a, PlaneId b);
