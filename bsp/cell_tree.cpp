@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -90,6 +91,24 @@ std::shared_ptr<const CellNode> CellNode::leaf(PolygonList polygons, const FineP
     n->mixed_ = mixed;
     n->size_ = n->polygons_.size();
     return n;
+}
+
+std::shared_ptr<const CellNode> CellNode::deferred(std::unique_ptr<const DeferredLeaf> leaf,
+                                                   int winding, std::uint64_t size) {
+    std::shared_ptr<CellNode> n(new CellNode);
+    n->reference_ = leaf->reference;
+    n->deferred_ = std::move(leaf);
+    n->winding_ = winding;
+    n->mixed_ = true;
+    n->size_ = size;
+    return n;
+}
+
+void CellNode::arrange() const {
+    const std::lock_guard lock(deferred_->arranging());
+    if (is_arranged_.load(std::memory_order_relaxed)) return;
+    polygons_ = deferred_->arrange();
+    is_arranged_.store(true, std::memory_order_release);
 }
 
 std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const FinePoint& reference,

@@ -215,6 +215,7 @@ private:
 };
 
 class CellNode;
+class DeferredLeaf;
 
 /// A shared subtree, or its complement.
 struct CellRef {
@@ -236,6 +237,10 @@ class CellNode : public std::enable_shared_from_this<CellNode> {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,
                                                 int winding, bool mixed);
+    /// A mixed leaf that cuts its facets when it is first asked for its polygons. `size`: about how
+    /// many they are, and not 0.
+    static std::shared_ptr<const CellNode> deferred(std::unique_ptr<const DeferredLeaf> leaf,
+                                                    int winding, std::uint64_t size);
     /// All facets of a source, unrefined.
     static std::shared_ptr<const CellNode> fresh(const Source& source, const FinePoint& reference,
                                                  int winding, bool mixed);
@@ -249,11 +254,18 @@ public:
     [[nodiscard]] int axis() const { return axis_; }
     [[nodiscard]] std::int64_t wall() const { return wall_; }
     [[nodiscard]] const CellRef& child(int i) const { return child_[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] const PolygonList& polygons() const { return polygons_; }
+    /// Safe from any thread; of a deferred leaf they stay where they are once they are made.
+    [[nodiscard]] const PolygonList& polygons() const {
+        if (deferred_ != nullptr && !is_arranged_.load(std::memory_order_acquire)) arrange();
+        return polygons_;
+    }
+    /// How a leaf that was deferred was put, whether its polygons were asked for or not.
+    [[nodiscard]] const DeferredLeaf* deferred() const { return deferred_.get(); }
     [[nodiscard]] const FinePoint& reference() const { return reference_; }
     [[nodiscard]] int winding() const { return winding_; }
     [[nodiscard]] bool is_mixed() const { return mixed_; }
-    /// Polygons listed in all leaves below.
+    /// Polygons listed in all leaves below, about so many of deferred leaves. 0 only where nothing
+    /// is listed.
     [[nodiscard]] std::uint64_t size() const { return size_; }
 
     /// Of a leaf: the same cell with children, if someone has made them.
@@ -274,11 +286,14 @@ public:
 
 private:
     CellNode() = default;
+    void arrange() const;
 
     int axis_ = -1;
     std::int64_t wall_ = 0;
     std::array<CellRef, 2> child_;
-    PolygonList polygons_;
+    mutable PolygonList polygons_;
+    std::unique_ptr<const DeferredLeaf> deferred_;
+    mutable std::atomic<bool> is_arranged_{false};
     FinePoint reference_;
     int winding_ = 0;
     bool mixed_ = false;

@@ -22,6 +22,7 @@
 #include <tuple>
 
 #include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/fragment_group.h>
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/bsp/detail/traced_facets.h>
@@ -50,9 +51,10 @@ public:
     void run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
-            check_stop(1 + leaf.node->polygons().size());
+            check_stop(1 + leaf.node->size());
             mark_facets(leaf);
         }
+        if (solid_.crossings != nullptr) mark_crossed();
         number_facets();
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
@@ -72,8 +74,11 @@ public:
 
 private:
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
+    [[nodiscard]] const DeferredLeaf* deferred(const Leaf& leaf) const;
     void mark_facets(const Leaf& leaf);
-    void mark_list(const Leaf& leaf, FacetMarks& marks);
+    void mark_crossed();
+    [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
+    void mark_list(const Leaf& leaf, const PolygonList& polygons, FacetMarks& marks);
     void number_facets();
     void make_parts(Leaf& leaf);
     void make_list_parts(const Leaf& leaf);
@@ -133,7 +138,7 @@ void Gatherer::mark_incomplete(FacetMarks& marks) const {
 
 void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& cell) {
     if (node.is_leaf()) {
-        if (!node.polygons().empty()) leaves_.push_back({&node, complemented, cell});
+        if (node.size() != 0) leaves_.push_back({&node, complemented, cell});
         return;
     }
     for (int i = 0; i < 2; ++i) {
@@ -152,11 +157,32 @@ bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bo
            cell.contains(Box::of(marks.source()->corner(facet, 0)));
 }
 
+// Where the crossings of all leaves are known, those that were deferred stay so.
+const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
+    return solid_.crossings != nullptr ? leaf.node->deferred() : nullptr;
+}
+
+void Gatherer::mark_crossed() {
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Crossings::Operand& o = solid_.crossings->operands[i];
+        const auto marks = std::ranges::find(
+            out_.sources, o.serial, [](const FacetMarks& m) { return m.source()->serial(); });
+        if (marks == out_.sources.end()) continue;
+        for (const FacetCrossing& c : solid_.crossings->pairs) {
+            marks->set_present(c.facets[i], o.inside_above);
+            marks->set_worked(c.facets[i], o.inside_above);
+        }
+    }
+}
+
 void Gatherer::mark_facets(const Leaf& leaf) {
-    const PolygonList& polygons = leaf.node->polygons();
+    const DeferredLeaf* const deferred = this->deferred(leaf);
+    if (deferred != nullptr)
+        for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
+    const PolygonList& polygons = deferred != nullptr ? deferred->uncrossed : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
         source != nullptr && !source->is_half_space()) {
-        mark_list(leaf, out_.sources[table(source)]);
+        mark_list(leaf, polygons, out_.sources[table(source)]);
         return;
     }
     for (const PolygonRef r : polygons) {
@@ -173,8 +199,7 @@ void Gatherer::mark_facets(const Leaf& leaf) {
 }
 
 // A list of nothing but whole facets of one source.
-void Gatherer::mark_list(const Leaf& leaf, FacetMarks& marks) {
-    const PolygonList& polygons = leaf.node->polygons();
+void Gatherer::mark_list(const Leaf& leaf, const PolygonList& polygons, FacetMarks& marks) {
     const bool flipped = polygons.flipped() != leaf.complemented;
     if (polygons.has_all_facets()) {
         for (std::uint32_t f = 0; f < polygons.size(); ++f) marks.set_present(f, flipped);
@@ -220,8 +245,19 @@ void Gatherer::number_facets() {
     out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
 }
 
+// Whether something of the leaf bounds the result, is cut or touched, and has no edges yet.
+bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
+    return std::ranges::any_of(leaf.operands, [&](const DeferredLeaf::Operand& o) {
+        const FacetMarks& marks = out_.sources[out_.table_of(o.polygons.whole_source())];
+        return std::ranges::any_of(o.polygons.facets(), [&](std::uint32_t f) {
+            return !marks.is_traced(f) && (marks.takes_part(f, false) || marks.takes_part(f, true));
+        });
+    });
+}
+
 void Gatherer::make_parts(Leaf& leaf) {
-    leaf.first_edge = edges_.size();
+    leaf.first_edge = leaf.end_edge = edges_.size();
+    if (const auto* d = deferred(leaf); d != nullptr && !needs_parts(*d)) return;
     const PolygonList& polygons = leaf.node->polygons();
     if (const Source* source = polygons.whole_source()) {
         const FacetMarks& marks = out_.sources[table(source)];

@@ -37,6 +37,7 @@
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
 #include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/handover.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/leaf_problem.h>
@@ -112,6 +113,7 @@ private:
     std::optional<CellRef> resolve_prisms(CellTask& task);
     template <class Arrange>
     std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
+    CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
     CellRef divide(CellTask& task);
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
 
@@ -142,6 +144,7 @@ private:
     Workbench bench_;
     StackArena arena_;
     std::vector<PolygonRef> polygons_;                   // of leaves
+    std::vector<std::uint32_t> facets_;                  // of a leaf that is deferred
     std::vector<std::shared_ptr<const CellNode>> made_;  // leaves that name flattened lists
 };
 
@@ -272,7 +275,7 @@ CellRef Worker::resolve(CellTask& task) {
 // Where everything is across an axis, leaves may be larger.
 std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
     const auto is_across_axis = [](const CellOperand& o) {
-        if (!o.is_list && !o.node->is_leaf()) return false;
+        if (!o.is_list && (!o.node->is_leaf() || o.node->polygons().empty())) return false;
         AxisPolygon first;
         return first.read(o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0]);
     };
@@ -286,7 +289,8 @@ std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
 std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
     if (task.operands.size() < 2) return std::nullopt;
     const auto may_be_prism = [&](const CellOperand& o) {
-        if (!o.embedded || (!o.is_list && !o.node->is_leaf())) return false;
+        if (!o.embedded || (!o.is_list && (!o.node->is_leaf() || o.node->polygons().empty())))
+            return false;
         const PolygonRef first = o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0];
         return PrismFacets::may_be_of_prism(first) && task.cell.contains(first.box());
     };
@@ -319,7 +323,31 @@ std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
     PolygonList list(std::move(kept->polygons));
     incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
     shared_.memory.keep(bytes);
+    if (kept->deferred != 0) return defer(task, std::move(list), inside, kept->deferred);
     return CellRef{CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
+}
+
+// A leaf whose `crossed` facets are cut when someone needs it.
+CellRef Worker::defer(const CellTask& task, PolygonList uncrossed, bool inside,
+                      std::size_t crossed) {
+    auto leaf = std::make_unique<DeferredLeaf>();
+    leaf->cell = task.cell;
+    leaf->reference = task.reference;
+    leaf->formula = task.formula;
+    leaf->rule = options_.winding;
+    const std::uint64_t size = uncrossed.size() + crossed;
+    leaf->uncrossed = std::move(uncrossed);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const CellOperand& o = task.operands[i];
+        // Of an imported mesh, refined or not: one source, no facet turned over.
+        const PolygonRef first = o.polygon(o.list()[0].id);
+        facets_.clear();
+        for (const PackedBox& e : o.list()) facets_.push_back(o.polygon(e.id).facet);
+        leaf->operands[i] = {PolygonList::whole_facets(*first.source, first.flipped, facets_, 0),
+                             o.complemented, o.winding};
+        shared_.memory.keep(facets_.size() * sizeof(std::uint32_t));
+    }
+    return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
 // Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
@@ -645,7 +673,7 @@ CellRef Worker::divide(CellTask& task) {
     return solve_children(task, *wall, children);
 }
 
-bool is_homogeneous(const CellRef& r) { return r.node->is_leaf() && r.node->polygons().empty(); }
+bool is_homogeneous(const CellRef& r) { return r.node->is_leaf() && r.node->size() == 0; }
 
 int value_at_reference(const CellRef& r) {
     return complemented_winding(r.node->winding(), r.complemented);

@@ -137,8 +137,12 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
                                        EvaluateStats& stats) {
     if (auto result = arrange_across_axes(problem, stats)) return *std::move(result);
     out_.clear();
-    if (plain_.arrange(problem, stats, out_)) {
-        if (collect_ && problem.operands.size() == 2) plain_.add_crossings(crossings_.pairs);
+    if (collect_ && problem.operands.size() == 2) {
+        if (const auto crossed = plain_.arrange_uncrossed(problem, stats, out_)) {
+            plain_.add_crossings(crossings_.pairs);
+            return {std::move(out_), {}, *crossed};
+        }
+    } else if (plain_.arrange(problem, stats, out_)) {
         return {std::move(out_), {}};
     }
     if (auto result = arrange_prisms(problem, stats)) return *std::move(result);

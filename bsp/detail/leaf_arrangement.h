@@ -23,6 +23,8 @@ namespace trisect::detail {
 struct LeafResult {
     std::vector<PolygonRef> polygons;   ///< whole where nothing cut them
     std::vector<FacetName> incomplete;  ///< facets that lost a part to a coincident facet
+    /// So many facets that something crosses were left out.
+    std::size_t deferred = 0;
 };
 
 /// Scratch memory that one thread uses for all its leaves. What it returns depends on the problem
@@ -38,7 +40,8 @@ public:
     /// to.
     [[nodiscard]] LeafResult arrange(const LeafProblem& problem, SlotValues& values,
                                      EvaluateStats& stats);
-    /// Whether leaves of two operands have their crossings collected.
+    /// Whether the crossings of leaves are collected, and facets that something crosses are left
+    /// out where that is possible. \pre formulas have slots 0 and 1
     void collect_crossings(bool collect);
     /// What was collected so far; unordered, and pairs may be there several times.
     [[nodiscard]] const Crossings& crossings() const;

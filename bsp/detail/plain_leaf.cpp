@@ -19,6 +19,18 @@ namespace trisect::detail {
 
 bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
+    return try_to_arrange(problem, true, stats, out);
+}
+
+std::optional<std::size_t> PlainLeaf::arrange_uncrossed(const LeafProblem& problem,
+                                                        EvaluateStats& stats,
+                                                        std::vector<PolygonRef>& out) {
+    if (!try_to_arrange(problem, false, stats, out)) return std::nullopt;
+    return crossed_;
+}
+
+bool PlainLeaf::try_to_arrange(const LeafProblem& problem, bool crossed_too, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
     const EvaluateStats before = stats;
     bool done = false;
@@ -28,7 +40,7 @@ bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
         out.clear();
     };
     try {
-        done = arrange_listed(problem, stats, out);
+        done = arrange_listed(crossed_too, stats, out);
     } catch (...) {
         undo();
         throw;
@@ -37,14 +49,19 @@ bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
     return done;
 }
 
-bool PlainLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats,
+bool PlainLeaf::arrange_listed(bool crossed_too, EvaluateStats& stats,
                                std::vector<PolygonRef>& out) {
     if (!pairs_.relate_all(facets_, stats)) return false;
     windings_.start(facets_, pairs_);
-    formula_.start(problem);
+    formula_.start(facets_.problem());
+    crossed_ = 0;
     cutting_.start(facets_, pairs_, windings_, formula_, stats);
     for (LeafIndex i = 0; i < facets_.size(); ++i) {
         const bool crossed = !pairs_.contacts(i).empty();
+        if (crossed && !crossed_too) {
+            ++crossed_;
+            continue;
+        }
         if (crossed) {
             facets_[i].ref.touched = true;
         } else if (!facets_[i].ref.touched) {

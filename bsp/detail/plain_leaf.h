@@ -3,6 +3,8 @@
 // Leaf arrangement in general position.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <trisect/bsp/detail/crossings.h>
@@ -25,13 +27,20 @@ public:
     /// tell; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
+    /// The same without the facets that something crosses in the cell; returns nothing for false,
+    /// else how many of those there are.
+    [[nodiscard]] std::optional<std::size_t> arrange_uncrossed(const LeafProblem& problem,
+                                                               EvaluateStats& stats,
+                                                               std::vector<PolygonRef>& out);
     /// Appends the pairs of facets that cross in the last leaf. \pre it was arranged, and has two
     /// operands.
     void add_crossings(std::vector<FacetCrossing>& out) const;
 
 private:
-    [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats,
+    [[nodiscard]] bool arrange_listed(bool crossed_too, EvaluateStats& stats,
                                       std::vector<PolygonRef>& out);
+    [[nodiscard]] bool try_to_arrange(const LeafProblem& problem, bool crossed_too,
+                                      EvaluateStats& stats, std::vector<PolygonRef>& out);
     void emit(LeafIndex item, const PlainCutting::Result& result, std::vector<PolygonRef>& out);
 
     PlainFacets facets_;
@@ -39,6 +48,7 @@ private:
     PlainWindings windings_;
     PlainCutting cutting_;
     LeafFormula formula_;
+    std::size_t crossed_ = 0;  // facets
 };
 
 }  // namespace trisect::detail

@@ -4,6 +4,8 @@
 // naive engine in rationals. Within a solid facets lie in common planes as often as on the small
 // grid; an integer map of its own takes every solid out of the grid of the others.
 
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include <trisect/bsp/detail/assembly.h>
@@ -112,6 +114,55 @@ TEST(GeneralPosition, BarsWhoseSidesAreCutInTwoTriangles) {
                          100, leaves);
     }
     EXPECT_GT(leaves.plain * 10, leaves.mixed * 8);
+}
+
+// The second step comes to leaves whose facets the first one has not cut yet, and passes others on.
+TEST(GeneralPosition, AStepAfterTheOther) {
+    using Kind = reference::Expression::Kind;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 350000);
+        std::vector<Operand> operands;
+        std::vector<trisect::Solid> solids;
+        for (int i = 0; i < 3; ++i) {
+            operands.push_back(mapped(reference::random_embedded_solid(random), random));
+            solids.push_back(engines::solid(operands.back(), trisect::Embedding::Assume));
+        }
+        trisect::EvaluateOptions options;
+        options.leaf_polygons = seed % 3 == 0 ? 3 : (seed % 3 == 1 ? 10 : 100);
+        const trisect::Solid first = trisect::evaluate(solids[0] - solids[1], options);
+        const trisect::Solid second = trisect::evaluate(first | solids[2], options);
+        const auto expected = reference::evaluate(
+            operands,
+            reference::Expression::node(Kind::Union, {reference::pair_expression(Kind::Difference),
+                                                      reference::Expression::leaf(2)}));
+        EXPECT_EQ(
+            engines::difference(second.to_brep(), reference::canonical_boundary(expected.cells)),
+            "");
+        EXPECT_EQ(engines::open_edge(second.to_mesh()), "");
+    }
+}
+
+// Several threads ask for what one of them has to cut.
+TEST(GeneralPosition, ThreadsAskForTheSameLeaf) {
+    reference::Random random(360001);
+    const trisect::Solid a = engines::solid(mapped(reference::box({0, 5, 6}, {15, 9, 10}), random),
+                                            trisect::Embedding::Assume);
+    for (int round = 0; round < 20; ++round) {
+        const trisect::Solid b = engines::solid(
+            mapped(reference::box({5, 0, 4}, {8, 15, 9}), random), trisect::Embedding::Assume);
+        const trisect::Solid result = trisect::evaluate(a | b);
+        std::vector<trisect::PolygonMesh> meshes(4);
+        {
+            std::vector<std::jthread> threads;
+            for (trisect::PolygonMesh& mesh : meshes)
+                threads.emplace_back([&] { mesh = trisect::evaluate(result | a).to_mesh(); });
+        }
+        for (const trisect::PolygonMesh& mesh : meshes) {
+            EXPECT_EQ(mesh.corners, meshes[0].corners);
+            EXPECT_TRUE(mesh.points == meshes[0].points);
+        }
+    }
 }
 
 // The outlines of cut facets follow from their crossings, or pieces are put together: the same
