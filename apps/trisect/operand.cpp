@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <trisect/brep/io/exact_boundary.h>
+#include <trisect/brep/measure.h>
 
 #include "commands.h"
 #include "mesh_files.h"
@@ -41,20 +42,29 @@ Json facts_of(const ImportedMesh& imported, const std::string& name, std::size_t
     return facts;
 }
 
+Embedding embedding_of(const OperandOptions& options) {
+    return options.assume_embedded ? Embedding::Assume : Embedding::Resolve;
+}
+
 // By the extension, as for meshes.
 bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
 
-Operand exact_operand(const Session& session, const std::string& name, Embedding embedding) {
+Operand exact_operand(const Session& session, const std::string& name,
+                      const OperandOptions& options) {
     if (session.options().lattice)
         throw UsageError("--lattice is for meshes: " + name +
                          " has planes on a lattice of its own");
     const Brep brep = read_exact(std::filesystem::path(name));
+    if (!brep.is_empty() && !(volume(brep) > 0) &&
+        options.winding == EvaluateOptions::Winding::Positive)
+        throw OperandError(ErrorCode::InvalidSolid, name,
+                           "the boundary is inside out (--winding nonzero accepts it)");
     Json facts;
     facts["file"] = name;
     facts["faces"] = brep.faces().size();
     facts["lattice"] = lattice_json(LatticeReport{brep.lattice()});
     try {
-        return {Solid::from_brep(brep, embedding), std::move(facts)};
+        return {Solid::from_brep(brep, embedding_of(options)), std::move(facts)};
     } catch (const Error& e) {
         throw OperandError(e.code(), name, e.what());
     }
@@ -83,12 +93,12 @@ void add_operand_options(CLI::App& command, OperandOptions& options) {
 std::vector<Operand> read_operands(Session& session, std::span<const std::string> names,
                                    const OperandOptions& options) {
     check_standard_input(names);
-    const Embedding embedding = options.assume_embedded ? Embedding::Assume : Embedding::Resolve;
+    const Embedding embedding = embedding_of(options);
     std::vector<Operand> operands;
     operands.reserve(names.size());
     for (const std::string& name : names) {
         if (has_exact_boundary(name)) {
-            operands.push_back(exact_operand(session, name, embedding));
+            operands.push_back(exact_operand(session, name, options));
             continue;
         }
         const PolygonMesh mesh = read_input(session, name);

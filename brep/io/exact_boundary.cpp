@@ -15,6 +15,7 @@
 #include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -294,13 +295,40 @@ private:
             const std::uint64_t count = text_.count("the number of loops");
             if (count == 0) text_.fail_word("the number of loops", "is 0");
             loops.clear();
-            for (std::uint64_t l = 0; l < count; ++l) loops.push_back(loop(plane));
+            for (std::uint64_t l = 0; l < count; ++l) {
+                const char* at = nullptr;
+                loops.push_back(loop(plane, at));
+                if (!runs_around(plane, loops.back(), l == 0))
+                    source_.fail(at, l == 0 ? "the outer loop of a face runs clockwise"
+                                            : "a hole of a face runs counter-clockwise");
+            }
             text_.expect_line_end();
             builder.add_face(plane, loops, source);
         }
     }
-    std::vector<std::uint32_t> loop(const Plane& plane) {
+    // Told by the corner that is farthest to one side. All that a face has there is on the other
+    // side of it, so an outer loop turns left at it each time that it comes by; a hole has the face
+    // around it and turns right, at least once.
+    bool runs_around(const Plane& plane, const std::vector<std::uint32_t>& loop,
+                     bool is_outer) const {
+        const PlaneProjection seen(plane, points_);
+        const std::size_t n = loop.size();
+        std::uint32_t farthest = loop[0];
+        for (const std::uint32_t v : loop)
+            if (seen.compare(v, farthest) < 0) farthest = v;
+        bool any_left = false;
+        bool any_right = false;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (loop[i] != farthest) continue;
+            const int turn = seen.orientation(loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n]);
+            (turn > 0 ? any_left : any_right) = true;
+        }
+        return is_outer ? !any_right : any_right;
+    }
+    // `at` becomes the place of the loop.
+    std::vector<std::uint32_t> loop(const Plane& plane, const char*& at) {
         const std::uint64_t n = text_.count("the number of corners of a loop");
+        at = text_.last_number();
         if (n < 3) text_.fail_word("the number of corners of a loop", "is less than 3");
         if (n > source_.limits().loop_corners)
             source_.fail_limit(text_.last_number(),

@@ -127,6 +127,10 @@ TEST(ExactBoundary, ErrorsNameTheirPlace) {
                  "e:14:13: '1', read as a corner, is not on the plane of its face");
     expect_error(head + planes + vertices + "faces 1\n0 0 0 1 2 0 3\n",
                  "e:14:9: '2', read as the number of corners of a loop, is less than 3");
+    expect_error(head + planes + vertices + "faces 1\n0 0 0 1 3 0 2 3\n",
+                 "e:14:9: the outer loop of a face runs clockwise");
+    expect_error(head + planes + vertices + "faces 1\n0 0 0 2 3 0 3 2 3 0 3 2\n",
+                 "e:14:17: a hole of a face runs counter-clockwise");
     expect_error(head + planes + vertices + "faces 2\n0 0 0 1 3 0 3 2\n",
                  "e:15:1: the file ends before face 1 of 2");
     expect_error(head + planes + vertices + faces + "7\n", "e:18:1: '7' after the last face");
