@@ -21,6 +21,7 @@
 #include <trisect/bsp/detail/ball_motion.h>
 #include <trisect/bsp/detail/contact_event.h>
 #include <trisect/bsp/detail/contact_search.h>
+#include <trisect/bsp/detail/facing_cones.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/detail/pair_events.h>
@@ -88,7 +89,8 @@ public:
           events_a_(a.data()),
           events_b_(b.data()) {}
 
-    FirstContact run(ContactEvent event) {
+    FirstContact run(const FirstContactOptions& options) {
+        const ContactEvent event = options.event;
         const std::size_t pieces = common_piece_count(motion_a_, motion_b_);
         if (a_.is_empty() || b_.is_empty()) return result_;
         result_.at_start = relation_at(0, 0);
@@ -100,6 +102,13 @@ public:
             return std::move(result_);
         }
         bool apart = result_.at_start == Relation::Disjoint;
+        // Where solids touch already they may come apart, and that is an event, too.
+        if (event == ContactEvent::Touch && options.leave_out_parting) {
+            cones_a_ = std::make_unique<detail::FacingCones>(events_a_);
+            cones_b_ = std::make_unique<detail::FacingCones>(events_b_);
+            parting_ =
+                std::make_unique<detail::PartingFaces>(*cones_a_, *cones_b_, events_a_, events_b_);
+        }
         for (std::size_t i = 0; i < pieces && !result_.exists(); ++i) {
             if (event == ContactEvent::Touch)
                 touch_in_piece(i);
@@ -179,11 +188,12 @@ private:
                     pairs_->find_exactly(i, j, {0, 1}, events);
             return;
         }
-        detail::ContactSearch search(events_a_, events_b_, *pairs_);
+        detail::ContactSearch search(events_a_, events_b_, *pairs_, parting_.get());
         search.run(*filter_, events);
         result_.stats.intervals += search.counters().intervals;
         result_.stats.box_tests += search.counters().box_tests;
         result_.stats.triangle_pairs += search.counters().triangle_pairs;
+        if (parting_ != nullptr) result_.stats.parting_pairs = parting_->left_out();
     }
 
     void answer(std::size_t piece, const detail::EventsAtATime& events) {
@@ -219,6 +229,9 @@ private:
     std::unique_ptr<detail::RelativeMotion> motion_;
     std::unique_ptr<detail::PairEvents> pairs_;
     std::unique_ptr<detail::BallMotion> filter_;  // null when degrees are too high
+    std::unique_ptr<detail::FacingCones> cones_a_;
+    std::unique_ptr<detail::FacingCones> cones_b_;
+    std::unique_ptr<detail::PartingFaces> parting_;  // null when nothing may be left out
     FirstContact result_;
 };
 
@@ -227,7 +240,7 @@ private:
 FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,
                            const InterferenceModel& b, const Motion& motion_b,
                            const FirstContactOptions& options) {
-    return Query(a, motion_a, b, motion_b).run(options.event);
+    return Query(a, motion_a, b, motion_b).run(options);
 }
 
 }  // namespace trisect

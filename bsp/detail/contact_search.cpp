@@ -34,7 +34,12 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
     if (pose.is_apart()) return;
     Pairs leaves;
     Pairs coarse;
-    walk_.refine(pose, swept.sweep, front, leaves, coarse);
+    if (parting_ != nullptr) {
+        parting_->set(over, swept);
+        walk_.refine(pose, swept.sweep, front, leaves, coarse, *parting_);
+    } else {
+        walk_.refine(pose, swept.sweep, front, leaves, coarse);
+    }
     if (leaves.empty() && coarse.empty()) return;
 
     // Triangles that sweep farther than they are large had better wait for a shorter interval.

@@ -9,6 +9,7 @@
 
 #include <trisect/bsp/detail/ball_motion.h>
 #include <trisect/bsp/detail/contact_event.h>
+#include <trisect/bsp/detail/facing_cones.h>
 #include <trisect/bsp/detail/pair_events.h>
 #include <trisect/bsp/detail/swept_walk.h>
 
@@ -23,8 +24,11 @@ struct SearchCounters {
 
 class ContactSearch {
 public:
-    ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs)
-        : a_(a), b_(b), pairs_(pairs), walk_(a.data().boxes, b.data().boxes) {}
+    /// `parting`, if given, leaves out what moves apart: for the first contact of solids that are
+    /// apart at the beginning.
+    ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs,
+                  PartingFaces* parting = nullptr)
+        : a_(a), b_(b), pairs_(pairs), parting_(parting), walk_(a.data().boxes, b.data().boxes) {}
 
     /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
     void run(const BallMotion& over, EarliestEvents& events);
@@ -44,6 +48,7 @@ private:
     const EventModel& a_;
     const EventModel& b_;
     PairEvents& pairs_;
+    PartingFaces* parting_;
     SweptWalk walk_;
     SearchCounters counters_;
 };

@@ -140,9 +140,8 @@ double inverse_stretch(const BallMotion& motion) {
     return loss < 0.5 ? norm / (1 - loss) * (1 + 0x1p-40) : HUGE_VAL;
 }
 
-void SweptWalk::refine(const ObbPose& pose, double sweep, const Pairs& front, Pairs& leaves,
-                       Pairs& coarse) {
-    Pairs stack;
+SweptWalk::Pairs SweptWalk::meeting(const ObbPose& pose, const Pairs& front) {
+    Pairs r;
     // Pairs that came from one node lie side by side: one test decides up to four of them.
     bool of_a = false;
     unsigned hits = 0;
@@ -158,26 +157,25 @@ void SweptWalk::refine(const ObbPose& pose, double sweep, const Pairs& front, Pa
             hits = of_a ? pose.overlaps(a_.nodes[p.a.node()], b_.box(p.b))
                         : pose.overlaps(a_.box(p.a), b_.nodes[p.b.node()]);
         }
-        if ((hits >> (of_a ? p.a : p.b).lane() & 1U) != 0) stack.push_back(p);
+        if ((hits >> (of_a ? p.a : p.b).lane() & 1U) != 0) r.push_back(p);
     }
-    coarse.clear();
-    while (!stack.empty()) {
-        const Pair p = stack.back();
-        stack.pop_back();
-        const bool a_is_leaf = a_.child(p.a).is_leaf();
-        const bool b_is_leaf = b_.child(p.b).is_leaf();
-        if (a_is_leaf && b_is_leaf) {
-            leaves.push_back(p);
-            continue;
-        }
-        const double a = size_a(p.a);
-        const double b = size_b(pose, p.b);
-        if (a + b < coarse_sweep * sweep) {
-            coarse.push_back(p);
-            continue;
-        }
+    return r;
+}
+
+void SweptWalk::divide(const ObbPose& pose, double sweep, const Pair& p, Pairs& stack,
+                       Pairs& leaves, Pairs& coarse) {
+    const bool a_is_leaf = a_.child(p.a).is_leaf();
+    const bool b_is_leaf = b_.child(p.b).is_leaf();
+    if (a_is_leaf && b_is_leaf) {
+        leaves.push_back(p);
+        return;
+    }
+    const double a = size_a(p.a);
+    const double b = size_b(pose, p.b);
+    if (a + b < coarse_sweep * sweep)
+        coarse.push_back(p);
+    else
         push_children(pose, p, a_is_leaf || (!b_is_leaf && b > a), stack);
-    }
 }
 
 void SweptWalk::push_children(const ObbPose& pose, const Pair& p, bool of_b, Pairs& stack) {

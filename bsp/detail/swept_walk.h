@@ -43,8 +43,23 @@ public:
 
     /// What of the pairs of `front` may meet: pairs of triangles, or of leaves of the trees, and
     /// pairs of boxes of which one is none but both are small. `pose` is grown by the sweep.
+    /// Pairs for which `leave_out(box of A, box of B)` holds are dropped.
+    template <class LeaveOut>
+    void refine(const ObbPose& pose, double sweep, const Pairs& front, Pairs& leaves, Pairs& coarse,
+                LeaveOut&& leave_out) {
+        Pairs stack = meeting(pose, front);
+        coarse.clear();
+        while (!stack.empty()) {
+            const Pair p = stack.back();
+            stack.pop_back();
+            if (leave_out(p.a, p.b)) continue;
+            divide(pose, sweep, p, stack, leaves, coarse);
+        }
+    }
     void refine(const ObbPose& pose, double sweep, const Pairs& front, Pairs& leaves,
-                Pairs& coarse);
+                Pairs& coarse) {
+        refine(pose, sweep, front, leaves, coarse, [](ObbId, ObbId) { return false; });
+    }
     /// Whether at least half of the pairs are small beside the sweep.
     [[nodiscard]] bool are_long(const ObbPose& pose, double sweep, const Pairs& leaves) const;
 
@@ -52,6 +67,11 @@ public:
     [[nodiscard]] std::uint64_t box_tests() const { return box_tests_; }
 
 private:
+    // Those whose boxes meet.
+    [[nodiscard]] Pairs meeting(const ObbPose& pose, const Pairs& front);
+    // Onto one of three lists.
+    void divide(const ObbPose& pose, double sweep, const Pair& pair, Pairs& stack, Pairs& leaves,
+                Pairs& coarse);
     void push_children(const ObbPose& pose, const Pair& pair, bool of_b, Pairs& stack);
     [[nodiscard]] double size_a(ObbId id) const;
     [[nodiscard]] double size_b(const ObbPose& pose, ObbId id) const;

@@ -16,6 +16,8 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/extrusion.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
@@ -200,6 +202,45 @@ TEST(FirstContact, TwoArmsTurnTowardsEachOther) {
     const double angle = 2 * std::atan(s) - std::atan(1.0) * 2;
     const double tip = std::max(4 * std::cos(angle) - std::sin(angle), 4 * std::cos(angle));
     EXPECT_NEAR(tip, 3, 1e-12);
+}
+
+// Fine meshes: about half of what is near moves apart and is left out; nothing else changes.
+TEST(FirstContact, PartsThatMoveApartAreLeftOut) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 48, 24)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(0.5, 3)));
+    const Motion still;
+    std::vector<Motion> motions;
+    for (const double x : {0.0, 0.25, 0.6875, 1.0, 1.3125, 1.75, 1.9375})
+        motions.emplace_back(
+            Motion::translation(Pose::from_translation({x, 0.125, 3}), {0.125, 0, -6}));
+    for (const double x : {1.0, 1.5, 2.0}) {
+        Screw screw;
+        screw.turn = {3, 0, 1, 1};
+        screw.shift = {0, 0, -6};
+        motions.emplace_back(Motion::screw(Pose::from_translation({x, 0.125, 3}), screw));
+    }
+    trisect::FirstContactOptions all;
+    all.leave_out_parting = false;
+    std::uint64_t left_out = 0;
+    std::uint64_t pairs = 0;
+    std::uint64_t all_pairs = 0;
+    for (const Motion& motion : motions)
+        for (const InterferenceModel* b : {&ball, &torus}) {
+            const FirstContact c = first_contact(torus, still, *b, motion);
+            const FirstContact whole = first_contact(torus, still, *b, motion, all);
+            ASSERT_EQ(c.exists(), whole.exists());
+            EXPECT_EQ(c.time, whole.time);
+            EXPECT_EQ(c.witnesses, whole.witnesses);
+            left_out += c.stats.parting_pairs;
+            pairs += c.stats.triangle_pairs;
+            all_pairs += whole.stats.triangle_pairs;
+            // And the other one moving.
+            const FirstContact back = first_contact(*b, motion, torus, still);
+            EXPECT_EQ(back.time, whole.time);
+            EXPECT_EQ(back.witnesses.size(), whole.witnesses.size());
+        }
+    EXPECT_GT(left_out, 100U);
+    EXPECT_LE(pairs, all_pairs);
 }
 
 TEST(FirstContact, ChainsReportThePieceInTheirParameter) {
@@ -412,6 +453,14 @@ void compare_with_brute_force(const Scene& scene, std::size_t& contacts, std::si
     const InterferenceModel a(engines::solid(scene.a));
     const InterferenceModel b(engines::solid(scene.b));
     const FirstContact c = first_contact(a, scene.pa.motion(), b, scene.pb.motion());
+    // What moves apart plays no part in it.
+    trisect::FirstContactOptions all;
+    all.leave_out_parting = false;
+    const FirstContact whole = first_contact(a, scene.pa.motion(), b, scene.pb.motion(), all);
+    ASSERT_EQ(c.exists(), whole.exists());
+    EXPECT_EQ(c.time, whole.time);
+    EXPECT_EQ(c.witnesses, whole.witnesses);
+    EXPECT_EQ(whole.stats.parting_pairs, 0U);
     const auto meet = [&scene](const Rational& s) {
         return oracle::boundaries_meet(scene.a, scene.pa, scene.b, scene.pb, s);
     };
