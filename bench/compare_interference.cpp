@@ -151,6 +151,9 @@ public:
                 {"us_coherent", quantiles(kept)},
                 {"node_tests_fresh", static_cast<double>(walks.node_tests) / n},
                 {"node_tests_coherent", static_cast<double>(query_counters.node_tests) / n},
+                {"plane_tests_coherent", static_cast<double>(query_counters.plane_tests) / n},
+                {"by_balls", query_counters.by_balls},
+                {"resumed_fronts", query_counters.resumed_fronts},
                 {"kept", query_counters.kept},
                 {"fresh_walks", query_counters.fresh_walks},
                 {"different", different}};

@@ -79,15 +79,25 @@ FirstContact report(const char* name, const Body& a, const Motion& ma, const Bod
         c = first_contact(a.model, ma, b.model, mb);
         times.push_back(milliseconds_since(start));
     }
+    // The same without faces that move apart.
+    trisect::FirstContactOptions options;
+    options.leave_out_parting = true;
+    const auto facing_start = Clock::now();
+    const FirstContact facing = first_contact(a.model, ma, b.model, mb, options);
+    const double facing_time = milliseconds_since(facing_start);
+    if (facing.time != c.time || facing.witnesses != c.witnesses)
+        throw std::runtime_error(std::string("leaving out faces changes the answer: ") + name);
     std::printf("| %s | %zu / %zu | ", name, a.model.triangle_count(), b.model.triangle_count());
     if (c.exists())
         std::printf("%.12g | %zu", c.time->to_double(), c.witnesses.size());
     else
         std::printf("none | -");
-    std::printf(" | %.2f | %llu | %llu | %llu | %llu | %llu |\n", median(times),
-                static_cast<unsigned long long>(c.stats.intervals),
+    std::printf(" | %.2f | %.2f | %llu | %llu / %llu | %llu / %llu | %llu | %llu |\n",
+                median(times), facing_time, static_cast<unsigned long long>(c.stats.intervals),
                 static_cast<unsigned long long>(c.stats.box_tests),
+                static_cast<unsigned long long>(facing.stats.box_tests),
                 static_cast<unsigned long long>(c.stats.triangle_pairs),
+                static_cast<unsigned long long>(facing.stats.triangle_pairs),
                 static_cast<unsigned long long>(counters.questions),
                 static_cast<unsigned long long>(counters.exact));
     std::fflush(stdout);
@@ -112,9 +122,10 @@ Motion turns(const Pose& start, std::int64_t sense, const std::array<double, 3>&
 
 void mechanisms() {
     std::puts(
-        "| scene | triangles | first contact | witnesses | ms | intervals | box tests | pairs |"
+        "| scene | triangles | first contact | witnesses | ms | ms, facing only | intervals |"
+        " box tests / facing only | pairs / facing only |"
         " questions | exact |");
-    std::puts("|---|---:|---|---:|---:|---:|---:|---:|---:|---:|");
+    std::puts("|---|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|");
     const Body screw = read("mechanisms/screw-big.obj");
     const Body nut = read("mechanisms/nut-big.obj");
     // (5, 0, 1, 0) turns by 22.62 degrees; the pitch of the thread is 1.3299.
@@ -228,6 +239,10 @@ struct PeerTally {
 void falls(const char* name, const Body& rest, const Body& falling,
            const std::vector<Fall>& falls) {
     std::vector<double> ours;
+    std::vector<double> facing_only;
+    std::array<std::uint64_t, 2> pairs{};
+    std::array<std::uint64_t, 2> box_tests{};
+    std::uint64_t left_out = 0;
     std::size_t contacts = 0;
     std::array<PeerTally, 2> peers;
     for (const Fall& f : falls) {
@@ -236,6 +251,19 @@ void falls(const char* name, const Body& rest, const Body& falling,
             first_contact(rest.model, Motion(), falling.model, Motion::translation(f.start, f.by));
         ours.push_back(milliseconds_since(start));
         contacts += c.exists() ? 1U : 0U;
+        trisect::FirstContactOptions options;
+        options.leave_out_parting = true;
+        const auto facing_start = Clock::now();
+        const FirstContact facing = first_contact(rest.model, Motion(), falling.model,
+                                                  Motion::translation(f.start, f.by), options);
+        facing_only.push_back(milliseconds_since(facing_start));
+        if (facing.time != c.time || facing.witnesses != c.witnesses)
+            throw std::runtime_error(std::string("leaving out faces changes the answer: ") + name);
+        pairs[1] += c.stats.triangle_pairs;
+        pairs[0] += facing.stats.triangle_pairs;
+        box_tests[1] += c.stats.box_tests;
+        box_tests[0] += facing.stats.box_tests;
+        left_out += facing.stats.parting_pairs;
         for (std::size_t k = 0; k < peers.size() && peer::is_available(); ++k) {
             PeerTally& t = peers[k];
             const auto peer_start = Clock::now();
@@ -250,6 +278,15 @@ void falls(const char* name, const Body& rest, const Body& falling,
     }
     std::printf("| %s | exact | %zu of %zu | - | - | - | %.2f | %.2f |\n", name, contacts,
                 falls.size(), median(ours), percentile99(ours));
+    std::printf("| | exact, facing only | %zu | - | - | - | %.2f | %.2f |\n", contacts,
+                median(facing_only), percentile99(facing_only));
+    std::fprintf(
+        stderr,
+        "%s: box tests %llu of %llu, pairs of triangles %llu of %llu, %llu pairs of boxes "
+        "left out\n",
+        name, static_cast<unsigned long long>(box_tests[0]),
+        static_cast<unsigned long long>(box_tests[1]), static_cast<unsigned long long>(pairs[0]),
+        static_cast<unsigned long long>(pairs[1]), static_cast<unsigned long long>(left_out));
     static const std::array<const char*, 2> names{"FCL, 10 samples", "FCL, 1000 samples"};
     for (std::size_t k = 0; k < peers.size() && peer::is_available(); ++k)
         std::printf("| | %s | %zu | %zu | %zu | %.2g | %.2f | %.2f |\n", names[k],
