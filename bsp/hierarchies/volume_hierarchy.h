@@ -176,31 +176,49 @@ protected:
         return stopped;
     }
 
+    // Nearest first. What lies nearest of all after a pair is opened is usually one of its
+    // children: it is opened next without a way through the heap, whose size is what most of the
+    // time goes into where everything is equally near.
     void find_near(double limit, NearVisit visit, CostCounters& counters) override {
         heap_.clear();
         const auto later = [](const Entry& x, const Entry& y) { return x.gap > y.gap; };
-        const auto push = [&](std::uint32_t i, std::uint32_t j, double least) {
-            ++counters.volume_tests;
-            const double gap =
-                std::max(least, a_.frame.unit * pose_->gap(a_.volumes[i], moved(j, counters)));
-            if (gap > limit) return;
-            heap_.push_back({gap, i, j});
+        const auto push = [&](const Entry& e) {
+            heap_.push_back(e);
             std::ranges::push_heap(heap_, later);
         };
-        push(0, 0, 0);
-        while (!heap_.empty() && heap_.front().gap <= limit) {
+        std::optional<Entry> nearest;  // of the children
+        const auto offer = [&](std::uint32_t i, std::uint32_t j, double least) {
+            ++counters.volume_tests;
+            const double gap = a_.frame.unit * pose_->gap(a_.volumes[i], moved(j, counters));
+            const Entry e{std::max(least, gap), i, j};
+            if (e.gap > limit) return;
+            if (!nearest) {
+                nearest = e;
+                return;
+            }
+            push(later(*nearest, e) ? std::exchange(*nearest, e) : e);
+        };
+        const auto take_nearest = [&] {
+            if (nearest && (heap_.empty() || !later(*nearest, heap_.front())))
+                return std::exchange(nearest, std::nullopt);
+            if (nearest) push(*std::exchange(nearest, std::nullopt));
+            if (heap_.empty()) return std::optional<Entry>();
             std::ranges::pop_heap(heap_, later);
             const Entry e = heap_.back();
             heap_.pop_back();
-            const TreeNode& na = a_.shape.nodes[e.a];
-            const TreeNode& nb = b_.shape.nodes[e.b];
+            return std::optional(e);
+        };
+        offer(0, 0, 0);
+        for (std::optional<Entry> e = take_nearest(); e && e->gap <= limit; e = take_nearest()) {
+            const TreeNode& na = a_.shape.nodes[e->a];
+            const TreeNode& nb = b_.shape.nodes[e->b];
             if (na.leaf && nb.leaf) {
                 for (const std::uint32_t t : b_.shape.things(nb))
                     for (const std::uint32_t s : a_.shape.things(na)) limit = visit(s, t);
-            } else if (opens_b(e.a, e.b)) {
-                for (std::uint32_t k = 0; k < nb.count; ++k) push(e.a, nb.first + k, e.gap);
+            } else if (opens_b(e->a, e->b)) {
+                for (std::uint32_t k = 0; k < nb.count; ++k) offer(e->a, nb.first + k, e->gap);
             } else {
-                for (std::uint32_t k = 0; k < na.count; ++k) push(na.first + k, e.b, e.gap);
+                for (std::uint32_t k = 0; k < na.count; ++k) offer(na.first + k, e->b, e->gap);
             }
         }
     }
