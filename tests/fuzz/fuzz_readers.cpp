@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the mesh readers with libFuzzer; not part of the normal build. The first byte of an
-// input chooses the format. Any mesh that is read must be consistent and must come back bit for bit
-// from what is written of it. From the root of the repository, with an include folder INC in which
-// `trisect/kernel` and `trisect/brep` are the source folders:
-//
-//   clang++ -std=c++20 -O1 -g -fsanitize=fuzzer,address,undefined -IINC
-//       tests/fuzz/fuzz_readers.cpp brep/io/*.cpp -o fuzz_readers
-//   ./fuzz_readers -max_len=4096 -timeout=10 -rss_limit_mb=2048 CORPUS_FOLDER
+// Fuzzing of the readers. The first byte of an input chooses the format. Any mesh that is read must
+// be consistent and must come back bit for bit from what is written of it; so must exact boundaries
+// and patches.
+#include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/io/read_patches.h>
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/kernel/error.h>
 
@@ -16,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
+#include <string_view>
 
 namespace {
 
@@ -43,8 +42,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                  MeshFormat::StlAscii, MeshFormat::StlBinary, MeshFormat::Stl};
     if (size == 0) return 0;
     const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+    const std::size_t choice = data[0] % (formats.size() + 2);
     try {
-        check(trisect::read_mesh(bytes, formats[data[0] % formats.size()], "fuzz"));
+        if (choice == formats.size()) {
+            const std::string text = trisect::exact_text(trisect::read_exact(bytes, "fuzz"));
+            require(trisect::exact_text(trisect::read_exact(text, "again")) == text);
+            return 0;
+        }
+        if (choice == formats.size() + 1) {
+            const std::string text = trisect::patches_text(trisect::read_patches(bytes, "fuzz"));
+            require(trisect::patches_text(trisect::read_patches(text, "again")) == text);
+            return 0;
+        }
+        check(trisect::read_mesh(bytes, formats[choice], "fuzz"));
     } catch (const trisect::Error&) {
     }
     (void)trisect::detect_mesh_format(bytes);
