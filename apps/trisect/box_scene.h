@@ -12,6 +12,7 @@
 #include <trisect/bsp/verify.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,9 @@ struct CountedPoint {
 
 struct CountedResult {
     ExactRational volume;
-    ExactRational area;  ///< of the boundary of the regularised set
+    ExactRational area;  ///< of the boundary of the regularised set, without its radicals
+    /// To be added to the area: factor · √radicand. Empty for boxes.
+    std::map<std::int64_t, ExactRational> area_roots;
     /// V - E + F - C of the closed set, cut up into cells of all dimensions. Where its boundary is
     /// a manifold, half of the boundary's.
     std::int64_t euler = 0;

@@ -24,6 +24,7 @@
 #include "box_scene.h"
 #include "commands.h"
 #include "corpus_families.h"
+#include "corpus_slanted.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -40,15 +41,19 @@ BooleanOperation operation_named(const std::string& name) {
     return BooleanOperation::SymmetricDifference;
 }
 
-Json case_json(const BoxScene& scene, const CountedResult& expected,
+Json case_json(const std::string& name, BooleanOperation operation, const CountedResult& expected,
                const std::vector<std::string>& files) {
     Json out;
     out["schema"] = case_schema;
-    out["name"] = scene.name;
-    out["op"] = to_string(scene.operation);
+    out["name"] = name;
+    out["op"] = to_string(operation);
     out["operands"] = files;
     out["volume"] = expected.volume.to_string();
     out["area"] = expected.area.to_string();
+    // Pairs (factor, radicand): the area is `area` and the sum of factor · √radicand.
+    if (!expected.area_roots.empty()) out["area_roots"] = Json::array();
+    for (const auto& [radicand, factor] : expected.area_roots)
+        out["area_roots"].push_back({factor.to_string(), radicand});
     out["euler"] = expected.euler;
     out["points"] = Json::array();
     for (const CountedPoint& p : expected.points)
@@ -58,16 +63,33 @@ Json case_json(const BoxScene& scene, const CountedResult& expected,
     return out;
 }
 
-void write_case(Session& session, const CorpusOptions& options, const BoxScene& scene) {
+void write_case(Session& session, const CorpusOptions& options, const SlantedScene& scene) {
     const fs::path folder = options.folder;
     std::vector<std::string> files;
     for (std::size_t i = 0; i < scene.operands.size(); ++i) {
         files.push_back(fmt::format("{}-{}.off", scene.name, i));
-        write_mesh((folder / files.back()).string(), mesh_of(scene.operands[i]));
+        write_mesh((folder / files.back()).string(), scene.operands[i]);
     }
-    const CountedResult expected = count(scene, counted_points, options.seed);
-    session.write_output((folder / (scene.name + ".json")).string(),
-                         case_json(scene, expected, files).dump(1) + "\n");
+    session.write_output(
+        (folder / (scene.name + ".json")).string(),
+        case_json(scene.name, scene.operation, scene.expected, files).dump(1) + "\n");
+}
+
+SlantedScene counted(const BoxScene& scene, std::uint64_t seed) {
+    SlantedScene out{scene.name, scene.operation, {}, count(scene, counted_points, seed)};
+    for (const auto& operand : scene.operands) out.operands.push_back(mesh_of(operand));
+    return out;
+}
+
+std::vector<std::string> family_names() {
+    std::vector<std::string> names = corpus_family_names();
+    for (std::string& name : slanted_family_names()) names.push_back(std::move(name));
+    return names;
+}
+
+bool is_slanted(const std::string& family) {
+    const auto names = slanted_family_names();
+    return std::find(names.begin(), names.end(), family) != names.end();
 }
 
 Outcome write_corpus(Session& session, const CorpusOptions& options) {
@@ -77,13 +99,20 @@ Outcome write_corpus(Session& session, const CorpusOptions& options) {
     Outcome out;
     out.document["schema"] = "trisect.corpus/1";
     out.document["cases"] = Json::array();
-    const auto families = options.families.empty() ? corpus_family_names() : options.families;
+    const auto families = options.families.empty() ? family_names() : options.families;
+    const auto write = [&](const SlantedScene& scene) {
+        write_case(session, options, scene);
+        out.document["cases"].push_back(scene.name);
+        out.answer += scene.name + "\n";
+    };
     session.stage("write", [&] {
         for (const std::string& family : families) {
-            for (const BoxScene& scene : corpus_family(family, options.seed)) {
-                write_case(session, options, scene);
-                out.document["cases"].push_back(scene.name);
-                out.answer += scene.name + "\n";
+            if (is_slanted(family)) {
+                for (const auto& scene : slanted_family(family, counted_points, options.seed))
+                    write(scene);
+            } else {
+                for (const BoxScene& scene : corpus_family(family, options.seed))
+                    write(counted(scene, options.seed));
             }
         }
     });
@@ -191,7 +220,7 @@ void add_corpus_command(CLI::App& app, CorpusOptions& options) {
         "corpus", "write test scenes with expected results, or score results of any kernel");
     command->add_option("DIR", options.folder, "folder of the corpus")->required();
     command->add_option("--family", options.families, "only these families")
-        ->check(CLI::IsMember(corpus_family_names()));
+        ->check(CLI::IsMember(family_names()));
     command
         ->add_option_function<std::string>(
             "--seed",

@@ -3,6 +3,7 @@
 // The corpus as its users see it; our own results must score in full against counted numbers.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,39 @@ TEST_F(CorpusCommand, CountedNumbersOfASponge) {
     EXPECT_EQ(json::parse(read(folder + "/sponge-2.json"))["volume"], "400");
     ASSERT_EQ(trisect({"corpus", folder, "--family", "genus-64"}).code, 0);
     EXPECT_EQ(json::parse(read(folder + "/genus-64.json"))["euler"], -63);
+}
+
+// "p" or "p/q".
+long double value(const std::string& fraction) {
+    const std::size_t slash = fraction.find('/');
+    const long double top = std::stold(fraction.substr(0, slash));
+    return slash == std::string::npos ? top : top / std::stold(fraction.substr(slash + 1));
+}
+
+TEST_F(CorpusCommand, SlantedTerrain) {
+    const Finished score = scored("slanted-terrain");
+    EXPECT_EQ(score.code, 0) << score.out << score.err;
+    EXPECT_EQ(score.json()["counts"]["equal"], 3);
+}
+
+// Volume, and area as a sum of square roots, of what the command computes.
+TEST_F(CorpusCommand, PolygonsOfManyCorners) {
+    const std::string folder = path("corpus");
+    const json written = trisect({"corpus", folder, "--family", "polygon-1000", "--json"}).json();
+    for (const json& name : written["cases"]) {
+        const std::string at = folder + "/" + name.get<std::string>();
+        const json expected = json::parse(read(at + ".json"));
+        ASSERT_EQ(trisect({expected["op"], at + "-0.off", at + "-1.off", "-o", at + ".off", "-q",
+                           "--assume-embedded"})
+                      .code,
+                  0);
+        long double area = value(expected["area"]);
+        for (const json& root : expected["area_roots"])
+            area += value(root[0]) * std::sqrt(root[1].get<long double>());
+        const json info = trisect({"info", at + ".off", "--json", "--exact"}).json();
+        EXPECT_EQ(info["volume_exact"], expected["volume"]) << name;
+        EXPECT_DOUBLE_EQ(info["area"].get<double>(), static_cast<double>(area)) << name;
+    }
 }
 
 TEST_F(CorpusCommand, MissingAndWrongResultsAreFindings) {
