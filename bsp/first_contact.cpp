@@ -106,8 +106,7 @@ public:
         if (event == ContactEvent::Touch && options.leave_out_parting) {
             cones_a_ = std::make_unique<detail::FacingCones>(events_a_);
             cones_b_ = std::make_unique<detail::FacingCones>(events_b_);
-            parting_ =
-                std::make_unique<detail::PartingFaces>(*cones_a_, *cones_b_, events_a_, events_b_);
+            parting_ = std::make_unique<detail::PartingFaces>(*cones_a_, *cones_b_, events_b_);
         }
         for (std::size_t i = 0; i < pieces && !result_.exists(); ++i) {
             if (event == ContactEvent::Touch)

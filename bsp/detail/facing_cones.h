@@ -50,9 +50,9 @@ private:
 /// Hierarchical back-face culling over an interval of a motion.
 class PartingFaces {
 public:
-    PartingFaces(FacingCones& a, FacingCones& b, const EventModel& model_a,
-                 const EventModel& model_b)
-        : cones_a_(a), cones_b_(b), a_(model_a), b_(model_b) {}
+    /// `model_b` is the model of the cones of B.
+    PartingFaces(FacingCones& a, FacingCones& b, const EventModel& model_b)
+        : cones_a_(a), cones_b_(b), b_(model_b) {}
 
     void set(const BallMotion& over, const SweptMap& swept);
     /// Whether, all through the interval, everything of B in its box moves to the outside of all
@@ -64,7 +64,6 @@ public:
 private:
     FacingCones& cones_a_;
     FacingCones& cones_b_;
-    const EventModel& a_;
     const EventModel& b_;
     // The velocity of a point p of B, times a positive number: turn_ p + way_, within `error_`.
     std::array<std::array<double, 3>, 3> turn_{};
