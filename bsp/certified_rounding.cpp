@@ -32,6 +32,7 @@
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/detail/contact_insertion.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
 
@@ -116,19 +117,29 @@ private:
         SolidOptions import;
         import.import.lattice = lattice_;
         import.embedding = Embedding::Resolve;
-        const Brep exact =
-            evaluate(Expression(Solid::from_mesh(result_.mesh, import)), options_.evaluate)
-                .to_brep();
+        Brep exact;
+        try {
+            exact = evaluate(Expression(Solid::from_mesh(result_.mesh, import)), options_.evaluate)
+                        .to_brep();
+        } catch (const InvalidSolid&) {
+            return false;  // nothing is resolved; the next grid is coarser
+        }
         result_.mesh = to_polygon_mesh(exact);
         put_on_grid();
         return take(exact, Outcome::Repaired) || conform();
     }
 
+    // Without self-intersections where there are too many to list.
     [[nodiscard]] ValidationReport defects() const {
         ValidateOptions validation;
         validation.list_limit = std::size_t{1} << 20U;
         validation.lattice = lattice_;
-        return validate(result_.mesh, validation);
+        try {
+            return validate(result_.mesh, validation);
+        } catch (const LimitError&) {
+            validation.self_intersection = false;
+            return validate(result_.mesh, validation);
+        }
     }
 
     // Divides faces where they touch each other, as long as that helps.
@@ -136,10 +147,13 @@ private:
         // Both faces have moved.
         const double reach = 4 * (result_.unit + result_.certificate.max_move);
         const Certificate moves = result_.certificate;
+        std::size_t least = std::numeric_limits<std::size_t>::max();
         for (std::size_t pass = 0; pass < max_passes; ++pass) {
             const ValidationReport report = defects();
-            if (pass == 0 && result_.rounds == 0)
-                result_.first_pairs = report.count(DefectKind::SelfIntersection);
+            const std::size_t pairs = report.count(DefectKind::SelfIntersection);
+            if (pass == 0 && result_.rounds == 0) result_.first_pairs = pairs;
+            if (pass > 0 && pairs > 4 * least + 16) return false;
+            least = std::min(least, pairs);
             detail::ContactInsertion insertion(result_.mesh, reach, [this](const Point3d& p) {
                 Point3d r = p;
                 for (double& c : r) c = rounded(c, result_.unit, options_.precision);

@@ -156,7 +156,7 @@ Expression result(std::uint64_t i, const Options& o, bool is_mesh) {
         const PolygonMesh& mesh = o.meshes[i / 16 % o.meshes.size()];
         const Solid a = Solid::from_mesh(mesh);
         const Solid b = Solid::from_mesh(moved(mesh, random, extent_of(mesh) / 16));
-        return combined(Expression(a), Expression(b), i / 16);
+        return combined(Expression(a), Expression(b), i / 32);
     }
     const bool turned = i % 4 != 0;
     const Solid a = grid_solid(random, false);
@@ -178,7 +178,7 @@ int main(int argc, char** argv) {
         if (spent.count() > o.minutes * 60) break;
         const bool is_mesh = !o.meshes.empty() && i % 16 == 15;
         trisect::RoundingOptions rounding;
-        const bool floats = i / 2 % 2 == 1;
+        const bool floats = (is_mesh ? i / 16 : i / 2) % 2 == 1;
         if (floats) rounding.precision = trisect::Precision::Float;
         const trisect::Brep brep = evaluate(result(i, o, is_mesh)).to_brep();
         const CertifiedRounding r = certified_rounding(brep, rounding);
