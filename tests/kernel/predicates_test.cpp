@@ -142,6 +142,23 @@ TEST(Laws, SamePlaneWhateverTheCoefficients) {
     }
 }
 
+// One coordinate is much larger than the others: the filter scales by the largest one.
+TEST(Laws, PointsFarAlongOneAxisAreRoundedByTheFilter) {
+    for (int far = 0; far < 3; ++far) {
+        std::array<Plane, 3> planes;
+        for (int axis = 0; axis < 3; ++axis)
+            planes[static_cast<std::size_t>(axis)] =
+                Plane::axis_aligned(axis, 3, axis == far ? (std::int64_t{1} << 50) + 1 : 1);
+        const auto& [p, q, r] = planes;
+        const Approximation a = approximate(p, q, r);
+        const auto expected = oracle::rational(p, q, r);
+        predicate_counters() = {};
+        const auto nearest = nearest_doubles(a, p, q, r);
+        EXPECT_EQ(predicate_counters().filtered, 1U);
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(nearest[i], oracle::nearest(expected[i]));
+    }
+}
+
 // ---------------------------------------------------------------- coverage of the stages
 
 PredicateCounters counted(const auto& predicate) {
