@@ -80,6 +80,10 @@ void LeafLinks::build(LeafWork& work) {
         if (work.item(i).is_whole()) add_node(i);
     for (std::size_t p = 0; p < work.pieces.size(); ++p)
         if (!work.pieces[p].dropped) add_node(items_ + static_cast<LeafIndex>(p));
+    // Those for which others speak are no nodes, but at their edges there are more than two facets.
+    for (const LeafPiece& piece : work.pieces)
+        if (piece.dropped && !work.operand_of(work.item(piece.item)).embedded)
+            count_at_edges(piece);
     // Lines within facets first: they tell winding numbers, and a pair that is linked already is
     // not looked at again.
     for (const Line& line : lines_)
@@ -118,15 +122,17 @@ void LeafLinks::add_node(LeafNode node) {
     }
 }
 
+Key128 LeafLinks::key_of_edge(const LeafItem& item, const PlaneName& edge) {
+    const auto v = edge.source()->corner_index(edge.facet, static_cast<int>(edge.kind));
+    const auto w = edge.source()->corner_index(edge.facet, static_cast<int>((edge.kind + 1) % 3));
+    return {static_cast<std::uint64_t>(item.sheet),
+            (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
+}
+
 void LeafLinks::add_edge(LeafNode node, int k, const PlaneName& plane) {
     const LeafItem& item = item_of(node);
     if (is_own_edge(item.ref, plane)) {
-        const auto v = plane.source()->corner_index(plane.facet, static_cast<int>(plane.kind));
-        const auto w =
-            plane.source()->corner_index(plane.facet, static_cast<int>((plane.kind + 1) % 3));
-        add_to_line({static_cast<std::uint64_t>(item.sheet),
-                     (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)},
-                    false, node, k);
+        add_to_line(key_of_edge(item, plane), false, node, k);
     } else if (!is_wall_of(work_->problem->cell, plane)) {
         // More names than bits: try_within_facet() compares them.
         const std::uint64_t facet =
@@ -137,21 +143,33 @@ void LeafLinks::add_edge(LeafNode node, int k, const PlaneName& plane) {
     }
 }
 
-void LeafLinks::add_to_line(const Key128& key, bool within_facet, LeafNode node, int k) {
+LeafLinks::Line& LeafLinks::line_at(const Key128& key, bool within_facet) {
     const auto next = static_cast<LeafIndex>(lines_.size());
     const auto [id, inserted] = line_ids_.insert(key, next);
     if (inserted) {
         Line& line = lines_.emplace_back();
         line.within_facet = within_facet;
     }
-    Line& line = lines_[u(id)];
-    if (!within_facet) {
-        const std::uint32_t facet = item_of(node).ref.facet;
-        const bool listed = (line.facet_count > 0 && line.facets[0] == facet) ||
-                            (line.facet_count > 1 && line.facets[1] == facet);
-        if (!listed && line.facet_count < 2) line.facets[line.facet_count] = facet;
-        if (!listed && line.facet_count < 3) ++line.facet_count;
-    }
+    return lines_[u(id)];
+}
+
+void LeafLinks::count_facet(Line& line, std::uint32_t facet) {
+    const bool listed = (line.facet_count > 0 && line.facets[0] == facet) ||
+                        (line.facet_count > 1 && line.facets[1] == facet);
+    if (!listed && line.facet_count < 2) line.facets[line.facet_count] = facet;
+    if (!listed && line.facet_count < 3) ++line.facet_count;
+}
+
+void LeafLinks::count_at_edges(const LeafPiece& piece) {
+    const LeafItem& item = work_->item(piece.item);
+    for (const WorkEdge& e : piece.shape.edges)
+        if (const PlaneName plane = work_->bench.name(e.plane); is_own_edge(item.ref, plane))
+            count_facet(line_at(key_of_edge(item, plane), false), item.ref.facet);
+}
+
+void LeafLinks::add_to_line(const Key128& key, bool within_facet, LeafNode node, int k) {
+    Line& line = line_at(key, within_facet);
+    if (!within_facet) count_facet(line, item_of(node).ref.facet);
     edges_.push_back({node, k, line.first});
     line.first = static_cast<LeafIndex>(edges_.size()) - 1;
 }

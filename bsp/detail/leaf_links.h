@@ -87,6 +87,10 @@ private:
     void add_node(LeafNode node);
     void add_edge(LeafNode node, int k, const PlaneName& plane);
     void add_to_line(const Key128& key, bool within_facet, LeafNode node, int k);
+    void count_at_edges(const LeafPiece& piece);
+    static void count_facet(Line& line, std::uint32_t facet);
+    [[nodiscard]] Line& line_at(const Key128& key, bool within_facet);
+    [[nodiscard]] static Key128 key_of_edge(const LeafItem& item, const PlaneName& edge);
     void link_line(const Line& line);
     void try_within_facet(const Edge& a, const Edge& b);
     void try_across_edge(const Edge& a, const Edge& b);

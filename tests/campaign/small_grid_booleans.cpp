@@ -143,6 +143,8 @@ public:
         : counters_(counters), name_(std::move(name)) {
         embedded_ = random.chance(1, 2);
         operands_ = reference::random_family(random, operands, embedded_);
+        if (!embedded_ && random.chance(1, 2))
+            for (auto& o : operands_) o = reference::with_folds(random, o, 4);
         constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 1000};
         constexpr std::array<std::uint32_t, 4> wall_offsets{1, 83, 127, 255};
         options_.leaf_polygons = leaf_sizes[random.below(4)];

@@ -37,6 +37,39 @@ TEST(EngineAgreement, RandomPairsOnASmallGrid) {
     }
 }
 
+// Three triangles in one place between two tetrahedra, the first one the other way round than the
+// result is: it speaks for all, and its neighbours are not only those that are left.
+TEST(EngineAgreement, SheetsFoldedBackOntoThemselves) {
+    const reference::LatticePoint a{0, 0, 0};
+    const reference::LatticePoint b{4, 0, 0};
+    const reference::LatticePoint c{0, 4, 0};
+    const reference::LatticePoint up{1, 1, 3};
+    const reference::LatticePoint down{1, 1, -3};
+    const reference::Expression alone = reference::Expression::leaf(0);
+    for (int first = 0; first < 3; ++first)
+        for (const auto& apex : {up, down}) {
+            reference::Operand operand = reference::tetrahedron(a, b, c, apex);
+            reference::Operand folds;
+            for (int i = 0; i < 3; ++i)
+                folds.push_back((i == first) == (apex == up) ? reference::Triangle{a, b, c}
+                                                             : reference::Triangle{c, b, a});
+            for (const auto& t : operand)
+                if (t[0][2] != 0 || t[1][2] != 0 || t[2][2] != 0) folds.push_back(t);
+            ASSERT_TRUE(reference::is_balanced(folds));
+            EXPECT_EQ(disagreement({folds}, alone), "") << first;
+        }
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        reference::Random random(seed);
+        auto operands = reference::random_family(random, 2);
+        for (auto& o : operands) o = reference::with_folds(random, o, 3);
+        for (const Kind kind : kinds) {
+            const auto expression = reference::pair_expression(kind);
+            EXPECT_EQ(disagreement(operands, expression), "")
+                << "seed " << seed << " " << reference::to_string(expression);
+        }
+    }
+}
+
 TEST(EngineAgreement, TheResultDoesNotDependOnTheTreesShape) {
     for (std::uint64_t seed = 1000; seed < 1040; ++seed) {
         reference::Random random(seed);

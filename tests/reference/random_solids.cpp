@@ -384,6 +384,20 @@ Operand random_embedded_solid(Random& random) {
     return axes_rotated(result, random.below(3));
 }
 
+Operand with_folds(Random& random, const Operand& operand, std::size_t most) {
+    Operand out = operand;
+    const auto insert = [&](const Triangle& t) {
+        const auto at = static_cast<std::ptrdiff_t>(random.below(out.size() + 1));
+        out.insert(out.begin() + at, t);
+    };
+    for (std::size_t n = random.below(most) + 1; n > 0; --n) {
+        const Triangle t = operand[random.below(operand.size())];
+        insert(t);
+        insert({t[1], t[0], t[2]});
+    }
+    return out;
+}
+
 Operand random_operand(Random& random) {
     const Operand solid = random_embedded_solid(random);
     switch (random.below(8)) {

@@ -48,6 +48,10 @@ Operand reversed(Operand operand);  // inside out
 Operand axes_rotated(Operand operand, std::size_t turns);
 Operand concatenated(Operand a, const Operand& b);
 
+// The same set with up to `most` triangles of it added once more, together with their reverses, at
+// random places of the list: sheets that are folded back onto themselves.
+Operand with_folds(Random& random, const Operand& operand, std::size_t most);
+
 // A solid with outward normals that does not intersect or touch itself: tetrahedron, box, prism,
 // pyramid, octahedron or extruded polygon (L, T, U and cross shapes, monotone lattice polygons).
 Operand random_embedded_solid(Random& random);
