@@ -80,6 +80,31 @@ Inverse inverse_of(const std::array<double, 12>& a) {
     return r;
 }
 
+// Without an exact comparison where the numbers in doubles say that there is no need of one.
+bool only_moves(const Pose& pose) {
+    const std::array<double, 12>& a = pose.approximate();
+    return a[0] == 1 && a[5] == 1 && a[10] == 1 && pose.is_translation();
+}
+
+// Into a solid that was not turned: what B's pose says, and no error of an inverse. Most callers
+// leave one of two solids where it is.
+ApproximateMap map_to_moved(const std::array<double, 12>& a, const std::array<double, 12>& b,
+                            double m_unit, double t_unit) {
+    ApproximateMap r;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            r.m[i][j] = b[4 * i + j] * m_unit;
+            r.m_error = std::max(r.m_error, bound(more * e * std::abs(r.m[i][j])));
+        }
+        const double way = b[4 * i + 3] - a[4 * i + 3];
+        const double error =
+            e * (std::abs(b[4 * i + 3]) + std::abs(a[4 * i + 3])) + u * std::abs(way);
+        r.t[i] = way * t_unit;
+        r.t_error = std::max(r.t_error, bound(more * error * t_unit));
+    }
+    return r;
+}
+
 }  // namespace
 
 bool ApproximateMap::is_usable() const {
@@ -100,9 +125,10 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
                                Lattice from_lattice) {
     const std::array<double, 12> a = to.approximate();
     const std::array<double, 12> b = from.approximate();
-    const Inverse inverse = inverse_of(a);
     const double m_unit = power_of_two(from_lattice.exponent - to_lattice.exponent);
     const double t_unit = power_of_two(-to_lattice.exponent);
+    if (only_moves(to)) return map_to_moved(a, b, m_unit, t_unit);
+    const Inverse inverse = inverse_of(a);
     ApproximateMap r;
     if (!inverse.certain) {
         r.m_error = r.t_error = std::numeric_limits<double>::infinity();
