@@ -398,6 +398,7 @@ void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low)
     const AxisRectangle rectangle = with_names(r);
     for (const AxisPolygon& p : group) {
         if (clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 || !overlaps(p, r)) continue;
+        make_room(*out_);
         std::optional<PolygonRef> part =
             p.slanted_count < 2 ? clip_to_rectangle(p, rectangle) : clip_slowly(p, rectangle);
         if (!part) continue;

@@ -51,6 +51,9 @@ public:
     [[nodiscard]] const Crossings& crossings() const { return crossings_; }
 
 private:
+    template <class Work>
+    auto or_end_fragments(const Work& work);
+    std::optional<LeafResult> arrange_plain(const LeafProblem& problem, EvaluateStats& stats);
     void note_doubtful(const LeafProblem& problem);
     void arrange_embedded();
     void arrange_any(SlotValues& values);
@@ -98,32 +101,50 @@ std::optional<LeafResult> LeafArranger::arrange_prisms(const LeafProblem& proble
     return impl_->arrange_prisms(problem, stats);
 }
 
-std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& problem,
-                                                             EvaluateStats& stats) {
+// Calls `work`, which fills out_; when memory ends on the way, the fragments made so far are freed.
+template <class Work>
+auto LeafArranger::Impl::or_end_fragments(const Work& work) {
     out_.clear();
     try {
-        if (!prisms_.arrange(problem, stats, out_)) return std::nullopt;
+        return work();
     } catch (...) {
-        end_fragments(out_);  // those made so far
+        end_fragments(out_);
         throw;
     }
-    note_doubtful(problem);
-    return LeafResult{std::move(out_), {}};
+}
+
+std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& problem,
+                                                             EvaluateStats& stats) {
+    return or_end_fragments([&]() -> std::optional<LeafResult> {
+        if (!prisms_.arrange(problem, stats, out_)) return std::nullopt;
+        note_doubtful(problem);
+        return LeafResult{std::move(out_), {}};
+    });
 }
 
 std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProblem& problem,
                                                                   EvaluateStats& stats) {
-    out_.clear();
-    LeafResult result;
-    try {
-        if (!axis_.arrange(problem, stats, out_, result.incomplete)) return std::nullopt;
-    } catch (...) {
-        end_fragments(out_);  // those made so far
-        throw;
-    }
-    note_doubtful(problem);
-    result.polygons = std::move(out_);
-    return result;
+    return or_end_fragments([&]() -> std::optional<LeafResult> {
+        std::vector<FacetName> incomplete;
+        if (!axis_.arrange(problem, stats, out_, incomplete)) return std::nullopt;
+        note_doubtful(problem);
+        return LeafResult{std::move(out_), std::move(incomplete)};
+    });
+}
+
+// General position, in doubles.
+std::optional<LeafResult> LeafArranger::Impl::arrange_plain(const LeafProblem& problem,
+                                                            EvaluateStats& stats) {
+    return or_end_fragments([&]() -> std::optional<LeafResult> {
+        if (!collect_ || problem.operands.size() != 2) {
+            if (!plain_.arrange(problem, stats, out_)) return std::nullopt;
+            return LeafResult{std::move(out_), {}};
+        }
+        const auto crossed = plain_.arrange_uncrossed(problem, stats, out_);
+        if (!crossed) return std::nullopt;
+        plain_.add_crossings(crossings_.pairs);
+        return LeafResult{std::move(out_), {}, *crossed};
+    });
 }
 
 void LeafArranger::Impl::note_doubtful(const LeafProblem& problem) {
@@ -136,33 +157,21 @@ void LeafArranger::Impl::note_doubtful(const LeafProblem& problem) {
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,
                                        EvaluateStats& stats) {
     if (auto result = arrange_across_axes(problem, stats)) return *std::move(result);
-    out_.clear();
-    if (collect_ && problem.operands.size() == 2) {
-        if (const auto crossed = plain_.arrange_uncrossed(problem, stats, out_)) {
-            plain_.add_crossings(crossings_.pairs);
-            return {std::move(out_), {}, *crossed};
-        }
-    } else if (plain_.arrange(problem, stats, out_)) {
-        return {std::move(out_), {}};
-    }
+    if (auto result = arrange_plain(problem, stats)) return *std::move(result);
     if (auto result = arrange_prisms(problem, stats)) return *std::move(result);
-    note_doubtful(problem);
-    work_.start(problem, stats);
-    pairs_.relate_all(work_);
-    const bool embedded = std::all_of(problem.operands.begin(), problem.operands.end(),
-                                      [](const LeafOperand& o) { return o.embedded; });
-    try {
-        if (embedded) {
+    return or_end_fragments([&] {
+        note_doubtful(problem);
+        work_.start(problem, stats);
+        pairs_.relate_all(work_);
+        if (std::all_of(problem.operands.begin(), problem.operands.end(),
+                        [](const LeafOperand& o) { return o.embedded; })) {
             arrange_embedded();
         } else {
             arrange_any(values);
         }
-    } catch (...) {
-        end_fragments(out_);  // those made so far
-        throw;
-    }
-    ++stats.mixed_leaves;
-    return {std::move(out_), std::move(work_.incomplete)};
+        ++stats.mixed_leaves;
+        return LeafResult{std::move(out_), std::move(work_.incomplete)};
+    });
 }
 
 // Operands without self-intersections: cut only what the result needs (leaf_cutting.h).

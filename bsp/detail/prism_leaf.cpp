@@ -389,6 +389,7 @@ void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& ou
             clip(cover, !facets_.faces_up(cover));
         }
         if (shape.is_empty()) continue;
+        make_room(out);
         out.push_back(make_fragment(bench_, ref, shape));
         out.back().flipped = part.inside_left == wall.above_is_left[half];
     }
@@ -396,6 +397,7 @@ void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& ou
 
 void PrismLeaf::emit_cover(const CoverPart& part, std::vector<PolygonRef>& out) {
     const PolygonRef& ref = part.cover->ref;
+    make_room(out);
     out.push_back(part.whole ? ref : make_fragment(bench_, ref, part.shape));
     out.back().touched = out.back().touched || part.whole;
     out.back().flipped = part.inside_below != facets_.faces_up(ref);

@@ -18,6 +18,7 @@
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/brep_index.h>
@@ -133,6 +134,20 @@ TEST(AllocationFailure, BooleanOfOperandsOnDifferentLattices) {
     const Solid a = evaluate(box(0, 2) - box(1, 3), one_thread());
     const Solid b = evaluate(box(0, 0.015625) | box(0.0078125, 0.03125), one_thread());
     fail_every_allocation([&] { return bytes_of(evaluate(a - b, one_thread()).to_mesh()); });
+}
+
+// A leaf that is arranged as segments in a plane, and one across the axes.
+TEST(AllocationFailure, BooleanOfPrisms) {
+    const auto prism = [](std::uint32_t sides, double radius, double low) {
+        auto mesh = trisect::make_regular_prism(sides, radius, 2);
+        for (auto& p : mesh.points) p[2] += low;
+        return Solid::from_mesh(mesh);
+    };
+    const Solid a = prism(5, 2, 0);
+    const Solid b = prism(7, 1.75, 0.5);
+    trisect::EvaluateOptions options = one_thread();
+    options.leaf_polygons = 25;
+    fail_every_allocation([&] { return bytes_of(evaluate(a - b, options).to_mesh()); });
 }
 
 // Shares trees, flattens them, cuts fragments again.
