@@ -117,13 +117,9 @@ private:
         SolidOptions import;
         import.import.lattice = lattice_;
         import.embedding = Embedding::Resolve;
-        Brep exact;
-        try {
-            exact = evaluate(Expression(Solid::from_mesh(result_.mesh, import)), options_.evaluate)
-                        .to_brep();
-        } catch (const InvalidSolid&) {
-            return false;  // nothing is resolved; the next grid is coarser
-        }
+        const Brep exact =
+            evaluate(Expression(Solid::from_mesh(result_.mesh, import)), options_.evaluate)
+                .to_brep();
         result_.mesh = to_polygon_mesh(exact);
         put_on_grid();
         return take(exact, Outcome::Repaired) || conform();

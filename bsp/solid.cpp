@@ -27,8 +27,7 @@ std::shared_ptr<const SolidState> constant_state(bool inside) {
 
 bool is_constant(const SolidState& s, bool inside) {
     const CellNode& n = *s.root.node;
-    return n.is_leaf() && n.size() == 0 &&
-           ((n.winding() > 0) != s.root.complemented) == inside;
+    return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != s.root.complemented) == inside;
 }
 
 }  // namespace

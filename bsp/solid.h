@@ -55,15 +55,15 @@ public:
     /// \throw InvalidSolid when the mesh is not closed and oriented; Error InvalidSolid when it is
     /// inside out and its embedding is assumed.
     [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
-    /// Of an exact boundary, to the last bit: one that to_brep() or read_exact() returned. Where all
-    /// corners are lattice points it becomes a mesh of triangles; other corners stay what they are,
-    /// points that planes have in common, and faces are divided along planes of their neighbours.
-    /// Faces of results name the boundary's by their numbers.
+    /// Of an exact boundary, to the last bit: one that to_brep() or read_exact() returned. Where
+    /// all corners are lattice points it becomes a mesh of triangles; other corners stay what they
+    /// are, points that planes have in common, and faces are divided along planes of their
+    /// neighbours. Faces of results name the boundary's by their numbers.
+    ///
     /// \throw Error (InvalidSolid) when it is inside out and its embedding is assumed;
     /// UnsupportedError for an edge between two faces of one plane that is not between lattice
     /// points and on no plane that names its ends (assemble with maximal faces); LimitError.
-    [[nodiscard]] static Solid from_brep(const Brep& brep,
-                                         Embedding embedding = Embedding::Assume);
+    [[nodiscard]] static Solid from_brep(const Brep& brep, Embedding embedding = Embedding::Assume);
     /// The same for a mesh that was imported before. \throw InvalidSolid when it is not closed.
     [[nodiscard]] static Solid from_import(ImportedMesh imported,
                                            Embedding embedding = Embedding::Assume);

@@ -36,8 +36,8 @@ namespace trisect {
 
 /// \throw InputError with line and column for what does not follow the format, for planes and
 /// points beyond the bounds of Plane and LatticePoint, planes that do not meet in one point, two
-/// vertices at one place, corners off their plane and loops that run the wrong way; Error (InvalidSolid) for edges that do not
-/// cancel; LimitError.
+/// vertices at one place, corners off their plane and loops that run the wrong way; Error
+/// (InvalidSolid) for edges that do not cancel; LimitError.
 [[nodiscard]] Brep read_exact(std::string_view text, const std::string& name,
                               const ReadLimits& limits = {});
 [[nodiscard]] Brep read_exact(const std::filesystem::path& path, const ReadLimits& limits = {});

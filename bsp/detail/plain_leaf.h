@@ -23,8 +23,8 @@ namespace trisect::detail {
 /// returns depends on the problem alone.
 class PlainLeaf {
 public:
-    /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind or doubles cannot
-    /// tell; then `out` and `stats` are as before.
+    /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind
+    /// or doubles cannot tell; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
     /// The same without the facets that something crosses in the cell; returns nothing for false,
