@@ -897,12 +897,13 @@ void append(const Crossings& part, Crossings& all) {
 void arrange(Crossings& crossings) {
     auto& pairs = crossings.pairs;
     std::ranges::sort(pairs, {}, &FacetCrossing::facets);
-    const auto twice = std::ranges::unique(pairs, {}, &FacetCrossing::facets);
-    pairs.erase(twice.begin(), twice.end());
+    const auto same = [](const FacetCrossing& a, const FacetCrossing& b) {
+        return a.facets == b.facets;
+    };
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
     for (auto& facets : crossings.doubtful) {
         std::ranges::sort(facets);
-        const auto again = std::ranges::unique(facets);
-        facets.erase(again.begin(), again.end());
+        facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
     }
 }
 
