@@ -221,8 +221,8 @@ void Gatherer::mark_list(const Leaf& leaf, const PolygonList& polygons, FacetMar
         const std::uint32_t f = rest[i];
         const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
         const bool owned =
-            ((p.x >= inside.lo[0]) & (p.x <= inside.hi[0]) & (p.y >= inside.lo[1]) &
-             (p.y <= inside.hi[1]) & (p.z >= inside.lo[2]) & (p.z <= inside.hi[2])) != 0;
+            (int{p.x >= inside.lo[0]} & int{p.x <= inside.hi[0]} & int{p.y >= inside.lo[1]} &
+             int{p.y <= inside.hi[1]} & int{p.z >= inside.lo[2]} & int{p.z <= inside.hi[2]}) != 0;
         marks.add_present(f, flipped, owned);
     }
 }

@@ -128,9 +128,9 @@ private:
             for (; j < entries_.size() && entries_[j].box.lo[axis_] <= a.box.hi[axis_]; ++j) {
                 const Entry& b = entries_[j];
                 // Not short-circuited: which of them fails is random.
-                const bool meet = (a.box.lo[u] <= b.box.hi[u]) & (b.box.lo[u] <= a.box.hi[u]) &
-                                  (a.box.lo[v] <= b.box.hi[v]) & (b.box.lo[v] <= a.box.hi[v]);
-                if (meet) out.push_back({std::min(a.slot, b.slot), std::max(a.slot, b.slot)});
+                const int meet = int{a.box.lo[u] <= b.box.hi[u]} & int{b.box.lo[u] <= a.box.hi[u]} &
+                                 int{a.box.lo[v] <= b.box.hi[v]} & int{b.box.lo[v] <= a.box.hi[v]};
+                if (meet != 0) out.push_back({std::min(a.slot, b.slot), std::max(a.slot, b.slot)});
             }
             counts_.box_tests += j - i - 1;
         }

@@ -96,10 +96,10 @@ struct KDop {
     /// none.
     [[nodiscard]] bool meets(const KDop& o) const {
         // Rounding to nearest keeps the sign of a sum, and apart means that it is negative.
-        bool apart = false;
+        int apart = 0;
         for (std::size_t i = 0; i < n; ++i)
-            apart = apart | (h[i] + o.h[n + i] < 0) | (o.h[i] + h[n + i] < 0);
-        return !apart;
+            apart |= int{h[i] + o.h[n + i] < 0} | int{o.h[i] + h[n + i] < 0};
+        return apart == 0;
     }
     /// A lower bound of the distance, in units; 0 when they meet.
     [[nodiscard]] double gap(const KDop& o) const {

@@ -143,7 +143,7 @@ TEST_P(Partitions, ClosestTrianglesOfSolidsOnASmallGrid) {
     }
 }
 
-InterferenceModel torus(int around, int across) {
+InterferenceModel torus(std::uint32_t around, std::uint32_t across) {
     return InterferenceModel(Solid::from_mesh(trisect::make_torus(1, 0.2, around, across)));
 }
 

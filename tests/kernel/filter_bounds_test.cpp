@@ -28,7 +28,6 @@ namespace {
 // Numbers of six bits. One operation on two of them is exact in double; Veltkamp's splitting then
 // rounds to the nearest.
 struct Tiny {
-    static constexpr int bits = 6;
     static constexpr double u = 0x1p-6;
 
     Tiny() = default;
