@@ -168,7 +168,7 @@ TEST_P(Partitions, InterlockedToriAreApartAndTouchNothingOfEachOther) {
 
 TEST_P(Partitions, TheSizeIsLinear) {
     std::vector<double> per_triangle;
-    for (const int n : {20, 40, 60}) {
+    for (const std::uint32_t n : {20U, 40U, 60U}) {
         const InterferenceModel a = torus(2 * n, n);
         const auto report = GetParam().make(a, a)->build_report();
         per_triangle.push_back(static_cast<double>(report.bytes) /
