@@ -5,11 +5,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include <trisect/bsp/detail/residual.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
+
+struct SolidState;
 
 /// Two whole facets that cross in a segment. Its ends are where an edge of one of them pierces the
 /// interior of the other; they come in the direction of the product of the normals, first × second,
@@ -41,6 +47,18 @@ struct Crossings {
     std::vector<FacetCrossing> pairs;  ///< sorted by facets, each once
     /// By operand, sorted.
     std::array<std::vector<std::uint32_t>, 2> doubtful;
+
+    /// What another thread has found of the same two operands; arrange() is due afterwards.
+    void append(const Crossings& part);
+    /// Sorts, and leaves one of each pair: it was found in every cell that its segment runs
+    /// through.
+    void arrange();
 };
+
+/// Crossings that an evaluation can collect: of two different meshes as they were imported, with
+/// their operands filled in. Nothing where one of their boundaries may bound the result on both
+/// sides of the other one, or on none.
+[[nodiscard]] std::optional<Crossings> crossings_of(
+    const Residual& formula, std::span<const std::shared_ptr<const SolidState>> states);
 
 }  // namespace trisect::detail

@@ -36,6 +36,7 @@
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/handover.h>
@@ -856,57 +857,6 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
     return root;
 }
 
-// Crossings of two different meshes, as they were imported, that are to be collected. Nothing where
-// one of their boundaries may bound the result on both sides of the other one, or on none.
-std::optional<Crossings> crossings_of(const Residual& formula,
-                                      std::span<const std::shared_ptr<const SolidState>> states) {
-    if (states.size() != 2) return std::nullopt;
-    Crossings out;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const CellRef& root = states[i]->root;
-        const PolygonList& polygons = root.node->polygons();
-        if (!root.node->is_leaf() || !polygons.has_all_facets() || !states[i]->embedded ||
-            polygons.whole_source()->is_half_space())
-            return std::nullopt;
-        Crossings::Operand& o = out.operands[i];
-        o.serial = polygons.whole_source()->serial();
-        o.flipped = polygons.flipped() != root.complemented;
-        const auto result = [&](int own, int other) {
-            SlotValues values(2);
-            values[i] = static_cast<std::int8_t>(own);
-            values[1 - i] = static_cast<std::int8_t>(other);
-            return value_of(formula, values);
-        };
-        const bool outside = result(0, 0) != result(1, 0);
-        if (outside == (result(0, 1) != result(1, 1))) return std::nullopt;
-        o.keep = outside ? 0 : 1;
-        o.inside_above = result(o.flipped ? 1 : 0, o.keep);
-    }
-    if (out.operands[0].serial == out.operands[1].serial) return std::nullopt;
-    return out;
-}
-
-void append(const Crossings& part, Crossings& all) {
-    all.pairs.insert(all.pairs.end(), part.pairs.begin(), part.pairs.end());
-    for (std::size_t i = 0; i < 2; ++i)
-        all.doubtful[i].insert(all.doubtful[i].end(), part.doubtful[i].begin(),
-                               part.doubtful[i].end());
-}
-
-// A pair was found in every cell that its segment runs through.
-void arrange(Crossings& crossings) {
-    auto& pairs = crossings.pairs;
-    std::ranges::sort(pairs, {}, &FacetCrossing::facets);
-    const auto same = [](const FacetCrossing& a, const FacetCrossing& b) {
-        return a.facets == b.facets;
-    };
-    pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
-    for (auto& facets : crossings.doubtful) {
-        std::ranges::sort(facets);
-        facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-    }
-}
-
 }  // namespace
 
 Evaluation evaluate_formula(const Residual::Ref& formula,
@@ -929,8 +879,8 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         result.root = solve_root(shared, formula, solids);
     }
     if (crossings) {
-        for (const auto& worker : shared.workers) append(worker->crossings(), *crossings);
-        arrange(*crossings);
+        for (const auto& worker : shared.workers) crossings->append(worker->crossings());
+        crossings->arrange();
         result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }
     for (const auto& worker : shared.workers) {
