@@ -96,7 +96,7 @@ struct EvaluateStats {
     std::uint64_t pairs_cutting = 0;    ///< of those, pairs where one cuts the other
     /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
     std::uint64_t untouched_polygons = 0;
-    std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves
+    std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves, but for cutting put off
     /// Polygons and pieces that know their winding numbers from a neighbour.
     std::uint64_t linked = 0;
     std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
