@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <unistd.h>
 
+#include "choice.h"
 #include "commands.h"
 #include "compare_hierarchies_command.h"
 #include "failure.h"
@@ -110,13 +110,11 @@ void add_import_options(CLI::App& app, CommonOptions& o) {
     add_text_option(
         app, "--lattice", [&o](const auto& s) { o.lattice = lattice_exponent(s); },
         "unit 2^E of the lattice of every input (default: without loss if possible)", "E");
-    static const std::map<std::string, NonplanarPolicy> policies{
-        {"triangulate", NonplanarPolicy::Triangulate},
-        {"refuse", NonplanarPolicy::Refuse},
-        {"refit", NonplanarPolicy::Refit}};
-    app.add_option("--nonplanar", o.nonplanar, "faces whose corners are not in one plane")
-        ->transform(CLI::CheckedTransformer(policies))
-        ->type_name("triangulate|refuse|refit");
+    add_choice_option<NonplanarPolicy>(app, "--nonplanar", o.nonplanar,
+                                       {{"triangulate", NonplanarPolicy::Triangulate},
+                                        {"refuse", NonplanarPolicy::Refuse},
+                                        {"refit", NonplanarPolicy::Refit}},
+                                       "faces whose corners are not in one plane");
     add_text_option(
         app, "--refit-move",
         [&o](const auto& s) { o.refit_move = positive_number(s, "--refit-move"); },
@@ -133,11 +131,10 @@ void add_common_options(CLI::App& app, CommonOptions& o) {
     app.add_flag("--json", o.json, "print exactly one JSON document on the standard output");
     app.add_flag("-q,--quiet", o.quiet, "no remarks");
     app.add_flag("-v,--verbose", o.verbose, "more remarks");
-    static const std::map<std::string, Progress> kinds{
-        {"auto", Progress::Auto}, {"bar", Progress::Bar}, {"none", Progress::None}};
-    app.add_option("--progress", o.progress, "a bar, on a terminal and after half a second")
-        ->transform(CLI::CheckedTransformer(kinds))
-        ->type_name("auto|bar|none");
+    add_choice_option<Progress>(
+        app, "--progress", o.progress,
+        {{"auto", Progress::Auto}, {"bar", Progress::Bar}, {"none", Progress::None}},
+        "a bar, on a terminal and after half a second");
     add_import_options(app, o);
     add_limit_options(app, o);
 }
@@ -286,7 +283,7 @@ int parse_and_run(Console& console, bool json, int argc, char** argv) {
 
 int run(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
-    static Console console;
+    Console console;
     const bool json = asks_for_json(argc, argv);
     install_terminate_handler(console, json);
     try {

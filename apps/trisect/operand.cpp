@@ -7,6 +7,7 @@
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
 
+#include "choice.h"
 #include "commands.h"
 #include "mesh_files.h"
 #include "report_json.h"
@@ -75,19 +76,15 @@ Operand exact_operand(const Session& session, const std::string& name,
 void add_operand_options(CLI::App& command, OperandOptions& options) {
     command.add_flag("--assume-embedded", options.assume_embedded,
                      "take inputs to be free of self-intersection: faster, wrong if they are not");
-    static const std::map<std::string, EvaluateOptions::Winding> rules{
-        {"positive", EvaluateOptions::Winding::Positive},
-        {"nonzero", EvaluateOptions::Winding::NonZero}};
-    command.add_option("--winding", options.winding, "which winding numbers are inside")
-        ->transform(CLI::CheckedTransformer(rules))
-        ->type_name("positive|nonzero");
-    static const std::map<std::string, EvaluateOptions::Lattices> policies{
-        {"round", EvaluateOptions::Lattices::Round}, {"refuse", EvaluateOptions::Lattices::Refuse}};
-    command
-        .add_option("--mixed-lattices", options.lattices,
-                    "inputs too large and too fine for one lattice: round the fine ones, or stop")
-        ->transform(CLI::CheckedTransformer(policies))
-        ->type_name("round|refuse");
+    using Winding = EvaluateOptions::Winding;
+    add_choice_option<Winding>(command, "--winding", options.winding,
+                               {{"positive", Winding::Positive}, {"nonzero", Winding::NonZero}},
+                               "which winding numbers are inside");
+    using Lattices = EvaluateOptions::Lattices;
+    add_choice_option<Lattices>(
+        command, "--mixed-lattices", options.lattices,
+        {{"round", Lattices::Round}, {"refuse", Lattices::Refuse}},
+        "inputs too large and too fine for one lattice: round the fine ones, or stop");
 }
 
 std::vector<Operand> read_operands(Session& session, std::span<const std::string> names,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "choice.h"
 #include "commands.h"
 #include "formula.h"
 #include "mesh_files.h"
@@ -21,9 +22,9 @@ void add_query_options(CLI::App& command, QueryOptions& options) {
     command.add_option("A", options.inputs, "mesh files; several are combined by --op")
         ->required()
         ->expected(1, 1 << 20);
-    command.add_option("--op", options.operation, "how several inputs are combined")
-        ->check(CLI::IsMember({"union", "intersection", "difference", "xor"}))
-        ->type_name("union|intersection|difference|xor");
+    add_word_option(command, "--op", options.operation,
+                    {"union", "intersection", "difference", "xor"},
+                    "how several inputs are combined");
     add_operand_options(command, options.operands);
 }
 

@@ -9,6 +9,7 @@
 
 #include <charconv>
 
+#include "choice.h"
 #include "commands.h"
 #include "output_name.h"
 #include "queried_set.h"
@@ -97,9 +98,8 @@ void add_look_options(CLI::App& command, RenderOptions& o) {
         ->type_name("WxH");
     command.add_option("--view", o.view, "from where to look (default iso)")
         ->type_name("iso|front|back|left|right|top|bottom|X,Y,Z");
-    command.add_option("--up", o.up, "which axis of the model points up (default z)")
-        ->check(CLI::IsMember({"x", "y", "z"}))
-        ->type_name("x|y|z");
+    add_word_option(command, "--up", o.up, {"x", "y", "z"},
+                    "which axis of the model points up (default z)");
     command
         .add_option_function<std::string>(
             "--perspective", [&o](const auto& s) { o.opening = parse_opening(s); },
@@ -110,19 +110,16 @@ void add_look_options(CLI::App& command, RenderOptions& o) {
             "--samples", [&o](const auto& s) { o.style.samples = parse_samples(s); },
             "rays along the side of a pixel where there is detail (default 3, 2 for fine meshes)")
         ->type_name("N");
-    static const std::map<std::string, EdgeStyle> edges{
-        {"all", EdgeStyle::All}, {"auto", EdgeStyle::Auto}, {"none", EdgeStyle::None}};
-    command.add_option("--edges", o.style.edges, "edges drawn; auto fades shallow, crowded ones")
-        ->transform(CLI::CheckedTransformer(edges))
-        ->type_name("all|auto|none");
-    static const std::map<std::string, Background> backgrounds{
-        {"light", Background::Light},
-        {"white", Background::White},
-        {"dark", Background::Dark},
-        {"transparent", Background::Transparent}};
-    command.add_option("--background", o.style.background, "what is behind (default light)")
-        ->transform(CLI::CheckedTransformer(backgrounds))
-        ->type_name("light|white|dark|transparent");
+    add_choice_option<EdgeStyle>(
+        command, "--edges", o.style.edges,
+        {{"all", EdgeStyle::All}, {"auto", EdgeStyle::Auto}, {"none", EdgeStyle::None}},
+        "edges drawn; auto fades shallow, crowded ones");
+    add_choice_option<Background>(command, "--background", o.style.background,
+                                  {{"light", Background::Light},
+                                   {"white", Background::White},
+                                   {"dark", Background::Dark},
+                                   {"transparent", Background::Transparent}},
+                                  "what is behind (default light)");
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <variant>
 
+#include "choice.h"
 #include "commands.h"
 #include "motion_file.h"
 #include "operand.h"
@@ -170,13 +170,10 @@ void add_sweep_command(CLI::App& app, SweepOptions& options) {
         ->type_name("FILE");
     command->add_option("--motion-of-a", options.motion_of_a, "how A moves meanwhile")
         ->type_name("FILE");
-    static const std::map<std::string, ContactEvent> events{{"touch", ContactEvent::Touch},
-                                                            {"overlap", ContactEvent::Overlap}};
-    command
-        ->add_option("--until", options.event,
-                     "touch (the default), or overlap: sliding and grazing go on")
-        ->transform(CLI::CheckedTransformer(events))
-        ->type_name("touch|overlap");
+    add_choice_option<ContactEvent>(
+        *command, "--until", options.event,
+        {{"touch", ContactEvent::Touch}, {"overlap", ContactEvent::Overlap}},
+        "touch (the default), or overlap: sliding and grazing go on");
     command
         ->add_option_function<std::string>(
             "--width",

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "choice.h"
 #include "commands.h"
 #include "mesh_files.h"
 #include "report_json.h"
@@ -127,10 +128,9 @@ void note_moves(Session& session, const VerifyReport& report,
 void add_verify_command(CLI::App& app, VerifyCommandOptions& options) {
     CLI::App* command = app.add_subcommand(
         "verify", "is a mesh the result of a boolean? exit code 1 with a witness if not");
-    command->add_option("OP", options.operation, "what was computed")
-        ->required()
-        ->check(CLI::IsMember({"union", "intersection", "difference", "xor"}))
-        ->type_name("union|intersection|difference|xor");
+    add_word_option(*command, "OP", options.operation,
+                    {"union", "intersection", "difference", "xor"}, "what was computed")
+        ->required();
     command->add_option("A B RESULT", options.files, "operands, and last the mesh to be certified")
         ->required()
         ->expected(3, 1 << 20);

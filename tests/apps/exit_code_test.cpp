@@ -42,6 +42,18 @@ TEST_F(ExitCode, FindingsAreOne) {
     EXPECT_EQ(trisect({"diff", cube_, other_}).code, 1);
 }
 
+TEST_F(ExitCode, AWordThatNoOptionKnowsIsAnsweredByThoseItKnows) {
+    EXPECT_EQ(trisect({"union", cube_, other_, "-o", out_, "--winding", "odd"}).err,
+              "trisect: error: --winding: 'odd' is none of positive, nonzero\n");
+    EXPECT_EQ(trisect({"verify", "subtract", cube_, other_, out_}).err,
+              "trisect: error: OP: 'subtract' is none of union, intersection, difference, xor\n");
+    // No enumerator is printed as a character.
+    for (const char* command : {"union", "sweep", "render", "compare-hierarchies"}) {
+        const std::string help = trisect({command, "--help"}).out;
+        EXPECT_EQ(help.find('\0'), std::string::npos) << command;
+    }
+}
+
 TEST_F(ExitCode, UsageIsTwo) {
     const std::vector<std::vector<std::string>> mistakes{
         {},
