@@ -5,39 +5,43 @@
 // |n| times that at most; both lengths are bounded by sums of magnitudes, which need no roots.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/detail/certified_polynomial.h>
-#include <trisect/bsp/detail/certified_triangles.h>
+#include <trisect/bsp/detail/certified_boundary.h>
+#include <trisect/bsp/detail/certified_motion.h>
+#include <trisect/bsp/detail/certified_walk.h>
 #include <trisect/bsp/enclosed_certificate.h>
 
 namespace trisect {
 
 namespace {
 
+using detail::certified::Boundary;
 using detail::certified::constant;
+using detail::certified::ControlMaps;
+using detail::certified::IntegerPlane;
+using detail::certified::IntegerPoint;
 using detail::certified::is_positive_on_unit;
 using detail::certified::Piece;
 using detail::certified::piece_of;
 using detail::certified::Polynomial;
+using detail::certified::sum_of_magnitudes;
 using Node = EnclosedFreedomNode;
+using Range = detail::certified::WalkRange<double>;
 
-ExactRational sum_of_magnitudes(const RationalPoint& v) {
-    ExactRational r;
-    for (const ExactRational& c : v) r += c.sign() < 0 ? -c : c;
-    return r;
-}
-
-// A motion over a range of time.
+// A motion over a range of time, which is the unit interval of its enclosure.
 struct Enclosed {
     Piece piece;
+    std::optional<ControlMaps> controls;  // nothing where the motion is not known
     ExactRational by_length;
     ExactRational constant;
-    bool is_known = false;
 
     Enclosed(const EnclosedMotion& motion, double from, double to) {
         const MotionEnclosure e = motion.enclose(from, to);
@@ -45,14 +49,28 @@ struct Enclosed {
             e.constant < 0 || e.motion.piece_count() != 1)
             return;
         piece = piece_of(e.motion, 0);
+        if (!is_positive_on_unit(piece.w)) return;
         by_length = ExactRational::from_double(e.by_length);
         constant = ExactRational::from_double(e.constant);
-        is_known = is_positive_on_unit(piece.w);
+        controls.emplace(piece, 0, 1);
     }
     [[nodiscard]] ExactRational deviation(const RationalPoint& x) const {
         return by_length * sum_of_magnitudes(x) + constant;
     }
 };
+
+// Which of the eight parts of space a point is in, one bit for each negative coordinate; there the
+// sum of magnitudes is linear.
+std::size_t octant_of(const IntegerPoint& p) {
+    std::size_t r = 0;
+    for (std::size_t k = 0; k < 3; ++k) r |= static_cast<std::size_t>(sgn(p.x[k]) < 0) << k;
+    return r;
+}
+RationalPoint signs_in(std::size_t octant) {
+    RationalPoint r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = ExactRational((octant >> k & 1U) != 0 ? -1 : 1);
+    return r;
+}
 
 class Checker {
 public:
@@ -60,22 +78,19 @@ public:
             const Brep& b, const EnclosedMotion& motion_b)
         : c_(c),
           answer_(c.answer),
-          brep_a_(a),
           motion_a_(motion_a),
-          brep_b_(b),
           motion_b_(motion_b),
-          a_(detail::corners_in_world(a, Pose())),
-          b_(detail::corners_in_world(b, Pose())),
+          a_(a),
+          b_(b),
           duration_(motion_a.is_still() ? motion_b.duration() : motion_a.duration()) {}
 
     std::string run() {
-        if (brep_a_.is_empty() || brep_b_.is_empty())
+        if (a_.brep().is_empty() || b_.brep().is_empty())
             return answer_.outcome == EnclosedContact::Outcome::None
                        ? ""
                        : "an empty solid touches nothing";
         if (!c_.free.empty() || c_.in_both)
-            if (!detail::triangles_fill_faces(c_.triangles_a, brep_a_) ||
-                !detail::triangles_fill_faces(c_.triangles_b, brep_b_))
+            if (!a_.is_filled_by(c_.triangles_a) || !b_.is_filled_by(c_.triangles_b))
                 return "the triangles do not fill the faces";
         for (const FreeSpan& s : c_.free)
             if (std::string w = wrong_span(s); !w.empty()) return w;
@@ -118,20 +133,21 @@ private:
 
     std::string wrong_contact(double time) {
         if (!(0 <= time && time <= duration_)) return "the contact is not within the motion";
-        return is_deep(motion_a_, time, brep_a_, a_, c_.triangles_a) &&
-                       is_deep(motion_b_, time, brep_b_, b_, c_.triangles_b)
+        return is_deep(motion_a_, time, a_, c_.triangles_a) &&
+                       is_deep(motion_b_, time, b_, c_.triangles_b)
                    ? ""
                    : "a point is not deep inside both";
     }
-    [[nodiscard]] bool is_deep(const EnclosedMotion& motion, double time, const Brep& brep,
-                               const std::vector<RationalPoint>& corners,
+    [[nodiscard]] bool is_deep(const EnclosedMotion& motion, double time, const Boundary& boundary,
                                const std::vector<CertifiedTriangle>& triangles) const {
         const Enclosed e(motion, time, time);
-        if (!e.is_known) return false;
-        ExactRational deviation;
-        for (const RationalPoint& x : corners) deviation = std::max(deviation, e.deviation(x));
-        return detail::is_deep_inside(*c_.in_both, deviation, triangles, brep,
-                                      motion.enclose(time, time).motion.pose_at(0));
+        if (!e.controls) return false;
+        ExactRational farthest;
+        for (const IntegerPoint& x : boundary.points())
+            farthest = std::max(farthest, sum_of_magnitudes(x.rational()));
+        const ExactRational deviation = e.by_length * farthest + e.constant;
+        return Boundary(boundary.brep(), motion.enclose(time, time).motion.pose_at(0))
+            .is_deep_inside(*c_.in_both, deviation, triangles);
     }
 
     // ------------------------------------------------------------ freedom
@@ -143,102 +159,76 @@ private:
         if (s.at_start.relation != Relation::Disjoint || !s.at_start.is_complete)
             return "the start of a span is not proved";
         if (std::string w = check_certificate(
-                s.at_start, brep_a_, motion_a_.enclose(from, from).motion.pose_at(0), brep_b_,
+                s.at_start, a_.brep(), motion_a_.enclose(from, from).motion.pose_at(0), b_.brep(),
                 motion_b_.enclose(from, from).motion.pose_at(0));
             !w.empty())
             return "at the start of a span: " + w;
         if (std::string w = wrong_tree(s.start, {from, from}); !w.empty()) return w;
         return wrong_tree(s.freedom, s.span);
     }
-
-    struct Range {
-        std::size_t node = 0;
-        TimeSpan time;
-        std::size_t a0 = 0;
-        std::size_t a1 = 0;
-        std::size_t b0 = 0;
-        std::size_t b1 = 0;
-    };
     std::string wrong_tree(const std::vector<Node>& nodes, const TimeSpan& time) {
-        std::vector<bool> seen(nodes.size(), false);
-        std::vector<Range> open{{0, time, 0, c_.triangles_a.size(), 0, c_.triangles_b.size()}};
-        while (!open.empty()) {
-            const Range r = open.back();
-            open.pop_back();
-            if (r.node >= nodes.size() || seen[r.node]) return "the tree is no tree";
-            seen[r.node] = true;
-            const Node& n = nodes[r.node];
-            Range first = r;
-            Range second = r;
-            first.node = r.node + 1;
-            second.node = n.other;
-            switch (n.kind) {
-                case Node::Kind::Separated:
-                    if (has_break_within(r.time)) return "a motion has a kink in a range";
-                    if (!are_apart(r, n.plane)) return "a plane does not separate";
-                    continue;
-                case Node::Kind::SplitTime:
-                    if (!(r.time.from < n.time && n.time < r.time.to))
-                        return "a time is not in its range";
-                    first.time.to = second.time.from = n.time;
-                    break;
-                case Node::Kind::SplitA:
-                    if (r.a1 - r.a0 < 2) return "the tree splits a single triangle";
-                    first.a1 = second.a0 = (r.a0 + r.a1) / 2;
-                    break;
-                case Node::Kind::SplitB:
-                    if (r.b1 - r.b0 < 2) return "the tree splits a single triangle";
-                    first.b1 = second.b0 = (r.b0 + r.b1) / 2;
-                    break;
-            }
-            open.push_back(first);
-            open.push_back(second);
-        }
-        return {};
+        return detail::certified::wrong_tree<double>(
+            nodes, {0, c_.triangles_a.size(), 0, c_.triangles_b.size(), time.from, time.to},
+            [this](const Node& node, const Range& r) {
+                if (has_break_within(r)) return "a motion has a kink in a range";
+                return are_apart(r, node.plane) ? "" : "a plane does not separate";
+            });
     }
-    [[nodiscard]] bool has_break_within(const TimeSpan& t) const {
-        const auto within = [&t](double x) { return t.from < x && x < t.to; };
+    [[nodiscard]] bool has_break_within(const Range& r) const {
+        const auto within = [&r](double x) { return r.from < x && x < r.to; };
         return (!motion_a_.is_still() && std::ranges::any_of(motion_a_.breaks(), within)) ||
                (!motion_b_.is_still() && std::ranges::any_of(motion_b_.breaks(), within));
     }
-    const std::pair<Enclosed, Enclosed>& enclosed(const TimeSpan& t) {
-        auto at = enclosed_.find({t.from, t.to});
+    const std::pair<Enclosed, Enclosed>& enclosed(const Range& r) {
+        auto at = enclosed_.find({r.from, r.to});
         if (at == enclosed_.end())
             at = enclosed_
-                     .emplace(std::pair{t.from, t.to}, std::pair{Enclosed(motion_a_, t.from, t.to),
-                                                                 Enclosed(motion_b_, t.from, t.to)})
+                     .emplace(std::pair{r.from, r.to}, std::pair{Enclosed(motion_a_, r.from, r.to),
+                                                                 Enclosed(motion_b_, r.from, r.to)})
                      .first;
         return at->second;
     }
     bool are_apart(const Range& r, const SeparatingPlane& plane) {
-        const auto& [of_a, of_b] = enclosed(r.time);
-        return are_beyond(plane, of_a, a_, c_.triangles_a, r.a0, r.a1, -1) &&
-               are_beyond(plane, of_b, b_, c_.triangles_b, r.b0, r.b1, 1);
+        const auto& [of_a, of_b] = enclosed(r);
+        SeparatingPlane turned;
+        for (std::size_t k = 0; k < 3; ++k) turned.normal[k] = -plane.normal[k];
+        turned.offset = -plane.offset;
+        return stay_above(turned, of_a, a_, corners_of_a(c_.triangles_a, r)) &&
+               stay_above(plane, of_b, b_, corners_of_b(c_.triangles_b, r));
     }
-    static bool are_beyond(const SeparatingPlane& plane, const Enclosed& e,
-                           const std::vector<RationalPoint>& corners,
-                           const std::vector<CertifiedTriangle>& triangles, std::size_t from,
-                           std::size_t to, int side) {
-        if (!e.is_known) return false;
+    // By more than they may deviate. Bernstein coefficients first; polynomials of corners for which
+    // these say nothing.
+    static bool stay_above(const SeparatingPlane& plane, const Enclosed& e,
+                           const Boundary& boundary, const std::vector<std::uint32_t>& corners) {
+        if (!e.controls) return false;
         const ExactRational length = sum_of_magnitudes(plane.normal);
-        const ExactRational sign(side);
-        return std::ranges::all_of(
-            detail::corners_of_range(triangles, from, to), [&](std::uint32_t v) {
-                const Polynomial height = dot(constant(plane.normal), e.piece.point(corners[v])) +
-                                          Polynomial(plane.offset) * e.piece.w;
-                const Polynomial margin = Polynomial(length * e.deviation(corners[v])) * e.piece.w;
-                return is_positive_on_unit(Polynomial(sign) * height - margin);
-            });
+        const SeparatingPlane shifted{plane.normal, plane.offset - length * e.constant};
+        std::array<std::vector<IntegerPlane>, 8> planes;
+        return std::ranges::all_of(corners, [&](std::uint32_t v) {
+            const IntegerPoint& corner = boundary.points()[v];
+            const std::size_t octant = octant_of(corner);
+            if (planes[octant].empty()) {
+                RationalPoint margin = signs_in(octant);
+                for (ExactRational& c : margin) c *= -(length * e.by_length);
+                planes[octant] = e.controls->planes(shifted, margin);
+            }
+            if (std::ranges::all_of(planes[octant], [&corner](const IntegerPlane& p) {
+                    return p.side_of(corner) > 0;
+                }))
+                return true;
+            const RationalPoint x = corner.rational();
+            const Polynomial height = dot(constant(plane.normal), e.piece.point(x)) +
+                                      Polynomial(plane.offset) * e.piece.w;
+            return is_positive_on_unit(height - Polynomial(length * e.deviation(x)) * e.piece.w);
+        });
     }
 
     const EnclosedCertificate& c_;
     const EnclosedContact& answer_;
-    const Brep& brep_a_;
     const EnclosedMotion& motion_a_;
-    const Brep& brep_b_;
     const EnclosedMotion& motion_b_;
-    std::vector<RationalPoint> a_;
-    std::vector<RationalPoint> b_;
+    Boundary a_;
+    Boundary b_;
     double duration_;
     std::map<std::pair<double, double>, std::pair<Enclosed, Enclosed>> enclosed_;
 };

@@ -200,7 +200,7 @@ private:
         const double split =
             is_last ? r.from + (contact_->lower - r.from) / 2 : r.from + (r.to - r.from) / 2;
         const bool can_split_time =
-            r.from < split && split < r.to && (!is_last || split <= contact_->lower);
+            r.from < split && split < r.to && (!is_last || split < contact_->lower);
         if (single && !can_split_time) return false;
         Range first = r;
         Range second = r;

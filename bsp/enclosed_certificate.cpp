@@ -17,7 +17,7 @@
 #include <utility>
 
 #include <trisect/bsp/detail/ball_motion.h>
-#include <trisect/bsp/detail/certified_triangles.h>
+#include <trisect/bsp/detail/certified_boundary.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/detail/proof_body.h>
@@ -291,15 +291,18 @@ std::vector<TimeSpan> free_spans(const EnclosedContact& answer, double duration)
     return r;
 }
 
-// How far a solid may be from its enclosure at a moment, at most.
-ExactRational deviation_of(const MotionEnclosure& e, const Brep& brep) {
+// Whether a point is inside a solid, deeper than its enclosure deviates at a moment.
+bool is_deep_inside(const RationalPoint& p, const InterferenceModel& m, const MotionEnclosure& e,
+                    const std::vector<CertifiedTriangle>& triangles) {
     ExactRational reach;
-    for (const RationalPoint& p : detail::corners_in_world(brep, Pose())) {
-        ExactRational sum;
-        for (const ExactRational& c : p) sum += c.sign() < 0 ? -c : c;
-        reach = std::max(reach, sum);
-    }
-    return ExactRational::from_double(e.by_length) * reach + ExactRational::from_double(e.constant);
+    const detail::certified::Boundary modelled(m.brep());
+    for (const auto& corner : modelled.points())
+        reach = std::max(reach, detail::certified::sum_of_magnitudes(corner.rational()));
+    return detail::certified::Boundary(m.brep(), e.motion.pose_at(0))
+        .is_deep_inside(p,
+                        ExactRational::from_double(e.by_length) * reach +
+                            ExactRational::from_double(e.constant),
+                        triangles);
 }
 
 bool prove_contact(EnclosedCertificate& c, double time, const InterferenceModel& a,
@@ -307,14 +310,9 @@ bool prove_contact(EnclosedCertificate& c, double time, const InterferenceModel&
                    const EnclosedMotion& motion_b) {
     const MotionEnclosure ea = motion_a.enclose(time, time);
     const MotionEnclosure eb = motion_b.enclose(time, time);
-    const Pose pose_a = ea.motion.pose_at(0);
-    const Pose pose_b = eb.motion.pose_at(0);
-    const InterferenceCertificate s = certify(a, pose_a, b, pose_b);
-    if (!s.in_both) return false;
-    if (!detail::is_deep_inside(*s.in_both, deviation_of(ea, a.brep()), c.triangles_a, a.brep(),
-                                pose_a) ||
-        !detail::is_deep_inside(*s.in_both, deviation_of(eb, b.brep()), c.triangles_b, b.brep(),
-                                pose_b))
+    const InterferenceCertificate s = certify(a, ea.motion.pose_at(0), b, eb.motion.pose_at(0));
+    if (!s.in_both || !is_deep_inside(*s.in_both, a, ea, c.triangles_a) ||
+        !is_deep_inside(*s.in_both, b, eb, c.triangles_b))
         return false;
     c.in_both = s.in_both;
     return true;

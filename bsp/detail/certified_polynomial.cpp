@@ -2,9 +2,6 @@
 
 #include <trisect/bsp/detail/certified_polynomial.h>
 
-#include <trisect/brep/detail/gmp_conversion.h>
-#include <trisect/bsp/detail/motion_piece.h>
-
 namespace trisect::detail::certified {
 
 Polynomial common_divisor(Polynomial a, Polynomial b) {
@@ -40,45 +37,34 @@ std::optional<int> roots_between(const Polynomial& p, const ExactRational& from,
     return lost;
 }
 
-// Where all coefficients of Bernstein's are positive, so is the polynomial: b(k) is the sum of
-// (k choose j) / (n choose j) c(j). Sturm's theorem decides the others.
-bool is_positive_on_unit(const Polynomial& p) {
-    if (p.is_zero()) return false;
-    const std::size_t n = p.degree();
-    bool all = true;
-    for (std::size_t k = 0; all && k <= n; ++k) {
-        ExactRational sum;
+// With p(from + (to - from) u) = sum of c(j) u^j, coefficient k is the sum of
+// (k choose j) / (n choose j) c(j).
+std::vector<ExactRational> bernstein_coefficients(const Polynomial& p, std::size_t degree,
+                                                  const ExactRational& from,
+                                                  const ExactRational& to) {
+    const Polynomial time(std::vector<ExactRational>{from, to - from});
+    Polynomial q;
+    for (std::size_t j = p.is_zero() ? 0 : p.degree() + 1; j-- > 0;)
+        q = q * time + Polynomial(p.coefficient(j));
+    const std::size_t terms = q.is_zero() ? 0 : q.degree() + 1;
+    std::vector<ExactRational> r(degree + 1);
+    for (std::size_t k = 0; k <= degree; ++k) {
         ExactRational factor(1);
-        for (std::size_t j = 0; j <= k; ++j) {
-            sum += factor * p.coefficient(j);
+        for (std::size_t j = 0; j <= k && j < terms; ++j) {
+            r[k] += factor * q.coefficient(j);
             if (j < k)
                 factor *= ExactRational(static_cast<std::int64_t>(k - j)) /
-                          ExactRational(static_cast<std::int64_t>(n - j));
+                          ExactRational(static_cast<std::int64_t>(degree - j));
         }
-        all = sum.sign() > 0;
     }
-    return all || (p.sign_at(0) > 0 && roots_between(p, 0, 1) == 0);
-}
-
-namespace {
-
-Polynomial converted(const IntegerPolynomial& p) {
-    std::vector<ExactRational> c;
-    for (const mpz_class& v : p.coefficients()) c.push_back(from_gmp(mpq_class(v)));
-    return Polynomial(std::move(c));
-}
-
-}  // namespace
-
-Piece piece_of(const Motion& motion, std::size_t i) {
-    const MotionPiece& p = motion.piece(std::min(i, motion.piece_count() - 1));
-    Piece r;
-    for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t j = 0; j < 3; ++j) r.m[k][j] = converted(p.matrix[k][j]);
-        r.t[k] = converted(p.shift[k]);
-    }
-    r.w = converted(p.weight);
     return r;
+}
+
+bool is_positive_on_unit(const Polynomial& p) {
+    if (p.is_zero()) return false;
+    const auto controls = bernstein_coefficients(p, p.degree(), 0, 1);
+    return std::ranges::all_of(controls, [](const ExactRational& c) { return c.sign() > 0; }) ||
+           (p.sign_at(0) > 0 && roots_between(p, 0, 1) == 0);
 }
 
 }  // namespace trisect::detail::certified

@@ -14,7 +14,6 @@
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/interference_certificate.h>
-#include <trisect/bsp/motion.h>
 
 namespace trisect::detail::certified {
 
@@ -88,6 +87,13 @@ private:
 [[nodiscard]] std::optional<int> roots_between(const Polynomial& p, const ExactRational& from,
                                                const ExactRational& to);
 
+/// Of p over a range, raised to a degree: p is a mean of them everywhere in it, with positive
+/// weights. \pre the degree is p's at least
+[[nodiscard]] std::vector<ExactRational> bernstein_coefficients(const Polynomial& p,
+                                                                std::size_t degree,
+                                                                const ExactRational& from,
+                                                                const ExactRational& to);
+
 /// Whether p is positive all over the closed unit interval.
 [[nodiscard]] bool is_positive_on_unit(const Polynomial& p);
 
@@ -113,19 +119,5 @@ inline PolynomialVector operator*(const Rows& m, const PolynomialVector& v) {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
 inline PolynomialVector constant(const RationalPoint& v) { return {v[0], v[1], v[2]}; }
-
-/// A piece of a motion: points are at (m x + t) / w.
-struct Piece {
-    Rows m;
-    PolynomialVector t;
-    Polynomial w;
-
-    [[nodiscard]] PolynomialVector point(const RationalPoint& x) const {
-        return m * constant(x) + t;
-    }
-};
-
-/// Of a motion with fewer pieces, which stands still, the last one.
-[[nodiscard]] Piece piece_of(const Motion& motion, std::size_t i);
 
 }  // namespace trisect::detail::certified

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/detail/certified_cells.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace trisect::detail::certified {
+
+namespace {
+
+using Polygon = std::vector<RationalPoint>;  // convex
+
+std::vector<Polygon> polygons(const Boundary& boundary,
+                              const std::vector<CertifiedTriangle>& triangles) {
+    std::vector<Polygon> r;
+    for (const CertifiedTriangle& t : triangles)
+        r.push_back({boundary.at(t.vertex[0]), boundary.at(t.vertex[1]), boundary.at(t.vertex[2])});
+    return r;
+}
+
+// What of the polygons is strictly on a side of a plane; closed again.
+std::vector<Polygon> beside(const std::vector<Polygon>& polygons, const SeparatingPlane& plane,
+                            int side) {
+    std::vector<Polygon> r;
+    for (const Polygon& p : polygons) {
+        std::vector<ExactRational> values;
+        for (const RationalPoint& v : p) values.push_back(value_at(plane, v));
+        if (std::ranges::none_of(values,
+                                 [side](const ExactRational& v) { return v.sign() == side; }))
+            continue;
+        Polygon& q = r.emplace_back();
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const std::size_t j = (i + 1) % p.size();
+            if (values[i].sign() != -side) q.push_back(p[i]);
+            if (values[i].sign() * values[j].sign() >= 0) continue;
+            const ExactRational t = values[i] / (values[i] - values[j]);
+            const RationalPoint d = minus(p[j], p[i]);
+            q.push_back({p[i][0] + t * d[0], p[i][1] + t * d[1], p[i][2] + t * d[2]});
+        }
+    }
+    return r;
+}
+
+// The pieces of triangles in an open cell, and the planes that bound it: points of it have the sign
+// given with each.
+struct Cell {
+    std::size_t node = 0;
+    std::vector<Polygon> of_a;
+    std::vector<Polygon> of_b;
+    std::vector<std::pair<std::size_t, int>> bounds;
+};
+
+std::string wrong_leaf(const InterferenceCertificate& c, const Cell& cell, const Boundary& a,
+                       const Boundary& b) {
+    const CertifiedCell& leaf = c.cells[cell.node];
+    for (const auto& [node, side] : cell.bounds)
+        if (value_at(c.cells[node].plane, leaf.point).sign() != side)
+            return "the point of a cell is not in it";
+    const bool is_of_a = leaf.kind == CertifiedCell::Kind::WithoutA;
+    if (!(is_of_a ? cell.of_a : cell.of_b).empty()) return "a boundary reaches into a cell";
+    const Relation within = is_of_a ? Relation::Contains : Relation::Inside;
+    const Where where = (is_of_a ? a : b).locate(leaf.point);
+    const Where enough = c.relation == within ? Where::Inside : Where::Outside;
+    return where == enough ? "" : "a cell is on the wrong side";
+}
+
+}  // namespace
+
+std::string wrong_cells(const InterferenceCertificate& c, const Boundary& a, const Boundary& b) {
+    std::vector<bool> seen(c.cells.size(), false);
+    std::vector<Cell> open{{0, polygons(a, c.triangles_a), polygons(b, c.triangles_b), {}}};
+    while (!open.empty()) {
+        Cell cell = std::move(open.back());
+        open.pop_back();
+        if (cell.node >= c.cells.size() || seen[cell.node]) return "the cells are no tree";
+        seen[cell.node] = true;
+        const CertifiedCell& n = c.cells[cell.node];
+        if (n.kind != CertifiedCell::Kind::Split) {
+            if (std::string wrong = wrong_leaf(c, cell, a, b); !wrong.empty()) return wrong;
+            continue;
+        }
+        if (is_zero(n.plane.normal)) return "a plane of a cell has no normal";
+        for (const int side : {1, -1}) {
+            Cell half;
+            half.node = side < 0 ? cell.node + 1 : n.other;
+            half.of_a = beside(cell.of_a, n.plane, side);
+            half.of_b = beside(cell.of_b, n.plane, side);
+            half.bounds = cell.bounds;
+            half.bounds.emplace_back(cell.node, side);
+            open.push_back(std::move(half));
+        }
+    }
+    return {};
+}
+
+}  // namespace trisect::detail::certified
