@@ -2,8 +2,9 @@
 //
 // self_intersection and faces_touch: pairs of faces whose triangles meet in more than they share.
 // Candidates come from a tree of boxes; each is decided exactly. Triangles of one planar, simple
-// face are neighbours by construction and are not compared; those of a face that is not planar may
-// fold onto each other and are. A face that crosses itself is reported as a pair of equal indices.
+// face are neighbours by construction and are not compared, nor are those of a sheet (sheets.h);
+// those of a face that is not planar may fold onto each other and are. A face that crosses itself
+// is reported as a pair of equal indices.
 
 #include <algorithm>
 #include <string>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include <trisect/brep/validate/checked_mesh.h>
+#include <trisect/brep/validate/sheets.h>
 #include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/error.h>
@@ -34,7 +36,7 @@ struct FoundPair {
 
 std::vector<FoundPair> find_pairs(const CheckedMesh& m, std::uint64_t pair_limit) {
     const PreparedMesh& mesh = m.mesh;
-    const TriangleTree tree(mesh.points, mesh.triangles);
+    const TriangleTree tree(mesh.points, mesh.triangles, find_sheets(mesh));
     std::vector<FoundPair> found;
     std::uint64_t pairs = 0;
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {

@@ -5,56 +5,157 @@
 #include <algorithm>
 #include <numeric>
 
-#include <trisect/kernel/stop_scope.h>
-
 namespace trisect::detail {
 
+namespace {
+
+// Moves the smaller half to the front, along the axis in which the centres of the boxes spread
+// most. `id` tells equal centres apart.
+template <class Iterator, class BoxOf, class IdOf>
+Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id_of) {
+    const auto centre = [&](const auto& item, std::size_t axis) {
+        const LatticeBox& box = box_of(item);
+        return box.low[axis] + box.high[axis];
+    };
+    std::array<std::int64_t, 3> low{}, high{};
+    for (Iterator it = begin; it != end; ++it)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t c = centre(*it, k);
+            low[k] = it == begin ? c : std::min(low[k], c);
+            high[k] = it == begin ? c : std::max(high[k], c);
+        }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    const Iterator middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [&](const auto& a, const auto& b) {
+        const std::int64_t ca = centre(a, axis);
+        const std::int64_t cb = centre(b, axis);
+        return ca != cb ? ca < cb : id_of(a) < id_of(b);
+    });
+    return middle;
+}
+
+}  // namespace
+
 TriangleTree::TriangleTree(std::span<const LatticePoint> points,
-                           std::span<const std::array<std::uint32_t, 3>> triangles)
-    : boxes_(triangles.size()), order_(triangles.size()) {
+                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                           std::span<const std::uint32_t> sheets)
+    : points_(points), triangles_(triangles), boxes_(triangles.size()) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
         for (const std::uint32_t c : triangles[t]) boxes_[t].add(points[c]);
-    std::iota(order_.begin(), order_.end(), 0U);
     if (triangles.empty()) return;
     nodes_.reserve(triangles.size());
-    build(0, static_cast<std::uint32_t>(triangles.size()));
+    order_.reserve(triangles.size());
+    Grouped grouped = group(sheets);
+    divide(grouped.items, grouped.triangles);
+}
+
+// Sheets in the order of their first triangles, after the loose triangles.
+TriangleTree::Grouped TriangleTree::group(std::span<const std::uint32_t> sheets) const {
+    Grouped out;
+    out.triangles.resize(boxes_.size());
+    std::iota(out.triangles.begin(), out.triangles.end(), 0U);
+    const auto sheet_of = [&](std::uint32_t t) { return sheets.empty() ? no_sheet : sheets[t]; };
+    std::stable_sort(out.triangles.begin(), out.triangles.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return sheet_of(a) < sheet_of(b); });
+    const auto n = static_cast<std::uint32_t>(out.triangles.size());
+    for (std::uint32_t i = 0; i < n;) {
+        Item item{{}, i, i};
+        const std::uint32_t sheet = sheet_of(out.triangles[i]);
+        do {
+            item.box.add(boxes_[out.triangles[item.end++]]);
+        } while (sheet != no_sheet && item.end < n && sheet_of(out.triangles[item.end]) == sheet);
+        out.items.push_back(item);
+        i = item.end;
+    }
+    return out;
 }
 
 // Recursive, but halving: 32 levels at most.
+std::uint32_t TriangleTree::divide(std::span<Item> items,
+                                   std::span<const std::uint32_t> triangles) {
+    check_stop();
+    Node node;
+    node.begin = static_cast<std::uint32_t>(order_.size());
+    if (items.size() == 1 && items[0].count() > 1) {
+        order_.insert(order_.end(), triangles.begin() + items[0].begin,
+                      triangles.begin() + items[0].end);
+        const std::uint32_t root = build(node.begin, static_cast<std::uint32_t>(order_.size()));
+        nodes_[root].is_sheet = true;
+        return root;
+    }
+    const auto self = static_cast<std::uint32_t>(nodes_.size());
+    std::uint32_t count = 0;
+    for (const Item& item : items) {
+        node.box.add(item.box);
+        count += item.count();
+    }
+    node.end = node.begin + count;
+    nodes_.push_back(node);
+    if (count == items.size() && count <= leaf_size) {
+        for (const Item& item : items) order_.push_back(triangles[item.begin]);
+        return self;
+    }
+    const auto middle = halve(
+        items.begin(), items.end(), [](const Item& item) -> const LatticeBox& { return item.box; },
+        [](const Item& item) { return item.begin; });
+    divide({items.begin(), middle}, triangles);
+    const std::uint32_t right = divide({middle, items.end()}, triangles);
+    nodes_[self].right = right;
+    return self;
+}
+
+// The same within a sheet.
 std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
     check_stop();
     const auto self = static_cast<std::uint32_t>(nodes_.size());
     Node node;
     node.begin = begin;
     node.end = end;
-    const auto centre = [this](std::uint32_t t, std::size_t axis) {
-        return boxes_[t].low[axis] + boxes_[t].high[axis];
-    };
-    std::array<std::int64_t, 3> low{}, high{};
-    for (std::uint32_t i = begin; i < end; ++i) {
-        node.box.add(boxes_[order_[i]]);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int64_t c = centre(order_[i], k);
-            low[k] = i == begin ? c : std::min(low[k], c);
-            high[k] = i == begin ? c : std::max(high[k], c);
-        }
-    }
+    for (std::uint32_t i = begin; i < end; ++i) node.box.add(boxes_[order_[i]]);
     nodes_.push_back(node);
     if (end - begin <= leaf_size) return self;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const std::int64_t ca = centre(a, axis);
-                         const std::int64_t cb = centre(b, axis);
-                         return ca != cb ? ca < cb : a < b;
-                     });
-    build(begin, middle);
-    const std::uint32_t right = build(middle, end);
+    const auto middle = halve(
+        order_.begin() + begin, order_.begin() + end,
+        [this](std::uint32_t t) -> const LatticeBox& { return boxes_[t]; },
+        [](std::uint32_t t) { return t; });
+    const auto split = static_cast<std::uint32_t>(middle - order_.begin());
+    build(begin, split);
+    const std::uint32_t right = build(split, end);
     nodes_[self].right = right;
     return self;
+}
+
+TriangleTree::TurnedBoxes::TurnedBoxes(const TriangleTree& tree)
+    : tree_(tree),
+      frame_(tree.nodes_[0].box.low, tree.nodes_[0].box.high),
+      visits_(tree.nodes_.size(), 0) {}
+
+bool TriangleTree::TurnedBoxes::are_apart(std::uint32_t a, std::uint32_t b) {
+    const bool a_is_hot = is_hot(a);
+    const bool b_is_hot = is_hot(b);
+    return (a_is_hot || b_is_hot) && box_of(a).is_apart(box_of(b), frame_);
+}
+
+// Counts a visit; true from the one on that makes the box.
+bool TriangleTree::TurnedBoxes::is_hot(std::uint32_t node) {
+    std::uint32_t& visits = visits_[node];
+    if (visits < hot_visits && ++visits < hot_visits) return false;
+    if (visits > hot_visits) return true;
+    const Node& n = tree_.nodes_[node];
+    check_stop(n.count());
+    const auto box = OrientedBox::around(frame_, tree_.points_, tree_.triangles_,
+                                         std::span(tree_.order_).subspan(n.begin, n.count()));
+    visits = hot_visits + 1 + static_cast<std::uint32_t>(boxes_.size());
+    boxes_.push_back(box ? *box : OrientedBox(frame_, n.box.low, n.box.high));
+    return true;
+}
+
+OrientedBox TriangleTree::TurnedBoxes::box_of(std::uint32_t node) const {
+    if (visits_[node] > hot_visits) return boxes_[visits_[node] - hot_visits - 1];
+    const LatticeBox& box = tree_.nodes_[node].box;
+    return OrientedBox(frame_, box.low, box.high);
 }
 
 }  // namespace trisect::detail

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // TriangleTree: a hierarchy of axis-aligned boxes over triangles, for the searches of validation.
+//
+// Boxes of long slanted triangles overlap where the triangles are far apart. A search for pairs
+// that comes to a node again and again gives it a box that is turned with its triangles
+// (oriented_box.h); most meshes never need one.
 #pragma once
 
 #include <array>
@@ -8,7 +12,10 @@
 #include <span>
 #include <vector>
 
+#include <trisect/brep/validate/oriented_box.h>
+#include <trisect/brep/validate/sheets.h>
 #include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -37,25 +44,31 @@ struct LatticeBox {
     }
 };
 
-/// Balanced: built by median splits, depth at most 33. Immutable.
+/// Balanced: built by median splits, of the sheets and loose triangles first, then within sheets;
+/// depth at most 66. Immutable; refers to the mesh.
 class TriangleTree {
 public:
-    /// O(n log n).
+    /// `sheets` gives each triangle a sheet, or no_sheet; empty if there are none. O(n log n).
     TriangleTree(std::span<const LatticePoint> points,
-                 std::span<const std::array<std::uint32_t, 3>> triangles);
+                 std::span<const std::array<std::uint32_t, 3>> triangles,
+                 std::span<const std::uint32_t> sheets = {});
 
-    /// Calls visit(a, b), a < b, once for every pair of triangles with overlapping boxes; the
-    /// order is deterministic. Stops when it returns false.
+    /// Calls visit(a, b), a < b, once for every pair of triangles that are not of one sheet and
+    /// whose boxes overlap, except for pairs that turned boxes prove to be apart; the order is
+    /// deterministic. Stops when it returns false.
     template <class Visit>
     void for_each_pair(Visit&& visit) const {
         if (nodes_.empty()) return;
+        TurnedBoxes turned(*this);
         std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};
         while (!stack.empty()) {
             const auto [i, k] = stack.back();
             stack.pop_back();
             const Node& a = nodes_[i];
             const Node& b = nodes_[k];
+            check_stop();
             if (i == k) {
+                if (a.is_sheet) continue;
                 if (a.is_leaf()) {
                     if (!visit_leaves(a, a, true, visit)) return;
                     continue;
@@ -63,7 +76,7 @@ public:
                 stack.push_back({a.right, a.right});
                 stack.push_back({a.left(i), a.right});
                 stack.push_back({a.left(i), a.left(i)});
-            } else if (a.box.overlaps(b.box)) {
+            } else if (a.box.overlaps(b.box) && !turned.are_apart(i, k)) {
                 if (a.is_leaf() && b.is_leaf()) {
                     if (!visit_leaves(a, b, false, visit)) return;
                 } else if (b.is_leaf() || (!a.is_leaf() && a.count() >= b.count())) {
@@ -104,12 +117,42 @@ private:
         LatticeBox box;
         std::uint32_t begin = 0, end = 0;  // into order_
         std::uint32_t right = 0;           // 0: leaf; the left child follows its parent
+        bool is_sheet = false;             // a whole one
         [[nodiscard]] bool is_leaf() const { return right == 0; }
         [[nodiscard]] std::uint32_t count() const { return end - begin; }
         [[nodiscard]] std::uint32_t left(std::uint32_t self) const { return self + 1; }
     };
     static constexpr std::uint32_t leaf_size = 4;
 
+    // What the upper part of the tree divides: a sheet or a triangle, a range of triangles.
+    struct Item {
+        LatticeBox box;
+        std::uint32_t begin, end;
+        [[nodiscard]] std::uint32_t count() const { return end - begin; }
+    };
+    struct Grouped {
+        std::vector<Item> items;
+        std::vector<std::uint32_t> triangles;  // of all items
+    };
+    // Boxes for nodes that were come to often, made on the way.
+    class TurnedBoxes {
+    public:
+        explicit TurnedBoxes(const TriangleTree& tree);
+        [[nodiscard]] bool are_apart(std::uint32_t a, std::uint32_t b);
+
+    private:
+        [[nodiscard]] bool is_hot(std::uint32_t node);
+        [[nodiscard]] OrientedBox box_of(std::uint32_t node) const;
+
+        static constexpr std::uint32_t hot_visits = 32;
+        const TriangleTree& tree_;
+        BoxFrame frame_;
+        std::vector<std::uint32_t> visits_;  // by node; hot_visits + 1 + its number in boxes_
+        std::vector<OrientedBox> boxes_;
+    };
+
+    [[nodiscard]] Grouped group(std::span<const std::uint32_t> sheets) const;
+    std::uint32_t divide(std::span<Item> items, std::span<const std::uint32_t> triangles);
     std::uint32_t build(std::uint32_t begin, std::uint32_t end);
 
     template <class Visit>
@@ -125,6 +168,8 @@ private:
         return true;
     }
 
+    std::span<const LatticePoint> points_;
+    std::span<const std::array<std::uint32_t, 3>> triangles_;
     std::vector<LatticeBox> boxes_;
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sheets: parts of a surface of which one linear pass shows that they do not meet themselves.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <trisect/brep/detail/prepared_mesh.h>
+
+namespace trisect::detail {
+
+inline constexpr std::uint32_t no_sheet = std::numeric_limits<std::uint32_t>::max();
+
+/// By triangle the number of its sheet, or no_sheet. Two triangles of one sheet have nothing in
+/// common but the corners and edges that they share by name; or they are of one face that is planar
+/// and is not to be compared with itself. Cost: O(n log n).
+[[nodiscard]] std::vector<std::uint32_t> find_sheets(const PreparedMesh& mesh);
+
+}  // namespace trisect::detail
