@@ -47,6 +47,7 @@ constexpr std::array rows{
     Row{"d:cubes", U, .663963441738},
     Row{"e:99k:500", D, .992829098733},
     Row{"f:grid", D, 0},
+    Row{"f:engrave", D, 8392.774700775515},
     Row{"f:menger3", D, 8'000},
     Row{"f:menger4", D, 160'000},
     Row{"f:beams", U, 1'440},

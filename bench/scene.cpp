@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include <trisect/brep/io/read_mesh.h>
@@ -257,6 +258,40 @@ Scene beams_scene() {
     return pair(std::move(along_x), std::move(along_y));
 }
 
+/// A prism over a star of ten corners, from height 1/2 to 1.
+PolygonMesh star(double x, double y, double degrees) {
+    constexpr std::uint32_t n = 10;
+    PolygonMesh out;
+    for (const double z : {0.5, 1.0}) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const double radius = i % 2 == 0 ? 0.4375 : 0.25;
+            const double angle = (degrees + 36.0 * i) * std::numbers::pi / 180;
+            out.points.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle), z});
+        }
+        out.points.push_back({x, y, z});
+    }
+    constexpr std::uint32_t up = n + 1;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        out.add_triangle(n, j, i);
+        out.add_triangle(n + up, i + up, j + up);
+        out.add_triangle(i, j, j + up);
+        out.add_triangle(i, j + up, i + up);
+    }
+    return out;
+}
+
+/// A plate less n x n stars, each turned otherwise, all flush with its upper side.
+Scene engraving_scene(int n) {
+    PolygonMesh stars;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) shapes::append(stars, star(i + 0.5, j + 0.5, 7.0 * i + j));
+    const double side = n;
+    Scene s = pair(shapes::block({0, 0, 0}, {side, side, 1}), std::move(stars));
+    s.operations = {Operation::Difference};
+    return s;
+}
+
 Scene hard_scene(const std::string& scene, const std::string& word) {
     if (word == "grid") return grid_scene();
     if (word == "menger3" || word == "menger4") {
@@ -269,6 +304,8 @@ Scene hard_scene(const std::string& scene, const std::string& word) {
     if (word == "beams") return beams_scene();
     if (word == "fan") return one_union(fan(20, {}));
     if (word == "gears") return gears_scene();
+    if (word == "engrave") return engraving_scene(100);
+    if (word == "engrave2500") return engraving_scene(50);
     if (word == "touch") return one_union(cubes(1));
     if (word == "overlap") return one_union(cubes(0.75));
     unknown(scene);

@@ -57,6 +57,7 @@ struct Scene {
 ///     f:beams                       20 beams along x and 20 along y that cross
 ///     f:fan                         20 cubes turned about an axis, sharing two planes
 ///     f:gears                       two fans of 50 cubes each, side by side in the same planes
+///     f:engrave f:engrave2500       a plate less 10,000 or 2,500 stars, flush with its upper side
 ///     f:touch f:overlap             10³ cubes that touch in faces, or overlap with coplanar faces
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
