@@ -510,14 +510,14 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
     return from == to && from != 0;
 }
 
-// Where a plane across the axis names b, or b is a corner and a is one too, the order is that of
-// small integers or the side of a plane: models with axis parallel faces ask little else.
+// Between lattice points, and where a plane across the axis names b, the order is that of small
+// integers or the side of a plane: models with axis parallel faces ask little else.
 std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b, int axis) {
-    if (bench.is_corner(b)) {
-        if (!bench.is_corner(a)) return std::nullopt;
+    if (bench.is_lattice(a) && bench.is_lattice(b)) {
         const auto order = bench.lattice(a)[axis] <=> bench.lattice(b)[axis];
         return order < 0 ? -1 : (order > 0 ? 1 : 0);
     }
+    if (bench.is_corner(b)) return std::nullopt;
     for (const PlaneId p : bench.planes_of(b)) {
         const Plane& plane = bench.plane_at(p);
         if (plane.normal((axis + 1) % 3) != 0 || plane.normal((axis + 2) % 3) != 0) continue;

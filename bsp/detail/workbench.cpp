@@ -72,7 +72,7 @@ PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
     if (inserted) {
         const LatticePoint& p = source->corner(facet, i);
         points_.push_back(
-            {{-1, -1, -1}, p, approximate(p), source, source->corner_index(facet, i)});
+            {{-1, -1, -1}, p, approximate(p), source, source->corner_index(facet, i), true});
     }
     return id;
 }
@@ -167,6 +167,16 @@ bool is_sharp(const Approximation& a) {
     return a.error <= 0x1p-40 * largest;
 }
 
+// Doubles without an error are the coordinates.
+std::optional<LatticePoint> lattice_point(const Approximation& a) {
+    if (a.error != 0) return std::nullopt;
+    for (const double c : a.c)
+        if (std::fabs(c) > static_cast<double>(coordinate_limit) || std::nearbyint(c) != c)
+            return std::nullopt;
+    return LatticePoint{static_cast<std::int64_t>(a.c[0]), static_cast<std::int64_t>(a.c[1]),
+                        static_cast<std::int64_t>(a.c[2])};
+}
+
 }  // namespace
 
 PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r,
@@ -179,13 +189,19 @@ PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId 
                        {},
                        take ? *known : approximate(plane_at(p), plane_at(q), plane_at(r)),
                        nullptr,
-                       0});
+                       0,
+                       false});
+    PointRecord& made = points_.back();
+    if (const auto at = lattice_point(made.approximation)) {
+        made.lattice = *at;
+        made.is_lattice = true;
+    }
     return id;
 }
 
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
     const PointRecord& r = points_[u(id)];
-    if (r.planes[0] < 0)
+    if (r.is_lattice)
         return {{WideInt<7>(r.lattice.x), WideInt<7>(r.lattice.y), WideInt<7>(r.lattice.z)},
                 WideInt<6>(1)};
     const auto h = intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
@@ -195,13 +211,13 @@ HomogeneousPoint Workbench::homogeneous(PointId id) const {
 
 Point Workbench::point(PointId id) const {
     const PointRecord& r = points_[u(id)];
-    if (r.planes[0] < 0) return Point(r.lattice);
+    if (r.is_lattice) return Point(r.lattice);
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
 std::array<double, 3> Workbench::nearest(PointId id) const {
     const PointRecord& r = points_[u(id)];
-    if (r.planes[0] < 0) return r.approximation.c;
+    if (r.is_lattice) return r.approximation.c;
     return nearest_doubles(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]));
 }
@@ -256,6 +272,7 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
             return 0;
         }
     }
+    if (r.is_lattice) return sign_of(side_of(r.lattice, p));
     return sign_of(side_of(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]), p));
 }
@@ -268,7 +285,7 @@ bool Workbench::same_point(PointId a, PointId b) const {
         const double gap = std::fabs(ra.approximation.c[k] - rb.approximation.c[k]);
         if (gap > 1.0000001 * (ra.approximation.error + rb.approximation.error)) return false;
     }
-    if (ra.planes[0] < 0 && rb.planes[0] < 0) return ra.lattice == rb.lattice;
+    if (ra.is_lattice && rb.is_lattice) return ra.lattice == rb.lattice;
     const PointRecord& named = ra.planes[0] < 0 ? rb : ra;
     const PointId other = ra.planes[0] < 0 ? a : b;
     return std::all_of(named.planes.begin(), named.planes.end(),

@@ -73,7 +73,11 @@ public:
     [[nodiscard]] std::pair<const Source*, std::uint32_t> corner_name(PointId id) const {
         return {points_[u(id)].source, points_[u(id)].vertex};
     }
+    /// \pre is_lattice(id)
     [[nodiscard]] const LatticePoint& lattice(PointId id) const { return points_[u(id)].lattice; }
+    /// Whether its coordinates are known to be integers: of corners, and of points that are named by
+    /// planes but whose doubles came without an error.
+    [[nodiscard]] bool is_lattice(PointId id) const { return points_[u(id)].is_lattice; }
     [[nodiscard]] const std::array<PlaneId, 3>& planes_of(PointId id) const {
         return points_[u(id)].planes;
     }
@@ -129,6 +133,7 @@ private:
         Approximation approximation;
         const Source* source = nullptr;  // of a corner
         std::uint32_t vertex = 0;
+        bool is_lattice = false;
     };
     static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
     [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
