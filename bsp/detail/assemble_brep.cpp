@@ -133,7 +133,7 @@ std::vector<PointId> corners_to_keep(std::span<const WholeFacet> whole,
 Brep assemble_brep(const SolidState& solid, const AssembleOptions& options, AssemblyStats* stats) {
     const bool within_faces = !options.maximal_faces;
     BoundaryParts parts;
-    gather_parts(solid, parts);
+    gather_parts(solid, parts, false);
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     join_facets(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);

@@ -159,15 +159,23 @@ private:
         const std::size_t begin = corner_count_;
         loops_.set_region(f.support, f.flipped, rest_.first(n));
         rest_ = rest_.subspan(n);
-        const auto loop = loops_.loop(0);
-        if (loops_.loop_count() > 1 || loop.size() > small_polygon_limit || !is_simple(loop)) {
-            write_large(f);
-        } else if (is_all_of(f, loop)) {
+        if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
             copy(parts_.table_of(f.source), f.facet, f.flipped);
+        } else if (loops_.has_holes()) {
+            write_large(f, 0, loops_.loop_count());
+        } else {
+            for (std::size_t l = 0; l < loops_.loop_count(); ++l) write_loop(f, l);
+        }
+        worked_corners_ += corner_count_ - begin;
+    }
+
+    void write_loop(const BoundaryFacet& f, std::size_t l) {
+        const auto loop = loops_.loop(l);
+        if (loop.size() > small_polygon_limit || !is_simple(loop)) {
+            write_large(f, l, l + 1);
         } else {
             write_small(f, loop);
         }
-        worked_corners_ += corner_count_ - begin;
     }
 
     // A facet may have been touched in vain; then nothing may tell it from one that was not.
@@ -223,12 +231,13 @@ private:
         TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
     }
 
-    void write_large(const BoundaryFacet& f) {
+    // Loops [first, end) as one region.
+    void write_large(const BoundaryFacet& f, std::size_t first, std::size_t end) {
         points_.clear();
         ids_.clear();
         outline_.clear();
         local_.resize(bench_.point_count(), none);
-        for (std::size_t l = 0; l < loops_.loop_count(); ++l) {
+        for (std::size_t l = first; l < end; ++l) {
             auto& loop = outline_.emplace_back();
             for (const PointId p : loops_.loop(l)) {
                 if (local_[u(p)] == none) {
@@ -286,9 +295,9 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
 
 }  // namespace
 
-PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats) {
+PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes) {
     BoundaryParts parts;
-    gather_parts(solid, parts);
+    gather_parts(solid, parts, by_planes);
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     join_facets(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);
@@ -296,7 +305,7 @@ PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats) {
     // has looked at.
     mark_unchanged_facets(parts, edges);
     parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
-    if (parts.stats.joined_facets != 0)
+    if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
         remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
     if (stats != nullptr) *stats = parts.stats;
     return MeshWriter(solid, parts).write(edges);

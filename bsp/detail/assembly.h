@@ -14,7 +14,10 @@ namespace trisect::detail {
 [[nodiscard]] Brep assemble_brep(const SolidState& solid, const AssembleOptions& options,
                                  AssemblyStats* stats = nullptr);
 
-/// The boundary as triangles; facets that nothing touched are copied.
-[[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr);
+/// The boundary as triangles; facets that nothing touched are copied. Without `by_planes` all
+/// others go the general way (gather_parts()); the set, the vertices and the number of triangles
+/// are the same.
+[[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr,
+                                        bool by_planes = true);
 
 }  // namespace trisect::detail

@@ -21,6 +21,7 @@
 #include <optional>
 #include <tuple>
 
+#include <trisect/bsp/detail/axis_faces.h>
 #include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/fragment_group.h>
@@ -41,14 +42,16 @@ struct Leaf {
     Cell cell;
     std::size_t first_edge = 0;
     std::size_t end_edge = 0;
+    std::size_t first_inside = 0;  // of inside_
+    std::size_t end_inside = 0;
 };
 
 class Gatherer {
 public:
     Gatherer(const SolidState& solid, BoundaryParts& out)
-        : solid_(solid), out_(out), splitter_(out.bench, out.facets) {}
+        : solid_(solid), out_(out), axis_faces_(out), splitter_(out.bench, out.facets) {}
 
-    void run() {
+    void run(bool by_planes) {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
             check_stop(1 + leaf.node->size());
@@ -58,16 +61,20 @@ public:
         number_facets();
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
+        if (by_planes && traced == 0) choose_axis_faces();
         for (Leaf& leaf : leaves_) {
             if (out_.stats.traced_facets == out_.facets.size()) break;
             check_stop(1 + leaf.node->size());
             make_parts(leaf);
         }
+        const std::size_t of_leaves = edges_.size();
+        make_axis_faces();
         merge_equal_points();
         check_stop(edges_.size());
-        conform_edges(traced);
+        conform_edges(traced, of_leaves);
         out_.representatives = std::move(same_);
         out_.stats.leaves = leaves_.size();
+        out_.stats.axis_facets = axis_faces_.taken_count();
         out_.stats.worked_facets = out_.facets.size();
         out_.stats.edges = out_.edges.size();
     }
@@ -86,8 +93,10 @@ private:
     void make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet);
     void note_part(const Leaf& leaf, BoundaryFacet& facet);
     void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
+    void choose_axis_faces();
+    void make_axis_faces();
     void merge_equal_points();
-    void conform_edges(std::size_t traced);
+    void conform_edges(std::size_t traced, std::size_t of_leaves);
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -95,7 +104,10 @@ private:
     BoundaryParts& out_;
     std::vector<Leaf> leaves_;
     std::size_t last_table_ = 0;
-    std::vector<BoundaryEdge> edges_;  // of traced facets, then of the parts, leaf by leaf
+    // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
+    std::vector<BoundaryEdge> edges_;
+    AxisFaces axis_faces_;
+    std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
     std::vector<PointId> same_;
     EdgeSplitter splitter_;
     // Of the group of fragments in the making.
@@ -106,6 +118,20 @@ private:
 };
 
 }  // namespace
+
+bool ends_at_walls(const Fragment& fragment, const Cell& cell) {
+    const auto ends_at = [&](std::size_t axis, std::int64_t wall, bool above) {
+        const EdgeName e{PlaneName::wall(static_cast<int>(axis), wall), above};
+        return std::ranges::find(fragment.edges(), e) != fragment.edges().end();
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (fragment.box().lo[k] <= (cell.lo[k] >> wall_bits) && !ends_at(k, cell.lo[k], true))
+            return false;
+        if (fragment.box().hi[k] > (cell.hi[k] >> wall_bits) && !ends_at(k, cell.hi[k], false))
+            return false;
+    }
+    return true;
+}
 
 std::size_t FacetMarks::number_worked(std::size_t first) {
     numbers_.resize(marks_.size() / 8);
@@ -263,9 +289,10 @@ void Gatherer::make_parts(Leaf& leaf) {
         const FacetMarks& marks = out_.sources[table(source)];
         const bool flipped = polygons.flipped() != leaf.complemented;
         const auto make = [&](std::uint32_t f) {
-            if (marks.takes_part(f, flipped) && !marks.is_traced(f))
-                make_part({source, nullptr, f, polygons.flipped(), false}, leaf,
-                          marks.number_of_worked(f, flipped));
+            if (!marks.takes_part(f, flipped) || marks.is_traced(f)) return;
+            const std::int32_t number = marks.number_of_worked(f, flipped);
+            if (!axis_faces_.takes(number))
+                make_part({source, nullptr, f, polygons.flipped(), false}, leaf, number);
         };
         if (polygons.has_all_facets()) {
             for (std::uint32_t f = 0; f < polygons.size(); ++f) make(f);
@@ -278,22 +305,6 @@ void Gatherer::make_parts(Leaf& leaf) {
     leaf.end_edge = edges_.size();
 }
 
-// Whether all that the cell's walls could cut off has been cut off: the box of a fragment is
-// rounded outwards and says too much where it ends at a wall.
-bool ends_at_walls(const Fragment& fragment, const Cell& cell) {
-    const auto ends_at = [&](std::size_t axis, std::int64_t wall, bool above) {
-        const EdgeName e{PlaneName::wall(static_cast<int>(axis), wall), above};
-        return std::ranges::find(fragment.edges(), e) != fragment.edges().end();
-    };
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (fragment.box().lo[k] <= (cell.lo[k] >> wall_bits) && !ends_at(k, cell.lo[k], true))
-            return false;
-        if (fragment.box().hi[k] > (cell.hi[k] >> wall_bits) && !ends_at(k, cell.hi[k], false))
-            return false;
-    }
-    return true;
-}
-
 // Fragments of one facet come one after the other.
 void Gatherer::make_list_parts(const Leaf& leaf) {
     const PolygonList& polygons = leaf.node->polygons();
@@ -303,6 +314,7 @@ void Gatherer::make_list_parts(const Leaf& leaf) {
         const bool flipped = r.flipped != leaf.complemented;
         if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
+        if (axis_faces_.takes(facet)) continue;
         if (r.fragment == nullptr || !ends_at_walls(*r.fragment, leaf.cell)) {
             make_part(r, leaf, facet);
             continue;
@@ -398,6 +410,32 @@ void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRe
     }
 }
 
+void Gatherer::choose_axis_faces() {
+    std::vector<AxisFaces::Leaf> leaves;
+    leaves.reserve(leaves_.size());
+    for (const Leaf& leaf : leaves_) {
+        if (deferred(leaf) != nullptr) return;
+        leaves.push_back({&leaf.node->polygons(), leaf.cell, leaf.complemented});
+    }
+    axis_faces_.choose(leaves);
+}
+
+void Gatherer::make_axis_faces() {
+    const auto edges_of = [&](const Leaf& leaf) {
+        return std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
+    };
+    for (std::size_t i = 0; i < leaves_.size(); ++i)
+        if (axis_faces_.is_across_axes(i)) axis_faces_.note_vertices(edges_of(leaves_[i]));
+    axis_faces_.make_edges(edges_);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        leaves_[i].first_inside = inside_.size();
+        if (axis_faces_.is_across_axes(i) && leaves_[i].node->is_mixed())
+            for (const BoundaryEdge& e : edges_of(leaves_[i]))
+                axis_faces_.add_vertices_in(e, inside_);
+        leaves_[i].end_inside = inside_.size();
+    }
+}
+
 // Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
@@ -422,14 +460,17 @@ void Gatherer::merge_equal_points() {
         while (same_[u(p)] != p) p = same_[u(p)];
 }
 
-// Edges of traced facets come first and have all their vertices.
-void Gatherer::conform_edges(std::size_t traced) {
+// Edges of traced facets, which come first, and of planes across axes, which come last, have all
+// their vertices.
+void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     for (BoundaryEdge& e : edges_) {
         e.from = same_[u(e.from)];
         e.to = same_[u(e.to)];
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
     out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
+    out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
+                      edges_.end());
     for (const Leaf& leaf : leaves_) {
         check_stop();
         const auto edges =
@@ -440,6 +481,8 @@ void Gatherer::conform_edges(std::size_t traced) {
         }
         splitter_.clear();
         for (const BoundaryEdge& e : edges) splitter_.add_candidate(e.from);
+        for (std::size_t i = leaf.first_inside; i < leaf.end_inside; ++i)
+            splitter_.add_candidate(same_[u(inside_[i])]);
         splitter_.split(edges, out_.edges);
     }
 }
@@ -624,6 +667,8 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<Bounda
     }
 }
 
-void gather_parts(const SolidState& solid, BoundaryParts& parts) { Gatherer(solid, parts).run(); }
+void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes) {
+    Gatherer(solid, parts).run(by_planes);
+}
 
 }  // namespace trisect::detail

@@ -159,7 +159,13 @@ struct BoundaryParts {
 };
 
 /// Facets that nothing cuts or touches are marked whole in `sources` and have no edges.
-void gather_parts(const SolidState& solid, BoundaryParts& parts);
+/// `by_planes`: the facets of a plane will be joined, so that they may come as one where that is
+/// easier (axis_faces.h).
+void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes);
+
+/// Whether all that the walls of a cell could cut off a fragment has been cut off: its box is
+/// rounded outwards and says too much where it ends at a wall.
+[[nodiscard]] bool ends_at_walls(const Fragment& fragment, const Cell& cell);
 
 /// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
 ///

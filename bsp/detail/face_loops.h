@@ -3,6 +3,7 @@
 // From the directed boundary edges of a planar region to faces: an outer loop and its holes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,6 +34,9 @@ public:
     /// Points in order, the region to the left seen from outside.
     [[nodiscard]] std::span<const PointId> loop(std::size_t i) const {
         return std::span(points_).subspan(loops_[i].begin, loops_[i].size);
+    }
+    [[nodiscard]] bool has_holes() const {
+        return std::any_of(loops_.begin(), loops_.end(), [](const Loop& l) { return !l.outer; });
     }
     /// Faces: each is an outer loop, followed by the holes in it; numbers of loops. Outer loops in
     /// their order. O(n log n). The spans are valid until the next call.

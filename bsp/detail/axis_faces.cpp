@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A plate with ten thousand pockets is a few planes. What its leaves list are convex parts of its
+// triangles, cut along walls of cells, along the lines of all tools, and by the diagonals of the
+// triangles. To give every corner of every part a name, to find the vertices that lie inside their
+// sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is about
+// places where in the end nothing is.
+//
+// Where all polygons of a cell are across an axis the slanted sides of those in one plane cancel:
+// nothing else that bounds the solid there has a slanted side. The other sides lie at integers. So
+// the outline of all that a plane has is a sum of integers (axis_outline.h), over all cells
+// together, and walls vanish with the rest.
+//
+// Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
+// vertex lies inside it, then the faces around change there, and so does one of those two outlines:
+// of the four quadrants around the line those that are inside can be told from the two outlines,
+// and if they are the same before and behind, no third plane has a boundary in between. So the ends
+// of all stretches on one line are all vertices on it, but for those of facets that are not taken.
+//
+// Those are facets that may come out as they went in: to_mesh copies them with their corners.
+// Whether a facet has changed shows in its area, or in an outline that turns inside one of its
+// edges. In doubt its plane is left to the general way.
+
+#include <trisect/bsp/detail/axis_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <trisect/bsp/detail/axis_clip.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
+
+namespace trisect::detail {
+
+namespace {
+
+bool is_across_an_axis(const PolygonRef& r) {
+    if (r.source->is_half_space()) return false;
+    const LatticePoint& a = r.source->corner(r.facet, 0);
+    const LatticePoint& b = r.source->corner(r.facet, 1);
+    const LatticePoint& c = r.source->corner(r.facet, 2);
+    return (a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z);
+}
+
+bool all_across_axes(const PolygonList& polygons) {
+    return std::all_of(polygons.begin(), polygons.end(), is_across_an_axis);
+}
+
+/// Keeps a fragment that no list holds.
+class HeldFragment {
+public:
+    explicit HeldFragment(const Fragment* fragment) : fragment_(fragment) { fragment_->retain(); }
+    HeldFragment(const HeldFragment&) = delete;
+    HeldFragment& operator=(const HeldFragment&) = delete;
+    ~HeldFragment() { fragment_->release(); }
+
+private:
+    const Fragment* fragment_;
+};
+
+AxisRectangle rectangle_of(const Cell& cell, std::size_t across) {
+    AxisRectangle out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t axis = (across + 1 + i) % 3;
+        const auto side = [&](std::int64_t at, bool above) {
+            return AxisRectangle::Side{at, {PlaneName::wall(static_cast<int>(axis), at), above}};
+        };
+        out.sides[i] = {side(cell.lo[axis], true), side(cell.hi[axis], false)};
+    }
+    return out;
+}
+
+bool reaches_out(const PolygonRef& r, const Cell& cell) {
+    return r.fragment != nullptr ? !ends_at_walls(*r.fragment, cell) : !cell.contains(r.box());
+}
+
+}  // namespace
+
+// --- Which planes.
+
+void AxisFaces::choose(std::span<const Leaf> leaves) {
+    if (parts_.facets.empty()) return;
+    across_.clear();
+    for (const Leaf& leaf : leaves) across_.push_back(all_across_axes(*leaf.polygons));
+    if (std::ranges::find(across_, true) == across_.end()) return;
+    facets_.assign(parts_.facets.size(), {});
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        check_stop(1 + leaves[i].polygons->size());
+        if (across_[i]) {
+            read_leaf(leaves[i]);
+        } else {
+            block_leaf(leaves[i]);
+        }
+    }
+    judge();
+}
+
+const FacetMarks& AxisFaces::marks_of(const Source* source) {
+    if (source != last_source_) last_table_ = parts_.table_of(source);
+    last_source_ = source;
+    return parts_.sources[last_table_];
+}
+
+AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& name) {
+    const Key128 key{plane.axis, static_cast<std::uint64_t>(plane.position)};
+    const auto [id, inserted] = sheet_ids_.insert(key, static_cast<std::int32_t>(sheets_.size()));
+    if (inserted) {
+        sheets_.emplace_back();
+        sheets_.back().plane = plane;
+        sheets_.back().name = name;
+    }
+    return sheets_[u(id)];
+}
+
+void AxisFaces::read_leaf(const Leaf& leaf) {
+    for (const PolygonRef r : *leaf.polygons) {
+        const FacetMarks& marks = marks_of(r.source);
+        const bool flipped = r.flipped != leaf.complemented;
+        if (marks.takes_part(r.facet, flipped)) {
+            read_polygon(r, marks.number_of_worked(r.facet, flipped), leaf.cell);
+        } else if (marks.is_present(r.facet, flipped)) {
+            const PlaneName name = PlaneName::support(r.source, r.facet);
+            sheet_at(*axis_plane(name), name).is_general = true;
+            for (int i = 0; i < 3; ++i) passing_.push_back({r.source, r.facet, i});
+        }
+    }
+}
+
+void AxisFaces::block_leaf(const Leaf& leaf) {
+    for (const PolygonRef r : *leaf.polygons) {
+        const FacetMarks& marks = marks_of(r.source);
+        const bool flipped = r.flipped != leaf.complemented;
+        if (marks.takes_part(r.facet, flipped))
+            facets_[u(marks.number_of_worked(r.facet, flipped))].is_blocked = true;
+    }
+}
+
+void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
+    Facet& f = facets_[u(number)];
+    if (f.sheet < 0) {
+        const PlaneName name = PlaneName::support(polygon.source, polygon.facet);
+        const AxisPlane plane = *axis_plane(name);
+        f.sheet = static_cast<std::int32_t>(&sheet_at(plane, name) - sheets_.data());
+        f.normal_is_up = plane.sign > 0;
+    }
+    Sheet& sheet = sheets_[u(f.sheet)];
+    if (sheet.is_general) return;
+    const auto add = [&](const PolygonRef& part) {
+        if (!read_axis_sides(part, sheet.plane.axis, sides_)) {
+            sheet.is_general = true;
+            return;
+        }
+        const bool faces_up = f.normal_is_up != parts_.facets[u(number)].flipped;
+        auto& first = sheet.first[faces_up ? 1 : 0];
+        if (first < 0 || number < first) first = number;
+        sheet.outline.add(sides_, f.normal_is_up, faces_up);
+        add_area(part, f, sheet.plane);
+        note_corners(part, f, sheet.plane.axis);
+    };
+    if (!reaches_out(polygon, cell)) return add(polygon);
+    AxisPolygon shape;
+    if (!shape.read(polygon) || shape.slanted_count > 1) {
+        sheet.is_general = true;
+        return;
+    }
+    if (!shape.meets(cell)) return;
+    const auto part = clip_to_rectangle(shape, rectangle_of(cell, sheet.plane.axis));
+    if (!part) return;
+    const HeldFragment held(part->fragment);
+    add(*part);
+}
+
+// In doubles from the facet's first corner. Of n products of differences, each off by the errors of
+// its vertices and by some roundings.
+void AxisFaces::add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const {
+    const std::size_t p = (plane.axis + 1) % 3;
+    const std::size_t q = (plane.axis + 2) % 3;
+    const Approximation origin = approximate(part.source->corner(part.facet, 0));
+    const auto add = [&](std::span<const Approximation> vertices) {
+        double sum = 0;
+        double reach = 0;
+        double error = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Approximation& a = vertices[i];
+            const Approximation& b = vertices[i + 1 == vertices.size() ? 0 : i + 1];
+            const double x = a.c[p] - origin.c[p];
+            const double y = a.c[q] - origin.c[q];
+            sum += x * (b.c[q] - origin.c[q]) - y * (b.c[p] - origin.c[p]);
+            reach = std::max(reach, std::max(std::fabs(x), std::fabs(y)));
+            error = std::max(error, a.error);
+        }
+        const auto n = static_cast<double>(vertices.size());
+        facet.area += std::fabs(sum);
+        facet.slack += n * (8 * error * (reach + error) + n * 0x1p-48 * reach * reach);
+    };
+    if (part.fragment != nullptr) return add(part.fragment->vertices());
+    std::array<Approximation, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(part.source->corner(part.facet, i));
+    add(corners);
+}
+
+// A corner that a part has is known by that name to facets that pass through.
+void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const {
+    if (facet.corners == 7) return;
+    if (part.fragment == nullptr) {
+        facet.corners = 7;
+        return;
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const AxisSide& before = sides_[i == 0 ? sides_.size() - 1 : i - 1];
+        const AxisSide& side = sides_[i];
+        std::array<std::optional<std::int64_t>, 2> at;
+        if (before.is_slanted && side.is_slanted) {
+            const auto& line = before.line;
+            const bool ends = line.to == side.line.from || line.to == side.line.to;
+            for (std::size_t k = 0; k < 2; ++k)
+                at[k] = (ends ? line.to[k] : line.from[k]) * wall_scale;
+        } else {
+            const AxisSide& straight = side.is_slanted ? before : side;
+            at[straight.axis] = straight.at;
+            at[1 - straight.axis] = end_of_side(straight, side.is_slanted ? side : before);
+        }
+        for (int c = 0; c < 3; ++c) {
+            const LatticePoint& corner = part.source->corner(part.facet, c);
+            if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * wall_scale &&
+                at[1] == corner[static_cast<int>((axis + 2) % 3)] * wall_scale)
+                facet.corners |= static_cast<std::uint8_t>(1U << c);
+        }
+    }
+}
+
+void AxisFaces::judge() {
+    for (Sheet& s : sheets_) s.is_general = s.is_general || !s.outline.finish();
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        const Facet& f = facets_[i];
+        if (f.sheet < 0) continue;
+        Sheet& s = sheets_[u(f.sheet)];
+        s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
+    }
+    taken_.assign(facets_.size(), false);
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        taken_[i] = facets_[i].sheet >= 0 && !sheets_[u(facets_[i].sheet)].is_general;
+        taken_count_ += taken_[i] ? 1 : 0;
+    }
+}
+
+// Surely: a part of it is missing, or an edge of it has a vertex inside.
+bool AxisFaces::has_changed(std::int32_t number) const {
+    const Facet& f = facets_[u(number)];
+    const BoundaryFacet& facet = parts_.facets[u(number)];
+    const Sheet& sheet = sheets_[u(f.sheet)];
+    Facet all;
+    const PolygonRef whole{facet.source, nullptr, facet.facet, false, false};
+    add_area(whole, all, sheet.plane);
+    if (all.area - f.area > all.slack + f.slack) return true;
+    const bool faces_up = f.normal_is_up != facet.flipped;
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& from = facet.source->corner(facet.facet, i);
+        const LatticePoint& to = facet.source->corner(facet.facet, (i + 1) % 3);
+        for (std::uint8_t k = 0; k < 2; ++k) {
+            const auto across = static_cast<int>((sheet.plane.axis + 1 + k) % 3);
+            const auto along = static_cast<int>((sheet.plane.axis + 2 - k) % 3);
+            if (from[across] != to[across]) continue;
+            const auto [low, high] = std::minmax(from[along], to[along]);
+            if (sheet.outline.turns_between(faces_up, k, from[across], low, high)) return true;
+        }
+    }
+    return false;
+}
+
+// --- Edges.
+
+void AxisFaces::note_vertices(std::span<const BoundaryEdge> edges) {
+    for (const BoundaryEdge& e : edges)
+        if (parts_.bench.is_lattice(e.from)) others_.push_back(e.from);
+}
+
+std::uint32_t AxisFaces::rank(std::size_t axis, std::int64_t at) const {
+    const auto& all = coordinates_[axis];
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(all, at) - all.begin());
+}
+
+AxisFaces::Ranks AxisFaces::ranks_of(const LatticePoint& p) const {
+    return {rank(0, p.x), rank(1, p.y), rank(2, p.z)};
+}
+
+void AxisFaces::rank_coordinates() {
+    const auto add = [&](const LatticePoint& p) {
+        for (std::size_t k = 0; k < 3; ++k) coordinates_[k].push_back(p[static_cast<int>(k)]);
+    };
+    std::ranges::sort(others_);
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    for (const PointId p : others_) add(parts_.bench.lattice(p));
+    for (const CornerName& c : passing_) add(c.source->corner(c.facet, c.corner));
+    for (const Sheet& s : sheets_) {
+        coordinates_[s.plane.axis].push_back(s.plane.position / wall_scale);
+        if (s.is_general) continue;
+        for (const AxisStretch& t : s.outline.stretches())
+            coordinates_[(s.plane.axis + 1 + t.axis) % 3].push_back(t.at);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto& all = coordinates_[k];
+        std::ranges::sort(all);
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        sheet_of_[k].assign(all.size(), -1);
+    }
+    for (std::size_t i = 0; i < sheets_.size(); ++i) {
+        const AxisPlane& p = sheets_[i].plane;
+        sheet_of_[p.axis][rank(p.axis, p.position / wall_scale)] = static_cast<std::int32_t>(i);
+    }
+}
+
+namespace {
+
+std::uint64_t line_key(std::size_t along, const std::array<std::uint32_t, 3>& ranks) {
+    return (std::uint64_t{ranks[(along + 1) % 3]} << 32) | ranks[(along + 2) % 3];
+}
+
+}  // namespace
+
+void AxisFaces::make_stops() {
+    const auto add = [&](std::size_t along, const Ranks& at) {
+        stops_[along].push_back({line_key(along, at), at[along]});
+    };
+    const auto add_all = [&](const LatticePoint& p) {
+        for (std::size_t k = 0; k < 3; ++k) add(k, ranks_of(p));
+    };
+    for (const PointId p : others_) add_all(parts_.bench.lattice(p));
+    for (const CornerName& c : passing_) add_all(c.source->corner(c.facet, c.corner));
+    for (const Sheet& s : sheets_) {
+        if (s.is_general) continue;
+        const std::size_t k = s.plane.axis;
+        Ranks at{};
+        at[k] = rank(k, s.plane.position / wall_scale);
+        for (const AxisStretch& t : s.outline.stretches()) {
+            const std::size_t across = (k + 1 + t.axis) % 3;
+            const std::size_t along = 3 - k - across;
+            at[across] = rank(across, t.at);
+            for (const std::int64_t end : {t.low, t.high}) {
+                at[along] = rank(along, end);
+                add(along, at);
+            }
+        }
+    }
+    for (auto& stops : stops_) {
+        std::ranges::sort(stops);
+        stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+    }
+}
+
+// A vertex is named by the corner of a source if there is one there: of the first facet that has
+// it.
+void AxisFaces::name_corners() {
+    const auto add = [&](const CornerName& name) {
+        const auto next = static_cast<std::int32_t>(corners_.size());
+        const Ranks at = ranks_of(name.source->corner(name.facet, name.corner));
+        if (corner_ids_.insert(key_of(at), next).second) corners_.push_back(name);
+    };
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (!taken_[i]) continue;
+        for (int c = 0; c < 3; ++c) {
+            const BoundaryFacet& f = parts_.facets[i];
+            const LatticePoint& p = f.source->corner(f.facet, c);
+            const Ranks at = ranks_of(p);
+            // Elsewhere nobody asks.
+            bool known = (facets_[i].corners >> c & 1) != 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                known = known && at[k] < coordinates_[k].size() &&
+                        coordinates_[k][at[k]] == p[static_cast<int>(k)];
+            if (known) add({f.source, f.facet, c});
+        }
+    }
+    for (const CornerName& name : passing_) add(name);
+}
+
+PointId AxisFaces::point_at(const Ranks& ranks) {
+    const Key128 key = key_of(ranks);
+    if (const PointId known = point_ids_.find(key); known >= 0) return known;
+    Workbench& bench = parts_.bench;
+    PointId made = -1;
+    if (const std::int32_t c = corner_ids_.find(key); c >= 0) {
+        const CornerName& name = corners_[u(c)];
+        made = bench.corner(name.source, name.facet, name.corner);
+    } else {
+        std::array<PlaneId, 3> planes{};
+        Approximation at;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t sheet = sheet_of_[k][ranks[k]];
+            TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane crosses it");
+            planes[k] = bench.plane(sheets_[u(sheet)].name);
+            at.c[k] = static_cast<double>(coordinates_[k][ranks[k]]);
+        }
+        made = bench.vertex({}, planes[0], planes[1], planes[2], at);
+    }
+    (void)point_ids_.insert(key, made);
+    return made;
+}
+
+void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
+    if (taken_count_ == 0) return;
+    rank_coordinates();
+    make_stops();
+    name_corners();
+    for (const PointId p : others_)
+        (void)point_ids_.insert(key_of(ranks_of(parts_.bench.lattice(p))), p);
+    for (Sheet& s : sheets_) {
+        if (s.is_general) continue;
+        check_stop(s.outline.stretches().size());
+        make_edges_of(s, edges);
+    }
+}
+
+void AxisFaces::make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges) {
+    const std::size_t k = sheet.plane.axis;
+    for (const std::int32_t first : sheet.first) {
+        if (first < 0) continue;
+        BoundaryFacet& f = parts_.facets[u(first)];
+        f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
+        f.parts = 1;
+    }
+    sheet.outline.arrange_loops();
+    Ranks at{};
+    at[k] = rank(k, sheet.plane.position / wall_scale);
+    for (const AxisStretch& s : sheet.outline.stretches()) {
+        const std::size_t across = (k + 1 + s.axis) % 3;
+        const std::size_t along = 3 - k - across;
+        at[across] = rank(across, s.at);
+        at[along] = rank(along, s.from());
+        const std::int32_t other = sheet_of_[across][at[across]];
+        TRISECT_EXPECTS(other >= 0, "an outline runs where no plane is");
+        const Sheet& beside = sheets_[u(other)];
+        const WorkEdge line{parts_.bench.plane(beside.name), s.is_low == (beside.plane.sign > 0)};
+        add_edges({-1, -1, sheet.first[s.faces_up ? 1 : 0], line}, along, at, rank(along, s.to()),
+                  edges);
+    }
+}
+
+std::span<const AxisFaces::Stop> AxisFaces::stops_between(std::size_t along, const Ranks& line,
+                                                          std::uint32_t low,
+                                                          std::uint32_t high) const {
+    const std::uint64_t key = line_key(along, line);
+    const auto begin = std::ranges::upper_bound(stops_[along], Stop{key, low});
+    auto end = begin;
+    while (end != stops_[along].end() && *end < Stop{key, high}) ++end;
+    return {begin, end};
+}
+
+// From stop to stop.
+void AxisFaces::add_edges(const BoundaryEdge& run, std::size_t along, const Ranks& from,
+                          std::uint32_t to, std::vector<BoundaryEdge>& edges) {
+    const bool up = from[along] < to;
+    const auto inside =
+        stops_between(along, from, std::min(from[along], to), std::max(from[along], to));
+    Ranks at = from;
+    BoundaryEdge e = run;
+    e.to = point_at(at);
+    const auto go_to = [&](std::uint32_t place) {
+        at[along] = place;
+        e.from = e.to;
+        e.to = point_at(at);
+        edges.push_back(e);
+    };
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        go_to(inside[up ? i : inside.size() - 1 - i].place);
+    go_to(to);
+}
+
+// An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
+void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) {
+    const Workbench& bench = parts_.bench;
+    const auto support = axis_plane(bench.name(parts_.facets[u(edge.facet)].support));
+    const auto beside = axis_plane(bench.name(edge.line.plane));
+    if (!support || !beside) return;
+    Ranks at{};
+    for (const AxisPlane& p : {*support, *beside}) {
+        const std::int64_t place = p.position / wall_scale;
+        at[p.axis] = rank(p.axis, place);
+        if (p.position % wall_scale != 0 || at[p.axis] == coordinates_[p.axis].size() ||
+            coordinates_[p.axis][at[p.axis]] != place)
+            return;
+    }
+    const std::size_t along = 3 - support->axis - beside->axis;
+    const Approximation& from = bench.approximation(edge.from);
+    const Approximation& to = bench.approximation(edge.to);
+    const auto place_of = [&](double c) {
+        return rank(along, static_cast<std::int64_t>(std::floor(c)));
+    };
+    const auto [low, high] = std::minmax(from.c[along], to.c[along]);
+    const double margin = 2 + from.error + to.error;
+    const std::uint32_t first = place_of(low - margin);
+    const std::uint32_t last = place_of(high + margin);
+    for (const Stop& s : stops_between(along, at, first == 0 ? 0 : first - 1, last + 1)) {
+        at[along] = s.place;
+        out.push_back(point_at(at));
+    }
+}
+
+}  // namespace trisect::detail

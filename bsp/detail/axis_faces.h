@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// AxisFaces: the faces of a result in planes across an axis, outlined plane by plane instead of
+// facet by facet.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/detail/assembly_parts.h>
+#include <trisect/bsp/detail/axis_outline.h>
+
+namespace trisect::detail {
+
+/// For an assembly that joins all facets of a plane. Takes the facets of those planes in which the
+/// sum of all parts is sure to be all that is written: each of their facets has changed, and in
+/// every cell that they reach into all polygons are across an axis.
+class AxisFaces {
+public:
+    /// What one leaf lists.
+    struct Leaf {
+        const PolygonList* polygons = nullptr;
+        Cell cell;
+        bool complemented = false;
+    };
+
+    explicit AxisFaces(BoundaryParts& parts) : parts_(parts) {}
+
+    /// \pre the facets of the parts are numbered, and none of them has edges.
+    void choose(std::span<const Leaf> leaves);
+    /// Whether make_edges() makes the edges of a facet: nothing else may.
+    [[nodiscard]] bool takes(std::int32_t facet) const {
+        return !taken_.empty() && taken_[u(facet)];
+    }
+    /// How many facets are taken.
+    [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
+    /// Whether a leaf lists nothing but polygons across an axis, and facets are taken.
+    [[nodiscard]] bool is_across_axes(std::size_t leaf) const {
+        return taken_count_ != 0 && across_[leaf];
+    }
+
+    /// The edges that a leaf across axes has of facets that are not taken: vertices of theirs may
+    /// lie in the edges to be made.
+    void note_vertices(std::span<const BoundaryEdge> edges);
+    /// Appends the edges of all faces of the planes taken, named after the first facet of each
+    /// plane and facing, with all vertices that lie inside them.
+    void make_edges(std::vector<BoundaryEdge>& edges);
+    /// Appends all vertices known to make_edges() that may lie inside an edge noted before.
+    void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out);
+
+private:
+    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+    /// A plane. By facing of its faces, down and up: the first facet.
+    struct Sheet {
+        AxisPlane plane;
+        PlaneName name;
+        std::array<std::int32_t, 2> first{-1, -1};
+        bool is_general = false;  // not taken
+        AxisOutline outline;
+    };
+    struct Facet {
+        std::int32_t sheet = -1;
+        bool normal_is_up = false;
+        bool is_blocked = false;   // reaches into a cell with polygons of other kinds
+        std::uint8_t corners = 0;  // that its parts have, a bit each
+        double area = 0;           // of its parts, twice; off by `slack` at most
+        double slack = 0;
+    };
+    struct CornerName {
+        const Source* source = nullptr;
+        std::uint32_t facet = 0;
+        int corner = 0;
+    };
+    // Places by their ranks among the coordinates of each axis.
+    using Ranks = std::array<std::uint32_t, 3>;
+    struct Stop {
+        std::uint64_t line = 0;  // ranks along the two axes after that of the line
+        std::uint32_t place = 0;
+        friend auto operator<=>(const Stop&, const Stop&) = default;
+    };
+
+    [[nodiscard]] const FacetMarks& marks_of(const Source* source);
+    [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
+    void read_leaf(const Leaf& leaf);
+    void block_leaf(const Leaf& leaf);
+    void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell);
+    void add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const;
+    void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const;
+    void judge();
+    [[nodiscard]] bool has_changed(std::int32_t number) const;
+
+    void rank_coordinates();
+    void make_stops();
+    void name_corners();
+    void make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges);
+    void add_edges(const BoundaryEdge& run, std::size_t along, const Ranks& from, std::uint32_t to,
+                   std::vector<BoundaryEdge>& edges);
+    [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
+    [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
+    [[nodiscard]] PointId point_at(const Ranks& ranks);
+    [[nodiscard]] std::span<const Stop> stops_between(std::size_t along, const Ranks& line,
+                                                      std::uint32_t low, std::uint32_t high) const;
+    static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
+
+    BoundaryParts& parts_;
+    const Source* last_source_ = nullptr;
+    std::size_t last_table_ = 0;
+    std::vector<bool> across_;  // by leaf
+    std::vector<Facet> facets_;
+    std::vector<Sheet> sheets_;
+    FlatMap sheet_ids_;
+    std::vector<bool> taken_;
+    std::size_t taken_count_ = 0;
+    std::vector<CornerName> passing_;  // corners of facets that pass through, in leaves across axes
+    std::vector<PointId> others_;      // vertices of facets that are not taken
+    std::vector<AxisSide> sides_;
+
+    std::array<std::vector<std::int64_t>, 3> coordinates_;  // sorted
+    std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
+    std::array<std::vector<Stop>, 3> stops_;                // by the axis of their line, sorted
+    std::vector<CornerName> corners_;
+    FlatMap corner_ids_;
+    FlatMap point_ids_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The boundary of a union of polygons with disjoint interiors is the sum of their directed sides.
+// On a line that sum is a function of the place, and it changes where sides begin and end. So it is
+// enough to note the changes, to sort and to add them. Where a slanted side meets a line in a place
+// that is no integer two polygons end, one on each side of the slanted line, and their changes
+// cancel: both are left out, and all others are integers.
+
+#include <trisect/bsp/detail/axis_outline.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
+
+// Edge i of the facet itself.
+AxisSide own_side(const Source& source, std::uint32_t facet, int i, std::size_t axis) {
+    const LatticePoint& from = source.corner(facet, i);
+    const LatticePoint& to = source.corner(facet, (i + 1) % 3);
+    const LatticePoint& third = source.corner(facet, (i + 2) % 3);
+    AxisSide side;
+    for (std::uint8_t k = 0; k < 2; ++k) {
+        const std::size_t across = (axis + 1 + k) % 3;
+        if (at(from, across) != at(to, across)) continue;
+        side.axis = k;
+        side.at = at(from, across) * wall_scale;
+        side.is_low = at(third, across) > at(from, across);
+        return side;
+    }
+    side.is_slanted = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+        side.line.from[k] = at(from, (axis + 1 + k) % 3);
+        side.line.to[k] = at(to, (axis + 1 + k) % 3);
+    }
+    return side;
+}
+
+}  // namespace
+
+bool read_axis_sides(const PolygonRef& polygon, std::size_t axis, std::vector<AxisSide>& out) {
+    out.clear();
+    if (polygon.fragment == nullptr) {
+        for (int i = 0; i < 3; ++i)
+            out.push_back(own_side(*polygon.source, polygon.facet, i, axis));
+        return true;
+    }
+    for (const EdgeName& e : polygon.fragment->edges()) {
+        if (e.plane.is_edge() && e.plane.facet == polygon.facet &&
+            e.plane.source() == polygon.source && !e.above) {
+            const auto i = static_cast<int>(e.plane.kind);
+            out.push_back(own_side(*polygon.source, polygon.facet, i, axis));
+            continue;
+        }
+        const auto plane = axis_plane(e.plane);
+        if (!plane || plane->axis == axis) return false;
+        AxisSide& side = out.emplace_back();
+        side.axis = plane->axis == (axis + 1) % 3 ? 0 : 1;
+        side.at = plane->position;
+        side.is_low = e.above == (plane->sign > 0);
+    }
+    return true;
+}
+
+// Positions are below 2^61, steps below 2^54.
+std::optional<std::int64_t> end_of_side(const AxisSide& side, const AxisSide& neighbour) {
+    if (!neighbour.is_slanted) return neighbour.at;
+    const SlantedEdge& line = neighbour.line;
+    const std::size_t fixed = side.axis;
+    const std::size_t free = 1 - fixed;
+    const Int128 way = side.at - Int128{line.from[fixed]} * wall_scale;
+    const Int128 product = way * (line.to[free] - line.from[free]);
+    const Int128 step = line.to[fixed] - line.from[fixed];
+    if (product % step != 0) return std::nullopt;
+    return static_cast<std::int64_t>(Int128{line.from[free]} * wall_scale + product / step);
+}
+
+void AxisOutline::add(std::span<const AxisSide> sides, bool turns_left, bool faces_up) {
+    const std::size_t n = sides.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const AxisSide& side = sides[i];
+        if (side.is_slanted) continue;
+        const AxisSide& before = sides[i == 0 ? n - 1 : i - 1];
+        const AxisSide& after = sides[i + 1 == n ? 0 : i + 1];
+        // Seen from above, with the polygon to the left.
+        const bool runs_up = (side.axis == 1) == side.is_low;
+        const bool before_is_low = runs_up == turns_left;
+        const int by = runs_up ? 1 : -1;
+        const auto kind = static_cast<std::uint8_t>((faces_up ? 2 : 0) + side.axis);
+        const auto change = [&](const AxisSide& end, int change_by) {
+            if (const auto place = end_of_side(side, end))
+                changes_.push_back({kind, static_cast<std::int8_t>(change_by), side.at, *place});
+        };
+        change(before_is_low ? before : after, by);
+        change(before_is_low ? after : before, -by);
+    }
+}
+
+bool AxisOutline::add_stretch(const Change& from, std::int64_t to, int cover) {
+    const auto on_lattice = [](std::int64_t place) { return place % wall_scale == 0; };
+    if (cover > 1 || cover < -1 || !on_lattice(from.at) || !on_lattice(from.place) ||
+        !on_lattice(to))
+        return false;
+    AxisStretch s;
+    s.faces_up = from.kind >= 2;
+    s.axis = from.kind % 2;
+    s.is_low = (s.axis == 1) == (cover > 0);
+    s.at = from.at / wall_scale;
+    s.low = from.place / wall_scale;
+    s.high = to / wall_scale;
+    stretches_.push_back(s);
+    return true;
+}
+
+bool AxisOutline::finish() {
+    std::ranges::sort(changes_, [](const Change& a, const Change& b) {
+        return std::tie(a.kind, a.at, a.place) < std::tie(b.kind, b.at, b.place);
+    });
+    stretches_.clear();
+    bool valid = true;
+    int cover = 0;
+    Change from;
+    for (std::size_t i = 0; i < changes_.size() && valid;) {
+        const Change& here = changes_[i];
+        int by = 0;
+        std::size_t j = i;
+        for (; j < changes_.size() && changes_[j].kind == here.kind && changes_[j].at == here.at &&
+               changes_[j].place == here.place;
+             ++j)
+            by += changes_[j].by;
+        if (by != 0) {
+            if (cover != 0) {
+                valid = here.kind == from.kind && here.at == from.at &&
+                        add_stretch(from, here.place, cover);
+            }
+            cover += by;
+            from = here;
+        }
+        i = j;
+    }
+    changes_ = {};
+    return valid && cover == 0;
+}
+
+bool AxisOutline::turns_between(bool faces_up, std::uint8_t axis, std::int64_t at, std::int64_t low,
+                                std::int64_t high) const {
+    const auto key = [](const AxisStretch& s) {
+        return std::tuple(s.faces_up, s.axis, s.at, s.high);
+    };
+    auto it = std::ranges::upper_bound(stretches_, std::tuple(faces_up, axis, at, low), {}, key);
+    // The first that ends beyond `low`.
+    if (it == stretches_.end() || it->faces_up != faces_up || it->axis != axis || it->at != at)
+        return false;
+    return it->high < high || (it->low > low && it->low < high);
+}
+
+// The stretch that begins where another one ends: one across the other axis, at its end.
+std::size_t AxisOutline::next_of(const AxisStretch& s) const {
+    const auto other = static_cast<std::uint8_t>(1 - s.axis);
+    const auto key = [](const AxisStretch& t) {
+        return std::tuple(t.faces_up, t.axis, t.at, t.high);
+    };
+    const auto first =
+        std::ranges::lower_bound(stretches_, std::tuple(s.faces_up, other, s.to(), s.at), {}, key);
+    for (auto it = first; it != stretches_.end() && it - first < 2; ++it)
+        if (it->faces_up == s.faces_up && it->axis == other && it->at == s.to() &&
+            it->from() == s.at && !used_[static_cast<std::size_t>(it - stretches_.begin())])
+            return static_cast<std::size_t>(it - stretches_.begin());
+    return stretches_.size();
+}
+
+void AxisOutline::arrange_loops() {
+    used_.assign(stretches_.size(), false);
+    std::vector<AxisStretch> ordered;
+    ordered.reserve(stretches_.size());
+    for (std::size_t start = 0; start < stretches_.size(); ++start) {
+        for (std::size_t i = start; i < stretches_.size() && !used_[i];
+             i = next_of(stretches_[i])) {
+            used_[i] = true;
+            ordered.push_back(stretches_[i]);
+        }
+    }
+    stretches_ = std::move(ordered);
+}
+
+}  // namespace trisect::detail

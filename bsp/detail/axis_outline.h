@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// AxisOutline: the outline of what polygons in one plane across an axis cover together, in
+// integers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/detail/axis_polygon.h>
+
+namespace trisect::detail {
+
+/// A side of a polygon across an axis. The two other axes come cyclically after that one: they are
+/// numbered 0 and 1.
+struct AxisSide {
+    bool is_slanted = false;
+    bool is_low = false;    ///< the polygon is on the higher side of it; not of slanted ones
+    std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
+    std::int64_t at = 0;    ///< in 1/256 lattice units
+    SlantedEdge line;       ///< of slanted ones
+};
+
+/// The sides of a polygon across `axis`, in its order, into `out`. False for sides that are slanted
+/// without being edges of the polygon's facet.
+[[nodiscard]] bool read_axis_sides(const PolygonRef& polygon, std::size_t axis,
+                                   std::vector<AxisSide>& out);
+
+/// Where a side ends at its neighbour in a polygon, along the other axis, in 1/256 lattice units;
+/// nothing when that is no integer.
+[[nodiscard]] std::optional<std::int64_t> end_of_side(const AxisSide& side,
+                                                      const AxisSide& neighbour);
+
+/// A straight stretch of an outline; the region that faces outwards is to its left, seen from
+/// outside.
+struct AxisStretch {
+    bool faces_up = false;  ///< the outside is on the higher side of the plane
+    std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
+    bool is_low = false;    ///< the region is on the higher side of it
+    std::int64_t at = 0;    ///< in lattice units, as are
+    std::int64_t low = 0;   ///< its ends along the other axis
+    std::int64_t high = 0;
+    [[nodiscard]] bool runs_up() const { return ((axis == 1) == is_low) == faces_up; }
+    [[nodiscard]] std::int64_t from() const { return runs_up() ? low : high; }
+    [[nodiscard]] std::int64_t to() const { return runs_up() ? high : low; }
+};
+
+/// Adds up the sides of polygons. What two of them have in common runs both ways and vanishes, be
+/// it on a wall of a cell or on a line that cut both. Slanted sides are left out: the caller knows
+/// that they cancel. O(n log n).
+class AxisOutline {
+public:
+    /// A polygon of which the outside is above the plane, or below. `turns_left`: its sides come
+    /// counter-clockwise seen from above.
+    void add(std::span<const AxisSide> sides, bool turns_left, bool faces_up);
+
+    /// What is left, as maximal stretches, sorted by facing, axis, place and ends. False when
+    /// something covers a place twice, or an end is not on the lattice.
+    [[nodiscard]] bool finish();
+    [[nodiscard]] std::span<const AxisStretch> stretches() const { return stretches_; }
+    /// Whether a stretch of one facing ends strictly between two places of a line.
+    [[nodiscard]] bool turns_between(bool faces_up, std::uint8_t axis, std::int64_t at,
+                                     std::int64_t low, std::int64_t high) const;
+    /// Puts every stretch behind the one that it continues, loop after loop.
+    void arrange_loops();
+
+private:
+    // Where the number of polygons above a line, less that below it, changes.
+    struct Change {
+        std::uint8_t kind = 0;  // facing, axis
+        std::int8_t by = 0;
+        std::int64_t at = 0;
+        std::int64_t place = 0;
+    };
+    [[nodiscard]] std::size_t next_of(const AxisStretch& s) const;
+    [[nodiscard]] bool add_stretch(const Change& from, std::int64_t to, int cover);
+
+    std::vector<Change> changes_;
+    std::vector<AxisStretch> stretches_;
+    std::vector<bool> used_;
+};
+
+}  // namespace trisect::detail
