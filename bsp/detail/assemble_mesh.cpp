@@ -305,6 +305,7 @@ PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by
     // has looked at.
     mark_unchanged_facets(parts, edges);
     parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+    join_planes_across_axes(parts, edges);
     if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
         remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
     if (stats != nullptr) *stats = parts.stats;

@@ -155,6 +155,7 @@ void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, con
         auto& first = sheet.first[faces_up ? 1 : 0];
         if (first < 0 || number < first) first = number;
         sheet.outline.add(sides_, f.normal_is_up, faces_up);
+        ++sheet.parts;
         add_area(part, f, sheet.plane);
         note_corners(part, f, sheet.plane.axis);
     };
@@ -238,6 +239,7 @@ void AxisFaces::judge() {
         Sheet& s = sheets_[u(f.sheet)];
         s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
     }
+    for (const Sheet& s : sheets_) part_count_ += s.is_general ? 0 : s.parts;
     taken_.assign(facets_.size(), false);
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         taken_[i] = facets_[i].sheet >= 0 && !sheets_[u(facets_[i].sheet)].is_general;

@@ -36,8 +36,9 @@ public:
     [[nodiscard]] bool takes(std::int32_t facet) const {
         return !taken_.empty() && taken_[u(facet)];
     }
-    /// How many facets are taken.
+    /// How many facets are taken, and how many parts of facets.
     [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
+    [[nodiscard]] std::size_t part_count() const { return part_count_; }
     /// Whether a leaf lists nothing but polygons across an axis, and facets are taken.
     [[nodiscard]] bool is_across_axes(std::size_t leaf) const {
         return taken_count_ != 0 && across_[leaf];
@@ -61,6 +62,7 @@ private:
         PlaneName name;
         std::array<std::int32_t, 2> first{-1, -1};
         bool is_general = false;  // not taken
+        std::size_t parts = 0;
         AxisOutline outline;
     };
     struct Facet {
@@ -116,6 +118,7 @@ private:
     FlatMap sheet_ids_;
     std::vector<bool> taken_;
     std::size_t taken_count_ = 0;
+    std::size_t part_count_ = 0;
     std::vector<CornerName> passing_;  // corners of facets that pass through, in leaves across axes
     std::vector<PointId> others_;      // vertices of facets that are not taken
     std::vector<AxisSide> sides_;

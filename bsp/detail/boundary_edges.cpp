@@ -17,6 +17,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/edge_chains.h>
 #include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
@@ -269,6 +270,28 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
                             "an edge on a cell wall survived joining");
     return joined;
+}
+
+void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    FlatMap first_of_plane;
+    bool joined = false;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::int32_t number = edges[i].facet;
+        const BoundaryFacet& f = parts.facets[u(number)];
+        const auto plane = axis_plane(parts.bench.name(f.support));
+        std::int32_t first = number;
+        if (plane && !f.unchanged) {
+            const bool faces_up = (plane->sign > 0) != f.flipped;
+            const Key128 key{2 * plane->axis + (faces_up ? 1 : 0),
+                             static_cast<std::uint64_t>(plane->position)};
+            first = first_of_plane.insert(key, number).first;
+        }
+        joined = joined || first != number;
+        for (; i < edges.size() && edges[i].facet == number; ++i) edges[i].facet = first;
+    }
+    if (!joined) return;
+    sort_by_facet(parts.facets.size(), edges);
+    arrange_all(edges);
 }
 
 namespace {

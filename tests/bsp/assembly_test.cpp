@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -172,6 +173,42 @@ TEST(CoplanarFacetsOfAMesh, WhatIsFarFromAPocketKeepsItsVertices) {
     EXPECT_EQ(evaluate(box({0, 0, 0}, {48, 48, 4}) | pocket).to_mesh().points.size(), 8U);
 }
 
+// Planes that are outlined as a whole against facets that are put together one by one.
+void expect_general_way_agrees(const Solid& solid) {
+    PolygonMesh quick = solid.to_mesh();
+    PolygonMesh general = trisect::detail::assemble_mesh(*solid.state(), nullptr, false);
+    EXPECT_EQ(quick.face_count(), general.face_count());
+    expect_matching_edges(general);
+    std::ranges::sort(quick.points);
+    std::ranges::sort(general.points);
+    EXPECT_EQ(quick.points, general.points);
+}
+
+TEST(PlanesAcrossAxes, AreOutlinedAsAWholeWhereAllTheirFacetsHaveChanged) {
+    std::vector<Expression> bars;
+    for (double i = 0; i < 4; ++i) {
+        bars.emplace_back(box({0, 2 * i + 1, 1}, {9, 2 * i + 2, 2}));
+        bars.emplace_back(box({2 * i + 1, 0, 1}, {2 * i + 2, 9, 2}));
+    }
+    const Solid grid = evaluate(Expression::any_of(bars));
+    // The squares at the ends of bars stay as they are, two facets each.
+    const AssemblyStats stats = stats_of(grid);
+    EXPECT_EQ(stats.whole_facets, 16U * 2);
+    EXPECT_EQ(stats.axis_facets, 8U * 8);
+    EXPECT_EQ(stats.worked_facets, 8U * 8);
+    const PolygonMesh mesh = grid.to_mesh();
+    expect_matching_edges(mesh);
+    // On each side 9 holes, 16 ends, 12 gaps between neighbouring ends and 4 inner corners.
+    EXPECT_EQ(mesh.points.size(), 2U * (9 * 4 + 16 * 2 + 12 * 2 + 4));
+    expect_general_way_agrees(grid);
+}
+
+TEST(PlanesAcrossAxes, FacetsThatMayBeUnchangedAreLeftOut) {
+    const Solid stairs = evaluate(box({0, 0, 0}, {2, 2, 2}) | box({2, 0, 0}, {4, 2, 1}));
+    EXPECT_EQ(stats_of(stairs).axis_facets, 2U);
+    expect_general_way_agrees(stairs);
+}
+
 // Faces, edges and corners coincide all the time; or no two operands have a plane in common.
 void random_boxes(int rounds, bool coincident) {
     std::mt19937 random(5);
@@ -190,14 +227,18 @@ void random_boxes(int rounds, bool coincident) {
         }
         const Expression formula =
             (terms[0] | terms[1] | terms[2]) - (terms[3] & terms[4]) - terms[5];
-        const PolygonMesh first = evaluate(formula).to_mesh();
+        const Solid solid = evaluate(formula);
+        const PolygonMesh first = solid.to_mesh();
         expect_matching_edges(first);
+        expect_general_way_agrees(solid);
         for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
             options.wall_offset = leaf == 4 ? 1 : 83;
-            const PolygonMesh other = evaluate(formula, options).to_mesh();
+            const Solid divided = evaluate(formula, options);
+            const PolygonMesh other = divided.to_mesh();
             expect_matching_edges(other);
+            expect_general_way_agrees(divided);
             EXPECT_TRUE(coincident || other == first) << round << ' ' << leaf;
         }
     }
