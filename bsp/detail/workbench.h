@@ -75,8 +75,8 @@ public:
     }
     /// \pre is_lattice(id)
     [[nodiscard]] const LatticePoint& lattice(PointId id) const { return points_[u(id)].lattice; }
-    /// Whether its coordinates are known to be integers: of corners, and of points that are named by
-    /// planes but whose doubles came without an error.
+    /// Whether its coordinates are known to be integers: of corners, and of points that planes name
+    /// but whose doubles came without an error.
     [[nodiscard]] bool is_lattice(PointId id) const { return points_[u(id)].is_lattice; }
     [[nodiscard]] const std::array<PlaneId, 3>& planes_of(PointId id) const {
         return points_[u(id)].planes;
