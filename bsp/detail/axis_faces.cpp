@@ -264,7 +264,8 @@ bool AxisFaces::has_changed(std::int32_t number) const {
             const auto across = static_cast<int>((sheet.plane.axis + 1 + k) % 3);
             const auto along = static_cast<int>((sheet.plane.axis + 2 - k) % 3);
             if (from[across] != to[across]) continue;
-            const auto [low, high] = std::minmax(from[along], to[along]);
+            const std::int64_t low = std::min(from[along], to[along]);
+            const std::int64_t high = std::max(from[along], to[along]);
             if (sheet.outline.turns_between(faces_up, k, from[across], low, high)) return true;
         }
     }
