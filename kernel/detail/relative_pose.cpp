@@ -110,7 +110,7 @@ RelativePose relative_pose(const Pose& to, Lattice to_lattice, const Pose& from,
             for (std::size_t j = 0; j < 3; ++j) r.m[i][j] = a.s * dot(adjoint[i], column(b.m, j));
             r.t[i] = a.s * b.t[i] - b.s * a.t[i];
         }
-        r.t = apply(adjoint, r.t);
+        r.t = detail::apply(adjoint, r.t);
         if (r.s.sign() < 0) r = negated(r);
     } else {
         r.s = a.s * b.s;
