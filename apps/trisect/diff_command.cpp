@@ -67,22 +67,23 @@ Outcome run_diff(Session& session, const DiffOptions& options) {
     const Expression a = operands[0].solid;
     const Expression b = operands[1].solid;
     EvaluateStats stats;
-    const auto [difference, only_a, only_b] = session.interruptible_stage("evaluate", [&] {
+    // Not taken apart by name: lambdas cannot capture structured bindings in clang 14.
+    const auto sets = session.interruptible_stage("evaluate", [&] {
         return std::array{evaluate(a ^ b, evaluation, &stats), evaluate(a - b, evaluation),
                           evaluate(b - a, evaluation)};
     });
     note_rounding(session, stats.lattice, "the operands");
     Outcome out;
-    const bool equal = difference.is_empty();
+    const bool equal = sets[0].is_empty();
     out.code = equal ? exit_done : exit_findings;
     out.document["schema"] = "trisect.diff/1";
     out.document["inputs"] = {operands[0].facts, operands[1].facts};
     out.document["equal"] = equal;
     out.document["lattice"] = lattice_json(stats.lattice);
     session.stage("measure", [&] {
-        const Description both = describe_set(difference, options.exact);
-        const Description first = describe_set(only_a, options.exact);
-        const Description second = describe_set(only_b, options.exact);
+        const Description both = describe_set(sets[0], options.exact);
+        const Description first = describe_set(sets[1], options.exact);
+        const Description second = describe_set(sets[2], options.exact);
         out.document["symmetric_difference"] = measure_json(both);
         out.document["only_first"] = measure_json(first);
         out.document["only_second"] = measure_json(second);

@@ -177,7 +177,8 @@ Outcome run_interfere(Session& session, const InterfereOptions& options) {
         std::vector<Operand> read = read_operands(session, options.inputs, options.operands);
         for (std::size_t i = 0; i < 2; ++i) solids[i] = posed(std::move(read[i]), options.poses[i]);
     });
-    auto& [a, b] = solids;
+    PosedOperand& a = solids[0];
+    PosedOperand& b = solids[1];
     session.interruptible_stage("resolve", [&] {
         for (PosedOperand& s : solids)
             s.operand.solid = resolved(session, s.operand.solid, options.operands);
