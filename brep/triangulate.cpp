@@ -36,6 +36,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/brep/detail/convex_cut.h>
 #include <trisect/brep/detail/small_polygon.h>
 #include <trisect/brep/detail/sweep_line.h>
 #include <trisect/kernel/contract.h>
@@ -289,9 +290,15 @@ bool is_strictly_convex(const Plane& plane, std::span<const Point> points,
     return true;
 }
 
-std::vector<IndexTriangle> fan(std::span<const Index> loop) {
+std::vector<IndexTriangle> cut_convex(std::span<const Index> loop) {
     std::vector<IndexTriangle> triangles;
     triangles.reserve(loop.size() - 2);
+    if (loop.size() > detail::small_convex_limit) {
+        detail::cut_convex(static_cast<Index>(loop.size()), [&](Index a, Index b, Index c) {
+            triangles.push_back({loop[a], loop[b], loop[c]});
+        });
+        return triangles;
+    }
     for (std::size_t i = 2; i < loop.size(); ++i)
         triangles.push_back({loop[0], loop[i - 1], loop[i]});
     return triangles;
@@ -306,9 +313,9 @@ std::vector<IndexTriangle> triangulate(const Plane& plane, std::span<const Point
         TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
     if (loops.size() == 1) {
         const IndexLoop& loop = loops[0];
-        if (loop.size() == 3) return fan(loop);
+        if (loop.size() == 3) return cut_convex(loop);
         if (auto triangles = cut_small(plane, points, loop)) return *std::move(triangles);
-        if (is_strictly_convex(plane, points, loop)) return fan(loop);
+        if (is_strictly_convex(plane, points, loop)) return cut_convex(loop);
     }
     return SweepTriangulator(plane, points, loops).run();
 }

@@ -23,10 +23,10 @@ using IndexTriangle = std::array<std::uint32_t, 3>;
 /// match. Loops may touch themselves and each other in vertices (equal points under one or
 /// several indices). The result depends on the exact points and the order of the loops only.
 ///
-/// A convex loop is a fan, O(n); one with few corners is cut by ears; all others by a sweep,
-/// O(n log n) whatever their shape and however many holes they have. Triangles may be slender.
-/// \pre the points lie on the plane and the loops bound a region.
-/// \throw Error Internal when they do not and no triangulation was found.
+/// A convex loop is halved again and again, O(n), so that no corner has many triangles; one with
+/// few corners is cut by ears; all others by a sweep, O(n log n) whatever their shape and however
+/// many holes they have. Triangles may be slender. \pre the points lie on the plane and the loops
+/// bound a region. \throw Error Internal when they do not and no triangulation was found.
 [[nodiscard]] std::vector<IndexTriangle> triangulate(const Plane& plane,
                                                      std::span<const Point> points,
                                                      std::span<const IndexLoop> loops);

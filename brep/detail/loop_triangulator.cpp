@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <string>
 
+#include <trisect/brep/detail/convex_cut.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
@@ -102,6 +103,22 @@ void LoopTriangulator::project(std::span<const std::uint32_t> loop) {
         flat_[i] = {points_[loop[i]][u], points_[loop[i]][v]};
 }
 
+// Left turns only, and once around: upward and downward sides form one run each.
+bool LoopTriangulator::is_strictly_convex() const {
+    const std::size_t n = flat_.size();
+    const auto goes_up = [&](std::size_t i) {
+        const Projected& a = flat_[i % n];
+        const Projected& b = flat_[(i + 1) % n];
+        return b.v > a.v || (b.v == a.v && b.u > a.u);
+    };
+    std::size_t runs = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (turn(flat_[i], flat_[(i + 1) % n], flat_[(i + 2) % n]) <= 0) return false;
+        if (goes_up(i) != goes_up(i + 1)) ++runs;
+    }
+    return runs == 2;
+}
+
 bool LoopTriangulator::fan(std::span<const std::uint32_t> loop, std::size_t apex,
                            std::vector<std::array<std::uint32_t, 3>>& out) const {
     const std::size_t n = loop.size();
@@ -124,6 +141,13 @@ LoopShape LoopTriangulator::triangulate(std::span<const std::uint32_t> loop,
         return s;
     }
     project(loop);
+    if (loop.size() > small_convex_limit && is_strictly_convex()) {
+        cut_convex(static_cast<std::uint32_t>(loop.size()),
+                   [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                       out.push_back({loop[a], loop[b], loop[c]});
+                   });
+        return s;
+    }
     if (fan(loop, 0, out) || fan(loop, 1, out)) return s;
     s.simple = clip_ears(loop, out);
     return s;

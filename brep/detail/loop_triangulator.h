@@ -33,7 +33,8 @@ public:
     /// The triangles' boundaries add up to the loop's (degenerate triangles, whose boundary is
     /// nothing, left out). A simple planar loop gives triangles without overlap that use all its
     /// corners, also those in the middle of a side; a loop that touches itself (a hole joined by
-    /// a bridge) as well. Cost: O(n) where a fan does, else O(n r) for r reflex corners, typically.
+    /// a bridge) as well. Cost: O(n) for a convex loop (halved, convex_cut.h) and where a
+    /// fan does, else O(n r) for r reflex corners, typically.
     /// \throw LimitError for too many corners or too much work.
     LoopShape triangulate(std::span<const std::uint32_t> loop,
                           std::vector<std::array<std::uint32_t, 3>>& out);
@@ -49,6 +50,7 @@ private:
     static int turn(const Projected& a, const Projected& b, const Projected& c);
 
     void project(std::span<const std::uint32_t> loop);
+    [[nodiscard]] bool is_strictly_convex() const;
     bool fan(std::span<const std::uint32_t> loop, std::size_t apex,
              std::vector<std::array<std::uint32_t, 3>>& out) const;
     bool clip_ears(std::span<const std::uint32_t> loop,

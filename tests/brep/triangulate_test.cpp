@@ -129,6 +129,26 @@ TEST(Triangulate, Convex) {
     expect_triangulable({{{2, 0}, {4, 0}, {6, 2}, {6, 4}, {4, 6}, {2, 6}, {0, 4}, {0, 2}}});
 }
 
+// Corner i is (i, i²), and the last side closes the parabola.
+Loop parabola(std::int64_t corners) {
+    Loop loop;
+    for (std::int64_t i = 0; i < corners; ++i) loop.push_back({i, i * i});
+    return loop;
+}
+
+TEST(Triangulate, ConvexOutlineOfManyCornersHasFewTrianglesAtEach) {
+    for (const std::int64_t n : {16, 17, 18, 19, 50, 1000}) {
+        expect_triangulable({parabola(n)});
+        const Figure f = figure({parabola(n)}, Placement::Flat, false);
+        std::vector<int> uses(f.points.size(), 0);
+        for (const auto& t : triangulate(plane_of(Placement::Flat), f.points, f.loops))
+            for (const auto c : t) ++uses[c];
+        if (n <= 16) continue;
+        EXPECT_LE(*std::max_element(uses.begin(), uses.end()),
+                  2 * std::ceil(std::log2(static_cast<double>(n))));
+    }
+}
+
 TEST(Triangulate, StraightRunsUseEveryCorner) {
     const Loop triangle{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {2, 2}, {0, 4}, {0, 3}, {0, 1}};
     for (std::size_t i = 0; i < triangle.size(); ++i) expect_triangulable({rotated(triangle, i)});

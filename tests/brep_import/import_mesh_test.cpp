@@ -4,9 +4,13 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include <trisect/brep/detail/loop_triangulator.h>
 
 #include "mesh_builders.h"
 
@@ -224,6 +228,35 @@ TEST(ImportMesh, CrossingLoopIsReportedAndKeepsItsChain) {
     const auto r = import_mesh(m);
     EXPECT_TRUE(r.report.closed);
     EXPECT_EQ(r.report.defects.count(DefectKind::NonSimpleFace), 2U);
+}
+
+// A loop of left turns that runs around twice is not convex, wherever it starts.
+TEST(ImportMesh, LoopOfLeftTurnsThatWindsTwiceKeepsItsChain) {
+    std::vector<LatticePoint> points;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = 2 * std::numbers::pi * 2 * (i + 0.5) / 60;
+        const double r = 1e6 * (2 + 0.01 * i);
+        points.push_back({std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle)), 7});
+    }
+    const auto doubled_area = [&](std::span<const std::uint32_t> loop) {
+        std::int64_t sum = 0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const LatticePoint& a = points[loop[i]];
+            const LatticePoint& b = points[loop[(i + 1) % loop.size()]];
+            sum += a.x * b.y - a.y * b.x;
+        }
+        return sum;
+    };
+    std::vector<std::uint32_t> loop(points.size());
+    std::iota(loop.begin(), loop.end(), 0U);
+    for (std::size_t start = 0; start < loop.size(); ++start) {
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        EXPECT_TRUE(detail::LoopTriangulator(points).triangulate(loop, triangles).planar);
+        std::int64_t sum = 0;
+        for (const auto& t : triangles) sum += doubled_area(t);
+        EXPECT_EQ(sum, doubled_area(loop));
+        std::rotate(loop.begin(), loop.begin() + 1, loop.end());
+    }
 }
 
 TEST(ImportMesh, RepeatedCornersAndTwoCornerFacesBoundNothing) {
