@@ -114,18 +114,41 @@ PlanarLoops::PlanarLoops(const Plane& plane, std::span<const Point> points,
     find_loops();
 }
 
+// Rounding is monotone, so different rounded coordinates tell the order of the exact ones, and
+// those of lattice points tell when they are equal.
 void PlanarLoops::number_places() {
-    order_.resize(corners_.size());
-    std::iota(order_.begin(), order_.end(), 0U);
-    std::sort(order_.begin(), order_.end(), [this](std::uint32_t a, std::uint32_t b) {
-        const auto c = projection_.compare(corners_[a].point, corners_[b].point);
-        return c != 0 ? c < 0 : a < b;
+    struct Place {
+        double u;
+        double v;
+        std::uint32_t corner;
+        bool is_lattice;
+    };
+    const auto compare = [&](const Place& a, const Place& b) {
+        if (a.u != b.u)
+            return a.u < b.u ? std::strong_ordering::less : std::strong_ordering::greater;
+        if (!a.is_lattice || !b.is_lattice)
+            return projection_.compare(corners_[a.corner].point, corners_[b.corner].point);
+        if (a.v != b.v)
+            return a.v < b.v ? std::strong_ordering::less : std::strong_ordering::greater;
+        return std::strong_ordering::equal;
+    };
+    std::vector<Place> places;
+    places.reserve(corners_.size());
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+        const std::uint32_t p = corners_[c].point;
+        places.push_back({projection_.u(p), projection_.v(p), c, projection_.is_lattice(p)});
+    }
+    std::sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+        const auto order = compare(a, b);
+        return order != 0 ? order < 0 : a.corner < b.corner;
     });
-    for (const std::uint32_t c : order_) {
-        const std::uint32_t point = corners_[c].point;
-        if (point_at_.empty() || projection_.compare(point_at_.back(), point) != 0)
-            point_at_.push_back(point);
+    order_.reserve(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::uint32_t c = places[i].corner;
+        if (i == 0 || compare(places[i - 1], places[i]) != 0)
+            point_at_.push_back(corners_[c].point);
         corners_[c].place = static_cast<std::uint32_t>(point_at_.size() - 1);
+        order_.push_back(c);
     }
 }
 

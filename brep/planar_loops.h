@@ -29,6 +29,8 @@ public:
     [[nodiscard]] double v(std::uint32_t i) const { return rounded(i, axes_.v); }
     /// Lexicographic order in the projection.
     [[nodiscard]] std::strong_ordering compare(std::uint32_t a, std::uint32_t b) const;
+    /// Whether rounded coordinates are the exact ones.
+    [[nodiscard]] bool is_lattice(std::uint32_t i) const { return points_[i].is_lattice(); }
     /// 1 when a, b, c turn left, 0 when they lie on one line.
     [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 

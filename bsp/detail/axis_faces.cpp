@@ -203,7 +203,11 @@ void AxisFaces::add_area(const PolygonRef& part, Facet& facet, const AxisPlane& 
 
 // A corner that a part has is known by that name to facets that pass through.
 void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const {
-    if (facet.corners == 7) return;
+    std::array<bool, 3> near{};
+    for (int c = 0; c < 3; ++c)
+        near[u(c)] = (facet.corners >> c & 1) == 0 &&
+                     part.box().overlaps(Box::of(part.source->corner(part.facet, c)));
+    if (!near[0] && !near[1] && !near[2]) return;
     if (part.fragment == nullptr) {
         facet.corners = 7;
         return;
@@ -223,6 +227,7 @@ void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t a
             at[1 - straight.axis] = end_of_side(straight, side.is_slanted ? side : before);
         }
         for (int c = 0; c < 3; ++c) {
+            if (!near[u(c)]) continue;
             const LatticePoint& corner = part.source->corner(part.facet, c);
             if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * wall_scale &&
                 at[1] == corner[static_cast<int>((axis + 2) % 3)] * wall_scale)
@@ -314,40 +319,32 @@ void AxisFaces::rank_coordinates() {
     }
 }
 
-namespace {
-
-std::uint64_t line_key(std::size_t along, const std::array<std::uint32_t, 3>& ranks) {
-    return (std::uint64_t{ranks[(along + 1) % 3]} << 32) | ranks[(along + 2) % 3];
-}
-
-}  // namespace
-
 void AxisFaces::make_stops() {
-    const auto add = [&](std::size_t along, const Ranks& at) {
-        stops_[along].push_back({line_key(along, at), at[along]});
-    };
     const auto add_all = [&](const LatticePoint& p) {
-        for (std::size_t k = 0; k < 3; ++k) add(k, ranks_of(p));
+        for (std::size_t k = 0; k < 3; ++k) stops_[k].push_back(stop_at(k, ranks_of(p)));
     };
     for (const PointId p : others_) add_all(parts_.bench.lattice(p));
     for (const CornerName& c : passing_) add_all(c.source->corner(c.facet, c.corner));
-    for (const Sheet& s : sheets_) {
+    for (Sheet& s : sheets_) {
         if (s.is_general) continue;
         const std::size_t k = s.plane.axis;
+        s.outline.rank_places([&](std::size_t i, std::int64_t place) {
+            return std::int64_t{rank((k + 1 + i) % 3, place)};
+        });
         Ranks at{};
         at[k] = rank(k, s.plane.position / wall_scale);
         for (const AxisStretch& t : s.outline.stretches()) {
             const std::size_t across = (k + 1 + t.axis) % 3;
             const std::size_t along = 3 - k - across;
-            at[across] = rank(across, t.at);
+            at[across] = static_cast<std::uint32_t>(t.at);
             for (const std::int64_t end : {t.low, t.high}) {
-                at[along] = rank(along, end);
-                add(along, at);
+                at[along] = static_cast<std::uint32_t>(end);
+                stops_[along].push_back(stop_at(along, at));
             }
         }
     }
     for (auto& stops : stops_) {
-        std::ranges::sort(stops);
+        std::sort(stops.begin(), stops.end());
         stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
     }
 }
@@ -377,27 +374,29 @@ void AxisFaces::name_corners() {
     for (const CornerName& name : passing_) add(name);
 }
 
+PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
+    const std::int32_t sheet = sheet_of_[axis][rank];
+    TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane is");
+    Sheet& s = sheets_[u(sheet)];
+    if (s.id < 0) s.id = parts_.bench.plane(s.name);
+    return s.id;
+}
+
 PointId AxisFaces::point_at(const Ranks& ranks) {
     const Key128 key = key_of(ranks);
     if (const PointId known = point_ids_.find(key); known >= 0) return known;
-    Workbench& bench = parts_.bench;
-    PointId made = -1;
-    if (const std::int32_t c = corner_ids_.find(key); c >= 0) {
+    return point_ids_.insert(key, make_point(ranks)).first;
+}
+
+PointId AxisFaces::make_point(const Ranks& ranks) {
+    if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
         const CornerName& name = corners_[u(c)];
-        made = bench.corner(name.source, name.facet, name.corner);
-    } else {
-        std::array<PlaneId, 3> planes{};
-        Approximation at;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t sheet = sheet_of_[k][ranks[k]];
-            TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane crosses it");
-            planes[k] = bench.plane(sheets_[u(sheet)].name);
-            at.c[k] = static_cast<double>(coordinates_[k][ranks[k]]);
-        }
-        made = bench.vertex({}, planes[0], planes[1], planes[2], at);
+        return parts_.bench.corner(name.source, name.facet, name.corner);
     }
-    (void)point_ids_.insert(key, made);
-    return made;
+    Approximation at;
+    for (std::size_t k = 0; k < 3; ++k) at.c[k] = static_cast<double>(coordinates_[k][ranks[k]]);
+    return parts_.bench.vertex({}, plane_of(0, ranks[0]), plane_of(1, ranks[1]),
+                               plane_of(2, ranks[2]), at);
 }
 
 void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
@@ -428,24 +427,26 @@ void AxisFaces::make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges) {
     for (const AxisStretch& s : sheet.outline.stretches()) {
         const std::size_t across = (k + 1 + s.axis) % 3;
         const std::size_t along = 3 - k - across;
-        at[across] = rank(across, s.at);
-        at[along] = rank(along, s.from());
-        const std::int32_t other = sheet_of_[across][at[across]];
-        TRISECT_EXPECTS(other >= 0, "an outline runs where no plane is");
-        const Sheet& beside = sheets_[u(other)];
-        const WorkEdge line{parts_.bench.plane(beside.name), s.is_low == (beside.plane.sign > 0)};
-        add_edges({-1, -1, sheet.first[s.faces_up ? 1 : 0], line}, along, at, rank(along, s.to()),
-                  edges);
+        at[across] = static_cast<std::uint32_t>(s.at);
+        at[along] = static_cast<std::uint32_t>(s.from());
+        const PlaneId beside = plane_of(across, at[across]);
+        const bool is_up = sheets_[u(sheet_of_[across][at[across]])].plane.sign > 0;
+        add_edges({-1, -1, sheet.first[s.faces_up ? 1 : 0], {beside, s.is_low == is_up}}, along, at,
+                  static_cast<std::uint32_t>(s.to()), edges);
     }
 }
 
 std::span<const AxisFaces::Stop> AxisFaces::stops_between(std::size_t along, const Ranks& line,
                                                           std::uint32_t low,
                                                           std::uint32_t high) const {
-    const std::uint64_t key = line_key(along, line);
-    const auto begin = std::ranges::upper_bound(stops_[along], Stop{key, low});
+    Ranks at = line;
+    at[along] = low;
+    const auto& stops = stops_[along];
+    const auto begin = std::upper_bound(stops.begin(), stops.end(), stop_at(along, at));
+    at[along] = high;
+    const Stop last = stop_at(along, at);
     auto end = begin;
-    while (end != stops_[along].end() && *end < Stop{key, high}) ++end;
+    while (end != stops.end() && *end < last) ++end;
     return {begin, end};
 }
 
@@ -457,7 +458,7 @@ void AxisFaces::add_edges(const BoundaryEdge& run, std::size_t along, const Rank
         stops_between(along, from, std::min(from[along], to), std::max(from[along], to));
     Ranks at = from;
     BoundaryEdge e = run;
-    e.to = point_at(at);
+    e.to = last_point_ >= 0 && at == last_place_ ? last_point_ : point_at(at);
     const auto go_to = [&](std::uint32_t place) {
         at[along] = place;
         e.from = e.to;
@@ -465,8 +466,10 @@ void AxisFaces::add_edges(const BoundaryEdge& run, std::size_t along, const Rank
         edges.push_back(e);
     };
     for (std::size_t i = 0; i < inside.size(); ++i)
-        go_to(inside[up ? i : inside.size() - 1 - i].place);
+        go_to(place_of(inside[up ? i : inside.size() - 1 - i]));
     go_to(to);
+    last_place_ = at;
+    last_point_ = e.to;
 }
 
 // An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
@@ -486,15 +489,15 @@ void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& 
     const std::size_t along = 3 - support->axis - beside->axis;
     const Approximation& from = bench.approximation(edge.from);
     const Approximation& to = bench.approximation(edge.to);
-    const auto place_of = [&](double c) {
+    const auto rank_at = [&](double c) {
         return rank(along, static_cast<std::int64_t>(std::floor(c)));
     };
     const auto [low, high] = std::minmax(from.c[along], to.c[along]);
     const double margin = 2 + from.error + to.error;
-    const std::uint32_t first = place_of(low - margin);
-    const std::uint32_t last = place_of(high + margin);
-    for (const Stop& s : stops_between(along, at, first == 0 ? 0 : first - 1, last + 1)) {
-        at[along] = s.place;
+    const std::uint32_t first = rank_at(low - margin);
+    const std::uint32_t last = rank_at(high + margin);
+    for (const Stop s : stops_between(along, at, first == 0 ? 0 : first - 1, last + 1)) {
+        at[along] = place_of(s);
         out.push_back(point_at(at));
     }
 }

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -63,6 +62,7 @@ private:
         std::array<std::int32_t, 2> first{-1, -1};
         bool is_general = false;  // not taken
         std::size_t parts = 0;
+        PlaneId id = -1;  // once it was asked for
         AxisOutline outline;
     };
     struct Facet {
@@ -80,11 +80,13 @@ private:
     };
     // Places by their ranks among the coordinates of each axis.
     using Ranks = std::array<std::uint32_t, 3>;
-    struct Stop {
-        std::uint64_t line = 0;  // ranks along the two axes after that of the line
-        std::uint32_t place = 0;
-        friend auto operator<=>(const Stop&, const Stop&) = default;
-    };
+    // A place on a line: ranks along the two axes after that of the line, then along the line.
+    using Stop = Int128;
+    static Stop stop_at(std::size_t along, const Ranks& r) {
+        const auto line = (std::uint64_t{r[(along + 1) % 3]} << 32) | r[(along + 2) % 3];
+        return (Stop{line} << 32) | r[along];
+    }
+    static std::uint32_t place_of(Stop stop) { return static_cast<std::uint32_t>(stop); }
 
     [[nodiscard]] const FacetMarks& marks_of(const Source* source);
     [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
@@ -104,7 +106,9 @@ private:
                    std::vector<BoundaryEdge>& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
+    [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
     [[nodiscard]] PointId point_at(const Ranks& ranks);
+    [[nodiscard]] PointId make_point(const Ranks& ranks);
     [[nodiscard]] std::span<const Stop> stops_between(std::size_t along, const Ranks& line,
                                                       std::uint32_t low, std::uint32_t high) const;
     static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
@@ -129,6 +133,8 @@ private:
     std::vector<CornerName> corners_;
     FlatMap corner_ids_;
     FlatMap point_ids_;
+    Ranks last_place_{};  // of the edge made last: its end
+    PointId last_point_ = -1;
 };
 
 }  // namespace trisect::detail

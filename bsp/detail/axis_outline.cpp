@@ -91,61 +91,57 @@ void AxisOutline::add(std::span<const AxisSide> sides, bool turns_left, bool fac
         // Seen from above, with the polygon to the left.
         const bool runs_up = (side.axis == 1) == side.is_low;
         const bool before_is_low = runs_up == turns_left;
-        const int by = runs_up ? 1 : -1;
-        const auto kind = static_cast<std::uint8_t>((faces_up ? 2 : 0) + side.axis);
-        const auto change = [&](const AxisSide& end, int change_by) {
+        auto& changes = changes_[kind_of(faces_up, side.axis)];
+        const auto change = [&](const AxisSide& end, bool grows) {
             if (const auto place = end_of_side(side, end))
-                changes_.push_back({kind, static_cast<std::int8_t>(change_by), side.at, *place});
+                changes.emplace_back(side.at, *place, grows);
         };
-        change(before_is_low ? before : after, by);
-        change(before_is_low ? after : before, -by);
+        change(before_is_low ? before : after, runs_up);
+        change(before_is_low ? after : before, !runs_up);
     }
 }
 
-bool AxisOutline::add_stretch(const Change& from, std::int64_t to, int cover) {
+bool AxisOutline::add_stretch(std::size_t kind, const Change& from, std::int64_t to, int cover) {
     const auto on_lattice = [](std::int64_t place) { return place % wall_scale == 0; };
-    if (cover > 1 || cover < -1 || !on_lattice(from.at) || !on_lattice(from.place) ||
+    if (cover > 1 || cover < -1 || !on_lattice(from.at()) || !on_lattice(from.place()) ||
         !on_lattice(to))
         return false;
     AxisStretch s;
-    s.faces_up = from.kind >= 2;
-    s.axis = from.kind % 2;
+    s.faces_up = kind >= 2;
+    s.axis = static_cast<std::uint8_t>(kind % 2);
     s.is_low = (s.axis == 1) == (cover > 0);
-    s.at = from.at / wall_scale;
-    s.low = from.place / wall_scale;
+    s.at = from.at() / wall_scale;
+    s.low = from.place() / wall_scale;
     s.high = to / wall_scale;
     stretches_.push_back(s);
     return true;
 }
 
-bool AxisOutline::finish() {
-    std::ranges::sort(changes_, [](const Change& a, const Change& b) {
-        return std::tie(a.kind, a.at, a.place) < std::tie(b.kind, b.at, b.place);
-    });
-    stretches_.clear();
-    bool valid = true;
+bool AxisOutline::add_stretches(std::size_t kind) {
+    auto& changes = changes_[kind];
+    std::sort(changes.begin(), changes.end());
     int cover = 0;
     Change from;
-    for (std::size_t i = 0; i < changes_.size() && valid;) {
-        const Change& here = changes_[i];
+    for (std::size_t i = 0; i < changes.size();) {
+        const Change& here = changes[i];
         int by = 0;
-        std::size_t j = i;
-        for (; j < changes_.size() && changes_[j].kind == here.kind && changes_[j].at == here.at &&
-               changes_[j].place == here.place;
-             ++j)
-            by += changes_[j].by;
-        if (by != 0) {
-            if (cover != 0) {
-                valid = here.kind == from.kind && here.at == from.at &&
-                        add_stretch(from, here.place, cover);
-            }
-            cover += by;
-            from = here;
-        }
-        i = j;
+        for (; i < changes.size() && changes[i].is_at_place_of(here); ++i) by += changes[i].by();
+        if (by == 0) continue;
+        if (cover != 0 &&
+            !(here.is_on_line_of(from) && add_stretch(kind, from, here.place(), cover)))
+            return false;
+        cover += by;
+        from = here;
     }
-    changes_ = {};
-    return valid && cover == 0;
+    changes = {};
+    return cover == 0;
+}
+
+bool AxisOutline::finish() {
+    stretches_.clear();
+    bool valid = true;
+    for (std::size_t kind = 0; kind < changes_.size() && valid; ++kind) valid = add_stretches(kind);
+    return valid;
 }
 
 bool AxisOutline::turns_between(bool faces_up, std::uint8_t axis, std::int64_t at, std::int64_t low,

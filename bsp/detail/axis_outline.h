@@ -4,6 +4,7 @@
 // integers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/axis_polygon.h>
+#include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
 
@@ -64,21 +66,58 @@ public:
     /// Whether a stretch of one facing ends strictly between two places of a line.
     [[nodiscard]] bool turns_between(bool faces_up, std::uint8_t axis, std::int64_t at,
                                      std::int64_t low, std::int64_t high) const;
+    /// Puts rank(i, place) for the places of all stretches, along axis i (0 or 1). The ranks are in
+    /// the order of the places.
+    template <class Rank>
+    void rank_places(Rank rank) {
+        for (AxisStretch& s : stretches_) {
+            s.at = rank(s.axis, s.at);
+            s.low = rank(1 - s.axis, s.low);
+            s.high = rank(1 - s.axis, s.high);
+        }
+    }
     /// Puts every stretch behind the one that it continues, loop after loop.
     void arrange_loops();
 
 private:
-    // Where the number of polygons above a line, less that below it, changes.
-    struct Change {
-        std::uint8_t kind = 0;  // facing, axis
-        std::int8_t by = 0;
-        std::int64_t at = 0;
-        std::int64_t place = 0;
-    };
-    [[nodiscard]] std::size_t next_of(const AxisStretch& s) const;
-    [[nodiscard]] bool add_stretch(const Change& from, std::int64_t to, int cover);
+    // Where the number of polygons on the one side of a line less that on the other changes by one:
+    // line, place, and whether it grows. In one integer, as most of the time goes into sorting.
+    class Change {
+    public:
+        Change() = default;
+        Change(std::int64_t at, std::int64_t place, bool grows)
+            : key_((Int128{at + offset} << (bits + 1)) | (Int128{place + offset} << 1) |
+                   (grows ? 1 : 0)) {}
+        [[nodiscard]] std::int64_t at() const { return place_from(bits + 1); }
+        [[nodiscard]] std::int64_t place() const { return place_from(1); }
+        [[nodiscard]] int by() const { return (key_ & 1) != 0 ? 1 : -1; }
+        [[nodiscard]] bool is_on_line_of(const Change& o) const {
+            return key_ >> (bits + 1) == o.key_ >> (bits + 1);
+        }
+        [[nodiscard]] bool is_at_place_of(const Change& o) const {
+            return key_ >> 1 == o.key_ >> 1;
+        }
+        friend bool operator<(const Change& a, const Change& b) { return a.key_ < b.key_; }
 
-    std::vector<Change> changes_;
+    private:
+        static constexpr int bits = 63;
+        static constexpr std::int64_t offset = std::int64_t{1} << (bits - 1);
+        static_assert(universe_limit < offset);
+        [[nodiscard]] std::int64_t place_from(int shift) const {
+            constexpr Int128 mask = (Int128{1} << bits) - 1;
+            return static_cast<std::int64_t>((key_ >> shift) & mask) - offset;
+        }
+        Int128 key_ = 0;
+    };
+    static constexpr std::size_t kind_of(bool faces_up, std::uint8_t axis) {
+        return (faces_up ? 2U : 0U) + axis;
+    }
+    [[nodiscard]] bool add_stretches(std::size_t kind);
+    [[nodiscard]] std::size_t next_of(const AxisStretch& s) const;
+    [[nodiscard]] bool add_stretch(std::size_t kind, const Change& from, std::int64_t to,
+                                   int cover);
+
+    std::array<std::vector<Change>, 4> changes_;  // by facing and axis
     std::vector<AxisStretch> stretches_;
     std::vector<bool> used_;
 };
