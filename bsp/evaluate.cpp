@@ -45,6 +45,7 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     constant_cells += part.constant_cells;
     mixed_leaves += part.mixed_leaves;
     plain_leaves += part.plain_leaves;
+    plain_fragments += part.plain_fragments;
     prism_leaves += part.prism_leaves;
     listed_polygons += part.listed_polygons;
     pairs_boxes += part.pairs_boxes;

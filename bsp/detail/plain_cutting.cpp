@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <trisect/bsp/detail/facet_in_cell.h>
@@ -24,13 +25,6 @@ namespace {
 
 // Contacts are compared pair by pair for common planes.
 constexpr std::size_t many_contacts = 200;
-
-// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot tell.
-int compare_along(std::size_t axis, const Approximation& a, const Approximation& b) {
-    const double gap = b.c[axis] - a.c[axis];
-    const double error = 1.0001 * (a.error + b.error);
-    return gap > error ? -1 : (gap < -error ? 1 : 0);
-}
 
 // Without a call, which std::floor is on the oldest processors of the family.
 std::int64_t floor_of(double v) {
@@ -69,47 +63,62 @@ PlainPart& PlainCutting::add_part() {
     return p;
 }
 
-// The whole facet.
+// The whole outline.
 bool PlainCutting::make_shape() {
     vertices_.clear();
     const PlainFacet& f = (*facets_)[item_];
     clipped_.size = 0;
     clipped_.above = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; c < f.size; ++c) {
         PlainVertex& v = vertices_.emplace_back();
-        v.at = {f.corners[c], 0.0};
-        v.lines = {static_cast<PlainLine>((c + 2) % 3), static_cast<PlainLine>(c)};
-        clipped_.add(static_cast<std::int16_t>(c), static_cast<PlainLine>(c), false);
+        v.at = facets_->corner(f, c);
+        v.lines = {static_cast<PlainLine>(c == 0 ? f.size - 1U : c - 1), static_cast<PlainLine>(c)};
+        clipped_.add(static_cast<std::int16_t>(c), static_cast<PlainLine>(c), f.edge(c).above);
     }
     was_clipped_ = false;
     return contacts_.size() <= many_contacts;
+}
+
+// Whether two items lie in one plane. Whole facets are compared where they have an edge in common
+// only; fragments, of which a plane may have many that do not meet, always.
+PlainCutting::Planes PlainCutting::compare_planes(LeafIndex a, LeafIndex b) {
+    const PlainFacet& f = (*facets_)[a];
+    const PlainFacet& g = (*facets_)[b];
+    if (f.sheet == g.sheet && f.ref.facet == g.ref.facet) return Planes::Same;
+    const bool whole = f.is_whole() && g.is_whole();
+    std::size_t apex = 3;
+    if (whole) {
+        if (f.sheet != g.sheet) return Planes::Apart;
+        std::size_t apart = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (f.has_vertex(g.vertices[c])) continue;
+            apex = c;
+            ++apart;
+        }
+        if (apart != 1) return Planes::Apart;
+        if (facets_->plane(a).sign({g.corners[apex], 0.0}) != 0) return Planes::Apart;
+    } else {
+        for (std::size_t c = 0; c < g.size; ++c)
+            if (facets_->plane(a).sign(facets_->corner(g, c)) != 0) return Planes::Apart;
+    }
+    const Plane p = f.ref.source->support(f.ref.facet);
+    for (std::size_t c = 0; c < 3; ++c)
+        if ((!whole || c == apex) &&
+            side_of(g.ref.source->corner(g.ref.facet, static_cast<int>(c)), p) != Side::On)
+            return Planes::Apart;
+    const Plane q = g.ref.source->support(g.ref.facet);
+    return same_orientation(p, q) ? Planes::Same : Planes::Opposite;
 }
 
 bool PlainCutting::join_coplanar() {
     line_.resize(contacts_.size());
     for (std::size_t b = 0; b < contacts_.size(); ++b) {
         line_[b] = static_cast<std::int16_t>(b);
-        const PlainFacet& g = (*facets_)[contacts_[b].other];
         for (std::size_t a = 0; a < b; ++a) {
-            const PlainFacet& f = (*facets_)[contacts_[a].other];
-            if (f.sheet != g.sheet) continue;
-            std::size_t apex = 3;
-            std::size_t apart = 0;
-            for (std::size_t c = 0; c < 3; ++c) {
-                if (f.has_vertex(g.vertices[c])) continue;
-                apex = c;
-                ++apart;
-            }
-            if (apart != 1) continue;
-            const Approximation at{g.corners[apex], 0.0};
-            if (facets_->plane(contacts_[a].other).sign(at) != 0) continue;
-            const auto corner = [](const PlainFacet& of, std::size_t c) -> const LatticePoint& {
-                return of.ref.source->corner(of.ref.facet, static_cast<int>(c));
-            };
-            const Plane p = Plane::through(corner(f, 0), corner(f, 1), corner(f, 2));
-            if (side_of(corner(g, apex), p) != Side::On) continue;
-            const Plane q = Plane::through(corner(g, 0), corner(g, 1), corner(g, 2));
-            if (!same_orientation(p, q)) return false;
+            if (line_[a] == line_[b]) continue;
+            const Planes planes = compare_planes(contacts_[a].other, contacts_[b].other);
+            if (planes == Planes::Opposite) return false;
+            if (planes == Planes::Apart) continue;
             const std::int16_t from = std::max(line_[a], line_[b]);
             const std::int16_t to = std::min(line_[a], line_[b]);
             for (std::size_t c = 0; c <= b; ++c)
@@ -136,8 +145,7 @@ bool PlainCutting::passes(const PlainVertex& vertex, std::size_t contact) const 
 }
 
 PlaneName PlainCutting::plane_of(PlainLine line) const {
-    const PolygonRef& ref = (*facets_)[item_].ref;
-    if (line < first_wall_line) return PlaneName::edge(ref.source, ref.facet, line);
+    if (line < first_wall_line) return (*facets_)[item_].edge(static_cast<std::size_t>(line)).plane;
     if (line < first_contact_line) {
         const Cell& cell = facets_->problem().cell;
         const int wall = line - first_wall_line;
@@ -151,8 +159,10 @@ PlaneName PlainCutting::plane_of(PlainLine line) const {
 
 int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
     const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
-    const PolygonRef& ref = (*facets_)[item_].ref;
-    if (vertex < 3) return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
+    const PlainFacet& f = (*facets_)[item_];
+    const PolygonRef& ref = f.ref;
+    if (f.is_whole() && vertex < f.size)
+        return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
     return trisect::sign_of(side_of(facets_->in_lattice(v.at), ref.source->support(ref.facet),
                                     plane_of(v.lines[0]).plane(), plane_of(v.lines[1]).plane(),
                                     plane));
@@ -175,7 +185,7 @@ Approximation PlainCutting::exact_point(const std::array<PlainLine, 2>& lines) c
 int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
     const PlainContact& c = contacts_[contact];
     const auto v = static_cast<std::size_t>(vertex);
-    if (v < 3) return crossing_of(contact).sides[c.is_second ? 1 : 0][v];
+    if (v < (*facets_)[item_].size) return side_of_corner(contact, v);
     if (passes(vertices_[v], contact)) return 0;
     const int s = facets_->plane(c.other).sign(vertices_[v].at);
     if (s != 0) return s;
@@ -199,35 +209,19 @@ int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& mid
     return low >= 0 ? high : (high <= 0 ? low : 0);
 }
 
-// The product of the normals. Its left is what is below: n × (n × m) = -m within the support of n.
-PlainCutting::Direction PlainCutting::direction_of(std::size_t contact) {
-    const PlainPlane& own = facets_->plane(item_);
-    const PlainPlane& other = facets_->plane(contacts_[contact].other);
-    const Vector3& n = own.normal;
-    const Vector3& m = other.normal;
-    const Vector3 d{n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
-                    n[0] * m[1] - n[1] * m[0]};
-    Direction out;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::fabs(d[k]) > std::fabs(d[out.axis])) out.axis = k;
-    // Components err by less than 8 · 2^-53 times the slopes, which bound them.
-    if (std::fabs(d[out.axis]) > 0x1p-47 * own.slope * other.slope)
-        out.sign = d[out.axis] > 0 ? 1 : -1;
-    return out;
-}
-
 // Whether a vertex on a contact's line is strictly on the inner side of an end of its segment.
 bool PlainCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
-                                 const Direction& direction) const {
+                                 const LineDirection& direction) const {
     const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
     const PlainEnd& end = end_of(contact, last);
     if (is_end(v, contact, end)) return false;
-    const int order = direction.sign * compare_along(direction.axis, v.at, end.at);
+    const int order = direction.order(v.at, end.at);
     if (order != 0) return last ? order < 0 : order > 0;
     const PlainContact& c = contacts_[contact];
     const LeafIndex owner = end.of_second == c.is_second ? item_ : c.other;
-    const PolygonRef& ref = (*facets_)[owner].ref;
-    return exact_sign(vertex, ref.source->edge_plane(ref.facet, end.edge)) < 0;
+    const EdgeName edge = (*facets_)[owner].edge(static_cast<std::size_t>(end.edge));
+    const int side = exact_sign(vertex, edge.plane.plane());
+    return edge.above ? side > 0 : side < 0;
 }
 
 // Where two contacts' lines meet, the edge that their facets have in common pierces the item.
@@ -261,11 +255,18 @@ void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
 bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
                           const PlainEnd& end) const {
     const PlainContact& c = contacts_[contact];
-    if (end.of_second == c.is_second)
-        return vertex.lines[0] == end.edge || vertex.lines[1] == end.edge;
+    const int own = end.edge_of(c.is_second);
+    if (own >= 0 && (vertex.lines[0] == own || vertex.lines[1] == own)) return true;
+    const int other = end.edge_of(!c.is_second);
+    if (other < 0) return false;
     const PlainFacet& f = (*facets_)[c.other];
+    const int mesh_edge = f.mesh_edge(static_cast<std::size_t>(other));
+    if (mesh_edge < 0) {
+        const PlaneName name = f.edge(static_cast<std::size_t>(other)).plane;
+        return plane_of(vertex.lines[0]) == name || plane_of(vertex.lines[1]) == name;
+    }
     if (vertex.sheet != f.sheet) return false;
-    const auto e = static_cast<std::size_t>(end.edge);
+    const auto e = static_cast<std::size_t>(mesh_edge);
     const std::uint32_t v = f.vertices[e];
     const std::uint32_t w = f.vertices[e == 2 ? 0 : e + 1];
     return (vertex.pierced[0] == v && vertex.pierced[1] == w) ||
@@ -373,7 +374,7 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
     if (ends[0] < 0 || ends[1] < 0) return Split::Doubtful;
     if (!sure) {
         // Does the segment have more than a point in common with what of the line is in the part?
-        const Direction direction = direction_of(contact);
+        const LineDirection direction = direction_of(contact);
         if (!is_inside_end(ends[0], contact, true, direction) ||
             !is_inside_end(ends[1], contact, false, direction))
             return Split::Missed;
@@ -405,7 +406,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
     bool above = false;
     for (std::size_t i = 0; i < from.size; ++i) {
         int s = 0;
-        if (from.vertices[i] < 3) {
+        if (from.vertices[i] < (*facets_)[item_].size && point(i).error == 0) {
             // A lattice position, and the last one below the wall is exact too.
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
@@ -449,9 +450,12 @@ bool PlainCutting::clip_to_cell() {
     const PlainFacet& f = (*facets_)[item_];
     if (f.contained) return true;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (clipped_.size != 0 && f.lo[k] < facets_->inner_lo()[k] && !clip_at(k, false))
+        const unsigned ends = f.walls >> 2 * k;
+        if (clipped_.size != 0 && f.lo[k] < facets_->inner_lo()[k] && (ends & 1U) == 0 &&
+            !clip_at(k, false))
             return false;
-        if (clipped_.size != 0 && f.hi[k] > facets_->inner_hi()[k] && !clip_at(k, true))
+        if (clipped_.size != 0 && f.hi[k] > facets_->inner_hi()[k] && (ends & 2U) == 0 &&
+            !clip_at(k, true))
             return false;
     }
     return true;
@@ -480,10 +484,10 @@ void PlainCutting::start_at(const PlainWindings::Anchor& anchor) {
     const auto known = windings_->windings(anchor.windings);
     start_windings_.assign(known.begin(), known.end());
     const auto corner = static_cast<std::size_t>(anchor.corner);
-    start_ = {(*facets_)[item_].corners[corner], 0.0};
+    start_ = facets_->corner((*facets_)[item_], corner);
     start_sides_.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c)
-        start_sides_.push_back(crossing_of(c).sides[contacts_[c].is_second ? 1 : 0][corner]);
+        start_sides_.push_back(static_cast<std::int8_t>(side_of_corner(c, corner)));
 }
 
 // How winding numbers change on the straight way from the start to a point of the item.
@@ -567,7 +571,8 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
     if (windings >= 0 && windings == last_windings_ && key == last_key_) return last_result_;
     if (windings < 0) {
-        if (!f.contained && certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
+        if (!f.contained && f.is_whole() &&
+            certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
             return {};
         if (!make_shape() || !clip_to_cell()) return {Remains::Doubtful, false};
         if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
@@ -703,19 +708,41 @@ PlainCutting::Result PlainCutting::remains() const {
     return {Remains::Parts, false};
 }
 
+// A vertex of a new fragment in lattice units. Where points of one chain of cuts are made out of
+// each other errors grow, so those that are large for the fragment are made anew.
+Approximation PlainCutting::in_lattice(std::int16_t vertex, double extent) const {
+    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const PlainFacet& f = (*facets_)[item_];
+    const bool is_corner = vertex < f.size;
+    if (is_corner && !f.is_whole())
+        return f.ref.fragment->vertices()[static_cast<std::size_t>(vertex)];
+    if (is_corner || v.at.error <= 0x1p-30 * extent) return facets_->in_lattice(v.at);
+    return approximate(f.ref.source->support(f.ref.facet), plane_of(v.lines[0]).plane(),
+                       plane_of(v.lines[1]).plane());
+}
+
 PolygonRef PlainCutting::fragment(const PlainPart& part) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<EdgeName, PlainPart::max_size> edges;
     std::array<Approximation, PlainPart::max_size> vertices;
-    Box box;
+    Vector3 lo{infinity, infinity, infinity};
+    Vector3 hi{-infinity, -infinity, -infinity};
     for (std::size_t i = 0; i < part.size; ++i) {
         edges[i] = {plane_of(part.lines[i]), (part.above >> i & 1U) != 0};
         const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
         for (std::size_t k = 0; k < 3; ++k) {
-            box.lo[k] = std::min(box.lo[k], facets_->origin()[k] + floor_of(a.c[k] - a.error));
-            box.hi[k] = std::max(box.hi[k], facets_->origin()[k] - floor_of(-a.c[k] - a.error));
+            lo[k] = std::min(lo[k], a.c[k] - a.error);
+            hi[k] = std::max(hi[k], a.c[k] + a.error);
         }
-        vertices[i] = facets_->in_lattice(a);
     }
+    Box box;
+    double extent = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.lo[k] = facets_->origin()[k] + floor_of(lo[k]);
+        box.hi[k] = facets_->origin()[k] - floor_of(-hi[k]);
+        extent = std::max(extent, hi[k] - lo[k]);
+    }
+    for (std::size_t i = 0; i < part.size; ++i) vertices[i] = in_lattice(part.vertices[i], extent);
     PolygonRef out = (*facets_)[item_].ref;
     out.fragment = Fragment::make(std::span(edges).first(part.size),
                                   std::span(vertices).first(part.size), box);

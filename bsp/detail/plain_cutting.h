@@ -15,11 +15,11 @@
 
 namespace trisect::detail {
 
-/// A line in the support of an item: 0 to 2 the item's edges, then the cell's walls (3 + 2 · axis,
-/// the upper one 1 more), then its contacts in their order.
+/// A line in the support of an item: first the edges of its outline, then the cell's walls (2 ·
+/// axis, the upper one 1 more), then its contacts in their order.
 using PlainLine = std::int16_t;
-inline constexpr PlainLine first_wall_line = 3;
-inline constexpr PlainLine first_contact_line = 9;
+inline constexpr PlainLine first_wall_line = PlainFacet::max_outline;
+inline constexpr PlainLine first_contact_line = first_wall_line + 6;
 
 /// A vertex of a part: where two lines meet.
 struct PlainVertex {
@@ -115,23 +115,29 @@ private:
     [[nodiscard]] PlainLine line_of(std::size_t contact) const {
         return static_cast<PlainLine>(first_contact_line + line_[contact]);
     }
+    /// -1 or 1: the side of a contact's support on which a corner of the item's outline is.
+    [[nodiscard]] int side_of_corner(std::size_t contact, std::size_t corner) const {
+        const std::size_t own = contacts_[contact].is_second ? 1 : 0;
+        return (crossing_of(contact).above[own] >> corner & 1U) != 0 ? 1 : -1;
+    }
     [[nodiscard]] bool join_coplanar();
+    enum class Planes : std::uint8_t { Apart, Same, Opposite };
+    [[nodiscard]] Planes compare_planes(LeafIndex a, LeafIndex b);
+    [[nodiscard]] Approximation in_lattice(std::int16_t vertex, double extent) const;
     [[nodiscard]] int sign_at(std::int16_t vertex, std::size_t contact);
     [[nodiscard]] int sign_at_middle(const PlainPart& part, const Approximation& middle,
                                      int attempt, std::size_t contact);
-    /// The direction of a contact's line, in which it has what is below on its left: the axis along
-    /// which it is longest, and the sign there, 0 when doubles cannot tell.
-    struct Direction {
-        std::size_t axis = 0;
-        int sign = 0;
-    };
-    [[nodiscard]] Direction direction_of(std::size_t contact);
+    /// The direction of a contact's line, in which it has what is below on its left.
+    [[nodiscard]] LineDirection direction_of(std::size_t contact) const {
+        const PlainPlane& own = facets_->plane(item_);
+        return LineDirection(own, facets_->plane(contacts_[contact].other));
+    }
     /// The ends of a contact's segment in that direction.
     [[nodiscard]] const PlainEnd& end_of(std::size_t contact, bool last) const {
         return crossing_of(contact).ends[contacts_[contact].is_second != last ? 1 : 0];
     }
     [[nodiscard]] bool is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
-                                     const Direction& direction) const;
+                                     const LineDirection& direction) const;
     [[nodiscard]] PlaneName plane_of(PlainLine line) const;
     [[nodiscard]] int exact_sign(std::int16_t vertex, const Plane& plane) const;
     [[nodiscard]] Approximation exact_point(const std::array<PlainLine, 2>& lines) const;

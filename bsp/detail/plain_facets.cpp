@@ -10,6 +10,8 @@
 #include <trisect/bsp/detail/plain_facets.h>
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 namespace trisect::detail {
 
@@ -57,16 +59,22 @@ void PlainFacets::set_origin(const LatticePoint& origin) {
 bool PlainFacets::list(const LeafProblem& leaf) {
     problem_ = &leaf;
     facets_.clear();
+    outlines_.clear();
+    fragments_ = 0;
     sheets_.clear();
     for (const LeafOperand& o : leaf.operands) {
         if (!o.embedded) return false;
-        for (const PolygonRef& r : o.polygons)
-            if (r.fragment != nullptr || r.source->is_half_space()) return false;
+        for (const PolygonRef& r : o.polygons) {
+            if (r.source->is_half_space()) return false;
+            if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
+                return false;
+        }
     }
     bool has_origin = false;
     // Of all points that a plane is asked about.
     Vector3 low{};
     Vector3 high{};
+    bool small = true;
     for (std::size_t o = 0; o < leaf.operands.size(); ++o) {
         const LeafOperand& operand = leaf.operands[o];
         const auto number = static_cast<LeafIndex>(o);
@@ -91,17 +99,23 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             add(ref, operand, number, sheet);
             PlainFacet& f = facets_.back();
             f.contained = true;
+            // What doubles hold of a fragment's facet need not be near the fragment.
+            for (std::size_t c = 1; c < 3 && !f.is_whole(); ++c)
+                for (std::size_t k = 0; k < 3; ++k)
+                    small = small && std::fabs(f.corners[c][k]) < exact_limit;
             for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], f.lo[k]);
-                high[k] = std::max(high[k], f.hi[k]);
-                f.contained = f.contained && f.lo[k] >= inner_lo_[k] && f.hi[k] <= inner_hi_[k];
+                // Planes are asked about points from their first corner on.
+                low[k] = std::min({low[k], f.lo[k], f.corners[0][k]});
+                high[k] = std::max({high[k], f.hi[k], f.corners[0][k]});
+                f.contained = f.contained &&
+                              (f.lo[k] >= inner_lo_[k] || (f.walls >> 2 * k & 1U) != 0) &&
+                              (f.hi[k] <= inner_hi_[k] || (f.walls >> (2 * k + 1) & 1U) != 0);
                 // A cell without lattice points still has an inside: keep one unit around it.
                 f.lo[k] = std::max(f.lo[k], inner_lo_[k] - 1);
                 f.hi[k] = std::min(f.hi[k], inner_hi_[k] + 1);
             }
         }
     }
-    bool small = true;
     for (std::size_t k = 0; k < 3; ++k) {
         small = small && low[k] > -exact_limit && high[k] < exact_limit;
         extent_[k] = high[k] - low[k] + 1;
@@ -125,10 +139,58 @@ void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafInd
                         static_cast<double>(p.y - origin_[1]),
                         static_cast<double>(p.z - origin_[2])};
     }
+    if (!f.is_whole()) {
+        add_outline(f);
+        return;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
         f.lo[k] = std::min({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
         f.hi[k] = std::max({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
     }
+}
+
+// Of a fragment: its corners from the leaf's origin, with the rounding that this takes, and a box
+// that contains them.
+void PlainFacets::add_outline(PlainFacet& f) {
+    const std::span<const Approximation> vertices = f.ref.fragment->vertices();
+    ++fragments_;
+    f.size = static_cast<std::uint8_t>(vertices.size());
+    f.outline = static_cast<std::uint32_t>(outlines_.size());
+    f.walls = walls_of(*f.ref.fragment);
+    f.lo.fill(std::numeric_limits<double>::infinity());
+    f.hi.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Approximation a = vertices[i];
+        if (const int corner = f.mesh_corner(i); corner >= 0) {
+            a = {f.corners[static_cast<std::size_t>(corner)], 0.0};
+        } else {
+            double largest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                a.c[k] -= static_cast<double>(origin_[k]);
+                largest = std::max(largest, std::fabs(a.c[k]));
+            }
+            // Twice: for what the box takes of it.
+            a.error = 1.0001 * a.error + 0x1p-51 * largest;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            f.lo[k] = std::min(f.lo[k], a.c[k] - a.error);
+            f.hi[k] = std::max(f.hi[k], a.c[k] + a.error);
+        }
+        outlines_.push_back(a);
+    }
+}
+
+// At which walls of the cell a fragment ends: with its edge on the wall it is on one side of that.
+std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
+    const Cell& cell = problem_->cell;
+    unsigned walls = 0;
+    for (const EdgeName& e : fragment.edges()) {
+        if (!e.plane.is_wall()) continue;
+        const std::size_t k = e.plane.facet;
+        if (e.above && e.plane.position() == cell.lo[k]) walls |= 1U << 2 * k;
+        if (!e.above && e.plane.position() == cell.hi[k]) walls |= 2U << 2 * k;
+    }
+    return static_cast<std::uint8_t>(walls);
 }
 
 void PlainFacets::make_plane(PlainFacet& f) const {
@@ -177,6 +239,28 @@ int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
     }
     const double error = 0x1p-50 * permanent;
     return sum > error ? 1 : (sum < -error ? -1 : 0);
+}
+
+std::optional<int> exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c,
+                                     const Vector3& d) {
+    // Minors are below 2^83, the sum of their three products with a difference below 2^126.
+    constexpr double limit = 0x1p41;
+    std::array<std::array<Int128, 3>, 3> m;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::size_t row = 0;
+        for (const Vector3* p : {&a, &b, &c}) {
+            const double difference = (*p)[k] - d[k];
+            if (std::fabs(difference) > limit) return std::nullopt;
+            m[row++][k] = static_cast<std::int64_t>(difference);
+        }
+    }
+    Int128 sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        sum += m[0][k] * (m[1][i] * m[2][j] - m[1][j] * m[2][i]);
+    }
+    return sum > 0 ? 1 : (sum < 0 ? -1 : 0);
 }
 
 }  // namespace trisect::detail

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facets of a leaf in doubles, for leaves whose polygons are in general position (plain_leaf.h).
+// Polygons of a leaf in doubles, for leaves whose polygons are in general position (plain_leaf.h).
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <trisect/bsp/detail/leaf_problem.h>
@@ -38,21 +39,50 @@ struct PlainPlane {
     }
 };
 
-/// A whole facet of an embedded operand. Corners are lattice points, taken from an origin of the
-/// leaf, so that doubles hold them exactly and constructed points have the errors of the leaf's
-/// size and not of its place.
+/// A facet of an embedded operand, whole or a fragment of it. Its corners are lattice points, taken
+/// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
+/// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
 struct PlainFacet {
+    /// Fragments with more corners are left to the long way.
+    static constexpr std::size_t max_outline = 20;
+
     PolygonRef ref;
     LeafIndex operand = 0;
     LeafIndex sheet = 0;  ///< one number for each operand and source in it
     std::int8_t orientation = 1;
     std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot tell, 2: not computed
     bool contained = false;             ///< lies in the cell
-    std::array<std::uint32_t, 3> vertices{};
-    std::array<Vector3, 3> corners{};
-    Vector3 lo{};  ///< of the box, within the cell
+    std::uint8_t size = 3;              ///< corners of the outline
+    std::uint8_t walls = 0;     ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
+                                ///< ends at that wall of the cell by name
+    std::uint32_t outline = 0;  ///< of a fragment, see PlainFacets::corner()
+    std::array<std::uint32_t, 3> vertices{};  ///< of the whole facet
+    std::array<Vector3, 3> corners{};         ///< of the whole facet
+    Vector3 lo{};                             ///< of the box, within the cell
     Vector3 hi{};
     PlainPlane plane;
+
+    [[nodiscard]] bool is_whole() const { return ref.fragment == nullptr; }
+    /// The plane of an edge, from a corner of the outline to the next one.
+    [[nodiscard]] EdgeName edge(std::size_t e) const {
+        if (is_whole()) return {PlaneName::edge(ref.source, ref.facet, static_cast<int>(e)), false};
+        return ref.fragment->edges()[e];
+    }
+    /// Which edge of the whole facet an edge of the outline lies in; -1 where something cut.
+    [[nodiscard]] int mesh_edge(std::size_t e) const {
+        if (is_whole()) return static_cast<int>(e);
+        const PlaneName& name = ref.fragment->edges()[e].plane;
+        return name.is_edge() && name.facet == ref.facet && name.source() == ref.source
+                   ? static_cast<int>(name.kind)
+                   : -1;
+    }
+    /// Which corner of the whole facet a corner of the outline is; -1 when it was constructed.
+    [[nodiscard]] int mesh_corner(std::size_t c) const {
+        if (is_whole()) return static_cast<int>(c);
+        const int from = mesh_edge(c == 0 ? size - 1U : c - 1);
+        const int to = mesh_edge(c);
+        return from >= 0 && to >= 0 && to == (from + 1) % 3 ? to : -1;
+    }
 
     [[nodiscard]] bool has_vertex(std::uint32_t v) const {
         return v == vertices[0] || v == vertices[1] || v == vertices[2];
@@ -63,11 +93,11 @@ struct PlainFacet {
     }
 };
 
-/// The facets of one leaf after the other; keeps its memory.
+/// The polygons of one leaf after the other; keeps its memory.
 class PlainFacets {
 public:
-    /// False when something else than whole facets of embedded operands is listed, or the leaf is
-    /// too large for doubles.
+    /// False when something else than facets of embedded operands and fragments of such is listed,
+    /// or the leaf is too large for doubles.
     [[nodiscard]] bool list(const LeafProblem& leaf);
 
     [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
@@ -80,6 +110,12 @@ public:
         if (f.plane.bound < 0) make_plane(f);
         return f.plane;
     }
+    /// A corner of an item's outline.
+    [[nodiscard]] Approximation corner(const PlainFacet& f, std::size_t i) const {
+        return f.is_whole() ? Approximation{f.corners[i], 0.0} : outlines_[f.outline + i];
+    }
+    /// How many fragments are listed.
+    [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
     [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
     [[nodiscard]] std::size_t operand_count() const { return problem_->operands.size(); }
     /// Whether a lattice point lies in the cell.
@@ -111,10 +147,14 @@ public:
 private:
     void set_origin(const LatticePoint& origin);
     void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);
+    void add_outline(PlainFacet& f);
+    [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
     void make_plane(PlainFacet& f) const;
 
     const LeafProblem* problem_ = nullptr;
     std::vector<PlainFacet> facets_;
+    std::vector<Approximation> outlines_;  // of fragments, one after the other
+    std::size_t fragments_ = 0;
     StampMap sheets_;
     std::array<std::int64_t, 3> origin_{};
     Approximation reference_;
@@ -128,6 +168,41 @@ private:
 /// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot tell.
 [[nodiscard]] int orientation(const Vector3& a, const Vector3& b, const Vector3& c,
                               const Vector3& d);
+
+/// The same, exact; nothing when corners are so far apart that 128 bits do not hold it.
+[[nodiscard]] std::optional<int> exact_orientation(const Vector3& a, const Vector3& b,
+                                                   const Vector3& c, const Vector3& d);
+
+/// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot tell.
+[[nodiscard]] inline int compare_along(std::size_t axis, const Approximation& a,
+                                       const Approximation& b) {
+    const double gap = b.c[axis] - a.c[axis];
+    const double error = 1.0001 * (a.error + b.error);
+    return gap > error ? -1 : (gap < -error ? 1 : 0);
+}
+
+/// The direction of the line in which two supports meet, the product of their normals: the axis
+/// along which it is longest, and the sign there, 0 when doubles cannot tell. The left of it in the
+/// first support is what is below the second one: n × (n × m) = -m within the support of n.
+struct LineDirection {
+    std::size_t axis = 0;
+    int sign = 0;
+
+    LineDirection(const PlainPlane& first, const PlainPlane& second) {
+        const Vector3& n = first.normal;
+        const Vector3& m = second.normal;
+        const Vector3 d{n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
+                        n[0] * m[1] - n[1] * m[0]};
+        for (std::size_t k = 1; k < 3; ++k)
+            if (std::fabs(d[k]) > std::fabs(d[axis])) axis = k;
+        // Components err by less than 8 · 2^-53 times the slopes, which bound them.
+        if (std::fabs(d[axis]) > 0x1p-47 * first.slope * second.slope) sign = d[axis] > 0 ? 1 : -1;
+    }
+    /// -1, 0, 1: the order of two points of the line; 0 when doubles cannot tell.
+    [[nodiscard]] int order(const Approximation& a, const Approximation& b) const {
+        return sign * compare_along(axis, a, b);
+    }
+};
 
 /// The point between u and w where a linear function is 0. Its values there are known up to
 /// `error` in sum and have different signs. False when that says too little.

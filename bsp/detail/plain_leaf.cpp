@@ -9,7 +9,12 @@
 // arranged the long way. So the short way never decides anything that it does not know; leaves with
 // touching or coincident facets lose the attempt, which mostly ends at the first such pair.
 //
-// EvaluateStats::plain_leaves counts the leaves that it served.
+// Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
+// and whose edges name the planes that cut them out. So they are items like whole facets, of up to
+// twenty corners, and what is constructed from them is known by names as well. Along a chain of
+// cuts nearly all leaves hold some.
+//
+// EvaluateStats::plain_leaves counts the leaves that it served, plain_fragments their fragments.
 
 #include <trisect/bsp/detail/plain_leaf.h>
 
@@ -51,7 +56,7 @@ bool PlainLeaf::try_to_arrange(const LeafProblem& problem, bool crossed_too, Eva
 
 bool PlainLeaf::arrange_listed(bool crossed_too, EvaluateStats& stats,
                                std::vector<PolygonRef>& out) {
-    if (!pairs_.relate_all(facets_, stats)) return false;
+    if (!pairs_.relate_all(facets_, !crossed_too, stats)) return false;
     windings_.start(facets_, pairs_);
     formula_.start(facets_.problem());
     crossed_ = 0;
@@ -73,6 +78,7 @@ bool PlainLeaf::arrange_listed(bool crossed_too, EvaluateStats& stats,
     }
     ++stats.mixed_leaves;
     ++stats.plain_leaves;
+    stats.plain_fragments += facets_.fragment_count();
     return true;
 }
 

@@ -72,6 +72,82 @@ bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation&
                        sides.value[t.corner[i]], 2 * sides.bound, x);
 }
 
+// A polygon and the side of another one's support on which its corners are.
+class Across {
+public:
+    Across(const PlainFacets& facets, const PlainFacet& f, const PlainPlane& plane)
+        : facets_(facets), f_(f) {
+        for (std::size_t i = 0; i < f.size; ++i) {
+            const Approximation p = facets.corner(f, i);
+            value_[i] = plane.value(p.c);
+            error_[i] = plane.error(p);
+            if (value_[i] > error_[i]) {
+                above_ |= 1U << i;
+                ++sure_;
+            } else if (value_[i] < -error_[i]) {
+                ++sure_;
+            }
+        }
+    }
+    [[nodiscard]] bool is_sure() const { return sure_ == f_.size; }
+    [[nodiscard]] bool is_off() const {
+        return is_sure() && (above_ == 0 || above_ == (1U << f_.size) - 1);
+    }
+    [[nodiscard]] std::uint32_t above() const { return above_; }
+    /// The edges that go up and down through the support; false unless there is one of each.
+    /// \pre is_sure() and not is_off()
+    [[nodiscard]] bool find_edges() {
+        const std::uint32_t next = above_ >> 1 | (above_ & 1U) << (f_.size - 1U);
+        const std::uint32_t up = next & ~above_;
+        const std::uint32_t down = above_ & ~next;
+        up_ = static_cast<std::size_t>(std::countr_zero(up));
+        down_ = static_cast<std::size_t>(std::countr_zero(down));
+        return std::has_single_bit(up) && std::has_single_bit(down);
+    }
+    [[nodiscard]] std::size_t edge(bool up) const { return up ? up_ : down_; }
+    [[nodiscard]] bool pierce(bool up, Approximation& x) const {
+        const std::size_t i = edge(up);
+        const std::size_t next = i + 1U < f_.size ? i + 1 : 0;
+        return interpolate(facets_.corner(f_, i), value_[i], facets_.corner(f_, next), value_[next],
+                           error_[i] + error_[next], x);
+    }
+
+private:
+    const PlainFacets& facets_;
+    const PlainFacet& f_;
+    std::array<double, PlainFacet::max_outline> value_;
+    std::array<double, PlainFacet::max_outline> error_;
+    std::uint32_t above_ = 0;
+    std::size_t sure_ = 0;
+    std::size_t up_ = 0;
+    std::size_t down_ = 0;
+};
+
+// The point `at` where an edge of a pierces the support of b, upwards or downwards: 1 on the inner
+// side of an edge of b, -1 on the outer one, 0 on it. Exact.
+int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approximation& at,
+                 const PlainFacets& facets, const PlainFacet& b, std::size_t edge_b) {
+    const int mesh_a = a.mesh_edge(edge_a);
+    const int mesh_b = b.mesh_edge(edge_b);
+    if (mesh_a >= 0 && mesh_b >= 0) {
+        const auto end = [](const PlainFacet& f, int i) -> const Vector3& {
+            return f.corners[static_cast<std::size_t>(i % 3)];
+        };
+        // For a line that goes up through p, det(w - u, p - u, q - u) > 0 where it passes on the
+        // left of the way from p to q.
+        const auto s = exact_orientation(end(a, mesh_a + 1), end(b, mesh_b), end(b, mesh_b + 1),
+                                         end(a, mesh_a));
+        if (s) return up ? *s : -*s;
+    }
+    const EdgeName edge = b.edge(edge_b);
+    const PlaneName from = a.edge(edge_a).plane;
+    if (from == edge.plane) return 0;
+    const int s =
+        sign_of(side_of(facets.in_lattice(at), a.ref.source->support(a.ref.facet), from.plane(),
+                        b.ref.source->support(b.ref.facet), edge.plane.plane()));
+    return edge.above ? s : -s;
+}
+
 // Surely: a segment on a wall is not.
 bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -137,7 +213,8 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     }
 }
 
-bool PlainPairs::relate_all(PlainFacets& facets, EvaluateStats& stats) {
+bool PlainPairs::relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
+    edges_apart_ = edges_apart;
     crossings_.clear();
     list_candidates(facets);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -174,6 +251,7 @@ bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, Evaluate
 
 PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                         PlainCrossing& out) const {
+    if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
     const PlainFacet& a = facets[s];
     const PlainFacet& b = facets[t];
     const Sides of_b(facets.plane(s), b.corners);
@@ -199,11 +277,12 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (start_of_a > 0) return Relation::Apart;
     const int starts = order(2, 1);
     const int ends = order(1, 2);
-    if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0) return Relation::Doubtful;
+    if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0)
+        return relate_outlines(facets, s, t, out);
     out.items = {s, t};
     for (std::size_t i = 0; i < 3; ++i) {
-        out.sides[0][i] = of_a.value[i] > 0 ? 1 : -1;
-        out.sides[1][i] = of_b.value[i] > 0 ? 1 : -1;
+        out.above[0] |= (of_a.value[i] > 0 ? 1U : 0U) << i;
+        out.above[1] |= (of_b.value[i] > 0 ? 1U : 0U) << i;
     }
     const auto set_end = [&](PlainEnd& end, bool of_second, std::size_t corner) {
         end.of_second = of_second;
@@ -215,6 +294,60 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     const bool sure = set_end(out.ends[start], starts < 0, starts < 0 ? 1 : 2) &&
                       set_end(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
     return sure ? Relation::Crossing : Relation::Doubtful;
+}
+
+PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                                 PlainCrossing& out) const {
+    const PlainPlane& plane_s = facets.plane(s);
+    const PlainPlane& plane_t = facets.plane(t);
+    Across b(facets, facets[t], plane_s);
+    if (b.is_off()) return Relation::Apart;
+    Across a(facets, facets[s], plane_t);
+    if (a.is_off()) return Relation::Apart;
+    if (!a.is_sure() || !b.is_sure() || !a.find_edges() || !b.find_edges())
+        return Relation::Doubtful;
+    const LineDirection direction(plane_s, plane_t);
+    if (direction.sign == 0) return Relation::Doubtful;
+    // In the direction of the normals' product, what is below a support is to the left of the line
+    // in the other one's plane, if that comes first, and to the right if it comes second. So a
+    // begins with the edge that goes up, b with the one that goes down.
+    std::array<Approximation, 2> ends_a;
+    std::array<Approximation, 2> ends_b;
+    if (!a.pierce(true, ends_a[0]) || !a.pierce(false, ends_a[1]) || !b.pierce(false, ends_b[0]) ||
+        !b.pierce(true, ends_b[1]))
+        return Relation::Doubtful;
+    // -1: end i of a comes before end j of b.
+    bool edges_meet = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+        const int o = direction.order(ends_a[i], ends_b[j]);
+        if (o != 0) return o;
+        const int side = side_of_edge(facets[s], a.edge(i == 0), i == 0, ends_a[i], facets,
+                                      facets[t], b.edge(j == 1));
+        edges_meet = edges_meet || side == 0;
+        // Within b as far as that edge goes: behind its start, before its end.
+        return j == 0 ? side : -side;
+    };
+    const bool apart = order(1, 0) <= 0 || order(0, 1) >= 0;
+    const int starts = apart ? 0 : order(0, 0);
+    const int ends = apart ? 0 : order(1, 1);
+    if (edges_meet) {
+        if (edges_apart_) return Relation::Doubtful;
+        facets[s].ref.touched = facets[t].ref.touched = true;
+    }
+    if (apart) return Relation::Apart;
+    out.items = {s, t};
+    out.above = {a.above(), b.above()};
+    // The later start and the earlier end.
+    const auto end_of = [&](int which, std::size_t i) {
+        const bool of_b = which > 0;
+        const auto edge_a = static_cast<std::int8_t>(a.edge(i == 0));
+        const auto edge_b = static_cast<std::int8_t>(b.edge(i == 1));
+        PlainEnd end{of_b, of_b ? edge_b : edge_a, -1, (of_b ? ends_b : ends_a)[i]};
+        if (which == 0) end.other_edge = edge_b;
+        return end;
+    };
+    out.ends = {end_of(-starts, 0), end_of(ends, 1)};
+    return Relation::Crossing;
 }
 
 // Counting sort by item: `first_contact_[i + 1]` runs from the start of item i to its end.

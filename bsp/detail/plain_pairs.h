@@ -17,29 +17,38 @@ namespace trisect::detail {
 /// An end of the segment that two facets have in common: an edge of one pierces the other.
 struct PlainEnd {
     bool of_second = false;  ///< whose edge it is
-    std::int8_t edge = 0;    ///< from that corner to the next one
+    std::int8_t edge = 0;    ///< from that corner of the outline to the next one
+    /// The edge of the other one when both edges meet there; else -1.
+    std::int8_t other_edge = -1;
     Approximation at;
+
+    /// The edge of one of the two polygons in which the end lies; -1 when it lies within.
+    [[nodiscard]] int edge_of(bool second) const { return of_second == second ? edge : other_edge; }
 };
 
-/// Two facets that cross in a segment, each with its corners off the other one's support.
+/// Two polygons that cross in a segment, each with its corners off the other one's support.
 struct PlainCrossing {
     std::array<LeafIndex, 2> items{};
-    std::array<std::array<std::int8_t, 3>, 2> sides{};  ///< of the corners of each, ±1
+    /// Bit i: corner i of the outline is above the other one's support, else it is below.
+    std::array<std::uint32_t, 2> above{};
     std::array<PlainEnd, 2> ends;  ///< in the direction of the normals' product, first × second
 };
 
-/// A crossing, seen from one of its facets.
+/// A crossing, seen from one of its polygons.
 struct PlainContact {
     LeafIndex other = 0;
     std::int32_t crossing = 0;
-    bool is_second = false;  ///< the facet from which it is seen
+    bool is_second = false;  ///< the polygon from which it is seen
 };
 
-/// Compares all facets of different operands whose boxes meet; keeps its memory.
+/// Compares all polygons of different operands whose boxes meet; keeps its memory.
 class PlainPairs {
 public:
-    /// False when doubles cannot tell about some pair. Counts pairs.
-    [[nodiscard]] bool relate_all(PlainFacets& facets, EvaluateStats& stats);
+    /// False when doubles cannot tell about some pair. Where edges meet edges that is asked
+    /// exactly, unless `edges_apart`: then such a pair is one about which they cannot tell.
+    /// Polygons that meet in no more than a point of their edges do not cross, but are marked as
+    /// touched. Counts pairs.
+    [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats);
 
     [[nodiscard]] const PlainCrossing& crossing(std::int32_t i) const {
         return crossings_[static_cast<std::size_t>(i)];
@@ -60,9 +69,12 @@ private:
     void list_candidates(const PlainFacets& facets);
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                   PlainCrossing& out) const;
+    [[nodiscard]] Relation relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                           PlainCrossing& out) const;
     [[nodiscard]] bool compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats);
     void list_contacts(LeafIndex count);
 
+    bool edges_apart_ = false;
     std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
     std::vector<Candidate> candidates_;
     BoxRows boxes_;  // of the candidates, the axis of the sweep first

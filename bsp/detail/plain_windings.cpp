@@ -41,7 +41,7 @@ bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b)
 
 // Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
 // outside, 0 when doubles cannot tell.
-int is_inside(const PlainFacet& f, const Approximation& x) {
+int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximation& x) {
     const Vector3& n = f.plane.normal;
     std::size_t k = std::fabs(n[0]) > std::fabs(n[1]) ? 0 : 1;
     if (std::fabs(n[2]) > std::fabs(n[k])) k = 2;
@@ -50,16 +50,24 @@ int is_inside(const PlainFacet& f, const Approximation& x) {
     const std::size_t i = (k + 1) % 3;
     const std::size_t j = (k + 2) % 3;
     int inside = 1;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const Vector3& a = f.corners[c];
-        const Vector3& b = f.corners[c == 2 ? 0 : c + 1];
-        const double u = b[i] - a[i];
-        const double v = b[j] - a[j];
-        const double s = u * (x.c[j] - a[j]);
-        const double t = v * (x.c[i] - a[i]);
+    for (std::size_t c = 0; c < f.size; ++c) {
+        const Approximation a = facets.corner(f, c);
+        const Approximation b = facets.corner(f, c + 1U < f.size ? c + 1 : 0);
+        const double u = b.c[i] - a.c[i];
+        const double v = b.c[j] - a.c[j];
+        const double p = x.c[i] - a.c[i];
+        const double q = x.c[j] - a.c[j];
+        const double s = u * q;
+        const double t = v * p;
         const double m = n[k] > 0 ? s - t : t - s;
-        const double error = 0x1p-50 * (std::fabs(s) + std::fabs(t)) +
-                             1.0001 * x.error * (std::fabs(u) + std::fabs(v));
+        // What differences are off by, besides rounding: of the edge's ends, and of the point and
+        // one of them.
+        const double edge_error = a.error + b.error;
+        const double point_error = a.error + x.error;
+        const double error =
+            0x1p-50 * (std::fabs(s) + std::fabs(t)) +
+            1.0001 * (point_error * (std::fabs(u) + std::fabs(v)) +
+                      edge_error * (std::fabs(p) + std::fabs(q) + 2 * point_error));
         if (m < -error) return -1;
         if (m <= error) inside = 0;
     }
@@ -80,26 +88,42 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     vertices_.resize(LeafWork::u(facets.size()));
     first_.assign(LeafWork::u(facets.size()), -1);
     for (LeafIndex i = 0; i < facets.size(); ++i) {
-        const PlainFacet& f = facets[i];
-        auto& vertices = vertices_[LeafWork::u(i)];
         const bool free = pairs.contacts(i).empty();
-        const auto sheet = static_cast<std::uint32_t>(f.sheet);
-        for (std::size_t c = 0; c < 3; ++c) {
-            vertices[c] = -1;
-            if (!f.contained && !facets.in_cell(f.corners[c])) continue;
-            vertices[c] = node_of({f.vertices[c], sheet}, i, static_cast<int>(c));
-            if (free) join_item(i, vertices[c]);
-        }
-        if (!free || f.contained) continue;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t d = c == 2 ? 0 : c + 1;
-            if (vertices[c] >= 0 || vertices[d] >= 0 ||
-                !runs_through(facets, f.corners[c], f.corners[d]))
-                continue;
-            const std::uint64_t v = std::min(f.vertices[c], f.vertices[d]);
-            const std::uint64_t w = std::max(f.vertices[c], f.vertices[d]);
-            join_item(i, node_of({(w + 1) << 32 | v, sheet}, i, -1));
-        }
+        add_corners(i, free);
+        const PlainFacet& f = facets[i];
+        if (free && !f.contained && f.is_whole()) add_edges(i);
+    }
+}
+
+// A fragment has a node for each corner of its facet that is left of that.
+void PlainWindings::add_corners(LeafIndex item, bool free) {
+    const PlainFacet& f = (*facets_)[item];
+    auto& vertices = vertices_[LeafWork::u(item)];
+    vertices.fill(-1);
+    for (std::size_t c = 0; c < f.size; ++c) {
+        const int corner = f.mesh_corner(c);
+        if (corner < 0) continue;
+        const auto m = static_cast<std::size_t>(corner);
+        if (!f.contained && !facets_->in_cell(f.corners[m])) continue;
+        vertices[m] = node_of({f.vertices[m], static_cast<std::uint32_t>(f.sheet)}, item,
+                              static_cast<int>(c));
+        if (free) join_item(item, vertices[m]);
+    }
+}
+
+// Edges of a whole facet that run through the cell and have no end there.
+void PlainWindings::add_edges(LeafIndex item) {
+    const PlainFacet& f = (*facets_)[item];
+    const auto& vertices = vertices_[LeafWork::u(item)];
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t d = c == 2 ? 0 : c + 1;
+        if (vertices[c] >= 0 || vertices[d] >= 0 ||
+            !runs_through(*facets_, f.corners[c], f.corners[d]))
+            continue;
+        const std::uint64_t v = std::min(f.vertices[c], f.vertices[d]);
+        const std::uint64_t w = std::max(f.vertices[c], f.vertices[d]);
+        join_item(item,
+                  node_of({(w + 1) << 32 | v, static_cast<std::uint32_t>(f.sheet)}, item, -1));
     }
 }
 
@@ -189,7 +213,7 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& target, const
     Approximation x;
     const int inside =
         sure && interpolate(reference_, at_start, target, at_target, start_error + target_error, x)
-            ? is_inside(f, x)
+            ? is_inside(*facets_, f, x)
             : 0;
     if (inside == 0) return false;
     if (inside > 0) w[LeafWork::u(f.operand)] += at_start > 0 ? f.orientation : -f.orientation;
@@ -213,7 +237,7 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
         const Node& n = nodes_[LeafWork::u(at)];
         if (n.corner < 0) continue;  // edges only: see remember()
         const PlainFacet& f = (*facets_)[n.item];
-        if (!at_point({f.corners[static_cast<std::size_t>(n.corner)], 0.0}, f.operand, stats,
+        if (!at_point(facets_->corner(f, static_cast<std::size_t>(n.corner)), f.operand, stats,
                       traced_))
             continue;
         nodes_[LeafWork::u(r)].state = State::Known;
@@ -239,12 +263,14 @@ PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& st
         if (nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
         return {nodes_[LeafWork::u(r)].windings, 0};
     }
+    const PlainFacet& f = (*facets_)[item];
     const auto& vertices = vertices_[LeafWork::u(item)];
     // First a vertex of which the windings are known.
     for (const bool ask : {false, true}) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            if (vertices[c] < 0) continue;
-            const LeafIndex r = root(vertices[c]);
+        for (std::size_t c = 0; c < f.size; ++c) {
+            const int corner = f.mesh_corner(c);
+            if (corner < 0 || vertices[static_cast<std::size_t>(corner)] < 0) continue;
+            const LeafIndex r = root(vertices[static_cast<std::size_t>(corner)]);
             if (ask && nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
             const Node& n = nodes_[LeafWork::u(r)];
             if (n.state == State::Known) return {n.windings, static_cast<int>(c)};

@@ -23,7 +23,7 @@ public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
     struct Anchor {
         LeafIndex windings = -1;  ///< see windings(); -1 when there is none
-        int corner = 0;           ///< of the facet
+        int corner = 0;           ///< of the item's outline
     };
 
     void start(PlainFacets& facets, const PlainPairs& pairs);
@@ -52,6 +52,8 @@ private:
         LeafIndex windings = -1;  // of a root that is known
     };
     [[nodiscard]] LeafIndex node_of(const StampMap::Key& key, LeafIndex item, int corner);
+    void add_corners(LeafIndex item, bool free);
+    void add_edges(LeafIndex item);
     void join_item(LeafIndex item, LeafIndex node);
     [[nodiscard]] LeafIndex root(LeafIndex v);
     void join(LeafIndex a, LeafIndex b);
@@ -67,9 +69,10 @@ private:
     std::size_t operands_ = 0;
     StampMap ids_;
     std::vector<Node> nodes_;
-    std::vector<std::array<LeafIndex, 3>> vertices_;  // nodes of an item's corners; -1 not in cell
-    std::vector<LeafIndex> first_;                    // a node of an item, -1 none
-    std::vector<int> known_;                          // a row of `operands_` for each
+    // Nodes of the corners of an item's whole facet; -1 not in the cell, or not in the outline.
+    std::vector<std::array<LeafIndex, 3>> vertices_;
+    std::vector<LeafIndex> first_;  // a node of an item, -1 none
+    std::vector<int> known_;        // a row of `operands_` for each
     std::vector<int> traced_;
     BoxRows boxes_;  // of all facets; made for the first trace
     bool has_boxes_ = false;

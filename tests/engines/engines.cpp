@@ -9,6 +9,16 @@ namespace engines {
 
 namespace {
 
+using Matrix = std::array<std::array<std::int64_t, 3>, 3>;
+
+std::int64_t determinant(const Matrix& m) {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += m[0][i] *
+               (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]);
+    return sum;
+}
+
 template <int N>
 reference::Integer integer(const trisect::WideInt<N>& v) {
     const bool negative = v.is_negative();
@@ -133,6 +143,24 @@ std::string open_edge(const trisect::PolygonMesh& mesh) {
             return "edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second) +
                    " of the mesh is open";
     return {};
+}
+
+reference::Operand mapped(const reference::Operand& operand, reference::Random& random) {
+    Matrix m{};
+    while (determinant(m) == 0)
+        for (auto& row : m)
+            for (auto& x : row) x = random.between(-9, 9);
+    const std::array<std::int64_t, 3> by{random.between(-50, 50), random.between(-50, 50),
+                                         random.between(-50, 50)};
+    reference::Operand out = operand;
+    for (auto& triangle : out)
+        for (auto& p : triangle) {
+            std::array<std::int64_t, 3> q{};
+            for (std::size_t i = 0; i < 3; ++i)
+                q[i] = by[i] + m[i][0] * (p[0] - 7) + m[i][1] * (p[1] - 7) + m[i][2] * (p[2] - 7);
+            p = {q[0], q[1], q[2]};
+        }
+    return determinant(m) < 0 ? reference::reversed(out) : out;
 }
 
 }  // namespace engines

@@ -20,6 +20,9 @@ trisect::LatticeMesh lattice_mesh(const reference::Operand& operand);
 trisect::Solid solid(const reference::Operand& operand,
                      trisect::Embedding embedding = trisect::Embedding::Resolve);
 
+/// A solid under a random map with integer coefficients: out of the grid of all others.
+reference::Operand mapped(const reference::Operand& operand, reference::Random& random);
+
 /// The same formula over solids.
 trisect::Expression formula(const reference::Expression& expression,
                             const std::vector<trisect::Solid>& solids);
