@@ -73,8 +73,8 @@ private:
                                    [&](const IntegerPoint& p) { return plane.side_of(p) >= 0; });
     }
     std::string wrong_apart() const {
-        return detail::certified::wrong_tree<NoTime>(
-            c_.apart, {0, c_.triangles_a.size(), 0, c_.triangles_b.size(), {}, {}},
+        return detail::certified::wrong_tree(
+            c_.apart, WalkRange<NoTime>{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), {}, {}},
             [this](const ApartNode& node, const WalkRange<NoTime>& r) {
                 const IntegerPlane plane(node.plane);
                 return are_beside(plane, a_, corners_of_a(c_.triangles_a, r), -1) &&

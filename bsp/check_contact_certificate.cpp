@@ -85,9 +85,9 @@ private:
         if (!is_positive(to_a_.w, 0, end) || !is_positive(to_b_.w, 0, end))
             return "a solid becomes flat";
         if (is_last_ && !meet()) return "the triangles do not meet at the time of contact";
-        return detail::certified::wrong_tree<ExactRational>(
+        return detail::certified::wrong_tree(
             c_.freedom[i],
-            {0, c_.triangles_a.size(), 0, c_.triangles_b.size(), 0, is_last_ ? c_.lower : end},
+            Range{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), 0, is_last_ ? c_.lower : end},
             [this](const FreedomNode& node, const Range& r) {
                 return are_apart(r, node.separator) ? "" : "a plane does not separate";
             });

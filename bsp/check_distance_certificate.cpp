@@ -41,8 +41,8 @@ public:
         if (c_.slabs.empty()) return c_.is_complete ? "there are no slabs" : "";
         if (!a_.is_filled_by(c_.triangles_a) || !b_.is_filled_by(c_.triangles_b))
             return "the triangles do not fill the faces";
-        return detail::certified::wrong_tree<NoTime>(
-            c_.slabs, {0, c_.triangles_a.size(), 0, c_.triangles_b.size(), {}, {}},
+        return detail::certified::wrong_tree(
+            c_.slabs, WalkRange<NoTime>{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), {}, {}},
             [this](const SlabNode& node, const WalkRange<NoTime>& r) {
                 return wrong_slab(node.slab, r);
             });

@@ -167,8 +167,8 @@ private:
         return wrong_tree(s.freedom, s.span);
     }
     std::string wrong_tree(const std::vector<Node>& nodes, const TimeSpan& time) {
-        return detail::certified::wrong_tree<double>(
-            nodes, {0, c_.triangles_a.size(), 0, c_.triangles_b.size(), time.from, time.to},
+        return detail::certified::wrong_tree(
+            nodes, Range{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), time.from, time.to},
             [this](const Node& node, const Range& r) {
                 if (has_break_within(r)) return "a motion has a kink in a range";
                 return are_apart(r, node.plane) ? "" : "a plane does not separate";

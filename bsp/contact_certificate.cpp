@@ -24,6 +24,7 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/detail/proof_body.h>
+#include <trisect/bsp/detail/time_in_piece.h>
 #include <trisect/bsp/detail/triangle_distance.h>
 
 namespace trisect {
@@ -515,35 +516,6 @@ private:
     std::optional<CommonPoint> common_;
 };
 
-// p(s + n), constant coefficient first.
-std::vector<ExactRational> shifted(std::vector<ExactRational> p, std::size_t n) {
-    const ExactRational by(static_cast<std::int64_t>(n));
-    for (std::size_t i = 0; i + 1 < p.size(); ++i)
-        for (std::size_t j = p.size() - 1; j-- > i;) p[j] += by * p[j + 1];
-    return p;
-}
-
-// The time of contact within its piece.
-struct LocalTime {
-    std::size_t piece = 0;
-    std::vector<ExactRational> polynomial;
-    double lower = 0;
-    double upper = 0;
-};
-
-LocalTime local_time(const AlgebraicNumber& time) {
-    const AlgebraicNumber narrow = time.refined(ExactRational(1).scaled(-80));
-    LocalTime r;
-    while (AlgebraicNumber(ExactRational(static_cast<std::int64_t>(r.piece + 1))) < time) ++r.piece;
-    const ExactRational start(static_cast<std::int64_t>(r.piece));
-    r.polynomial = narrow.is_rational()
-                       ? std::vector<ExactRational>{start - narrow.lower(), ExactRational(1)}
-                       : shifted(narrow.polynomial(), r.piece);
-    r.lower = std::nextafter((narrow.lower() - start).to_double(), -1.0);
-    r.upper = std::nextafter((narrow.upper() - start).to_double(), 2.0);
-    return r;
-}
-
 IntegerPolynomial integer_polynomial(const std::vector<ExactRational>& c) {
     std::vector<mpq_class> values;
     for (const ExactRational& v : c) values.push_back(detail::to_gmp(v));
@@ -569,7 +541,7 @@ ContactCertificate certify_first_contact(const InterferenceModel& a, const Motio
     std::size_t pieces = std::max(motion_a.piece_count(), motion_b.piece_count());
     std::optional<FreedomBuilder::Contact> last;
     if (c.is_contact) {
-        const LocalTime time = local_time(*contact.time);
+        const detail::TimeInPiece time = detail::time_in_piece(*contact.time);
         auto roots = isolate_roots(integer_polynomial(time.polynomial), mpq_class(time.lower),
                                    mpq_class(time.upper));
         if (roots.size() != 1 || time.lower < 0) return c;

@@ -21,6 +21,7 @@
 #include <trisect/brep/detail/gmp_conversion.h>
 #include <trisect/bsp/detail/cell_proof.h>
 #include <trisect/bsp/detail/exact_place.h>
+#include <trisect/bsp/detail/from_world.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
 #include <trisect/bsp/detail/proof_body.h>
@@ -28,6 +29,7 @@
 namespace trisect {
 
 using detail::ExactPlace;
+using detail::FromWorld;
 using detail::InterferenceModelData;
 using detail::MeetingPair;
 using detail::PosedModels;
@@ -341,37 +343,6 @@ std::optional<SeparatingPlane> touching_plane(const ProofBody& a, const ProofBod
     }
     return std::nullopt;
 }
-
-// From the world into a solid, in the user's units.
-class FromWorld {
-public:
-    FromWorld(const InterferenceModelData& model, const Pose& pose) : model_(&model), pose_(&pose) {
-        std::array<Vector, 3> rows;
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j) rows[i][j] = ExactRational(pose.matrix(i, j));
-        const ExactRational determinant = dot(rows[0], cross(rows[1], rows[2]));
-        // Columns of the inverse are cross products of the rows.
-        for (std::size_t j = 0; j < 3; ++j) {
-            columns_[j] = cross(rows[(j + 1) % 3], rows[(j + 2) % 3]);
-            for (ExactRational& x : columns_[j]) x /= determinant;
-        }
-    }
-    // \pre not on the boundary
-    [[nodiscard]] bool is_inside(const Vector& p) const {
-        Vector x;
-        for (std::size_t j = 0; j < 3; ++j) {
-            const ExactRational y =
-                p[j] * ExactRational(pose_->denominator()) - ExactRational(pose_->translation(j));
-            for (std::size_t i = 0; i < 3; ++i) x[i] += columns_[j][i] * y;
-        }
-        return model_->index().locate(x).location == Location::Inside;
-    }
-
-private:
-    const InterferenceModelData* model_;
-    const Pose* pose_;
-    std::array<Vector, 3> columns_;
-};
 
 std::vector<detail::ConvexPolygon> polygons_of(const ProofBody& placed) {
     std::vector<detail::ConvexPolygon> r;

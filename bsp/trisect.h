@@ -35,6 +35,7 @@
 #include <trisect/bsp/motion.h>
 #include <trisect/bsp/moving_points.h>
 #include <trisect/bsp/msp_tree.h>
+#include <trisect/bsp/overlap_certificate.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/verify.h>
 #include <trisect/kernel/error.h>

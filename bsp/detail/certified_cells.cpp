@@ -2,44 +2,20 @@
 
 #include <trisect/bsp/detail/certified_cells.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
+
+#include <trisect/bsp/detail/certified_polygon.h>
 
 namespace trisect::detail::certified {
 
 namespace {
-
-using Polygon = std::vector<RationalPoint>;  // convex
 
 std::vector<Polygon> polygons(const Boundary& boundary,
                               const std::vector<CertifiedTriangle>& triangles) {
     std::vector<Polygon> r;
     for (const CertifiedTriangle& t : triangles)
         r.push_back({boundary.at(t.vertex[0]), boundary.at(t.vertex[1]), boundary.at(t.vertex[2])});
-    return r;
-}
-
-// What of the polygons is strictly on a side of a plane; closed again.
-std::vector<Polygon> beside(const std::vector<Polygon>& polygons, const SeparatingPlane& plane,
-                            int side) {
-    std::vector<Polygon> r;
-    for (const Polygon& p : polygons) {
-        std::vector<ExactRational> values;
-        for (const RationalPoint& v : p) values.push_back(value_at(plane, v));
-        if (std::ranges::none_of(values,
-                                 [side](const ExactRational& v) { return v.sign() == side; }))
-            continue;
-        Polygon& q = r.emplace_back();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const std::size_t j = (i + 1) % p.size();
-            if (values[i].sign() != -side) q.push_back(p[i]);
-            if (values[i].sign() * values[j].sign() >= 0) continue;
-            const ExactRational t = values[i] / (values[i] - values[j]);
-            const RationalPoint d = minus(p[j], p[i]);
-            q.push_back({p[i][0] + t * d[0], p[i][1] + t * d[1], p[i][2] + t * d[2]});
-        }
-    }
     return r;
 }
 

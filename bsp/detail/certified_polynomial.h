@@ -73,6 +73,19 @@ public:
         return a;
     }
 
+    // Of a division without remainder. \pre b divides a
+    friend Polynomial quotient(Polynomial a, const Polynomial& b) {
+        std::vector<ExactRational> r(a.c_.size() < b.c_.size() ? 0 : a.c_.size() - b.c_.size() + 1);
+        while (a.c_.size() >= b.c_.size()) {
+            const std::size_t shift = a.c_.size() - b.c_.size();
+            r[shift] = a.c_.back() / b.c_.back();
+            for (std::size_t i = 0; i < b.c_.size(); ++i) a.c_[shift + i] -= r[shift] * b.c_[i];
+            a.c_.pop_back();
+            a.trim();
+        }
+        return Polynomial(std::move(r));
+    }
+
 private:
     void trim() {
         while (!c_.empty() && c_.back().sign() == 0) c_.pop_back();

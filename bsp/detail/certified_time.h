@@ -28,6 +28,10 @@ public:
     [[nodiscard]] int sign_of(const Polynomial& p) const;
     /// Whether p is positive from a time below the bracket up to this one, itself excluded.
     [[nodiscard]] bool is_positive_before(const Polynomial& p, const ExactRational& from) const;
+    /// Whether p is nowhere negative from a time below the bracket up to this one.
+    [[nodiscard]] bool is_not_negative_before(const Polynomial& p, const ExactRational& from) const;
+    /// Whether p is positive from this time on, itself excluded, up to a time above the bracket.
+    [[nodiscard]] bool is_positive_after(const Polynomial& p, const ExactRational& until) const;
 
 private:
     Polynomial polynomial_;
@@ -38,5 +42,9 @@ private:
 /// Whether p is positive in a closed range.
 [[nodiscard]] bool is_positive(const Polynomial& p, const ExactRational& from,
                                const ExactRational& to);
+[[nodiscard]] bool is_not_negative(const Polynomial& p, const ExactRational& from,
+                                   const ExactRational& to);
+/// Whether p is positive from 0 on, itself excluded, up to a time.
+[[nodiscard]] bool is_positive_after_zero(Polynomial p, const ExactRational& until);
 
 }  // namespace trisect::detail::certified

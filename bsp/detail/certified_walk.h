@@ -25,46 +25,54 @@ struct WalkRange {
     std::size_t b1 = 0;
     Time from{};
     Time to{};
+
+    /// What a node's children have; or why there is no such node. Time may be split strictly within
+    /// the range.
+    template <class Node>
+    [[nodiscard]] std::string divide(const Node& node, WalkRange& first, WalkRange& second) const {
+        using Kind = typename Node::Kind;
+        first = second = *this;
+        if constexpr (requires { Kind::SplitTime; }) {
+            if (node.kind == Kind::SplitTime) {
+                if (!(from < node.time && node.time < to)) return "a time is not in its range";
+                first.to = second.from = node.time;
+                return {};
+            }
+        }
+        if ((node.kind == Kind::SplitA ? a1 - a0 : b1 - b0) < 2)
+            return "the tree splits a single triangle";
+        if (node.kind == Kind::SplitA)
+            first.a1 = second.a0 = (a0 + a1) / 2;
+        else
+            first.b1 = second.b0 = (b0 + b1) / 2;
+        return {};
+    }
 };
 
 /// For proofs without time.
 struct NoTime {};
 
-/// Why a tree proves nothing, or "": every node is visited once, a range is halved into what its
-/// children have, and `wrong_leaf(node, range)` says why a leaf is wrong, or "". Time may be split
-/// strictly within its range.
-template <class Time, class Node, class WrongLeaf>
-[[nodiscard]] std::string wrong_tree(const std::vector<Node>& nodes, const WalkRange<Time>& whole,
+/// Why a tree proves nothing, or "": every node is visited once, ranges are divided as nodes say,
+/// and `wrong_leaf(node, range)` says why a leaf is wrong, or "".
+template <class Node, class Range, class WrongLeaf>
+[[nodiscard]] std::string wrong_tree(const std::vector<Node>& nodes, Range whole,
                                      const WrongLeaf& wrong_leaf) {
-    using Kind = typename Node::Kind;
     std::vector<bool> seen(nodes.size(), false);
-    std::vector<std::pair<std::size_t, WalkRange<Time>>> open{{0, whole}};
+    std::vector<std::pair<std::size_t, Range>> open;
+    open.emplace_back(0, std::move(whole));
     while (!open.empty()) {
         const auto [at, range] = std::move(open.back());
         open.pop_back();
         if (at >= nodes.size() || seen[at]) return "the tree is no tree";
         seen[at] = true;
         const Node& node = nodes[at];
-        if (node.kind == Kind::Separated) {
+        if (node.kind == Node::Kind::Separated) {
             if (std::string wrong = wrong_leaf(node, range); !wrong.empty()) return wrong;
             continue;
         }
-        WalkRange<Time> first = range;
-        WalkRange<Time> second = range;
-        if constexpr (requires { Kind::SplitTime; }) {
-            if (node.kind == Kind::SplitTime) {
-                if (!(range.from < node.time && node.time < range.to))
-                    return "a time is not in its range";
-                first.to = second.from = node.time;
-            }
-        }
-        if (node.kind == Kind::SplitA) {
-            if (range.a1 - range.a0 < 2) return "the tree splits a single triangle";
-            first.a1 = second.a0 = (range.a0 + range.a1) / 2;
-        } else if (node.kind == Kind::SplitB) {
-            if (range.b1 - range.b0 < 2) return "the tree splits a single triangle";
-            first.b1 = second.b0 = (range.b0 + range.b1) / 2;
-        }
+        Range first;
+        Range second;
+        if (std::string wrong = range.divide(node, first, second); !wrong.empty()) return wrong;
         open.emplace_back(at + 1, std::move(first));
         open.emplace_back(node.other, std::move(second));
     }

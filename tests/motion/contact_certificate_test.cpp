@@ -10,16 +10,14 @@
 #include <string>
 #include <vector>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
 
-#include "engines/engines.h"
-#include "motion_oracle.h"
-#include "reference/random_solids.h"
+#include "moving_pair.h"
 
 namespace {
 
-using oracle::Placement;
+using moving::box;
+using moving::by;
 using trisect::certify_first_contact;
 using trisect::check_contact_certificate;
 using trisect::CommonPoint;
@@ -33,16 +31,7 @@ using trisect::Pose;
 using trisect::Screw;
 using trisect::Solid;
 
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
-
-struct Case {
-    InterferenceModel a;
-    Motion motion_a;
-    InterferenceModel b;
-    Motion motion_b;
-
+struct Case : moving::Pair {
     [[nodiscard]] ContactCertificate certificate() const {
         return certify_first_contact(a, motion_a, b, motion_b);
     }
@@ -58,28 +47,26 @@ void expect_proved(const Case& c, bool is_contact) {
     EXPECT_EQ(c.check(certificate), "");
 }
 
-Motion moving(double x, double y, double z) { return Motion::translation(Pose(), {x, y, z}); }
-
 TEST(ContactCertificates, OfNamedConfigurations) {
     const auto floor = box(0, 0, 0, 4, 4, 1);
-    expect_proved({floor, Motion(), box(1, 1, 3, 2, 2, 4), moving(0, 0, -4)}, true);  // flat
-    expect_proved({floor, Motion(), box(1, 1, 3, 2, 2, 4), moving(0, 0, -1)}, false);
-    expect_proved({floor, Motion(), box(1, 1, 3, 2, 2, 4), moving(0, 0, -2)}, true);  // at the end
-    expect_proved({floor, Motion(), box(0, 0, 3, 4, 4, 4), moving(0, 0, -4)},
-                  true);  // the same face
-    expect_proved({floor, Motion(), box(4, 4, 3, 5, 5, 4), moving(0, 0, -4)}, true);  // one corner
-    expect_proved({floor, Motion(), box(4, 0, 3, 5, 4, 4), moving(0, 0, -4)}, true);  // one edge
-    expect_proved({floor, Motion(), box(5, 5, 2, 6, 6, 3), moving(-1, -1, -1)}, true);
-    expect_proved({floor, Motion(), box(5, 5, 2, 6, 6, 3), moving(-2, -2, -1)}, true);
-    expect_proved({floor, Motion(), box(1, 1, 0, 2, 2, 4), moving(0, 0, -4)},
+    expect_proved({{floor, Motion(), box(1, 1, 3, 2, 2, 4), by(0, 0, -4)}}, true);  // flat
+    expect_proved({{floor, Motion(), box(1, 1, 3, 2, 2, 4), by(0, 0, -1)}}, false);
+    expect_proved({{floor, Motion(), box(1, 1, 3, 2, 2, 4), by(0, 0, -2)}}, true);  // at the end
+    expect_proved({{floor, Motion(), box(0, 0, 3, 4, 4, 4), by(0, 0, -4)}},
+                  true);                                                            // the same face
+    expect_proved({{floor, Motion(), box(4, 4, 3, 5, 5, 4), by(0, 0, -4)}}, true);  // one corner
+    expect_proved({{floor, Motion(), box(4, 0, 3, 5, 4, 4), by(0, 0, -4)}}, true);  // one edge
+    expect_proved({{floor, Motion(), box(5, 5, 2, 6, 6, 3), by(-1, -1, -1)}}, true);
+    expect_proved({{floor, Motion(), box(5, 5, 2, 6, 6, 3), by(-2, -2, -1)}}, true);
+    expect_proved({{floor, Motion(), box(1, 1, 0, 2, 2, 4), by(0, 0, -4)}},
                   true);  // at the start
     Screw screw;
     screw.turn = {2, 0, 1, 0};
-    expect_proved({floor, Motion(), box(1, 1, 3, 2, 2, 4), Motion::screw(Pose(), screw)}, true);
+    expect_proved({{floor, Motion(), box(1, 1, 3, 2, 2, 4), Motion::screw(Pose(), screw)}}, true);
     screw.turn = {1, 0, 0, 1};
     const auto arm = box(0, 0, 0, 3, 4, 1);
-    expect_proved({box(-1, 5, 0, 1, 6, 1), Motion(), arm, Motion::screw(Pose(), screw)}, true);
-    expect_proved({box(-1, 5 + 0x1p-20, 0, 1, 6, 1), Motion(), arm, Motion::screw(Pose(), screw)},
+    expect_proved({{box(-1, 5, 0, 1, 6, 1), Motion(), arm, Motion::screw(Pose(), screw)}}, true);
+    expect_proved({{box(-1, 5 + 0x1p-20, 0, 1, 6, 1), Motion(), arm, Motion::screw(Pose(), screw)}},
                   false);
 }
 
@@ -87,48 +74,24 @@ TEST(ContactCertificates, OfPiecesAndBothMoving) {
     const std::vector<Pose> poses{Pose(), Pose::from_translation({1, 0, 3}),
                                   Pose::from_translation({2, 0, -4})};
     const auto floor = box(0, 0, 0, 8, 8, 1);
-    expect_proved({floor, Motion(), box(1, 1, 2, 2, 2, 3), Motion::through(poses)}, true);
-    expect_proved({floor, Motion::through(poses), box(1, 1, 2, 2, 2, 3), Motion::through(poses)},
+    expect_proved({{floor, Motion(), box(1, 1, 2, 2, 2, 3), Motion::through(poses)}}, true);
+    expect_proved({{floor, Motion::through(poses), box(1, 1, 2, 2, 2, 3), Motion::through(poses)}},
                   false);
     Screw screw;
     screw.turn = {3, 1, 0, 1};
     screw.shift = {1, 0, -2};
-    expect_proved({floor, Motion::screw(Pose(), screw), box(1, 1, 4, 2, 2, 5), moving(0, 0, -8)},
+    expect_proved({{floor, Motion::screw(Pose(), screw), box(1, 1, 4, 2, 2, 5), by(0, 0, -8)}},
                   true);
 }
 
 TEST(ContactCertificates, OfLinkedRings) {
     const auto ring = InterferenceModel(Solid::from_mesh(trisect::make_torus(3, 0.75, 12, 6)));
     const Pose link = Pose::from_quaternion({1, 1, 0, 0}, {3, 0, 0});
-    expect_proved({ring, Motion(), ring, Motion::translation(link, {-0.5, 0.25, 0.25})}, false);
-    expect_proved({ring, Motion(), ring, Motion::translation(link, {3, 1, 0.5})}, true);
+    expect_proved({{ring, Motion(), ring, Motion::translation(link, {-0.5, 0.25, 0.25})}}, false);
+    expect_proved({{ring, Motion(), ring, Motion::translation(link, {3, 1, 0.5})}}, true);
 }
 
-std::int64_t small(reference::Random& random) { return random.between(-2, 2); }
-
-Case random_case(std::uint64_t seed) {
-    reference::Random random(seed);
-    const auto solid = [&random] {
-        return InterferenceModel(engines::solid(reference::random_embedded_solid(random)));
-    };
-    Case c{solid(), Motion(), solid(), Motion()};
-    Placement p;
-    if (random.chance(1, 2))
-        p.quaternion = {random.between(1, 3), small(random), small(random), small(random)};
-    if (random.chance(2, 3))
-        p.screw.turn = {random.between(3, 9), small(random), small(random), small(random)};
-    for (std::size_t i = 0; i < 3; ++i) {
-        p.screw.center[i] = static_cast<double>(random.between(0, 8));
-        p.screw.shift[i] = static_cast<double>(random.between(-4, 4));
-        p.at[i] = static_cast<double>(random.between(-5, 5));
-    }
-    const std::size_t axis = random.below(3);
-    const double side = random.chance(1, 2) ? 1 : -1;
-    p.at[axis] = side * static_cast<double>(random.between(14, 22));
-    p.screw.shift[axis] -= side * static_cast<double>(random.between(10, 30));
-    c.motion_b = p.motion();
-    return c;
-}
+Case random_case(std::uint64_t seed) { return {moving::random_pair(seed)}; }
 
 TEST(ContactCertificates, OfRandomScenesAreAccepted) {
     int contacts = 0;
