@@ -64,8 +64,9 @@ private:
     }
 
     void prepare() {
-        const Lattice lattice = options_.lattice.value_or(choose_lattice(input_.points));
-        lattice_points_ = to_lattice(input_.points, lattice, out_.report.lattice);
+        const Lattice lattice =
+            options_.lattice ? *options_.lattice : choose_lattice(input_.points, options_.threads);
+        lattice_points_ = to_lattice(input_.points, lattice, out_.report.lattice, options_.threads);
         weld_and_triangulate();
     }
 

@@ -32,6 +32,10 @@ struct ImportOptions {
     std::optional<Lattice> lattice = std::nullopt;
     /// Throw InvalidSolid when the boundary is not closed; otherwise the defects are reported.
     bool require_closed = true;
+    /// Threads that may take part; 0 means one for every processor. The result does not depend on
+    /// it. Small meshes, and most of what other meshes than those of triangles need, are done by
+    /// the calling thread alone.
+    std::uint32_t threads = 0;
 };
 
 /// What import found and changed.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -42,7 +43,13 @@ double scaled(double v, int e) {
 int floor_to_multiple_of_8(int e) { return (e >= 0 ? e / 8 : -((-e + 7) / 8)) * 8; }
 int ceil_to_multiple_of_8(int e) { return -floor_to_multiple_of_8(-e); }
 
-double largest_finite(std::span<const std::array<double, 3>> points) {
+using Coordinates = std::span<const std::array<double, 3>>;
+
+// Fewer points are not worth a part of their own.
+constexpr std::size_t least_part = 16384;
+
+// Infinity where some coordinate is infinite.
+double largest_magnitude(Coordinates points) {
     // Comparisons with what is not a number are false, and infinity shows at the end.
     double x = 0;
     double y = 0;
@@ -52,7 +59,16 @@ double largest_finite(std::span<const std::array<double, 3>> points) {
         y = std::max(y, std::fabs(p[1]));
         z = std::max(z, std::fabs(p[2]));
     }
-    const double most = std::max({x, y, z});
+    return std::max({x, y, z});
+}
+
+double largest_finite(Coordinates points, std::uint32_t threads) {
+    const detail::ParallelParts parts(points.size(), threads, least_part);
+    std::vector<double> largest_of(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        largest_of[part] = largest_magnitude(points.subspan(begin, end - begin));
+    });
+    const double most = *std::ranges::max_element(largest_of);
     if (std::isfinite(most)) return most;
     std::uint64_t largest = 0;
     for (const auto& p : points)
@@ -70,11 +86,9 @@ std::int64_t as_integer(double sum) {
     return std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
 }
 
-// The lowest bit of all coordinates, when they surely are multiples of 2^limit, below 2^51 of these
-// units and not all zero: then it is the lowest one of all multiples together. Block by block,
-// since in meshes of measured coordinates the first one ends it.
-std::optional<int> common_lowest_bit(std::span<const std::array<double, 3>> points, int limit) {
-    if (limit > 0 || !is_normal_exponent(-limit)) return std::nullopt;  // products are exact
+// All bits of all coordinates in units of 2^limit, when these surely are integers below 2^51. Block
+// by block, since in meshes of measured coordinates the first one ends it.
+std::optional<std::uint64_t> common_bits(Coordinates points, int limit) {
     const double factor = power_of_two(-limit);
     std::int64_t bits = 0;
     while (!points.empty()) {
@@ -93,13 +107,30 @@ std::optional<int> common_lowest_bit(std::span<const std::array<double, 3>> poin
         }
         if (off != 0 || !(largest < 0x1p51)) return std::nullopt;
     }
+    return static_cast<std::uint64_t>(bits);
+}
+
+// The lowest bit of all coordinates, when they have common bits that are not all zero: then it is
+// the lowest one of all integers together.
+std::optional<int> common_lowest_bit(Coordinates points, int limit, std::uint32_t threads) {
+    if (limit > 0 || !is_normal_exponent(-limit)) return std::nullopt;  // products are exact
+    const detail::ParallelParts parts(points.size(), threads, least_part);
+    std::vector<std::optional<std::uint64_t>> bits_of(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        bits_of[part] = common_bits(points.subspan(begin, end - begin), limit);
+    });
+    std::uint64_t bits = 0;
+    for (const auto& b : bits_of) {
+        if (!b) return std::nullopt;
+        bits |= *b;
+    }
     if (bits == 0) return std::nullopt;
-    return limit + std::countr_zero(static_cast<std::uint64_t>(bits));
+    return limit + std::countr_zero(bits);
 }
 
 // Whether some coordinate has a bit of value below 2^limit; and the lowest bit, if there is none.
-bool reaches_below(std::span<const std::array<double, 3>> points, int limit, int& lowest) {
-    if (const auto common = common_lowest_bit(points, limit)) {
+bool reaches_below(Coordinates points, int limit, std::uint32_t threads, int& lowest) {
+    if (const auto common = common_lowest_bit(points, limit, threads)) {
         lowest = *common;
         return false;
     }
@@ -186,24 +217,29 @@ double Lattice::to_double(double lattice_units) const { return scaled(lattice_un
 
 // Files of measured or computed coordinates have bits far below any lattice with room. The first
 // such coordinate decides, so the second pass mostly ends at once.
-Lattice choose_lattice(std::span<const std::array<double, 3>> points) {
-    const double largest = largest_finite(points);
+Lattice choose_lattice(std::span<const std::array<double, 3>> points, std::uint32_t threads) {
+    const double largest = largest_finite(points, threads);
     if (largest == 0) return {0};
     int top = 0;
     std::frexp(largest, &top);  // largest < 2^top
     const int finest_with_room = ceil_to_multiple_of_8(top - (coordinate_bits - growth_bits));
     int lowest = std::numeric_limits<int>::max();
-    if (reaches_below(points, finest_with_room, lowest)) return {finest_with_room};
+    if (reaches_below(points, finest_with_room, threads, lowest)) return {finest_with_room};
     return {std::max(floor_to_multiple_of_8(lowest), finest_with_room)};
 }
 
 std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points, Lattice lattice,
-                                     LatticeReport& report) {
+                                     LatticeReport& report, std::uint32_t threads) {
     report.lattice = lattice;
     std::vector<LatticePoint> out(points.size());
-    Rounding round(lattice);
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = round(points[i], i);
-    round.report_to(report);
+    const detail::ParallelParts parts(points.size(), threads, least_part);
+    std::vector<Rounding> roundings(parts.count(), Rounding(lattice));
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Rounding round(lattice);
+        for (std::size_t i = begin; i < end; ++i) out[i] = round(points[i], i);
+        roundings[part] = round;
+    });
+    for (const Rounding& round : roundings) round.report_to(report);
     return out;
 }
 

@@ -36,12 +36,15 @@ inline constexpr int growth_bits = 8;
 
 /// The coarsest lattice that represents every coordinate without loss and leaves growth_bits free;
 /// if there is none, the finest that leaves them. Non-finite values are the caller's error.
-/// O(n). An empty or all-zero set gets exponent 0.
-[[nodiscard]] Lattice choose_lattice(std::span<const std::array<double, 3>> points);
+/// O(n). An empty or all-zero set gets exponent 0. `threads`: how many may take part, 0 means one
+/// for every processor; the outcome does not depend on it.
+[[nodiscard]] Lattice choose_lattice(std::span<const std::array<double, 3>> points,
+                                     std::uint32_t threads = 1);
 
 /// Rounds to the nearest lattice point (ties to even) and reports.
 /// \throw LimitError when a coordinate is not finite or leaves the lattice's range.
 [[nodiscard]] std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points,
-                                                   Lattice lattice, LatticeReport& report);
+                                                   Lattice lattice, LatticeReport& report,
+                                                   std::uint32_t threads = 1);
 
 }  // namespace trisect

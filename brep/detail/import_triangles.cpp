@@ -17,13 +17,20 @@
 //   what underflows is far below m.
 // - Volume. Six times the volume is the sum of N (a_z + b_z + c_z - 3 o_z) over all triangles, by
 //   the divergence theorem for (0, 0, z), for any o. A term is below 6 D_x D_y D_z and has a
-//   relative error of a few u; adding n of them costs n u of the sum of their sizes. A sum beyond
-//   n (n + 16) 2^-52 times that bound has the right sign. Else volume_sign decides, exactly.
+//   relative error of a few u; adding n of them, in any order, costs n u of the sum of their sizes.
+//   A sum beyond n (n + 16) 2^-52 times that bound has the right sign. Else volume_sign decides,
+//   exactly.
+//
+// Several threads take parts of the points and of the triangles. Welding and matching sides are one
+// piece of work each, a fourth and a third of an import, and done at the same time: as long as no
+// points are equal, which is the rule where points are shared, sides have the names that they have
+// in the input.
 
 #include <trisect/brep/detail/import_triangles.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -34,6 +41,7 @@
 #include <trisect/brep/detail/side_balance.h>
 #include <trisect/brep/detail/volume_sign.h>
 #include <trisect/brep/detail/weld_points.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -43,57 +51,87 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-bool is_triangle_mesh(const PolygonMesh& mesh) {
+// How a range is divided: see ParallelParts.
+struct Sharing {
+    std::uint32_t threads;
+    std::size_t least_part;
+
+    [[nodiscard]] ParallelParts parts(std::size_t size) const {
+        return {size, threads, least_part};
+    }
+};
+
+bool is_triangle_mesh(const PolygonMesh& mesh, const Sharing& sharing) {
     const std::vector<std::uint32_t>& begin = mesh.face_begin;
     const std::size_t n = mesh.points.size();
     if (begin.empty() || mesh.corners.size() != 3 * (begin.size() - 1)) return false;
     if (begin.size() > (std::size_t{1} << 30) || n >= (std::size_t{1} << 32)) return false;
-    std::uint32_t wrong = 0;
-    for (std::size_t f = 0; f < begin.size(); ++f)
-        wrong |= begin[f] ^ static_cast<std::uint32_t>(3 * f);
-    std::uint32_t largest = 0;
-    for (const std::uint32_t c : mesh.corners) largest = std::max(largest, c);
-    return wrong == 0 && (mesh.corners.empty() || largest < n);
+    if (begin.back() != mesh.corners.size()) return false;
+    std::atomic<bool> is_one{true};
+    sharing.parts(begin.size() - 1).for_each([&](std::size_t, std::size_t first, std::size_t end) {
+        std::uint32_t wrong = 0;
+        for (std::size_t f = first; f < end; ++f)
+            wrong |= begin[f] ^ static_cast<std::uint32_t>(3 * f);
+        std::uint32_t largest = 0;
+        for (const std::uint32_t c : std::span(mesh.corners).subspan(3 * first, 3 * (end - first)))
+            largest = std::max(largest, c);
+        if (wrong != 0 || (first != end && largest >= n)) is_one = false;
+    });
+    return is_one;
 }
 
-// How far the points extend along each axis.
-Point3d extents(std::span<const LatticePoint> points) {
+struct Range {
     std::array<std::int64_t, 3> low;
     std::array<std::int64_t, 3> high;
-    low.fill(coordinate_limit);
-    high.fill(-coordinate_limit);
-    for (const LatticePoint& p : points) {
-        const std::array<std::int64_t, 3> c{p.x, p.y, p.z};
+
+    Range() {
+        low.fill(coordinate_limit);
+        high.fill(-coordinate_limit);
+    }
+    void add(const std::array<std::int64_t, 3>& l, const std::array<std::int64_t, 3>& h) {
         for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], c[k]);
-            high[k] = std::max(high[k], c[k]);
+            low[k] = std::min(low[k], l[k]);
+            high[k] = std::max(high[k], h[k]);
         }
     }
+};
+
+// How far the points extend along each axis.
+Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
+    const ParallelParts parts = sharing.parts(points.size());
+    std::vector<Range> ranges(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Range range;
+        for (const LatticePoint& p : points.subspan(begin, end - begin)) {
+            const std::array<std::int64_t, 3> c{p.x, p.y, p.z};
+            range.add(c, c);
+        }
+        ranges[part] = range;
+    });
+    Range all;
+    for (const Range& r : ranges) all.add(r.low, r.high);
     Point3d d{};
     if (points.empty()) return d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = static_cast<double>(high[k] - low[k]);
+    for (std::size_t k = 0; k < 3; ++k) d[k] = static_cast<double>(all.high[k] - all.low[k]);
     return d;
 }
 
 class TriangleImporter {
 public:
-    TriangleImporter(const PolygonMesh& mesh, const ImportOptions& options)
-        : input_(mesh), options_(options) {}
+    TriangleImporter(const PolygonMesh& mesh, const ImportOptions& options, const Sharing& sharing)
+        : input_(mesh), options_(options), sharing_(sharing) {}
 
     std::optional<ImportedMesh> run() {
-        const Lattice lattice = options_.lattice.value_or(choose_lattice(input_.points));
+        const Lattice lattice =
+            options_.lattice ? *options_.lattice : choose_lattice(input_.points, sharing_.threads);
         out_.mesh.lattice = lattice;
         check_stop(input_.points.size());
-        points() = to_lattice(input_.points, lattice, out_.report.lattice);
+        points() = to_lattice(input_.points, lattice, out_.report.lattice, sharing_.threads);
         check_stop(input_.face_count());
-        // A closed surface has half as many points as triangles, give or take.
-        names_ = weld_in_place(points(), input_.face_count() / 2 + input_.face_count() / 16);
-        out_.report.welded_points = input_.points.size() - points().size();
+        const bool cancel = connect();
         check_stop();
-        rename_corners();
-        look_at_triangles();
         check_stop();
-        if (!sides_cancel(points().size(), triangles())) return std::nullopt;
+        if (!cancel) return std::nullopt;
         out_.report.inside_out = is_inside_out();
         drop_degenerate();
         drop_unused_points();
@@ -104,43 +142,99 @@ private:
     std::vector<LatticePoint>& points() { return out_.mesh.points; }
     std::vector<Triangle>& triangles() { return out_.mesh.triangles; }
 
-    void rename_corners() {
-        triangles().resize(input_.face_count());
-        const std::uint32_t* corner = input_.corners.data();
-        for (Triangle& t : triangles()) {
-            t = {corner[0], corner[1], corner[2]};
-            corner += 3;
+    // Welds, renames and looks at the triangles; returns whether their sides cancel.
+    bool connect() {
+        const std::size_t n = points().size();
+        // Where each triangle has points of its own their names say nothing.
+        const bool shared = n <= input_.face_count();
+        const ParallelParts parts = sharing_.parts(input_.face_count());
+        if (parts.count() == 1 || !shared) {
+            weld();
+            look_at_triangles();
+            return sides_cancel(points().size(), triangles());
         }
-        if (names_.empty()) return;
-        for (Triangle& t : triangles()) t = {names_[t[0]], names_[t[1]], names_[t[2]]};
+        bool cancel = false;
+        both_at_once([&] { cancel = sides_cancel(n, input_.corners); },
+                     [&] {
+                         weld();
+                         look_at_triangles();
+                     });
+        // Sides that cancel go on to do so when points get the same name.
+        return cancel || (!names_.empty() && sides_cancel(points().size(), triangles()));
     }
 
+    void weld() {
+        // A closed surface has half as many points as triangles, give or take.
+        names_ = weld_in_place(points(), input_.face_count() / 2 + input_.face_count() / 16);
+        out_.report.welded_points = input_.points.size() - points().size();
+    }
+
+    // What a part of the triangles adds to the result.
+    struct Found {
+        double sum = 0;  ///< six times the volume
+        std::vector<std::uint32_t> degenerate;
+        std::size_t flipped = 0;
+    };
+
     void look_at_triangles() {
-        set_bounds();
+        triangles().resize(input_.face_count());
         used_.resize(points().size());
+        set_bounds();
+        const ParallelParts parts = sharing_.parts(triangles().size());
+        std::vector<Found> found(parts.count());
+        const auto look_at = [&](const auto& name) {
+            const bool alone = parts.count() == 1;
+            parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+                look(begin, end, alone, name, found[part]);
+            });
+        };
+        if (names_.empty()) {
+            look_at([](std::uint32_t c) { return c; });
+        } else {
+            look_at([name = names_.data()](std::uint32_t c) { return name[c]; });
+        }
+        for (const Found& f : found) {
+            sum_ += f.sum;
+            degenerate_.insert(degenerate_.end(), f.degenerate.begin(), f.degenerate.end());
+            out_.report.lattice.flipped_faces += f.flipped;
+        }
+    }
+
+    // Names the corners of some triangles and looks at them. Threads that are not alone mark the
+    // same points, and look first, so that they need not wait for each other's caches.
+    template <class Name>
+    void look(std::size_t begin, std::size_t end, bool alone, const Name& name, Found& found) {
         // Bytes may alias anything: what the loop reads must not be read through `this`.
         std::uint8_t* const used = used_.data();
         const LatticePoint* const point = points().data();
         const double clear = clear_;
         const std::int64_t z0 = points().empty() ? 0 : 3 * points()[0].z;
+        const std::uint32_t* corner = input_.corners.data() + 3 * begin;
+        Triangle* const triangle = triangles().data();
         double sum = 0;
-        std::uint32_t f = 0;
-        for (const auto& [i, j, k] : triangles()) {
+        for (std::size_t f = begin; f < end; ++f, corner += 3) {
+            const std::uint32_t i = name(corner[0]);
+            const std::uint32_t j = name(corner[1]);
+            const std::uint32_t k = name(corner[2]);
+            triangle[f] = {i, j, k};
             const LatticePoint& a = point[i];
             const LatticePoint& b = point[j];
             const LatticePoint& c = point[k];
-            used[i] = used[j] = used[k] = 1;
+            for (const std::uint32_t v : {i, j, k}) {
+                const std::atomic_ref mark(used[v]);
+                if (alone || mark.load(std::memory_order_relaxed) == 0)
+                    mark.store(1, std::memory_order_relaxed);
+            }
             const double n = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
                              static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
             sum += n * static_cast<double>(a.z + b.z + c.z - z0);
-            if (std::fabs(n) < clear) look_closely(f);
-            ++f;
+            if (std::fabs(n) < clear) look_closely(static_cast<std::uint32_t>(f), found);
         }
-        sum_ = sum;
+        found.sum = sum;
     }
 
     void set_bounds() {
-        const Point3d d = extents(points());
+        const Point3d d = extents(points(), sharing_);
         const double n = static_cast<double>(triangles().size());
         const double largest = std::max({d[0], d[1], d[2]});
         const double squares = largest * largest;
@@ -154,7 +248,7 @@ private:
     }
 
     // For triangles whose normal is small or has a small z component.
-    [[gnu::noinline]] void look_closely(std::uint32_t f) {
+    [[gnu::noinline]] void look_closely(std::uint32_t f, Found& found) {
         const Triangle& t = triangles()[f];
         const LatticePoint& a = points()[t[0]];
         const Point3d u = as_doubles(points()[t[1]] - a);
@@ -164,12 +258,11 @@ private:
                       std::fabs(u[0] * v[1] - u[1] * v[0])});
         if (n >= clear_) return;
         if (n <= degenerate_bound_ && are_collinear(a, points()[t[1]], points()[t[2]]))
-            degenerate_.push_back(f);
-        if (!out_.report.lattice.lossless && n < flip_bound_ && rounding_flips(f))
-            ++out_.report.lattice.flipped_faces;
+            found.degenerate.push_back(f);
+        if (!out_.report.lattice.lossless && n < flip_bound_ && rounding_flips(f)) ++found.flipped;
     }
 
-    bool rounding_flips(std::uint32_t f) const {
+    [[nodiscard]] bool rounding_flips(std::uint32_t f) const {
         return is_flipped(
             input_.face(f), [&](std::uint32_t c) { return input_.points[c]; },
             [&](std::uint32_t c) {
@@ -220,6 +313,7 @@ private:
 
     const PolygonMesh& input_;
     const ImportOptions& options_;
+    Sharing sharing_;
     ImportedMesh out_;
     std::vector<std::uint32_t> names_;  ///< of the input's points; empty: their indices
     std::vector<std::uint8_t> used_;
@@ -233,10 +327,13 @@ private:
 
 }  // namespace
 
-std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh,
-                                             const ImportOptions& options) {
-    if (!is_triangle_mesh(mesh)) return std::nullopt;
-    return TriangleImporter(mesh, options).run();
+std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh, const ImportOptions& options,
+                                             std::size_t least_part) {
+    return on_threads(options.threads, [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
+        const Sharing sharing{threads, least_part};
+        if (!is_triangle_mesh(mesh, sharing)) return std::nullopt;
+        return TriangleImporter(mesh, options, sharing).run();
+    });
 }
 
 }  // namespace trisect::detail

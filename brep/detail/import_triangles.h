@@ -3,6 +3,7 @@
 // Import of triangle meshes, and of all meshes: the two ways of import_mesh.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -13,10 +14,12 @@ namespace trisect::detail {
 
 /// The short way: for meshes of triangles whose sides cancel by name. It gives the result and the
 /// report of import_polygons, or nothing where that must decide. Repeated points, points of no
-/// triangle, triangles without area, and coordinates that the lattice rounds are all right.
+/// triangle, triangles without area, and coordinates that the lattice rounds are all right. Fewer
+/// points or triangles than `least_part` are not worth a part of their own for another thread.
 /// \throw LimitError as import_mesh.
 [[nodiscard]] std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh,
-                                                           const ImportOptions& options);
+                                                           const ImportOptions& options,
+                                                           std::size_t least_part = 16384);
 
 /// The long way: for every mesh.
 /// \throw as import_mesh.

@@ -34,19 +34,28 @@ struct Room {
 
 // The sides of a triangle with a repeated corner run to and fro and cancel already.
 template <class Visit>
-void for_each_side(std::span<const Triangle> triangles, Visit&& visit) {
-    for (const auto& [a, b, c] : triangles) {
-        if (a == b || b == c || c == a) [[unlikely]]
-            continue;
-        visit(a, b);
-        visit(b, c);
-        visit(c, a);
-    }
+void visit_sides(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Visit& visit) {
+    if (a == b || b == c || c == a) [[unlikely]]
+        return;
+    visit(a, b);
+    visit(b, c);
+    visit(c, a);
+}
+
+template <class Visit>
+void for_each_side(std::span<const Triangle> triangles, const Visit& visit) {
+    for (const auto& [a, b, c] : triangles) visit_sides(a, b, c, visit);
+}
+
+template <class Visit>
+void for_each_side(std::span<const std::uint32_t> corners, const Visit& visit) {
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+        visit_sides(corners[i], corners[i + 1], corners[i + 2], visit);
 }
 
 // Of each vertex, of how many sides it is the lower end.
-std::vector<std::uint32_t> count_sides(std::size_t point_count,
-                                       std::span<const Triangle> triangles) {
+template <class Triangles>
+std::vector<std::uint32_t> count_sides(std::size_t point_count, const Triangles& triangles) {
     std::vector<std::uint32_t> count(point_count, 0);
     for_each_side(triangles, [&](std::uint32_t a, std::uint32_t b) { ++count[std::min(a, b)]; });
     return count;
@@ -105,9 +114,8 @@ private:
     std::vector<std::int32_t> counts_;
 };
 
-}  // namespace
-
-bool sides_cancel(std::size_t point_count, std::span<const Triangle> triangles) {
+template <class Triangles>
+bool all_sides_cancel(std::size_t point_count, const Triangles& triangles) {
     const std::vector<std::uint32_t> count = count_sides(point_count, triangles);
     std::vector<Room> rooms(point_count);
     std::uint32_t n = 0;
@@ -137,6 +145,16 @@ bool sides_cancel(std::size_t point_count, std::span<const Triangle> triangles) 
         begin = middle + half;
     }
     return true;
+}
+
+}  // namespace
+
+bool sides_cancel(std::size_t point_count, std::span<const Triangle> triangles) {
+    return all_sides_cancel(point_count, triangles);
+}
+
+bool sides_cancel(std::size_t point_count, std::span<const std::uint32_t> corners) {
+    return all_sides_cancel(point_count, corners);
 }
 
 }  // namespace trisect::detail

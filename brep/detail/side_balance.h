@@ -15,5 +15,7 @@ namespace trisect::detail {
 /// \pre every corner is less than point_count; fewer than 2^30 triangles.
 [[nodiscard]] bool sides_cancel(std::size_t point_count,
                                 std::span<const std::array<std::uint32_t, 3>> triangles);
+/// The same; triangle i has the corners 3 i, 3 i + 1 and 3 i + 2.
+[[nodiscard]] bool sides_cancel(std::size_t point_count, std::span<const std::uint32_t> corners);
 
 }  // namespace trisect::detail

@@ -39,7 +39,6 @@
 #include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/deferred_leaf.h>
-#include <trisect/bsp/detail/handover.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/partition.h>
@@ -51,6 +50,7 @@
 #include <trisect/bsp/detail/trace_winding.h>
 #include <trisect/bsp/detail/work_budget.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/detail/handover.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -103,6 +103,9 @@ public:
 
 private:
     using Children = std::array<CellTask, 2>;
+
+    // For ParallelParts: as many as the arena has, or the calling one.
+    [[nodiscard]] std::uint32_t threads() const { return shared_.parallel ? 0 : 1; }
 
     void prune(CellTask& task);
     void drop(CellTask& task);
@@ -424,7 +427,7 @@ void Worker::make_lists(CellTask& task, const std::optional<Wall>& wall) {
     for (CellOperand& o : task.operands) {
         if (has_wall(o, wall)) continue;
         if (!o.is_list) {
-            open_leaf(o, task, arena_);
+            open_leaf(o, task, arena_, threads());
         } else if (anew) {
             reframe(o, task, arena_);
         }
@@ -486,18 +489,15 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
     const std::array<Cell, 2> cells{out[0].cell, out[1].cell};
     for (std::size_t n = 0; n < task.operands.size(); ++n) {
         const CellOperand& o = task.operands[n];
-        std::array<CellOperand, 2> c{o, o};
-        if (o.is_list) {
-            partition(o, task, wall, cells, arena_, c);
-        } else {
-            for (std::size_t i = 0; i < 2; ++i) {
-                const CellRef& child = o.node->child(static_cast<int>(i));
-                c[i].node = unfolded(child.node.get());
-                c[i].complemented = child.complemented != o.complemented;
-            }
+        for (std::size_t i = 0; i < 2; ++i) {
+            CellOperand& c = *::new (&out[i].operands[n]) CellOperand(o);
+            if (o.is_list) continue;
+            const CellRef& child = o.node->child(static_cast<int>(i));
+            c.node = unfolded(child.node.get());
+            c.complemented = child.complemented != o.complemented;
         }
-        for (std::size_t i = 0; i < 2; ++i) ::new (&out[i].operands[n]) CellOperand(c[i]);
     }
+    partition(task, wall, cells, arena_, threads(), {out[0].operands, out[1].operands});
     for (int i = 0; i < 2; ++i)
         TRISECT_EXPECTS(place_reference(task, wall, i, out), "no reference point found in a cell");
     return out;

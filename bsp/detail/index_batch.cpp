@@ -14,7 +14,7 @@
 #include <trisect/bsp/detail/index_core.h>
 #include <trisect/bsp/detail/index_counters.h>
 #include <trisect/bsp/detail/index_in_leaf.h>
-#include <trisect/bsp/detail/parallel_parts.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {

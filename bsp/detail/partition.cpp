@@ -4,6 +4,11 @@
 // handed on as it is. When the wall is between two rounded positions of the frame, comparing the
 // rounded boxes is exact: one pass without branches. Otherwise (a wall that another evaluation
 // chose in another frame) the polygons' own boxes are looked up.
+//
+// Memory that is touched for the first time costs a fault and its clearing, more than the pass
+// itself. So both sides share one piece that has room for few entries that cross the wall, and only
+// where there are more a second one is taken. The lists of two large operands are distributed, and
+// the boxes of large meshes made, by several threads.
 
 #include <trisect/bsp/detail/partition.h>
 
@@ -11,6 +16,8 @@
 #include <optional>
 
 #include <trisect/bsp/detail/facet_in_cell.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -78,9 +85,10 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
 
 // The same for a wall anywhere.
 template <class AddLong>
-Ends distribute_exactly(const CellOperand& operand, std::size_t axis, std::int64_t last_below,
-                        int long_facet, Ends ends, const AddLong& add_long) {
-    for (const PackedBox& e : operand.list()) {
+Ends distribute_exactly(const CellOperand& operand, std::span<const PackedBox> list,
+                        std::size_t axis, std::int64_t last_below, int long_facet, Ends ends,
+                        const AddLong& add_long) {
+    for (const PackedBox& e : list) {
         const Box b = operand.polygon(e.id).box();
         const bool below = b.lo[axis] <= last_below;
         const bool above = b.hi[axis] > last_below;
@@ -145,27 +153,36 @@ Box exact_box(const CellOperand& operand, const Cell& cell) {
 namespace {
 
 // All facets of a mesh: every corner is rounded once.
-void pack_all(const Source& source, const Frame& frame, StackArena& arena, PackedBox* entries) {
+void pack_all(const Source& source, const Frame& frame, StackArena& arena, std::uint32_t threads,
+              PackedBox* entries) {
+    constexpr std::size_t least_part = 16384;
     const auto& mesh = source.mesh();
     const auto mark = arena.mark();
     auto* points = arena.take<PackedBox>(mesh.points.size());
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        points[i] = packed_point(frame, mesh.points[i]);
-    for (std::uint32_t f = 0; f < source.facet_count(); ++f) {
-        const auto& t = mesh.triangles[f];
-        entries[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
-        entries[f].id = f;
-    }
+    ParallelParts(mesh.points.size(), threads, least_part)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                points[i] = packed_point(frame, mesh.points[i]);
+        });
+    ParallelParts(source.facet_count(), threads, least_part)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f) {
+                const auto& t = mesh.triangles[f];
+                entries[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+                entries[f].id = static_cast<std::uint32_t>(f);
+            }
+        });
     arena.release(mark);
 }
 
 }  // namespace
 
-void open_leaf(CellOperand& operand, const CellTask& task, StackArena& arena) {
+void open_leaf(CellOperand& operand, const CellTask& task, StackArena& arena,
+               std::uint32_t threads) {
     auto* entries = arena.take<PackedBox>(operand.node->polygons().size());
     const PolygonList& polygons = operand.node->polygons();
     if (polygons.has_all_facets() && !polygons.whole_source()->is_half_space()) {
-        pack_all(*polygons.whole_source(), task.frame, arena, entries);
+        pack_all(*polygons.whole_source(), task.frame, arena, threads, entries);
         operand.entries = entries;
         operand.count = polygons.whole_source()->facet_count();
         operand.is_list = true;
@@ -202,57 +219,147 @@ void reframe(CellOperand& operand, const CellTask& task, StackArena& arena) {
     set_box(operand, task, task.cell);
 }
 
-void partition(const CellOperand& operand, const CellTask& task, const Wall& wall,
-               const std::array<Cell, 2>& cells, StackArena& arena,
-               std::array<CellOperand, 2>& out) {
-    const auto k = static_cast<std::size_t>(wall.axis);
-    out[0] = out[1] = operand;
-    if (operand.count == 0) return;
-    const std::int64_t last = wall.last_below();
-    const auto q = task.frame.first_above(k, last);
-    if (!operand.drawn_in) {
+namespace {
+
+// A wall, and what all lists of a task have in common there.
+class Division {
+public:
+    Division(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells)
+        : task_(task),
+          cells_(cells),
+          axis_(static_cast<std::size_t>(wall.axis)),
+          last_(wall.last_below()),
+          first_above_(task.frame.first_above(axis_, last_)),
+          small_(task.size() < short_list),
+          long_facet_(small_ ? long_facet_of(task, axis_) : unlimited) {}
+
+    [[nodiscard]] bool is_below(const CellOperand& o) const {
+        if (o.drawn_in) return false;
         // The box is exact outside the frame as well.
-        const bool all_below = q ? operand.box.high(k) < *q
-                                 : last >= unpacked(task.frame, k, operand.box.high(k) + 1) - 1;
-        const bool all_above =
-            q ? operand.box.low(k) >= *q : last < unpacked(task.frame, k, operand.box.low(k));
-        if (all_below || all_above) {
-            CellOperand& none = out[all_below ? 1 : 0];
+        return first_above_ ? o.box.high(axis_) < *first_above_
+                            : last_ >= unpacked(task_.frame, axis_, o.box.high(axis_) + 1) - 1;
+    }
+    [[nodiscard]] bool is_above(const CellOperand& o) const {
+        if (o.drawn_in) return false;
+        return first_above_ ? o.box.low(axis_) >= *first_above_
+                            : last_ < unpacked(task_.frame, axis_, o.box.low(axis_));
+    }
+
+    // False when the room does not suffice; then nothing happened. Large lists at the same time are
+    // all right.
+    bool distribute_list(const CellOperand& o, std::span<PackedBox> room,
+                         const std::array<CellOperand*, 2>& out) {
+        Ends ends{room.data(), room.data() + room.size()};
+        auto rest = o.list();
+        while (!rest.empty()) {
+            // Each entry takes at most two places, and two more are written to in vain.
+            const auto free = static_cast<std::size_t>(ends.above - ends.below);
+            const std::size_t n = std::min(rest.size(), (std::max<std::size_t>(free, 2) - 2) / 2);
+            if (n == 0) return false;
+            ends = distribute_some(o, rest.first(n), ends);
+            rest = rest.subspan(n);
+        }
+        const std::span<PackedBox> below(room.data(), ends.below);
+        const std::span<PackedBox> above(ends.above, room.data() + room.size());
+        out[0]->entries = below.data();
+        out[0]->count = static_cast<std::uint32_t>(below.size());
+        out[1]->entries = above.data();
+        out[1]->count = static_cast<std::uint32_t>(above.size());
+        for (std::size_t i = 0; i < 2; ++i) set_box(*out[i], task_, cells_[i]);
+        return true;
+    }
+
+private:
+    Ends distribute_some(const CellOperand& o, std::span<const PackedBox> list, Ends ends) {
+        const auto misses = [&](const PackedBox& e, std::size_t i) {
+            if (!reach_[i]) reach_[i] = reach_in(task_, cells_[i]);
+            return certainly_misses(o.polygon(e.id), *reach_[i]);
+        };
+        // A facet that crosses the wall and is long for its cell may still miss one of the
+        // children.
+        const auto add_long = [&](const PackedBox& e, Ends to) {
+            if (!misses(e, 0)) *to.below++ = e;
+            if (!misses(e, 1)) *--to.above = e;
+            return to;
+        };
+        if (!first_above_)
+            return distribute_exactly(o, list, axis_, last_, long_facet_, ends, add_long);
+        if (small_)
+            return distribute<true>(list, axis_, *first_above_, long_facet_, ends, add_long);
+        return distribute<false>(list, axis_, *first_above_, unlimited, ends, add_long);
+    }
+
+    const CellTask& task_;
+    const std::array<Cell, 2>& cells_;
+    std::size_t axis_;
+    std::int64_t last_;
+    std::optional<int> first_above_;  // where rounded positions tell the sides apart
+    bool small_;                      // all lists together
+    int long_facet_;
+    std::array<std::optional<Box>, 2> reach_;  // made for small lists
+};
+
+struct ListToDivide {
+    const CellOperand* list = nullptr;
+    std::array<CellOperand*, 2> out{};
+};
+
+// Room for both sides: enough unless many entries cross the wall, or in any case. What stays free
+// between them is never touched.
+std::span<PackedBox> take_room(const CellOperand& o, bool in_any_case, StackArena& arena) {
+    const std::size_t n = o.count;
+    const std::size_t full = 2 * n + 2;
+    const std::size_t room = in_any_case ? full : std::min(n + n / 8 + 4096, full);
+    return {arena.take<PackedBox>(room), room};
+}
+
+void divide(Division& division, const ListToDivide& l, StackArena& arena) {
+    const auto mark = arena.mark();
+    if (division.distribute_list(*l.list, take_room(*l.list, false, arena), l.out)) return;
+    arena.release(mark);
+    TRISECT_EXPECTS(division.distribute_list(*l.list, take_room(*l.list, true, arena), l.out),
+                    "room for every entry twice");
+}
+
+void divide_both(Division& division, const ListToDivide& a, const ListToDivide& b,
+                 StackArena& arena) {
+    const auto room_a = take_room(*a.list, false, arena);
+    const auto room_b = take_room(*b.list, false, arena);
+    bool done_a = false;
+    bool done_b = false;
+    both_at_once([&] { done_a = division.distribute_list(*a.list, room_a, a.out); },
+                 [&] { done_b = division.distribute_list(*b.list, room_b, b.out); });
+    if (!done_a) divide(division, a, arena);
+    if (!done_b) divide(division, b, arena);
+}
+
+}  // namespace
+
+void partition(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells,
+               StackArena& arena, std::uint32_t threads,
+               const std::array<std::span<CellOperand>, 2>& out) {
+    constexpr std::size_t large = 100'000;
+    Division division(task, wall, cells);
+    std::optional<ListToDivide> waiting;  // a large one, for another at the same time
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& o = task.operands[i];
+        if (!o.is_list || o.count == 0) continue;
+        const ListToDivide list{&o, {&out[0][i], &out[1][i]}};
+        const bool below = division.is_below(o);
+        if (below || division.is_above(o)) {
+            CellOperand& none = *list.out[below ? 1 : 0];
             none.count = 0;
             none.box = PackedBox{};
-            return;
+        } else if (threads == 1 || o.count < large) {
+            divide(division, list, arena);
+        } else if (!waiting) {
+            waiting = list;
+        } else {
+            divide_both(division, *waiting, list, arena);
+            waiting.reset();
         }
     }
-    const std::size_t n = operand.count;
-    // Room for both lists at their largest. What stays free between them is never touched.
-    const std::size_t room = 2 * n + 2;
-    auto* memory = arena.take<PackedBox>(room);
-    Ends ends{memory, memory + room};
-    const bool small = task.size() < short_list;
-    const int long_facet = small ? long_facet_of(task, k) : unlimited;
-    std::array<std::optional<Box>, 2> reach;
-    const auto misses = [&](const PackedBox& e, std::size_t i) {
-        if (!reach[i]) reach[i] = reach_in(task, cells[i]);
-        return certainly_misses(operand.polygon(e.id), *reach[i]);
-    };
-    // A facet that crosses the wall and is long for its cell may still miss one of the children.
-    const auto add_long = [&](const PackedBox& e, Ends to) {
-        if (!misses(e, 0)) *to.below++ = e;
-        if (!misses(e, 1)) *--to.above = e;
-        return to;
-    };
-    if (!q) {
-        ends = distribute_exactly(operand, k, last, long_facet, ends, add_long);
-    } else if (small) {
-        ends = distribute<true>(operand.list(), k, *q, long_facet, ends, add_long);
-    } else {
-        ends = distribute<false>(operand.list(), k, *q, unlimited, ends, add_long);
-    }
-    out[0].entries = memory;
-    out[0].count = static_cast<std::uint32_t>(ends.below - memory);
-    out[1].entries = ends.above;
-    out[1].count = static_cast<std::uint32_t>(memory + room - ends.above);
-    for (std::size_t i = 0; i < 2; ++i) set_box(out[i], task, cells[i]);
+    if (waiting) divide(division, *waiting, arena);
 }
 
 }  // namespace trisect::detail

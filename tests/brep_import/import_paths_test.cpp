@@ -89,7 +89,21 @@ bool compare(const PolygonMesh& mesh, const ImportOptions& options = {}) {
     const Outcome found = outcome([&] { return import_mesh(mesh, options); });
     EXPECT_EQ(found.error, expected.error);
     expect_same(found.imported, expected.imported);
-    return import_counters().triangles != before;
+    const bool short_way = import_counters().triangles != before;
+    // Every point and triangle a part of its own; of some meshes, since threads wait for each
+    // other.
+    static std::size_t calls = 0;
+    if (++calls % 16 == 0) {
+        ImportOptions on_two_threads = options;
+        on_two_threads.threads = 2;
+        const Outcome in_parts = outcome([&] {
+            auto imported = import_triangles(mesh, on_two_threads, 1);
+            return imported ? *std::move(imported) : import_polygons(mesh, on_two_threads);
+        });
+        EXPECT_EQ(in_parts.error, expected.error);
+        expect_same(in_parts.imported, expected.imported);
+    }
+    return short_way;
 }
 
 /// A chain without boundary: the outward triangles of tetrahedra whose corners are drawn from few
@@ -303,6 +317,22 @@ TEST(ImportPaths, WhatTakesWhichWay) {
     EXPECT_EQ(import_mesh(t).report.t_edges, 3U);
     t.add_triangle(0, 4, 1);  // closes the names
     EXPECT_TRUE(compare(t));
+}
+
+TEST(ImportPaths, LargeMeshesAgreeForAnyNumberOfThreads) {
+    const PolygonMesh sphere = make_icosphere(1, 6);
+    ASSERT_TRUE(compare(sphere));
+    ASSERT_TRUE(compare(sphere, {.lattice = Lattice{-8}}));  // flattens most triangles
+    PolygonMesh twice = test::together(sphere, sphere);      // repeats all points
+    ASSERT_TRUE(compare(twice));
+    ASSERT_TRUE(compare(soup(sphere)));
+    ASSERT_FALSE(compare(test::without_face(sphere, 70000), {.require_closed = false}));
+    twice.points[70000][2] = std::numeric_limits<double>::infinity();
+    twice.points[60000][2] = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t threads : {1U, 2U, 8U}) {
+        const Outcome found = outcome([&] { return import_mesh(twice, {.threads = threads}); });
+        EXPECT_NE(found.error.find("vertex 60000:"), std::string::npos) << found.error;
+    }
 }
 
 TEST(ImportPaths, HostileMeshesAgree) {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Work on several threads whose outcome does not depend on them: a range of numbers in consecutive
+// parts, and two things at once.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <utility>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <trisect/kernel/detail/handover.h>
+
+namespace trisect::detail {
+
+/// Of several failures the one with the lowest number, which is what a loop would have met. Safe to
+/// use from many threads.
+class FirstFailure {
+public:
+    /// Calls work(); keeps what it throws. Does nothing after a failure with a lower number.
+    template <class Work>
+    void guard(std::size_t number, const Work& work) {
+        if (number > number_.load(std::memory_order_relaxed)) return;
+        try {
+            work();
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (number > number_.load(std::memory_order_relaxed)) return;
+            number_.store(number, std::memory_order_relaxed);
+            failure_ = std::current_exception();
+        }
+    }
+    /// To be called when all work has ended.
+    void rethrow() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+private:
+    std::atomic<std::size_t> number_{std::numeric_limits<std::size_t>::max()};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
+};
+
+/// How many threads may work at once here, at most.
+[[nodiscard]] inline std::size_t threads_here() {
+    return std::min(static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()),
+                    oneapi::tbb::global_control::active_value(
+                        oneapi::tbb::global_control::max_allowed_parallelism));
+}
+
+/// Returns work(n), n being 1 if `threads` is 1 and 0 otherwise: that many threads, or as many as
+/// there are where work() runs, which are at most `threads` unless that is 0. For callers who
+/// start several parts one after the other.
+template <class Work>
+auto on_threads(std::uint32_t threads, const Work& work) {
+    if (threads <= 1) return work(threads);
+    oneapi::tbb::task_arena arena(static_cast<int>(threads));
+    return arena.execute([&] { return work(std::uint32_t{0}); });
+}
+
+/// Calls first() and second(), at the same time if another thread is free; the calling thread does
+/// second(), and no work of others while it waits. Throws what first() throws, else what second()
+/// throws.
+template <class First, class Second>
+void both_at_once(const First& first, const Second& second) {
+    FirstFailure failure;
+    Handover start;
+    Handover end;
+    start.give();
+    oneapi::tbb::this_task_arena::isolate([&] {
+        oneapi::tbb::task_group group;
+        group.run([&] {
+            start.take();
+            failure.guard(0, first);
+            end.give();
+        });
+        failure.guard(1, second);
+        group.wait();
+    });
+    end.take();
+    failure.rethrow();
+}
+
+/// The numbers below `size`, in parts of nearly the same length, none shorter than `least`. A few
+/// parts for each thread even out what they take; few numbers are one part. `threads` = 0 takes as
+/// many as there are.
+class ParallelParts {
+public:
+    ParallelParts(std::size_t size, std::uint32_t threads, std::size_t least = 512)
+        : size_(size), threads_(threads), count_(parts_of(size, threads, least)) {}
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+    /// Calls work(part, begin, end) for each part; in their order if there is one thread. The
+    /// calling thread takes part, and does no work of others while it waits. Throws what the first
+    /// part that fails throws.
+    template <class Work>
+    void for_each(const Work& work) const {
+        const auto one = [&](std::size_t part) {
+            work(part, size_ * part / count_, size_ * (part + 1) / count_);
+        };
+        if (count_ == 1) {
+            one(0);
+            return;
+        }
+        on_threads(threads_, [&](std::uint32_t) {
+            FirstFailure failure;
+            Handover start;
+            Handover end;
+            start.give();
+            oneapi::tbb::this_task_arena::isolate([&] {
+                oneapi::tbb::parallel_for(
+                    std::size_t{0}, count_,
+                    [&](std::size_t part) {
+                        start.take();
+                        failure.guard(part, [&] { one(part); });
+                        end.give();
+                    },
+                    oneapi::tbb::simple_partitioner());
+            });
+            end.take();
+            failure.rethrow();
+        });
+    }
+
+private:
+    static std::size_t parts_of(std::size_t size, std::uint32_t threads, std::size_t least) {
+        if (threads == 1 || size < 2 * least) return 1;
+        const std::size_t slots = threads != 0 ? threads : threads_here();
+        return slots == 1 ? 1 : std::clamp(size / least, std::size_t{1}, 8 * slots);
+    }
+
+    std::size_t size_;
+    std::uint32_t threads_;
+    std::size_t count_;
+};
+
+}  // namespace trisect::detail
