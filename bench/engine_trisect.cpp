@@ -22,12 +22,16 @@ public:
                    static_cast<std::size_t>(options.threads)) {
         if (options.leaf_polygons > 0)
             options_.leaf_polygons = static_cast<std::uint32_t>(options.leaf_polygons);
+        options_.threads = static_cast<std::uint32_t>(options.threads);
+        import_.import.threads = options_.threads;
     }
 
     std::string name() const override { return "trisect"; }
     std::string version() const override { return TRISECT_BENCH_VERSION; }
 
-    Body import(const trisect::PolygonMesh& mesh) override { return Solid::from_mesh(mesh); }
+    Body import(const trisect::PolygonMesh& mesh) override {
+        return Solid::from_mesh(mesh, import_);
+    }
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
@@ -35,7 +39,9 @@ public:
         return trisect::evaluate(expression(first, second, operation), options_, &stats_);
     }
 
-    trisect::PolygonMesh to_mesh(const Body& body) override { return solid(body).to_mesh(); }
+    trisect::PolygonMesh to_mesh(const Body& body) override {
+        return solid(body).to_mesh(options_.threads);
+    }
 
     bool assemble(const Body& body) override {
         const trisect::Brep brep = solid(body).to_brep();
@@ -79,6 +85,7 @@ private:
     }
 
     oneapi::tbb::global_control threads_;
+    trisect::SolidOptions import_;
     trisect::EvaluateOptions options_;
     trisect::EvaluateStats stats_;
 };

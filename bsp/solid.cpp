@@ -30,6 +30,36 @@ bool is_constant(const SolidState& s, bool inside) {
     return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != s.root.complemented) == inside;
 }
 
+Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
+    if (mesh.triangles.empty()) return {};
+    const Lattice lattice = mesh.lattice;
+    const auto source = detail::Source::make(std::move(mesh), threads);
+    auto state = std::make_shared<SolidState>();
+    state->lattice = lattice;
+    state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
+    state->embedded = embedding == Embedding::Assume;
+    state->source = source->serial();
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t threads) {
+    if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
+    if (imported.report.inside_out && embedding == Embedding::Assume)
+        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
+    if (imported.mesh.triangles.empty()) return {};
+    const bool t_edges = imported.report.t_edges != 0;
+    Solid s = of_lattice_mesh(std::move(imported.mesh), embedding, threads);
+    if (!t_edges) return s;
+    // Corners inside edges: every facet may have vertices in its edges.
+    auto state = std::make_shared<SolidState>(*s.state());
+    const CellNode& n = *s.state()->root.node;
+    std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
+    for (detail::PolygonRef& r : refs) r.touched = true;
+    state->root = {CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true),
+                   false};
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
 }  // namespace
 
 Solid::Solid() {
@@ -61,39 +91,17 @@ Solid Solid::half_space(const Plane& plane, Lattice lattice) {
 }
 
 Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
-    if (mesh.triangles.empty()) return {};
-    const Lattice lattice = mesh.lattice;
-    const auto source = detail::Source::make(std::move(mesh));
-    auto state = std::make_shared<SolidState>();
-    state->lattice = lattice;
-    state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
-    state->embedded = embedding == Embedding::Assume;
-    state->source = source->serial();
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return of_lattice_mesh(std::move(mesh), embedding, 1);
 }
 
 Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
     ImportOptions import = options.import;
     import.require_closed = true;
-    return from_import(import_mesh(mesh, import), options.embedding);
+    return of_import(import_mesh(mesh, import), options.embedding, import.threads);
 }
 
 Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
-    if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
-    if (imported.report.inside_out && embedding == Embedding::Assume)
-        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
-    if (imported.mesh.triangles.empty()) return {};
-    const bool t_edges = imported.report.t_edges != 0;
-    Solid s = from_lattice_mesh(std::move(imported.mesh), embedding);
-    if (!t_edges) return s;
-    // Corners inside edges: every facet may have vertices in its edges.
-    auto state = std::make_shared<SolidState>(*s.state_);
-    const CellNode& n = *s.state_->root.node;
-    std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
-    for (detail::PolygonRef& r : refs) r.touched = true;
-    state->root = {CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true),
-                   false};
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return of_import(std::move(imported), embedding, 1);
 }
 
 void Solid::refine(std::uint32_t threads) const { detail::refine_all(state_->root, threads); }
@@ -107,6 +115,8 @@ Brep Solid::to_brep(const AssembleOptions& options) const {
     return detail::assemble_brep(*state_, options);
 }
 
-PolygonMesh Solid::to_mesh() const { return detail::assemble_mesh(*state_); }
+PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
+    return detail::assemble_mesh(*state_, nullptr, true, threads);
+}
 
 }  // namespace trisect

@@ -91,8 +91,9 @@ public:
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
     /// Triangles with correctly rounded coordinates. Facets that nothing changed are copied; what
     /// is left of others is joined with its coplanar neighbours first. No vertex lies inside an
-    /// edge (before rounding).
-    [[nodiscard]] PolygonMesh to_mesh() const;
+    /// edge (before rounding). `threads`: how many may take part, 0 means one for every processor;
+    /// the mesh does not depend on it.
+    [[nodiscard]] PolygonMesh to_mesh(std::uint32_t threads = 0) const;
 
     [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const { return state_; }
     explicit Solid(std::shared_ptr<const detail::SolidState> state) : state_(std::move(state)) {}

@@ -5,9 +5,17 @@
 // marks, their coordinates are one pass over the points, and then a facet is three look-ups in a
 // table. Vertices that cuts have made come after them, as they are met. A hash map from vertices to
 // numbers costs more than everything else here together.
+//
+// Facets that did not pass through are cut into triangles before anything is written. Then it is
+// known how many triangles come before any facet, and several threads write parts of the mesh.
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/brep/detail/small_polygon.h>
 #include <trisect/brep/triangulate.h>
@@ -16,6 +24,7 @@
 #include <trisect/bsp/detail/boundary_edges.h>
 #include <trisect/bsp/detail/face_loops.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -23,66 +32,129 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+constexpr std::uint32_t in_use = 0;  // until corners have numbers
+
+using Triangle = std::array<std::uint32_t, 3>;
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+// Fewer points are not worth a part of their own, nor fewer groups of eight facets.
+constexpr std::size_t least_points = 16384;
+constexpr std::size_t least_groups = 4096;
+
+// By source: the numbers of its corners in the mesh.
+using CornerTables = std::vector<std::vector<std::uint32_t>>;
+
+// Marks the corners of the facets that pass through as in use. Several threads mark the same ones,
+// and look first, so that they need not wait for each other's caches.
+CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
+    CornerTables tables;
+    for (const FacetMarks& marks : parts.sources) {
+        const LatticeMesh& mesh = marks.source()->mesh();
+        std::uint32_t* const table = tables.emplace_back(mesh.points.size(), none).data();
+        const ParallelParts of_groups(marks.group_count(), threads, least_groups);
+        const bool alone = of_groups.count() == 1;
+        of_groups.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : mesh.triangles[facet]) {
+                    const std::atomic_ref corner(table[v]);
+                    if (alone || corner.load(std::memory_order_relaxed) == none)
+                        corner.store(in_use, std::memory_order_relaxed);
+                }
+            });
+        });
+    }
+    return tables;
+}
+
 class MeshWriter {
 public:
-    MeshWriter(const SolidState& solid, const BoundaryParts& parts)
+    /// `tables` as corners_in_use() makes them.
+    MeshWriter(const SolidState& solid, const BoundaryParts& parts, CornerTables tables,
+               std::uint32_t threads)
         : lattice_(solid.lattice),
           unit_(lattice_.to_double(1)),
+          threads_(threads),
           parts_(parts),
           bench_(parts.bench),
+          tables_(std::move(tables)),
           loops_(parts.bench) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         number_.assign(bench_.point_count(), none);
         number_corners(edges);
-        mesh_.corners.resize(3 * (parts_.stats.whole_facets + edges.size()));
-        rest_ = edges;
+        worked_.reserve(3 * edges.size());
+        for (rest_ = edges; !rest_.empty();) cut_worked();
+        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
+        mesh_.corners.resize(3 * parts_.stats.whole_facets + worked_.size());
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
-        mesh_.corners.resize(corner_count_);
-        mesh_.face_begin.resize(corner_count_ / 3 + 1);
-        std::uint32_t begin = 0;
-        for (std::uint32_t& f : mesh_.face_begin) f = std::exchange(begin, begin + 3);
+        number_faces();
         return std::move(mesh_);
     }
 
 private:
+    // A facet that does not pass through: its triangles are in worked_, from `begin` on.
+    struct Worked {
+        std::pair<std::size_t, std::uint64_t> place;  // source and place_of
+        std::size_t begin;
+    };
+
+    // The order of the facets of a source.
+    static std::uint64_t place_of(std::uint32_t facet, bool flipped) {
+        return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
+    }
+
     // The corners of the result's facets, source by source, in the order of their vertices.
     void number_corners(std::span<const BoundaryEdge> edges) {
-        constexpr std::uint32_t used = 0;
-        tables_.resize(parts_.sources.size());
-        for (std::size_t t = 0; t < tables_.size(); ++t) {
-            const LatticeMesh& mesh = parts_.sources[t].source()->mesh();
-            tables_[t].assign(mesh.points.size(), none);
-            std::uint32_t* const table = tables_[t].data();
-            parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool) {
-                for (const std::uint32_t v : mesh.triangles[facet]) table[v] = used;
-            });
-        }
         std::size_t made = 0;  // at most: vertices that are no corners
         for (const BoundaryEdge& e : edges) {
-            if (std::exchange(number_[u(e.from)], used) != none) continue;
+            if (std::exchange(number_[u(e.from)], in_use) != none) continue;
             if (bench_.is_corner(e.from)) {
-                corner_of(e.from) = used;
+                corner_of(e.from) = in_use;
             } else {
                 ++made;
             }
         }
+        const auto used_in = [](std::span<const std::uint32_t> part) {
+            return part.size() - static_cast<std::size_t>(std::ranges::count(part, none));
+        };
+        std::vector<std::vector<std::size_t>> counts;  // of every part of a table
         std::size_t count = made;
-        for (const auto& table : tables_)
-            count += table.size() - static_cast<std::size_t>(std::ranges::count(table, none));
-        mesh_.points.reserve(count);
-        for (std::size_t t = 0; t < tables_.size(); ++t) {
-            const LatticePoint* p = parts_.sources[t].source()->mesh().points.data();
-            for (std::uint32_t& number : tables_[t]) {
-                if (number != none) number = add_point(*p);
-                ++p;
-            }
+        for (const auto& table : tables_) {
+            const ParallelParts parts(table.size(), threads_, least_points);
+            auto& of_parts = counts.emplace_back(parts.count());
+            parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+                of_parts[part] = used_in(std::span(table).subspan(begin, end - begin));
+            });
+            count = std::accumulate(of_parts.begin(), of_parts.end(), count);
         }
+        mesh_.points.reserve(count);
+        for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
         for (const BoundaryEdge& e : edges)
             number_[u(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : none;
+    }
+
+    // Numbers and coordinates for the corners in use; `counts` of them in each part.
+    void number_table(std::size_t t, std::span<const std::size_t> counts) {
+        const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
+        std::vector<std::uint32_t>& table = tables_[t];
+        if (counts.size() == 1) {
+            for (std::size_t i = 0; i < table.size(); ++i)
+                if (table[i] != none) table[i] = add_point(coordinates_of(points[i]));
+            return;
+        }
+        std::vector<std::size_t> first(counts.size());
+        std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
+        mesh_.points.resize(first.back() + counts.back());
+        ParallelParts(table.size(), threads_, least_points)
+            .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+                std::size_t n = first[part];
+                for (std::size_t i = begin; i < end; ++i) {
+                    if (table[i] == none) continue;
+                    mesh_.points[n] = coordinates_of(points[i]);
+                    table[i] = static_cast<std::uint32_t>(n++);
+                }
+            });
     }
 
     // The place in the table of its source of a point that is a corner.
@@ -91,18 +163,8 @@ private:
         return tables_[parts_.table_of(source)][v];
     }
 
-    // For the triangles of so many edges beside those of the facets that pass through.
-    void make_room(std::size_t edges) {
-        const std::size_t needed = 3 * (parts_.stats.whole_facets + 2 * edges) + worked_corners_;
-        if (needed > mesh_.corners.size()) mesh_.corners.resize(needed + needed / 4);
-    }
-
-    void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        std::uint32_t* out = &mesh_.corners[corner_count_];
-        out[0] = a;
-        out[1] = b;
-        out[2] = c;
-        corner_count_ += 3;
+    void add_worked(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        worked_.insert(worked_.end(), {a, b, c});
     }
 
     // A power of two times a double, which is what Lattice::to_double is unless the power
@@ -111,71 +173,99 @@ private:
         return unit_ >= 0x1p-1000 ? v * unit_ : lattice_.to_double(v);
     }
 
-    std::uint32_t add_point(const std::array<double, 3>& p) {
-        mesh_.points.push_back({in_units(p[0]), in_units(p[1]), in_units(p[2])});
+    [[nodiscard]] Point3d in_units(const std::array<double, 3>& p) const {
+        return {in_units(p[0]), in_units(p[1]), in_units(p[2])};
+    }
+
+    [[nodiscard]] Point3d coordinates_of(const LatticePoint& p) const {
+        return in_units(std::array{static_cast<double>(p.x), static_cast<double>(p.y),
+                                   static_cast<double>(p.z)});
+    }
+
+    std::uint32_t add_point(const Point3d& p) {
+        mesh_.points.push_back(p);
         return static_cast<std::uint32_t>(mesh_.points.size() - 1);
     }
 
-    std::uint32_t add_point(const LatticePoint& p) {
-        return add_point(std::array{static_cast<double>(p.x), static_cast<double>(p.y),
-                                    static_cast<double>(p.z)});
-    }
-
-    // Facets in their order, whether they pass through or have edges.
-    void write_source(std::size_t t) {
-        const Source* source = parts_.sources[t].source();
-        // The place in the order of the facet whose edges come next.
-        constexpr std::uint64_t never = ~std::uint64_t{0};
-        const auto place = [](std::uint32_t facet, bool flipped) {
-            return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
-        };
-        const auto next_worked = [&] {
-            if (rest_.empty()) return never;
-            const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
-            return f.source == source ? place(f.facet, f.flipped) : never;
-        };
-        std::uint64_t next = next_worked();
-        parts_.sources[t].for_each_whole([&](std::uint32_t facet, bool flipped) {
-            for (; next < place(facet, flipped); next = next_worked()) write_worked();
-            copy(t, facet, flipped);
-        });
-        for (; next != never; next = next_worked()) write_worked();
-    }
-
-    void copy(std::size_t t, std::uint32_t facet, bool flipped) {
-        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
-        const std::uint32_t* const numbers = tables_[t].data();
-        add_triangle(numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
-                     numbers[corners[flipped ? 1 : 2]]);
-    }
-
-    // The facet whose edges come next.
-    void write_worked() {
+    // Cuts the facet whose edges come next into triangles.
+    void cut_worked() {
         const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
         check_stop();
         std::size_t n = 1;
         while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
-        make_room(n);
-        const std::size_t begin = corner_count_;
+        const std::size_t table = parts_.table_of(f.source);
+        worked_facets_.push_back({{table, place_of(f.facet, f.flipped)}, worked_.size()});
         loops_.set_region(f.support, f.flipped, rest_.first(n));
         rest_ = rest_.subspan(n);
         if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
-            copy(parts_.table_of(f.source), f.facet, f.flipped);
+            const Triangle t = whole_facet(table, f.facet, f.flipped);
+            add_worked(t[0], t[1], t[2]);
         } else if (loops_.has_holes()) {
-            write_large(f, 0, loops_.loop_count());
+            cut_large(f, 0, loops_.loop_count());
         } else {
-            for (std::size_t l = 0; l < loops_.loop_count(); ++l) write_loop(f, l);
+            for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(f, l);
         }
-        worked_corners_ += corner_count_ - begin;
     }
 
-    void write_loop(const BoundaryFacet& f, std::size_t l) {
+    void cut_loop(const BoundaryFacet& f, std::size_t l) {
         const auto loop = loops_.loop(l);
         if (loop.size() > small_polygon_limit || !is_simple(loop)) {
-            write_large(f, l, l + 1);
+            cut_large(f, l, l + 1);
         } else {
-            write_small(f, loop);
+            cut_small(f, loop);
         }
+    }
+
+    [[nodiscard]] Triangle whole_facet(std::size_t t, std::uint32_t facet, bool flipped) const {
+        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
+        const std::uint32_t* const numbers = tables_[t].data();
+        return {numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
+                numbers[corners[flipped ? 1 : 2]]};
+    }
+
+    // The first facet that was cut, from one of a source on.
+    [[nodiscard]] std::vector<Worked>::const_iterator worked_from(std::size_t t,
+                                                                  std::size_t facet) const {
+        const std::pair at(t, place_of(static_cast<std::uint32_t>(facet), false));
+        return std::ranges::lower_bound(worked_facets_, at, {}, &Worked::place);
+    }
+
+    // Facets in their order, whether they pass through or were cut.
+    void write_source(std::size_t t) {
+        const FacetMarks& marks = parts_.sources[t];
+        const ParallelParts parts(marks.group_count(), threads_, least_groups);
+        std::vector<std::size_t> whole(parts.count());  // before each part
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            whole[part] = marks.counts(begin, end).whole;
+        });
+        const std::size_t count = std::accumulate(whole.begin(), whole.end(), std::size_t{0});
+        std::exclusive_scan(whole.begin(), whole.end(), whole.begin(), whole_written_);
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            auto next = worked_from(t, 8 * begin);
+            const auto last = worked_from(t, 8 * end);
+            std::uint32_t* out = mesh_.corners.data() + 3 * whole[part] + next->begin;
+            const auto write_worked = [&] {
+                out = std::copy(worked_.data() + next->begin, worked_.data() + (next + 1)->begin,
+                                out);
+                ++next;
+            };
+            marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool flipped) {
+                while (next != last && next->place.second < place_of(facet, flipped))
+                    write_worked();
+                out = std::ranges::copy(whole_facet(t, facet, flipped), out).out;
+            });
+            while (next != last) write_worked();
+        });
+        whole_written_ += count;
+    }
+
+    void number_faces() {
+        mesh_.face_begin.resize(mesh_.corners.size() / 3 + 1);
+        ParallelParts(mesh_.face_begin.size(), threads_, least_points)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    mesh_.face_begin[i] = static_cast<std::uint32_t>(3 * i);
+            });
     }
 
     // A facet may have been touched in vain; then nothing may tell it from one that was not.
@@ -191,7 +281,7 @@ private:
 
     std::uint32_t vertex(PointId p) {
         std::uint32_t& at = number_[u(p)];
-        if (at == none) at = add_point(bench_.nearest(p));
+        if (at == none) at = add_point(in_units(bench_.nearest(p)));
         return at;
     }
 
@@ -203,7 +293,7 @@ private:
         return true;
     }
 
-    void write_small(const BoundaryFacet& f, std::span<const PointId> loop) {
+    void cut_small(const BoundaryFacet& f, std::span<const PointId> loop) {
         const auto axes = PlaneProjection::axes_of(bench_.plane_at(f.support), f.flipped);
         const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             const int s = PlaneProjection::filtered_orientation(
@@ -226,13 +316,13 @@ private:
         const bool done =
             cut_small_polygon(loop.size(), orientation, first_corner,
                               [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                                  add_triangle(vertex(loop[a]), vertex(loop[b]), vertex(loop[c]));
+                                  add_worked(vertex(loop[a]), vertex(loop[b]), vertex(loop[c]));
                               });
         TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
     }
 
     // Loops [first, end) as one region.
-    void write_large(const BoundaryFacet& f, std::size_t first, std::size_t end) {
+    void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end) {
         points_.clear();
         ids_.clear();
         outline_.clear();
@@ -252,19 +342,21 @@ private:
         const Plane& support = bench_.plane_at(f.support);
         for (const IndexTriangle& t :
              triangulate(f.flipped ? support.flipped() : support, points_, outline_))
-            add_triangle(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
+            add_worked(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
     }
 
     Lattice lattice_;
     double unit_;
+    std::uint32_t threads_;
     const BoundaryParts& parts_;
     const Workbench& bench_;
-    PolygonMesh mesh_;                    // its corners are longer than what is written so far:
-    std::size_t corner_count_ = 0;        // in mesh_.corners, and of these:
-    std::size_t worked_corners_ = 0;      // those of facets that did not pass through
-    std::span<const BoundaryEdge> rest_;  // of facets not yet written
-    std::vector<std::vector<std::uint32_t>> tables_;  // by source: the numbers of its corners
-    std::vector<std::uint32_t> number_;               // by PointId
+    CornerTables tables_;
+    PolygonMesh mesh_;
+    std::span<const BoundaryEdge> rest_;  // of facets not yet cut
+    std::vector<Worked> worked_facets_;   // in their order; then one more where they end
+    std::vector<std::uint32_t> worked_;   // three corners a triangle
+    std::size_t whole_written_ = 0;
+    std::vector<std::uint32_t> number_;  // by PointId
     FaceLoops loops_;
     std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
     std::vector<PointId> ids_;
@@ -293,23 +385,42 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
     return out;
 }
 
+PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_planes,
+                     std::uint32_t threads) {
+    BoundaryParts parts;
+    gather_parts(solid, parts, by_planes, threads);
+    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    const auto join = [&] {
+        join_facets(parts, edges);
+        remove_straight_vertices(parts, true, {}, edges);
+        // Facets that nothing changed are left alone, so that it does not show which of them the
+        // tree has looked at.
+        mark_unchanged_facets(parts, edges);
+        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+        join_planes_across_axes(parts, edges);
+        if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
+            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
+    };
+    // What was cut and what passes through have nothing to do with each other yet.
+    CornerTables tables;
+    const bool large = parts.stats.whole_facets >= 8 * least_groups;
+    const auto find_corners = [&] { tables = corners_in_use(parts, large ? threads : 1); };
+    if (large && threads != 1) {
+        both_at_once(find_corners, join);
+    } else {
+        join();
+        find_corners();
+    }
+    if (stats != nullptr) *stats = parts.stats;
+    return MeshWriter(solid, parts, std::move(tables), threads).write(edges);
+}
+
 }  // namespace
 
-PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes) {
-    BoundaryParts parts;
-    gather_parts(solid, parts, by_planes);
-    std::vector<BoundaryEdge> edges = std::move(parts.edges);
-    join_facets(parts, edges);
-    remove_straight_vertices(parts, true, {}, edges);
-    // Facets that nothing changed are left alone, so that it does not show which of them the tree
-    // has looked at.
-    mark_unchanged_facets(parts, edges);
-    parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
-    join_planes_across_axes(parts, edges);
-    if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
-        remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
-    if (stats != nullptr) *stats = parts.stats;
-    return MeshWriter(solid, parts).write(edges);
+PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
+                          std::uint32_t threads) {
+    return on_threads(threads,
+                      [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
 }
 
 }  // namespace trisect::detail

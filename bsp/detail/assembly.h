@@ -16,8 +16,8 @@ namespace trisect::detail {
 
 /// The boundary as triangles; facets that nothing touched are copied. Without `by_planes` all
 /// others go the general way (gather_parts()); the set, the vertices and the number of triangles
-/// are the same.
+/// are the same. `threads` as in ParallelParts.
 [[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr,
-                                        bool by_planes = true);
+                                        bool by_planes = true, std::uint32_t threads = 1);
 
 }  // namespace trisect::detail

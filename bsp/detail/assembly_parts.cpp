@@ -28,6 +28,7 @@
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/bsp/detail/traced_facets.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -46,10 +47,23 @@ struct Leaf {
     std::size_t end_inside = 0;
 };
 
+// A part of a leaf's list of nothing but whole facets of one source.
+struct ListPart {
+    std::span<const std::uint32_t> facets;
+    bool contained = false;  ///< in the cell of the leaf, so that no other leaf lists them
+    const Leaf* leaf = nullptr;
+    std::size_t table = 0;
+    bool flipped = false;
+};
+
 class Gatherer {
 public:
-    Gatherer(const SolidState& solid, BoundaryParts& out)
-        : solid_(solid), out_(out), axis_faces_(out), splitter_(out.bench, out.facets) {}
+    Gatherer(const SolidState& solid, BoundaryParts& out, std::uint32_t threads)
+        : solid_(solid),
+          out_(out),
+          threads_(threads),
+          axis_faces_(out),
+          splitter_(out.bench, out.facets) {}
 
     void run(bool by_planes) {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
@@ -57,6 +71,7 @@ public:
             check_stop(1 + leaf.node->size());
             mark_facets(leaf);
         }
+        mark_lists();
         if (solid_.crossings != nullptr) mark_crossed();
         number_facets();
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
@@ -86,7 +101,8 @@ private:
     void mark_facets(const Leaf& leaf);
     void mark_crossed();
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
-    void mark_list(const Leaf& leaf, const PolygonList& polygons, FacetMarks& marks);
+    void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
+    void mark_lists();
     void number_facets();
     void make_parts(Leaf& leaf);
     void make_list_parts(const Leaf& leaf);
@@ -103,7 +119,9 @@ private:
 
     const SolidState& solid_;
     BoundaryParts& out_;
+    std::uint32_t threads_;
     std::vector<Leaf> leaves_;
+    std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
     // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
     std::vector<BoundaryEdge> edges_;
@@ -134,14 +152,12 @@ bool ends_at_walls(const Fragment& fragment, const Cell& cell) {
     return true;
 }
 
-std::size_t FacetMarks::number_worked(std::size_t first) {
-    numbers_.resize(marks_.size() / 8);
-    std::size_t n = first;
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        numbers_[i] = static_cast<std::int32_t>(n);
-        n += static_cast<std::size_t>(count(worked_in(eight_at(8 * i))));
+void FacetMarks::number_worked(std::size_t first, std::size_t end, std::size_t number) {
+    auto n = static_cast<std::int32_t>(number);
+    for (std::size_t i = first; i < end; ++i) {
+        numbers_[i] = n;
+        n += count(worked_in(eight_at(8 * i)));
     }
-    return n - first;
 }
 
 namespace {
@@ -209,7 +225,7 @@ void Gatherer::mark_facets(const Leaf& leaf) {
     const PolygonList& polygons = deferred != nullptr ? deferred->uncrossed : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
         source != nullptr && !source->is_half_space()) {
-        mark_list(leaf, polygons, out_.sources[table(source)]);
+        note_list(leaf, polygons, table(source));
         return;
     }
     for (const PolygonRef r : polygons) {
@@ -225,33 +241,69 @@ void Gatherer::mark_facets(const Leaf& leaf) {
     }
 }
 
-// A list of nothing but whole facets of one source.
-void Gatherer::mark_list(const Leaf& leaf, const PolygonList& polygons, FacetMarks& marks) {
+// A list of nothing but whole facets of one source is marked later, by several threads: what other
+// leaves say of a facet makes no difference to it.
+void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table) {
+    FacetMarks& marks = out_.sources[table];
     const bool flipped = polygons.flipped() != leaf.complemented;
     if (polygons.has_all_facets()) {
         for (std::uint32_t f = 0; f < polygons.size(); ++f) marks.set_present(f, flipped);
         return;
     }
+    const auto add = [&](std::span<const std::uint32_t> facets, bool contained) {
+        constexpr std::size_t most = 16384;
+        for (std::size_t i = 0; i < facets.size(); i += most)
+            lists_.push_back({facets.subspan(i, std::min(most, facets.size() - i)), contained,
+                              &leaf, table, flipped});
+    };
     const std::span<const std::uint32_t> facets = polygons.facets();
-    const std::size_t contained = polygons.contained();
-    for (const std::uint32_t f : facets.first(contained)) marks.set_present(f, flipped);
-    // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would
-    // wait for each of them. So they are asked for well before.
+    add(facets.first(polygons.contained()), true);
+    add(facets.subspan(polygons.contained()), false);
+}
+
+// As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
+// for each of them. So they are asked for well before.
+template <bool Shared>
+void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
-    const Box inside = leaf.cell.lattice_box();
+    const Box inside = list.leaf->cell.lattice_box();
     const LatticeMesh& mesh = marks.source()->mesh();
-    const auto rest = facets.subspan(contained);
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-        if (i + 2 * ahead < rest.size()) __builtin_prefetch(&mesh.triangles[rest[i + 2 * ahead]]);
-        if (i + ahead < rest.size())
-            __builtin_prefetch(&mesh.points[mesh.triangles[rest[i + ahead]][0]]);
-        const std::uint32_t f = rest[i];
+    const auto facets = list.facets;
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        if (i + 2 * ahead < facets.size())
+            __builtin_prefetch(&mesh.triangles[facets[i + 2 * ahead]]);
+        if (i + ahead < facets.size())
+            __builtin_prefetch(&mesh.points[mesh.triangles[facets[i + ahead]][0]]);
+        const std::uint32_t f = facets[i];
         const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
         const bool owned =
             (int{p.x >= inside.lo[0]} & int{p.x <= inside.hi[0]} & int{p.y >= inside.lo[1]} &
              int{p.y <= inside.hi[1]} & int{p.z >= inside.lo[2]} & int{p.z <= inside.hi[2]}) != 0;
-        marks.add_present(f, flipped, owned);
+        if constexpr (Shared) {
+            marks.add_present_shared(f, list.flipped, owned);
+        } else {
+            marks.add_present(f, list.flipped, owned);
+        }
     }
+}
+
+void Gatherer::mark_lists() {
+    std::size_t facets = 0;
+    for (const ListPart& list : lists_) facets += list.facets.size();
+    constexpr std::size_t few = 65536;
+    const ParallelParts parts(lists_.size(), facets < few ? 1 : threads_, 1);
+    parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+        for (const ListPart& list : std::span(lists_).subspan(begin, end - begin)) {
+            FacetMarks& marks = out_.sources[list.table];
+            if (list.contained) {
+                for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+            } else if (parts.count() == 1) {
+                mark_list<false>(list, marks);
+            } else {
+                mark_list<true>(list, marks);
+            }
+        }
+    });
 }
 
 void Gatherer::number_facets() {
@@ -261,12 +313,29 @@ void Gatherer::number_facets() {
     });
     last_table_ = 0;
     for (std::size_t t = 0; t < tables.size(); ++t) {
-        const Source* source = tables[t].source();
-        out_.table_ids.assign(BoundaryParts::key_of(source), static_cast<std::int32_t>(t));
-        out_.stats.whole_facets += tables[t].whole_count();
-        tables[t].number_worked(out_.facets.size());
-        tables[t].for_each_worked([&](std::uint32_t f, bool flipped) {
-            out_.facets.push_back({source, f, flipped});
+        FacetMarks& marks = tables[t];
+        out_.table_ids.assign(BoundaryParts::key_of(marks.source()), static_cast<std::int32_t>(t));
+        constexpr std::size_t least_groups = 4096;
+        const ParallelParts parts(marks.group_count(), threads_, least_groups);
+        std::vector<FacetMarks::Counts> counts(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            counts[part] = marks.counts(begin, end);
+        });
+        std::vector<std::size_t> first(parts.count());  // number of each part
+        std::size_t n = out_.facets.size();
+        for (std::size_t part = 0; part < parts.count(); ++part) {
+            out_.stats.whole_facets += counts[part].whole;
+            first[part] = n;
+            n += counts[part].worked;
+        }
+        out_.facets.resize(n);
+        marks.make_numbers();
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            marks.number_worked(begin, end, first[part]);
+            BoundaryFacet* out = out_.facets.data() + first[part];
+            marks.for_each_worked(begin, end, [&](std::uint32_t f, bool flipped) {
+                *out++ = {marks.source(), f, flipped};
+            });
         });
     }
     out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
@@ -668,8 +737,9 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<Bounda
     }
 }
 
-void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes) {
-    Gatherer(solid, parts).run(by_planes);
+void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
+                  std::uint32_t threads) {
+    Gatherer(solid, parts, threads).run(by_planes);
 }
 
 }  // namespace trisect::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -53,6 +54,12 @@ public:
         const unsigned known = (m >> 2 >> (flipped ? 1 : 0) | (is_owned ? 1U : 0U)) & 1U;
         marks_[facet] = static_cast<std::uint8_t>(m | known << (flipped ? 1 : 0));
     }
+    /// The same where several threads do so at once.
+    void add_present_shared(std::uint32_t facet, bool flipped, bool is_owned) {
+        const std::atomic_ref marks(marks_[facet]);
+        if (is_owned || (marks.load(std::memory_order_relaxed) & bit(worked, flipped)) != 0)
+            marks.fetch_or(bit(present, flipped), std::memory_order_relaxed);
+    }
     /// The facet is cut or touched somewhere: it does not pass through as it is.
     void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
     /// Its edges are known already: trace_facets().
@@ -67,19 +74,30 @@ public:
         return (marks_[facet] & bit(worked, flipped)) != 0;
     }
 
+    /// How many groups of eight facets there are; several threads may read different ones.
+    [[nodiscard]] std::size_t group_count() const { return marks_.size() / 8; }
     /// Calls visit(facet, flipped) for the facets that pass through, in order.
     template <class Visit>
     void for_each_whole(Visit&& visit) const {
-        for_each([](std::uint64_t m) { return whole_in(m); }, visit);
+        for_each_whole(0, group_count(), visit);
     }
-    /// The same for those that are present and do not.
+    /// The same for those in the groups [first, end).
     template <class Visit>
-    void for_each_worked(Visit&& visit) const {
-        for_each([](std::uint64_t m) { return worked_in(m); }, visit);
+    void for_each_whole(std::size_t first, std::size_t end, Visit&& visit) const {
+        for_each(
+            first, end, [](std::uint64_t m) { return whole_in(m); }, visit);
+    }
+    /// The same for those that are present and do not pass through.
+    template <class Visit>
+    void for_each_worked(std::size_t first, std::size_t end, Visit&& visit) const {
+        for_each(
+            first, end, [](std::uint64_t m) { return worked_in(m); }, visit);
     }
 
-    /// Numbers the facets of for_each_worked, from `first` on; returns how many there are.
-    std::size_t number_worked(std::size_t first);
+    /// To be called once before number_worked().
+    void make_numbers() { numbers_.resize(group_count()); }
+    /// Numbers the facets of for_each_worked() in the groups [first, end), from `number` on.
+    void number_worked(std::size_t first, std::size_t end, std::size_t number);
     /// Its number. \pre numbered, and the facet is present and worked on in this orientation.
     [[nodiscard]] std::int32_t number_of_worked(std::uint32_t facet, bool flipped) const {
         const std::uint64_t before = (std::uint64_t{flipped ? 2U : 1U} << (8 * (facet % 8))) - 1;
@@ -91,11 +109,18 @@ public:
         const unsigned m = marks_[facet];
         return (m & (m >> 2) & bit(present, flipped)) != 0;
     }
-    /// How many pass through.
-    [[nodiscard]] std::size_t whole_count() const {
-        std::size_t n = 0;
-        for (std::size_t i = 0; i < marks_.size(); i += 8)
-            n += static_cast<std::size_t>(count(whole_in(eight_at(i))));
+    /// How many pass through, and how many are present and do not, in the groups [first, end).
+    struct Counts {
+        std::size_t whole = 0;
+        std::size_t worked = 0;
+    };
+    [[nodiscard]] Counts counts(std::size_t first, std::size_t end) const {
+        Counts n;
+        for (std::size_t i = first; i < end; ++i) {
+            const std::uint64_t m = eight_at(8 * i);
+            n.whole += static_cast<std::size_t>(count(whole_in(m)));
+            n.worked += static_cast<std::size_t>(count(worked_in(m)));
+        }
         return n;
     }
 
@@ -118,8 +143,8 @@ private:
     // `select` makes two bits for each of eight facets, one for each orientation, out of their
     // marks.
     template <class Select, class Visit>
-    void for_each(Select select, Visit&& visit) const {
-        for (std::size_t i = 0; i < marks_.size(); i += 8) {
+    void for_each(std::size_t first, std::size_t end, Select select, Visit&& visit) const {
+        for (std::size_t i = 8 * first; i < 8 * end; i += 8) {
             for (std::uint64_t m = select(eight_at(i)); m != 0; m &= m - 1) {
                 const int bit = std::countr_zero(m);
                 visit(static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(bit) / 8,
@@ -160,8 +185,9 @@ struct BoundaryParts {
 
 /// Facets that nothing cuts or touches are marked whole in `sources` and have no edges.
 /// `by_planes`: the facets of a plane will be joined, so that they may come as one where that is
-/// easier (axis_faces.h).
-void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes);
+/// easier (axis_faces.h). `threads` as in ParallelParts.
+void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
+                  std::uint32_t threads = 1);
 
 /// Whether all that the walls of a cell could cut off a fragment has been cut off: its box is
 /// rounded outwards and says too much where it ends at a wall.

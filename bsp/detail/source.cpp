@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -26,11 +27,19 @@ std::shared_ptr<const Source> Source::share(Source* source) {
     return {source, [](const Source* s) { s->release(); }};
 }
 
-std::shared_ptr<const Source> Source::make(LatticeMesh mesh) {
+std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threads) {
     auto* s = new Source;
     auto shared = share(s);
     s->mesh_ = std::move(mesh);
-    for (const LatticePoint& p : s->mesh_.points) s->box_.add(p);
+    const std::span<const LatticePoint> points = s->mesh_.points;
+    const ParallelParts parts(points.size(), threads, std::size_t{1} << 16);
+    std::vector<Box> boxes(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Box box;
+        for (const LatticePoint& p : points.subspan(begin, end - begin)) box.add(p);
+        boxes[part] = box;
+    });
+    for (const Box& b : boxes) s->box_.add(b);
     return shared;
 }
 

@@ -24,7 +24,7 @@ namespace trisect::detail {
 /// it, so that a long chain of operations keeps exactly the sources that are still visible.
 class Source {
 public:
-    static std::shared_ptr<const Source> make(LatticeMesh mesh);
+    static std::shared_ptr<const Source> make(LatticeMesh mesh, std::uint32_t threads = 1);
     /// The half-space below `plane`.
     static std::shared_ptr<const Source> half_space(const Plane& plane, Lattice lattice);
     /// One facet for each plane; all that is listed of them lies in the box.

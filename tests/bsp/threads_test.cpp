@@ -62,4 +62,26 @@ TEST(Threads, ImportAndNameSolidsAtOnce) {
         for (std::size_t j = i + 1; j < thread_count; ++j) EXPECT_NE(names[i], names[j]);
 }
 
+// Large enough for parts of their own in import and in to_mesh().
+TEST(Threads, MeshesDoNotDependOnTheirNumber) {
+    const trisect::PolygonMesh ball = trisect::make_icosphere(1, 6);
+    const trisect::PolygonMesh box = trisect::make_box({0, 0, 0.1}, {2, 2, 2});
+    const auto cut = [&](std::uint32_t threads) {
+        const trisect::SolidOptions import{.import = {.threads = threads}};
+        trisect::EvaluateOptions options;
+        options.threads = threads;
+        const Solid a = Solid::from_mesh(ball, import);
+        const Solid b = Solid::from_mesh(box, import);
+        return evaluate(a - b, options).to_mesh(threads);
+    };
+    const trisect::PolygonMesh alone = cut(1);
+    ASSERT_GT(alone.face_count(), 70000U);
+    for (const std::uint32_t threads : {0U, 2U, 8U}) {
+        const trisect::PolygonMesh mesh = cut(threads);
+        EXPECT_EQ(mesh.points, alone.points);
+        EXPECT_EQ(mesh.corners, alone.corners);
+        EXPECT_EQ(mesh.face_begin, alone.face_begin);
+    }
+}
+
 }  // namespace

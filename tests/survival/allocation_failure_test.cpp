@@ -90,6 +90,16 @@ TEST(AllocationFailure, Import) {
     fail_every_allocation([&] { return bytes_of(Solid::from_mesh(mesh).to_mesh()); });
 }
 
+// Some allocations are made by tasks that the calling thread takes, at times different ones.
+TEST(AllocationFailure, ImportAndExportOnTwoThreads) {
+    const PolygonMesh mesh = trisect::make_icosphere(1, 6);
+    const trisect::SolidOptions options{.import = {.threads = 2}};
+    fail_every_allocation([&] {
+        const PolygonMesh out = Solid::from_mesh(mesh, options).to_mesh(2);
+        return std::to_string(out.points.size()) + " " + std::to_string(out.corners.size());
+    });
+}
+
 TEST(AllocationFailure, ImportOfPolygonsThatNeedTheLongWay) {
     PolygonMesh mesh = trisect::make_box({0, 0, 0}, {2, 2, 2});
     trisect::ImportOptions options;
