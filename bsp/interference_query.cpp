@@ -34,7 +34,6 @@ Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
     if (a.is_empty() || b.is_empty()) return Relation::Disjoint;
     if (reserve.covers(pose_a, pose_b)) {
         ++counters.kept;
-        walk.note_spared();
         return reserved;
     }
     return ask_walk(pose_a, pose_b);

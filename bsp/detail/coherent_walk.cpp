@@ -22,9 +22,9 @@
 // Where boundaries cross, balls inside both solids are tried first, then the pair of triangles that
 // showed the crossing. Balls give a reserve: until something has moved by as much as they reach
 // into each other nothing need be asked at all (pose_reserve.h), and the same holds for the least
-// gap of a front. A crossing pair of a fine mesh is lost with every step; so balls are made where
-// it was found, as large as can touch the two faces from inside, which overlap unless the faces are
-// opposite.
+// gap of a front. A crossing pair of a fine mesh is lost with every step; so balls are tried that
+// touch the boundaries from inside near where it was found. Models keep one for each region; the
+// deepest pair of some next to each other is taken, and again when the last one has parted.
 //
 // When nothing of this helps the search climbs from the lost pair: at each pair on the way from the
 // roots to it the other lanes are searched, the nearest first. At the root this has been a whole
@@ -452,7 +452,9 @@ CoherentWalk::Answer CoherentWalk::renew_front() {
 
 // Depth ------------------------------------------------------------------------------------------
 
-// Where a crossing was there may be depth.
+// Where a crossing was there may be depth. The last balls first, then large ones, then those next
+// to the last ones: as bodies slide, the place where they are deepest wanders along both
+// boundaries.
 bool CoherentWalk::balls_overlap() {
     const InsideBalls* balls_a = a_->balls_in_time();
     const InsideBalls* balls_b = b_->balls_in_time();
@@ -461,11 +463,8 @@ bool CoherentWalk::balls_overlap() {
     if (balls_)
         r = relation_by_ball_pair(*a_, balls_->first, *b_, *balls_b, balls_->second, map_,
                                   &reserve_);
-    if (r)
-        ++served_;
-    else
-        r = relation_by_balls(*a_, *balls_a, *b_, *balls_b, map_, &reserve_);
-    if (r != Relation::Overlapping) {
+    if (!r) r = relation_by_balls(*a_, *balls_a, *b_, *balls_b, map_, &reserve_);
+    if (r != Relation::Overlapping && !find_balls()) {
         reserve_ = 0;
         return false;
     }
@@ -473,35 +472,39 @@ bool CoherentWalk::balls_overlap() {
     return true;
 }
 
-// Balls that touch two faces at a crossing reach into each other unless the faces are opposite; the
-// larger they are the longer. Making them costs as much as some searches, so where they do not last
-// they are made less often.
-void CoherentWalk::find_balls() {
-    constexpr std::uint32_t enough = 4;
-    constexpr std::uint32_t longest = 64;
-    if (wait_ > 0) {
-        --wait_;
-        return;
-    }
-    const InsideBalls* balls_b = b_->balls_in_time();
-    if (a_->balls_in_time() == nullptr || balls_b == nullptr) return;
-    pause_ = served_ >= enough ? 0 : std::min(2 * pause_ + 1, longest);
-    wait_ = pause_;
-    served_ = 0;
+// The deepest pair of balls of the regions and some next to them.
+bool CoherentWalk::find_balls() {
+    constexpr std::size_t reach = 3;
     balls_.reset();
-    const auto triangle_of = [](const InterferenceModelData& m, ObbId leaf) {
-        return m.boxes.order[m.boxes.child(leaf).first()];
+    const InsideBalls* balls_a = a_->balls_in_time();
+    const InsideBalls* balls_b = b_->balls_in_time();
+    if (balls_a == nullptr || balls_b == nullptr) return false;
+    const std::size_t from_a = region_a_ - std::min(region_a_, reach);
+    const std::size_t from_b = region_b_ - std::min(region_b_, reach);
+    const auto near = [](const InsideBalls& balls, std::size_t from) {
+        const auto all = balls.along_boundary();
+        return all.subspan(from, std::min(2 * reach + 1, all.size() - from));
     };
-    const auto in_a = touching_ball(*a_, triangle_of(*a_, witness_->a));
-    if (!in_a) return;
-    const auto in_b = touching_ball(*b_, triangle_of(*b_, witness_->b));
-    if (!in_b) return;
-    balls_.emplace(*in_a, *in_b);
-    if (!relation_by_ball_pair(*a_, *in_a, *b_, *balls_b, *in_b, map_, &reserve_)) reserve_ = 0;
+    const auto near_a = near(*balls_a, from_a);
+    const auto near_b = near(*balls_b, from_b);
+    const auto deepest = deepest_pair(near_a, near_b, map_);
+    if (!deepest) return false;
+    const InsideBall& in_a = near_a[deepest->first];
+    const InsideBall& in_b = near_b[deepest->second];
+    if (!relation_by_ball_pair(*a_, in_a, *b_, *balls_b, in_b, map_, &reserve_)) return false;
+    balls_.emplace(in_a, in_b);
+    region_a_ = from_a + deepest->first;
+    region_b_ = from_b + deepest->second;
+    return true;
 }
 
 CoherentWalk::Answer CoherentWalk::crossing_answer() {
-    find_balls();
+    const InsideBalls* balls_a = a_->balls_in_time();
+    const InsideBalls* balls_b = b_->balls_in_time();
+    if (balls_a == nullptr || balls_b == nullptr) return Answer::Crossing;
+    region_a_ = balls_a->region_of(a_->boxes.child(witness_->a).first());
+    region_b_ = balls_b->region_of(b_->boxes.child(witness_->b).first());
+    if (!find_balls()) reserve_ = 0;
     return Answer::Crossing;
 }
 

@@ -41,8 +41,6 @@ public:
     /// The last answer stays what it is while no point of B moves by as much, in lattice units of
     /// A. Mostly 0 when it is not worth it.
     [[nodiscard]] double reserve() const { return reserve_; }
-    /// A question was not asked, since the reserve sufficed.
-    void note_spared() { ++served_; }
     void forget();
 
     [[nodiscard]] const WalkCounters& counters() const { return counters_; }
@@ -84,7 +82,7 @@ private:
 
     // Overlap in depth.
     bool balls_overlap();
-    void find_balls();
+    bool find_balls();
     Answer crossing_answer();
 
     // Crossing pairs.
@@ -125,11 +123,11 @@ private:
     bool far_ = false;
 
     std::optional<ObbWalk::Pair> witness_;  // of leaves
-    // A ball inside each solid, made where the boundaries crossed.
+    // A ball inside each solid, near where the boundaries crossed, and the regions that they are
+    // of.
     std::optional<std::pair<InsideBall, InsideBall>> balls_;
-    std::uint32_t served_ = 0;  // questions since they were made
-    std::uint32_t wait_ = 0;    // crossings to pass over before others are made
-    std::uint32_t pause_ = 0;   // the last wait
+    std::size_t region_a_ = 0;
+    std::size_t region_b_ = 0;
     ObbWalk::Stack stack_;
 
     std::vector<Visit> visits_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -40,13 +41,18 @@ public:
     void take(double now, Visit&& visit) {
         for (std::size_t b = 0; b < least_.size(); ++b) {
             if (!(least_[b] <= now)) continue;
+            // Without branches: in a busy block any may be due.
+            const double* readings = &readings_[block * b];
+            unsigned due = 0;
             double least = never;
-            for (std::size_t i = block * b; i < block * (b + 1); ++i) {
-                if (readings_[i] <= now)
-                    visit(static_cast<std::uint32_t>(i));
-                else
-                    least = std::min(least, readings_[i]);
+            for (std::size_t i = 0; i < block; ++i) {
+                const bool is_due = readings[i] <= now;
+                due |= static_cast<unsigned>(is_due) << i;
+                least = std::min(least, is_due ? never : readings[i]);
             }
+            for (; due != 0; due &= due - 1)
+                visit(static_cast<std::uint32_t>(block * b) +
+                      static_cast<std::uint32_t>(std::countr_zero(due)));
             least_[b] = least;
         }
     }

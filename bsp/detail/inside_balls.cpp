@@ -9,7 +9,8 @@
 // Where balls come from. On a grid of points in the bounds a lower bound on the distance from the
 // boundary is found by the tree of boxes; a few steps away from the nearest box enlarge it. Points
 // are taken, the largest distance first, unless an earlier ball holds them; whether they are inside
-// is located exactly.
+// is located exactly. Shallow overlaps are between smaller balls, which touch the boundary in every
+// region of it: of a few triangles there the one under the largest ball is taken.
 //
 // A point at a float distance: with reach r of the boxes rounding p costs u |p|, the difference to
 // a centre u (|p| + r), the product with an axis 3 u (|p| + r), halves are exact. So a slab's
@@ -273,6 +274,11 @@ InsideBalls::InsideBalls(const InterferenceModelData& model) {
         extremes_[2 * k] = *lo;
         extremes_[2 * k + 1] = *hi;
     }
+    find_large_ones(model);
+    find_along_boundary(model);
+}
+
+void InsideBalls::find_large_ones(const InterferenceModelData& model) {
     const ObbTree& tree = model.boxes;
     const auto place = [&tree](const Candidate& c) {
         Point x{};
@@ -291,6 +297,23 @@ InsideBalls::InsideBalls(const InterferenceModelData& model) {
         if (is_held(center, 0.5)) continue;
         const double far = distance_from_boundary(tree, in_tree(tree, center)).lower;
         if (const auto ball = certified_ball(model, center, far)) add(ball->center, ball->radius);
+    }
+}
+
+void InsideBalls::find_along_boundary(const InterferenceModelData& model) {
+    constexpr std::uint32_t regions = 512;
+    constexpr std::uint32_t tries = 3;
+    const auto count = static_cast<std::uint32_t>(model.boxes.order.size());
+    region_ = (count + regions - 1) / regions;
+    for (std::uint32_t begin = 0; begin < count; begin += region_) {
+        const std::uint32_t size = std::min(region_, count - begin);
+        InsideBall largest;
+        for (std::uint32_t i = 0; i < std::min(tries, size); ++i) {
+            const std::uint32_t place = begin + (2 * i + 1) * size / (2 * std::min(tries, size));
+            const auto ball = touching_ball(model, model.boxes.order[place]);
+            if (ball && ball->radius > largest.radius) largest = *ball;
+        }
+        along_boundary_.push_back(largest);
     }
 }
 
@@ -380,6 +403,28 @@ std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
         1.0001 * distance(to_a(in_b.center), in_a.center) + 2 * error + 0x1p-48 * a.largest);
     if (!(depth > 0)) return std::nullopt;
     return overlap_if_both_stick_out(a, b, balls_b, to_a, depth, reserve);
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(std::span<const InsideBall> of_a,
+                                                                std::span<const InsideBall> of_b,
+                                                                const ApproximateMap& to_a) {
+    const double scale = length({to_a.m[0][0], to_a.m[1][0], to_a.m[2][0]});
+    std::optional<std::pair<std::size_t, std::size_t>> deepest;
+    double depth = 0;
+    for (std::size_t j = 0; j < of_b.size(); ++j) {
+        if (!(of_b[j].radius > 0)) continue;
+        const Point center = to_a(of_b[j].center);
+        for (std::size_t i = 0; i < of_a.size(); ++i) {
+            if (!(of_a[i].radius > 0)) continue;
+            const Point way = minus(center, of_a[i].center);
+            const double reach = scale * of_b[j].radius + of_a[i].radius;
+            // Deeper than the deepest so far, without a root.
+            if (!(reach > depth) || dot(way, way) >= (reach - depth) * (reach - depth)) continue;
+            depth = reach - length(way);
+            deepest.emplace(i, j);
+        }
+    }
+    return deepest;
 }
 
 std::optional<InsideBall> touching_ball(const InterferenceModelData& model,

@@ -6,7 +6,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <trisect/bsp/detail/approximate_map.h>
 #include <trisect/bsp/detail/float4.h>
@@ -22,8 +26,9 @@ struct InsideBall {
     double radius = 0;
 };
 
-/// Up to 16 balls whose interiors are within the solid, large ones, in lattice units; and points of
-/// the solid that reach farthest along the axes. Balls and not boxes: they need not be turned.
+/// Up to 16 balls whose interiors are within the solid, large ones, in lattice units; smaller ones
+/// all along the boundary; and points of the solid that reach farthest along the axes. Balls and
+/// not boxes: they need not be turned.
 class InsideBalls {
 public:
     static constexpr std::size_t most = 16;
@@ -37,6 +42,11 @@ public:
     [[nodiscard]] const std::array<double, 3>& center(std::size_t i) const { return center_[i]; }
     /// Less than the distance of the centre from the boundary.
     [[nodiscard]] double radius(std::size_t i) const { return radius_[i]; }
+    /// One that comes close to the boundary in each of some hundred regions, neighbours mostly one
+    /// after the other; of radius 0 where none was found.
+    [[nodiscard]] std::span<const InsideBall> along_boundary() const { return along_boundary_; }
+    /// The region of a triangle, which is named by its place in the order of the boxes.
+    [[nodiscard]] std::size_t region_of(std::uint32_t place) const { return place / region_; }
     /// Vertices with the least and largest x, y, z.
     [[nodiscard]] const std::array<std::array<double, 3>, 6>& extremes() const { return extremes_; }
 
@@ -47,10 +57,15 @@ private:
                                                      const InsideBalls& balls_b,
                                                      const ApproximateMap& to_a, double* reserve);
     void add(const std::array<double, 3>& center, double radius);
+    void find_large_ones(const InterferenceModelData& model);
+    void find_along_boundary(const InterferenceModelData& model);
 
     std::size_t size_ = 0;
     std::array<std::array<double, 3>, most> center_{};
     std::array<double, most> radius_{};
+    // So many triangles, one after the other in the order of the boxes, which hang together.
+    std::uint32_t region_ = 1;
+    std::vector<InsideBall> along_boundary_;
     std::array<std::array<double, 3>, 6> extremes_{};
     // The same in floats, four side by side, for a first look. Radii of unused ones are -infinite.
     std::array<std::array<Float4, 3>, most / 4> quick_center_{};
@@ -73,6 +88,11 @@ private:
     const InterferenceModelData& a, const InsideBall& in_a, const InterferenceModelData& b,
     const InsideBalls& balls_b, const InsideBall& in_b, const ApproximateMap& to_a,
     double* reserve);
+
+/// The two of some balls of A and of B that reach into each other farthest, if any do, as far as
+/// doubles know: worth asking about. Of balls of radius 0 none.
+[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(
+    std::span<const InsideBall> of_a, std::span<const InsideBall> of_b, const ApproximateMap& to_a);
 
 /// A large ball inside that comes close to the boundary at the middle of a triangle (Ma, Bae and
 /// Choi, "3D medial axis point approximation using nearest neighbors and the normal field", 2012),

@@ -163,6 +163,57 @@ TEST(InterferenceQuery, StepsTowardsATouchAndBack) {
     }
 }
 
+// All ways to move in and out of shallow contact, with balls along the boundaries: sliding,
+// vibrating, turning in place, jumps and jumps back to where the bodies had been.
+TEST(InterferenceQuery, RandomWalksInShallowContact) {
+    const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 40, 24)));
+    const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(0.5, 4)));
+    const InterferenceModel rough(
+        evaluate(trisect::Expression(Solid::from_mesh(trisect::make_icosphere(0.5, 3))) -
+                 Solid::from_mesh(trisect::make_torus(0.4, 0.125, 24, 12))));
+    for (const InterferenceModel* m : {&torus, &ball, &rough}) (void)m->data().balls();
+    std::map<Relation, int> seen;
+    for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&rough, &ball),
+                               std::pair(&torus, &torus), std::pair(&rough, &rough)}) {
+        InterferenceQuery query(*a, *b);
+        Random random(77);
+        // B's middle about A's, and the angle of B.
+        const auto pose_at = [](const std::array<double, 3>& place) {
+            return turned(place[2],
+                          {place[0] * std::cos(place[1]), 0.01, place[0] * std::sin(place[1])});
+        };
+        const double touching = a == &rough ? 0.99 : b == &torus ? 1.1 : 1.7;
+        std::array<double, 3> place{touching, 0, 0};
+        std::vector<std::array<double, 3>> been{place};
+        for (int i = 0; i < 150; ++i) {
+            const auto way = random.between(0, 5);
+            for (int k = 0; k < 6; ++k) {
+                const double sign = k % 2 == 0 ? 1 : -1;
+                if (way <= 1) place[1] += 0.01;
+                if (way == 1) place[0] += 0.001 * static_cast<double>(random.between(-3, 3));
+                if (way == 2) place[0] += sign * 0.004;
+                if (way == 3) place[2] += 0.5;
+                if (way == 4 && k == 0)
+                    place = {touching + 0.05 * static_cast<double>(random.between(-6, 2)),
+                             0.1 * static_cast<double>(random.between(0, 60)),
+                             5.0 * static_cast<double>(random.between(0, 70))};
+                if (way == 5 && k == 0)
+                    place = been[static_cast<std::size_t>(
+                        random.between(0, static_cast<std::int64_t>(been.size()) - 1))];
+                const Pose pose = pose_at(place);
+                const Relation r = query.relation(Pose(), pose);
+                ASSERT_EQ(r, interfere(*a, Pose(), *b, pose).relation) << i << " " << k;
+                ++seen[r];
+            }
+            been.push_back(place);
+        }
+        EXPECT_GT(query.counters().by_balls, 20U);
+        EXPECT_GT(query.counters().kept, 100U);
+    }
+    EXPECT_GT(seen[Relation::Disjoint], 300);
+    EXPECT_GT(seen[Relation::Overlapping], 300);
+}
+
 TEST(InterferenceQuery, ALostCrossingGoesOnFromTheFrontBefore) {
     const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 60, 40)));
     InterferenceQuery query(torus, torus);
