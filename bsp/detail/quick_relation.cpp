@@ -18,6 +18,7 @@
 
 #include <trisect/bsp/detail/boundary_flags.h>
 #include <trisect/bsp/detail/inside_balls.h>
+#include <trisect/bsp/detail/self_contact.h>
 
 namespace trisect::detail {
 
@@ -107,10 +108,11 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
     // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
+    TellingCrossings crossings(a, b, to_a);
     bool doubtful = false;
     std::vector<CandidatePair> doubtful_pairs;
     const bool crossing = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
-        if (verdict == PairVerdict::Crossing && a.is_clear(i) && b.is_clear(j)) return true;
+        if (verdict == PairVerdict::Crossing && crossings.tells(i, j)) return true;
         doubtful = true;
         if (candidates != nullptr) doubtful_pairs.push_back({i, j, verdict});
         return false;

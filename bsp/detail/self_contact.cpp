@@ -9,6 +9,8 @@
 // through it, which is the plane of one of them, or contains a side of each, or goes across the way
 // between their middles.
 
+#include <trisect/bsp/detail/self_contact.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -171,7 +173,10 @@ OrientedBox box_around(const InterferenceModelData& model, const TriangleCorners
     return box;
 }
 
-bool find_clear(const InterferenceModelData& model, std::uint32_t s) {
+// visit(t) for all triangles t that meet a triangle anywhere but in common corners and sides, until
+// it returns true.
+template <class Visit>
+void for_touching(const InterferenceModelData& model, std::uint32_t s, Visit&& visit) {
     const ObbTree& tree = model.boxes;
     const TriangleCorners p = corners_of(model, s);
     const OrientedBox box = box_around(model, p);
@@ -203,11 +208,21 @@ bool find_clear(const InterferenceModelData& model, std::uint32_t s) {
                 nodes.push_back(child.node());
                 continue;
             }
-            for (std::uint32_t k = 0; k < child.count(); ++k)
-                if (!keeps_off(tree.order[child.first() + k])) return false;
+            for (std::uint32_t k = 0; k < child.count(); ++k) {
+                const std::uint32_t t = tree.order[child.first() + k];
+                if (!keeps_off(t) && visit(t)) return;
+            }
         }
     }
-    return true;
+}
+
+bool find_clear(const InterferenceModelData& model, std::uint32_t s) {
+    bool is_clear = true;
+    for_touching(model, s, [&is_clear](std::uint32_t) {
+        is_clear = false;
+        return true;
+    });
+    return is_clear;
 }
 
 }  // namespace
@@ -227,6 +242,49 @@ bool InterferenceModelData::is_clear(std::uint32_t triangle) const {
         clear_[triangle].store(state, std::memory_order_relaxed);
     }
     return state == Clear;
+}
+
+std::vector<std::uint32_t> touching_triangles(const InterferenceModelData& model,
+                                              std::uint32_t triangle) {
+    std::vector<std::uint32_t> touching;
+    for_touching(model, triangle, [&touching](std::uint32_t t) {
+        touching.push_back(t);
+        return false;
+    });
+    return touching;
+}
+
+TellingCrossings::TellingCrossings(const InterferenceModelData& a, const InterferenceModelData& b,
+                                   const ApproximateMap& to_a)
+    : a_(a),
+      b_(b),
+      to_a_(to_a),
+      error_(a.position_error + to_a.error_below(b.largest, b.position_error)) {}
+
+// Null when patience is at its end.
+const std::vector<std::uint32_t>* TellingCrossings::touching(const InterferenceModelData& model,
+                                                             std::uint32_t triangle,
+                                                             Touching& known) {
+    for (const auto& [t, all] : known)
+        if (t == triangle) return &all;
+    if (known.size() == patience) return nullptr;
+    known.emplace_back(triangle, model.is_clear(triangle) ? std::vector<std::uint32_t>{}
+                                                          : touching_triangles(model, triangle));
+    return &known.back().second;
+}
+
+bool TellingCrossings::tells(std::uint32_t i, std::uint32_t j) {
+    if (a_.is_clear(i) && b_.is_clear(j)) return true;
+    const auto* at_i = touching(a_, i, known_a_);
+    const auto* at_j = touching(b_, j, known_b_);
+    if (at_i == nullptr || at_j == nullptr) return false;
+    const auto are_apart = [this](std::uint32_t s, std::uint32_t t) {
+        TriangleCorners q = corners_of(b_, t);
+        for (auto& corner : q) corner = to_a_(corner);
+        return compare_triangles(corners_of(a_, s), q, error_) == PairVerdict::Apart;
+    };
+    return std::ranges::all_of(*at_i, [&](std::uint32_t s) { return are_apart(s, j); }) &&
+           std::ranges::all_of(*at_j, [&](std::uint32_t t) { return are_apart(i, t); });
 }
 
 }  // namespace trisect::detail
