@@ -11,7 +11,8 @@
 //   shells      a shell that meets nothing lies wholly inside, outside or in a cavity of the other
 //               solid: one of its vertices is located there.
 // Where doubles see a crossing, or see the boundaries apart, none of that is asked
-// (quick_relation.cpp).
+// (quick_relation.cpp). Where meshes fall together, contacts follow from names
+// (coincident_triangles.cpp).
 //
 // Comparing interiors where the boundaries meet, not at sampled points, is what makes flush
 // placements come out right.
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/coincident_triangles.h>
 #include <trisect/bsp/detail/exact_place.h>
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
@@ -144,6 +146,24 @@ bool is_same_in_place(const InterferenceModel& a, const Pose& pose_a, const Inte
            std::ranges::all_of(r.translation(), [](const auto& t) { return t.is_zero(); });
 }
 
+// Pairs for the relation, of which doubles know something or nothing.
+void collect_pairs(const PosedModels& models, const detail::CandidatePairs& candidates,
+                   detail::MeetingCollector& collect) {
+    if (candidates.is_complete) {
+        (void)std::ranges::any_of(candidates.pairs, [&collect](const detail::CandidatePair& p) {
+            return collect(p.a, p.b, p.verdict);
+        });
+    } else if (candidates.may_coincide && models.poses.to_a.has_doubles() &&
+               !models.a.touches_itself() && !models.b.touches_itself()) {
+        const detail::CoincidentTriangles coincident(models);
+        coincident.add_flags(collect.flags);
+        coincident.for_other_candidates(collect);
+        if (!collect.flags.is_decided()) coincident.add_pairs(collect.pairs);
+    } else {
+        for_candidate_pairs(models, collect);
+    }
+}
+
 }  // namespace
 
 InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
@@ -169,12 +189,10 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
     const PosedModels models{a.data(), b.data(),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
     detail::MeetingCollector collect(models, all);
-    if (candidates)
-        (void)std::ranges::any_of(*candidates, [&collect](const detail::CandidatePair& p) {
-            return collect(p.a, p.b, p.verdict);
-        });
-    else
+    if (all)
         for_candidate_pairs(models, collect);
+    else
+        collect_pairs(models, candidates, collect);
     BoundaryFlags& flags = collect.flags;
     const std::vector<MeetingPair>& pairs = collect.pairs;
     if (!flags.is_decided()) add_flags_at_contacts(models, pairs, flags);

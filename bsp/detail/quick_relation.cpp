@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/boundary_flags.h>
+#include <trisect/bsp/detail/coincident_triangles.h>
 #include <trisect/bsp/detail/inside_balls.h>
 #include <trisect/bsp/detail/self_contact.h>
 
@@ -108,19 +109,24 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
     // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
+    constexpr std::size_t many = 1024;
     TellingCrossings crossings(a, b, to_a);
-    bool doubtful = false;
-    std::vector<CandidatePair> doubtful_pairs;
-    const bool crossing = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
+    CandidatePairs doubtful;
+    bool is_doubtful = false;
+    const bool stopped = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
         if (verdict == PairVerdict::Crossing && crossings.tells(i, j)) return true;
-        doubtful = true;
-        if (candidates != nullptr) doubtful_pairs.push_back({i, j, verdict});
-        return false;
+        is_doubtful = true;
+        if (candidates == nullptr) return false;
+        doubtful.pairs.push_back({i, j, verdict});
+        if (doubtful.pairs.size() == many)
+            doubtful.may_coincide = may_coincide(a, b, to_a, doubtful.pairs);
+        return doubtful.may_coincide;
     });
     if (counters != nullptr) *counters += walk.counters();
-    if (crossing) return Relation::Overlapping;
-    if (doubtful) {
-        if (candidates != nullptr) *candidates = std::move(doubtful_pairs);
+    if (stopped && !doubtful.may_coincide) return Relation::Overlapping;
+    if (is_doubtful) {
+        doubtful.is_complete = !stopped;
+        if (candidates != nullptr) *candidates = std::move(doubtful);
         return std::nullopt;
     }
 

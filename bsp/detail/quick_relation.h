@@ -20,14 +20,20 @@ struct CandidatePair {
     std::uint32_t b = 0;
     PairVerdict verdict = PairVerdict::Unknown;
 };
-using CandidatePairs = std::optional<std::vector<CandidatePair>>;
+/// Pairs that doubles did not find apart.
+struct CandidatePairs {
+    std::vector<CandidatePair> pairs;
+    bool is_complete = false;   ///< these are all
+    bool may_coincide = false;  ///< there are many and some look as if they fell together
+};
 
 /// The relation when a crossing is found in doubles, or when the boundaries are certainly apart and
 /// for each shell it is certain on which side of the other boundary it is; otherwise nothing. No
 /// exact pose is made. Of solids in general position it hardly ever returns nothing.
 ///
 /// When nothing is returned after a whole walk, `candidates`, if given, has all pairs that doubles
-/// did not find apart. The stack is scratch memory. \pre neither model is empty
+/// did not find apart; where many fall together the walk is not ended. The stack is scratch memory.
+/// \pre neither model is empty
 [[nodiscard]] std::optional<Relation> quick_relation(const InterferenceModelData& a,
                                                      const Pose& pose_a,
                                                      const InterferenceModelData& b,
