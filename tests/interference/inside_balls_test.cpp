@@ -83,7 +83,13 @@ TEST(InsideBalls, NoPointOfTheBoundaryIsInThem) {
         for (std::size_t i = 0; i < balls.size(); ++i)
             expect_inside(model, {balls.center(i), balls.radius(i)}, random);
         int found = 0;
+        for (std::size_t i = 0; i < balls.along_boundary().size(); i += 20)
+            if (const InsideBall& ball = balls.along_boundary()[i]; ball.radius > 0) {
+                expect_inside(model, ball, random);
+                ++found;
+            }
         const auto count = static_cast<std::uint32_t>(model.triangle_count());
+        EXPECT_EQ(balls.region_of(count - 1) + 1, balls.along_boundary().size());
         for (std::uint32_t t = 0; t < count; t += 1 + count / 50)
             if (const auto ball = touching_ball(model.data(), t)) {
                 expect_inside(model, *ball, random);
