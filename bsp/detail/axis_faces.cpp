@@ -280,8 +280,41 @@ bool AxisFaces::has_changed(std::int32_t number) const {
 // --- Edges.
 
 void AxisFaces::note_vertices(std::span<const BoundaryEdge> edges) {
-    for (const BoundaryEdge& e : edges)
-        if (parts_.bench.is_lattice(e.from)) others_.push_back(e.from);
+    for (const BoundaryEdge& e : edges) others_.push_back(e.from);
+}
+
+namespace {
+
+// Where a point is, if it is on the lattice. What names it need not say so.
+std::optional<LatticePoint> lattice_place(const Workbench& bench, PointId p) {
+    if (bench.is_lattice(p)) return bench.lattice(p);
+    const Approximation& a = bench.approximation(p);
+    std::array<std::int64_t, 3> near{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double c = std::nearbyint(a.c[k]);
+        if (std::fabs(c - a.c[k]) > 1.0000001 * a.error || std::fabs(c) > 0x1p53)
+            return std::nullopt;
+        near[k] = static_cast<std::int64_t>(c);
+    }
+    const LatticePoint place{near[0], near[1], near[2]};
+    for (const PlaneId plane : bench.planes_of(p))
+        if (side_of(place, bench.plane_at(plane)) != Side::On) return std::nullopt;
+    return place;
+}
+
+}  // namespace
+
+void AxisFaces::place_others() {
+    std::ranges::sort(others_);
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    std::size_t kept = 0;
+    for (const PointId p : others_) {
+        const auto place = lattice_place(parts_.bench, p);
+        if (!place) continue;
+        others_[kept++] = p;
+        places_.push_back(*place);
+    }
+    others_.resize(kept);
 }
 
 std::uint32_t AxisFaces::rank(std::size_t axis, std::int64_t at) const {
@@ -293,14 +326,25 @@ AxisFaces::Ranks AxisFaces::ranks_of(const LatticePoint& p) const {
     return {rank(0, p.x), rank(1, p.y), rank(2, p.z)};
 }
 
+// Corners of parts count as vertices even where all faces run straight on: a facet with one inside
+// an edge has changed, and whether facets are put together one by one must not show.
+void AxisFaces::list_corners() {
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (!taken_[i]) continue;
+        const BoundaryFacet& f = parts_.facets[i];
+        for (int c = 0; c < 3; ++c)
+            if ((facets_[i].corners >> c & 1) != 0) corners_.push_back({f.source, f.facet, c});
+    }
+    corners_.insert(corners_.end(), passing_.begin(), passing_.end());
+    passing_ = {};
+}
+
 void AxisFaces::rank_coordinates() {
     const auto add = [&](const LatticePoint& p) {
         for (std::size_t k = 0; k < 3; ++k) coordinates_[k].push_back(p[static_cast<int>(k)]);
     };
-    std::ranges::sort(others_);
-    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
-    for (const PointId p : others_) add(parts_.bench.lattice(p));
-    for (const CornerName& c : passing_) add(c.source->corner(c.facet, c.corner));
+    for (const LatticePoint& p : places_) add(p);
+    for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));
     for (const Sheet& s : sheets_) {
         coordinates_[s.plane.axis].push_back(s.plane.position / wall_scale);
         if (s.is_general) continue;
@@ -323,8 +367,13 @@ void AxisFaces::make_stops() {
     const auto add_all = [&](const LatticePoint& p) {
         for (std::size_t k = 0; k < 3; ++k) stops_[k].push_back(stop_at(k, ranks_of(p)));
     };
-    for (const PointId p : others_) add_all(parts_.bench.lattice(p));
-    for (const CornerName& c : passing_) add_all(c.source->corner(c.facet, c.corner));
+    for (const LatticePoint& p : places_) add_all(p);
+    // A vertex is named by the corner of a source if there is one there: by the first.
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const LatticePoint& p = corners_[i].source->corner(corners_[i].facet, corners_[i].corner);
+        if (corner_ids_.insert(key_of(ranks_of(p)), static_cast<std::int32_t>(i)).second)
+            add_all(p);
+    }
     for (Sheet& s : sheets_) {
         if (s.is_general) continue;
         const std::size_t k = s.plane.axis;
@@ -347,31 +396,6 @@ void AxisFaces::make_stops() {
         std::sort(stops.begin(), stops.end());
         stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
     }
-}
-
-// A vertex is named by the corner of a source if there is one there: of the first facet that has
-// it.
-void AxisFaces::name_corners() {
-    const auto add = [&](const CornerName& name) {
-        const auto next = static_cast<std::int32_t>(corners_.size());
-        const Ranks at = ranks_of(name.source->corner(name.facet, name.corner));
-        if (corner_ids_.insert(key_of(at), next).second) corners_.push_back(name);
-    };
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-        if (!taken_[i]) continue;
-        for (int c = 0; c < 3; ++c) {
-            const BoundaryFacet& f = parts_.facets[i];
-            const LatticePoint& p = f.source->corner(f.facet, c);
-            const Ranks at = ranks_of(p);
-            // Elsewhere nobody asks.
-            bool known = (facets_[i].corners >> c & 1) != 0;
-            for (std::size_t k = 0; k < 3; ++k)
-                known = known && at[k] < coordinates_[k].size() &&
-                        coordinates_[k][at[k]] == p[static_cast<int>(k)];
-            if (known) add({f.source, f.facet, c});
-        }
-    }
-    for (const CornerName& name : passing_) add(name);
 }
 
 PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
@@ -401,11 +425,12 @@ PointId AxisFaces::make_point(const Ranks& ranks) {
 
 void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
     if (taken_count_ == 0) return;
+    place_others();
+    list_corners();
     rank_coordinates();
     make_stops();
-    name_corners();
-    for (const PointId p : others_)
-        (void)point_ids_.insert(key_of(ranks_of(parts_.bench.lattice(p))), p);
+    for (std::size_t i = 0; i < others_.size(); ++i)
+        (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
     for (Sheet& s : sheets_) {
         if (s.is_general) continue;
         check_stop(s.outline.stretches().size());

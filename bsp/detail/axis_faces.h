@@ -98,9 +98,10 @@ private:
     void judge();
     [[nodiscard]] bool has_changed(std::int32_t number) const;
 
+    void place_others();
+    void list_corners();
     void rank_coordinates();
     void make_stops();
-    void name_corners();
     void make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges);
     void add_edges(const BoundaryEdge& run, std::size_t along, const Ranks& from, std::uint32_t to,
                    std::vector<BoundaryEdge>& edges);
@@ -123,14 +124,18 @@ private:
     std::vector<bool> taken_;
     std::size_t taken_count_ = 0;
     std::size_t part_count_ = 0;
-    std::vector<CornerName> passing_;  // corners of facets that pass through, in leaves across axes
-    std::vector<PointId> others_;      // vertices of facets that are not taken
+    // Corners that are vertices of parts of facets taken, then those of facets that pass through,
+    // in leaves across axes.
+    std::vector<CornerName> corners_;
+    std::vector<CornerName> passing_;
+    // Vertices of facets that are not taken, where they are on the lattice, and their places.
+    std::vector<PointId> others_;
+    std::vector<LatticePoint> places_;
     std::vector<AxisSide> sides_;
 
     std::array<std::vector<std::int64_t>, 3> coordinates_;  // sorted
     std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
     std::array<std::vector<Stop>, 3> stops_;                // by the axis of their line, sorted
-    std::vector<CornerName> corners_;
     FlatMap corner_ids_;
     FlatMap point_ids_;
     Ranks last_place_{};  // of the edge made last: its end

@@ -196,6 +196,8 @@ private:
     std::string check(const trisect::Solid& result, const Wanted& wanted) {
         if (std::string why = engines::difference(result.to_brep(), wanted.boundary); !why.empty())
             return why;
+        if (!wanted.unbounded)
+            if (std::string why = engines::open_edge(result.to_mesh()); !why.empty()) return why;
         const bool nothing = wanted.boundary.empty() && !wanted.unbounded;
         const bool everything = wanted.boundary.empty() && wanted.unbounded;
         if (result.is_empty() == nothing && result.is_whole_space() == everything) return {};
