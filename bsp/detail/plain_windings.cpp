@@ -198,6 +198,24 @@ bool PlainWindings::at_point(const Approximation& target, LeafIndex own, Evaluat
     return true;
 }
 
+// All points between the reference and a target that can be in a plane which the target may be in,
+// as the target with a larger error. False when that says too little.
+bool PlainWindings::near_target(double at_start, double start_error, double at_target,
+                                double target_error, const Approximation& target,
+                                Approximation& x) const {
+    const double reach = std::fabs(at_target) + target_error;
+    const double height = std::fabs(at_start) - start_error;
+    if (!(height > 4 * reach)) return false;
+    double span = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        span = std::max(span, std::fabs(reference_.c[k] - target.c[k]));
+    // With the value v at the target and w at the reference the plane is met at v / (v - w) of the
+    // way from the target, |v| <= reach and |w| >= height.
+    x = target;
+    x.error += 1.5 * (span + reference_.error + target.error) * reach / height;
+    return true;
+}
+
 // Counts a facet of another operand if the segment goes through it; false when that is doubtful.
 bool PlainWindings::add_crossing(LeafIndex i, const Approximation& target, const Vector3& lo,
                                  const Vector3& hi, std::vector<int>& w) {
@@ -208,11 +226,16 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& target, const
     const double target_error = plane.error(target);
     const double at_start = plane.value(reference_.c);
     const double start_error = plane.error(reference_);
-    const bool sure = std::fabs(at_start) > start_error && std::fabs(at_target) > target_error;
-    if (sure && (at_start > 0) == (at_target > 0)) return true;
+    if (!(std::fabs(at_start) > start_error)) return false;
     Approximation x;
+    if (!(std::fabs(at_target) > target_error)) {
+        // The target may be in the plane. It is not on the facet: so beside that, or nobody knows.
+        return near_target(at_start, start_error, at_target, target_error, target, x) &&
+               is_inside(*facets_, f, x) < 0;
+    }
+    if ((at_start > 0) == (at_target > 0)) return true;
     const int inside =
-        sure && interpolate(reference_, at_start, target, at_target, start_error + target_error, x)
+        interpolate(reference_, at_start, target, at_target, start_error + target_error, x)
             ? is_inside(*facets_, f, x)
             : 0;
     if (inside == 0) return false;

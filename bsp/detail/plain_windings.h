@@ -60,6 +60,9 @@ private:
     void find_windings(LeafIndex root, EvaluateStats& stats);
     LeafIndex keep(std::span<const int> windings);
     void list_boxes();
+    [[nodiscard]] bool near_target(double at_start, double start_error, double at_target,
+                                   double target_error, const Approximation& target,
+                                   Approximation& x) const;
     [[nodiscard]] bool add_crossing(LeafIndex item, const Approximation& target, const Vector3& lo,
                                     const Vector3& hi, std::vector<int>& w);
 

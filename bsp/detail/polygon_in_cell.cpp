@@ -23,6 +23,18 @@ Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
     return b;
 }
 
+// Whether a fragment certainly lies in a cell: by its box, or where it ends at a wall by name.
+bool lies_in(const Fragment& fragment, const Cell& cell) {
+    Box box = fragment.box();
+    for (const EdgeName& e : fragment.edges()) {
+        if (!e.plane.is_wall()) continue;
+        const std::size_t k = e.plane.facet;
+        if (e.above && e.plane.position() == cell.lo[k]) box.lo[k] = (cell.lo[k] >> wall_bits) + 1;
+        if (!e.above && e.plane.position() == cell.hi[k]) box.hi[k] = cell.hi[k] >> wall_bits;
+    }
+    return cell.contains(box);
+}
+
 }  // namespace
 
 PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,
@@ -39,7 +51,8 @@ PolygonRef make_fragment(const Workbench& bench, const PolygonRef& ref,
 }
 
 std::optional<PolygonRef> clip_to_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell) {
-    if (cell.contains(ref.box())) return ref;
+    if (ref.fragment != nullptr ? lies_in(*ref.fragment, cell) : cell.contains(ref.box()))
+        return ref;
     WorkPolygon whole = bench.polygon(ref);
     bench.with_edges(whole, ref);
     const WorkPolygon part = bench.clipped(whole, ref.box(), cell);
