@@ -231,7 +231,8 @@ Lattice choose_lattice(std::span<const std::array<double, 3>> points, std::uint3
 std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points, Lattice lattice,
                                      LatticeReport& report, std::uint32_t threads) {
     report.lattice = lattice;
-    std::vector<LatticePoint> out(points.size());
+    std::vector<LatticePoint> out;
+    detail::resize_on_threads(out, points.size(), threads);
     const detail::ParallelParts parts(points.size(), threads, least_part);
     std::vector<Rounding> roundings(parts.count(), Rounding(lattice));
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {

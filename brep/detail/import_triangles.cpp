@@ -177,7 +177,7 @@ private:
     };
 
     void look_at_triangles() {
-        triangles().resize(input_.face_count());
+        resize_on_threads(triangles(), input_.face_count(), sharing_.threads);
         used_.resize(points().size());
         set_bounds();
         const ParallelParts parts = sharing_.parts(triangles().size());

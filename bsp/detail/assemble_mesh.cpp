@@ -86,7 +86,7 @@ public:
         worked_.reserve(3 * edges.size());
         for (rest_ = edges; !rest_.empty();) cut_worked();
         worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
-        mesh_.corners.resize(3 * parts_.stats.whole_facets + worked_.size());
+        resize_on_threads(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size(), threads_);
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         number_faces();
         return std::move(mesh_);
@@ -145,7 +145,7 @@ private:
         }
         std::vector<std::size_t> first(counts.size());
         std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
-        mesh_.points.resize(first.back() + counts.back());
+        resize_on_threads(mesh_.points, first.back() + counts.back(), threads_);
         ParallelParts(table.size(), threads_, least_points)
             .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
                 std::size_t n = first[part];
@@ -260,7 +260,7 @@ private:
     }
 
     void number_faces() {
-        mesh_.face_begin.resize(mesh_.corners.size() / 3 + 1);
+        resize_on_threads(mesh_.face_begin, mesh_.corners.size() / 3 + 1, threads_);
         ParallelParts(mesh_.face_begin.size(), threads_, least_points)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)

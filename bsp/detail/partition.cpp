@@ -6,9 +6,10 @@
 // chose in another frame) the polygons' own boxes are looked up.
 //
 // Memory that is touched for the first time costs a fault and its clearing, more than the pass
-// itself. So both sides share one piece that has room for few entries that cross the wall, and only
-// where there are more a second one is taken. The lists of two large operands are distributed, and
-// the boxes of large meshes made, by several threads.
+// itself. So both sides of a large list share one piece that has room for few entries that cross
+// the wall, which arenas can keep for the next evaluation; where there are more a larger one is
+// taken. The lists of two large operands are distributed, and the boxes of large meshes made, by
+// several threads.
 
 #include <trisect/bsp/detail/partition.h>
 
@@ -304,12 +305,12 @@ struct ListToDivide {
     std::array<CellOperand*, 2> out{};
 };
 
-// Room for both sides: enough unless many entries cross the wall, or in any case. What stays free
-// between them is never touched.
+// Room for both sides: for large lists enough unless many entries cross the wall, or in any case.
+// What stays free between them is never touched, but a few large blocks are all that arenas keep.
 std::span<PackedBox> take_room(const CellOperand& o, bool in_any_case, StackArena& arena) {
+    constexpr std::size_t large = std::size_t{1} << 18;
     const std::size_t n = o.count;
-    const std::size_t full = 2 * n + 2;
-    const std::size_t room = in_any_case ? full : std::min(n + n / 8 + 4096, full);
+    const std::size_t room = in_any_case || n < large ? 2 * n + 2 : n + n / 8;
     return {arena.take<PackedBox>(room), room};
 }
 

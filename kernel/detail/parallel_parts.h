@@ -11,7 +11,8 @@
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <utility>
+#include <type_traits>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -143,5 +144,27 @@ private:
     std::uint32_t threads_;
     std::size_t count_;
 };
+
+/// Resizes a vector of simple values. Memory that is touched for the first time is made ready by
+/// the system page by page, which takes longer than all else; so several threads touch some of it.
+template <class T>
+void resize_on_threads(std::vector<T>& values, std::size_t size, std::uint32_t threads) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    constexpr std::size_t page = 4096;
+    constexpr std::size_t least_pages = 64;
+    values.reserve(size);
+    auto* const begin = reinterpret_cast<std::byte*>(values.data() + values.size());
+    auto* const end = reinterpret_cast<std::byte*>(values.data() + size);
+    if (begin < end) {
+        const ParallelParts parts(static_cast<std::size_t>(end - begin) / page, threads,
+                                  least_pages);
+        if (parts.count() > 1)
+            parts.for_each([&](std::size_t, std::size_t first, std::size_t last) {
+                // Nothing lives there yet.
+                for (std::size_t i = first; i < last; ++i) begin[i * page] = std::byte{0};
+            });
+    }
+    values.resize(size);
+}
 
 }  // namespace trisect::detail
