@@ -287,6 +287,18 @@ TEST(ImportMesh, HostileIndicesAndCoordinatesAreRefused) {
     }
 }
 
+TEST(ImportMesh, AFaceOfMoreCornersThanSupportedIsAnError) {
+    PolygonMesh m;
+    std::vector<std::uint32_t> parabola((std::size_t{1} << 17) + 1);
+    for (std::size_t i = 0; i < parabola.size(); ++i) {
+        const auto x = static_cast<double>(i);
+        parabola[i] = static_cast<std::uint32_t>(i);
+        m.points.push_back({x, x * x, 0});
+    }
+    m.add_face(parabola);
+    EXPECT_THROW(static_cast<void>(import_mesh(m)), LimitError);
+}
+
 TEST(ImportMesh, FullRangeOfCoordinates) {
     const double big = 0x1p53 - 1;
     const auto r =

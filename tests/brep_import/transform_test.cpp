@@ -75,6 +75,17 @@ TEST(Transform, ExactTransformsOfALatticeMesh) {
     EXPECT_THROW(static_cast<void>(translated(m, {coordinate_limit, 0, 0})), LimitError);
 }
 
+TEST(Transform, WhatWouldLeaveTheLatticeIsAnError) {
+    const auto m = import_mesh(cuboid({1, 2, 3}, {4, 6, 8})).mesh;
+    EXPECT_THROW(static_cast<void>(translated(m, {0, 2 * coordinate_limit, 0})), LimitError);
+    EXPECT_THROW(static_cast<void>(translated(m, {0, 0, -2 * coordinate_limit})), LimitError);
+    LatticeReport report;
+    EXPECT_THROW(static_cast<void>(transformed(m, AffineMap::scaling({1, 0x1p60, 1}), report)),
+                 LimitError);
+    EXPECT_THROW(static_cast<void>(transformed(m, AffineMap::translation({0, 0, 1e300}), report)),
+                 LimitError);
+}
+
 TEST(Transform, PowersOfTwoAreExactInBothDirections) {
     const auto m = import_mesh(cuboid({1, 2, 3}, {4, 6, 8})).mesh;
     for (const int power : {-17, -8, -1, 0, 1, 7, 8, 30}) {

@@ -232,6 +232,56 @@ void cascade(const ConvexPolygon& start, const std::vector<Plane>& planes, std::
     EXPECT_EQ(sum, whole);
 }
 
+// A rectangle in the plane 2 x_j = x_l, from x_j = 1/100 to 301/100, as long as the lattice along
+// `axis`. Its corners are so far out that doubles cannot tell them from planes nearby.
+ConvexPolygon upright_strip(int axis) {
+    const int j = (axis + 1) % 3;
+    const int l = (axis + 2) % 3;
+    std::array<trisect::Int128, 3> n{};
+    n[static_cast<std::size_t>(j)] = trisect::Int128{2} << 20;
+    n[static_cast<std::size_t>(l)] = -(trisect::Int128{1} << 20);
+    const std::int64_t scale = 1 << 12;
+    return {
+        Plane(n[0], n[1], n[2], Plane::Offset()),
+        {Plane::axis_aligned(axis, scale, scale << 49), Plane::axis_aligned(j, 100, 1).flipped(),
+         Plane::axis_aligned(axis, scale, -(scale << 49)).flipped(),
+         Plane::axis_aligned(j, 100, 301)}};
+}
+
+// The plane with one of its four coefficients changed by so much.
+Plane with_other_coefficient(const Plane& p, int coefficient, int change) {
+    std::array<trisect::Int128, 3> n{p.normal(0), p.normal(1), p.normal(2)};
+    Plane::Offset d = p.offset();
+    if (coefficient < 3)
+        n[static_cast<std::size_t>(coefficient)] += change;
+    else
+        d += Plane::Offset(trisect::Int128{change});
+    return {n[0], n[1], n[2], d};
+}
+
+TEST(ConvexPolygon, PlanesThatDifferInOneCoefficientFromThoseOfAVertexFarOut) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const ConvexPolygon strip = upright_strip(axis);
+        ASSERT_TRUE(strip.is_consistent());
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto v = oracle::rational(strip.vertex(i));
+            for (const Plane& named : {strip.support(), strip.edge((i + 3) % 4), strip.edge(i)})
+                for (const Plane& p : {named, named.flipped()}) {
+                    const std::uint64_t named_before = trisect::predicate_counters().symbolic;
+                    EXPECT_EQ(strip.side_of_vertex(i, p), Side::On);
+                    EXPECT_EQ(trisect::predicate_counters().symbolic, named_before + 1);
+                    for (int coefficient = 0; coefficient < 4; ++coefficient)
+                        for (const int change : {-1, 1}) {
+                            const Plane other = with_other_coefficient(p, coefficient, change);
+                            EXPECT_EQ(static_cast<int>(strip.side_of_vertex(i, other)),
+                                      oracle::side(v, other))
+                                << axis << ' ' << i << ' ' << coefficient;
+                        }
+                }
+        }
+    }
+}
+
 TEST(ConvexPolygon, CascadesOnSmallGridsHitCornersAndEdges) {
     oracle::Source random(2);
     for (int round = 0; round < 60; ++round) {
