@@ -372,4 +372,13 @@ TEST(ConvexPolygon, TooFewEdgesAreRefused) {
     EXPECT_THROW(ConvexPolygon(s.support(), {s.edge(0), s.edge(2), s.edge(1)}), trisect::Error);
 }
 
+TEST(ConvexPolygon, EdgesInClockwiseOrderAreInconsistent) {
+    const ConvexPolygon s = square();
+    try {
+        EXPECT_FALSE(ConvexPolygon(s.support(), {s.edge(3), s.edge(2), s.edge(1), s.edge(0)})
+                         .is_consistent());
+    } catch (const trisect::Error&) {  // audit builds refuse it at once
+    }
+}
+
 }  // namespace
