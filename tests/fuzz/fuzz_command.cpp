@@ -94,8 +94,7 @@ public:
         std::string name = (fs::temp_directory_path() / "trisect-fuzz-XXXXXX").string();
         require(::mkdtemp(name.data()) != nullptr);
         path_ = name;
-        require(::chdir(name.c_str()) == 0);
-        for (const File& file : files) std::ofstream(std::string(file.name)) << file.text;
+        for (const File& file : files) std::ofstream(path_ / file.name) << file.text;
     }
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
@@ -104,6 +103,7 @@ public:
         fs::remove_all(path_, ignored);
     }
 
+    [[nodiscard]] const fs::path& path() const { return path_; }
     /// Takes away what the command wrote.
     void clean() const {
         for (const auto& entry : fs::directory_iterator(path_)) {
@@ -119,11 +119,12 @@ private:
     fs::path path_;
 };
 
-/// Standard streams go nowhere, and the signals that the command blocks come through again at the
-/// end.
-class Quiet {
+/// Standard streams go nowhere and the folder is the one to work in. In the end all is as before,
+/// and the signals that the command blocks come through again.
+class Visit {
 public:
-    Quiet() {
+    explicit Visit(const fs::path& folder) : before_(fs::current_path()) {
+        fs::current_path(folder);
         ::pthread_sigmask(SIG_SETMASK, nullptr, &signals_);
         const int nowhere = ::open("/dev/null", O_RDWR);
         require(nowhere >= 0);
@@ -133,17 +134,20 @@ public:
         }
         ::close(nowhere);
     }
-    Quiet(const Quiet&) = delete;
-    Quiet& operator=(const Quiet&) = delete;
-    ~Quiet() {
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+    ~Visit() {
         for (int i = 0; i < 3; ++i) {
             ::dup2(kept_[static_cast<std::size_t>(i)], i);
             ::close(kept_[static_cast<std::size_t>(i)]);
         }
         ::pthread_sigmask(SIG_SETMASK, &signals_, nullptr);
+        std::error_code ignored;
+        fs::current_path(before_, ignored);
     }
 
 private:
+    fs::path before_;
     std::array<int, 3> kept_{};
     sigset_t signals_{};
 };
@@ -188,7 +192,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     argv.push_back(nullptr);
     int code = 0;
     {
-        const Quiet quiet;
+        const Visit visit(folder.path());
         code = trisect::app::run(static_cast<int>(argv.size()) - 1, argv.data());
     }
     require(code >= 0 && code <= 7);
