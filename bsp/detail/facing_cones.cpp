@@ -33,6 +33,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/bsp/detail/inverse_matrix.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -52,24 +54,6 @@ Vector product(const Matrix& m, const Vector& v) {
 }
 double norm(const Matrix& m) {
     return std::sqrt(dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]));
-}
-
-// X near the inverse; not finite when there is none.
-Matrix inverse_of(const Matrix& v) {
-    Matrix x{};
-    double determinant = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t i1 = (i + 1) % 3;
-            const std::size_t i2 = (i + 2) % 3;
-            const std::size_t j1 = (j + 1) % 3;
-            const std::size_t j2 = (j + 2) % 3;
-            x[j][i] = v[i1][j1] * v[i2][j2] - v[i1][j2] * v[i2][j1];
-            if (i == 0) determinant += v[0][j] * x[j][0];
-        }
-    for (auto& row : x)
-        for (double& c : row) c /= determinant;
-    return x;
 }
 
 // The triangles below a box; of many only some more than `most_triangles`.
@@ -92,6 +76,54 @@ std::vector<std::uint32_t> triangles_below(const ObbTree& tree, ObbId box) {
 }
 
 }  // namespace
+
+// A ball around B.
+struct PartingFaces::Extent {
+    Vector center{};
+    double radius = 0;
+};
+
+// What two coefficients say of the velocity of a point p: turn p + way. `size` bounds what was
+// added up for it.
+struct PartingFaces::Step {
+    Matrix turn{};
+    Vector way{};
+    double size = 0;
+};
+
+PartingFaces::Step PartingFaces::step_between(const BallMotion::Maps& m0,
+                                              const BallMotion::Maps& m1, const SweptMap& swept,
+                                              const Extent& extent) {
+    Step s;
+    const double w = m1.weight.value - m0.weight.value;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double part = swept.map.m[i][j] * w;
+            s.turn[i][j] = (m1.matrix[i][j].value - m0.matrix[i][j].value) - part;
+            s.size += (std::abs(m1.matrix[i][j].value) + m1.matrix[i][j].error +
+                       m0.matrix[i][j].error + std::abs(part)) *
+                      (std::abs(extent.center[j]) + extent.radius);
+        }
+        const double part = swept.map.t[i] * w;
+        s.way[i] = (m1.shift[i].value - m0.shift[i].value) - part;
+        s.size +=
+            std::abs(m1.shift[i].value) + m1.shift[i].error + m0.shift[i].error + std::abs(part);
+    }
+    return s;
+}
+
+// Of the balls' errors in such a sum.
+double PartingFaces::errors_of(const BallMotion::Maps& m, const SweptMap& swept,
+                               const Extent& extent) {
+    double errors = m.weight.error * (norm(swept.map.m) * (length(extent.center) + extent.radius) +
+                                      length(swept.map.t));
+    for (std::size_t i = 0; i < 3; ++i) {
+        errors += m.shift[i].error;
+        for (std::size_t j = 0; j < 3; ++j)
+            errors += m.matrix[i][j].error * (std::abs(extent.center[j]) + extent.radius);
+    }
+    return errors;
+}
 
 // For unit vectors at most α from the axis c, cos α > 0, and c · v > 0, the least product with v is
 // at α: |v| cos(φ + α), with φ between c and v.
@@ -163,75 +195,58 @@ void FacingCones::append_normal(FaceId face) {
 }
 
 void PartingFaces::set(const BallMotion& over, const SweptMap& swept) {
-    const InterferenceModelData& b = b_.data();
-    const Vector& center = b.boxes.origin;
-    const double radius = b.boxes.radius * b.boxes.unit;
-    turn_ = {};
-    way_ = {};
     error_ = HUGE_VAL;
     inverse_error_ = HUGE_VAL;
     if (over.degree == 0) return;
+    double least_weight = HUGE_VAL;
+    for (std::size_t k = 0; k <= over.degree; ++k)
+        least_weight = std::min(least_weight, over.maps[k].weight.lower());
+    if (!(least_weight > 0)) return;
+    set_velocity(over, swept);
+    set_inverse(over, swept, least_weight);
+}
 
+void PartingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
+    const InterferenceModelData& b = b_.data();
+    const Extent extent{b.boxes.origin, b.boxes.radius * b.boxes.unit};
     // The mean over k telescopes to the last coefficient minus the first.
-    const auto differences = [&](std::size_t k, std::size_t to, Matrix& turn, Vector& way) {
-        const BallMotion::Maps& m0 = over.maps[k];
-        const BallMotion::Maps& m1 = over.maps[to];
-        const double w = m1.weight.value - m0.weight.value;
-        double size = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) {
-                turn[i][j] =
-                    (m1.matrix[i][j].value - m0.matrix[i][j].value) - swept.map.m[i][j] * w;
-                size += (std::abs(m1.matrix[i][j].value) + m1.matrix[i][j].error +
-                         m0.matrix[i][j].error + std::abs(swept.map.m[i][j] * w)) *
-                        (std::abs(center[j]) + radius);
-            }
-            way[i] = (m1.shift[i].value - m0.shift[i].value) - swept.map.t[i] * w;
-            size += std::abs(m1.shift[i].value) + m1.shift[i].error + m0.shift[i].error +
-                    std::abs(swept.map.t[i] * w);
-        }
-        return size;
-    };
     const auto n = static_cast<double>(over.degree);
-    double size = differences(0, over.degree, turn_, way_);
+    const Step whole = step_between(over.maps[0], over.maps[over.degree], swept, extent);
     for (std::size_t i = 0; i < 3; ++i) {
-        for (double& c : turn_[i]) c /= n;
-        way_[i] /= n;
+        for (std::size_t j = 0; j < 3; ++j) turn_[i][j] = whole.turn[i][j] / n;
+        way_[i] = whole.way[i] / n;
     }
+    double size = whole.size;
     double deviation = 0;
     double weight_step = 0;
-    double least_weight = over.maps[0].weight.lower();
-    double ball_errors = 0;
-    for (std::size_t k = 0; k <= over.degree; ++k) {
-        const BallMotion::Maps& m = over.maps[k];
-        least_weight = std::min(least_weight, m.weight.lower());
-        double errors =
-            m.weight.error * (norm(swept.map.m) * (length(center) + radius) + length(swept.map.t));
-        for (std::size_t i = 0; i < 3; ++i) {
-            errors += m.shift[i].error;
-            for (std::size_t j = 0; j < 3; ++j)
-                errors += m.matrix[i][j].error * (std::abs(center[j]) + radius);
-        }
-        ball_errors = std::max(ball_errors, errors);
-        if (k == over.degree) break;
-        Matrix turn{};
-        Vector way{};
-        size = std::max(size, differences(k, k + 1, turn, way));
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) turn[i][j] -= turn_[i][j];
-            way[i] = way[i] - way_[i] + dot(turn[i], center);
-        }
-        deviation = std::max(deviation, norm(turn) * radius + length(way));
+    double errors = errors_of(over.maps[0], swept, extent);
+    for (std::size_t k = 0; k < over.degree; ++k) {
+        const BallMotion::Maps& next = over.maps[k + 1];
+        const Step step = step_between(over.maps[k], next, swept, extent);
+        size = std::max(size, step.size);
+        deviation = std::max(deviation, deviation_of(step, extent));
         weight_step =
-            std::max(weight_step, std::abs(over.maps[k + 1].weight.value - m.weight.value) +
-                                      over.maps[k + 1].weight.error + m.weight.error);
+            std::max(weight_step, std::abs(next.weight.value - over.maps[k].weight.value) +
+                                      next.weight.error + over.maps[k].weight.error);
+        errors = std::max(errors, errors_of(next, swept, extent));
     }
-    if (!(least_weight > 0)) return;
     turn_norm_ = norm(turn_);
-    error_ = 1.0001 * (deviation + weight_step * swept.sweep + 4 * ball_errors) + 0x1p-46 * size;
+    error_ = 1.0001 * (deviation + weight_step * swept.sweep + 4 * errors) + 0x1p-46 * size;
+}
 
-    // Entries of M are those of the map in the middle within what the coefficients deviate from it.
-    const double stretch = inverse_stretch(over);
+// Of all points of B.
+double PartingFaces::deviation_of(const Step& step, const Extent& extent) const {
+    Matrix turn = step.turn;
+    Vector way = step.way;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) turn[i][j] -= turn_[i][j];
+        way[i] = way[i] - way_[i] + dot(turn[i], extent.center);
+    }
+    return norm(turn) * extent.radius + length(way);
+}
+
+// Entries of M are those of the map in the middle within what the coefficients deviate from it.
+void PartingFaces::set_inverse(const BallMotion& over, const SweptMap& swept, double least_weight) {
     double squares = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -246,14 +261,9 @@ void PartingFaces::set(const BallMotion& over, const SweptMap& swept) {
     const double reach = std::sqrt(squares) / least_weight;
     inverse_ = inverse_of(swept.map.m);
     inverse_norm_ = norm(inverse_);
-    double rest = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            double e = i == j ? -1 : 0;
-            for (std::size_t k = 0; k < 3; ++k) e += inverse_[i][k] * swept.map.m[k][j];
-            rest += e * e;
-        }
-    inverse_error_ = 1.0001 * (stretch * stretch * reach + stretch * std::sqrt(rest)) +
+    const double rest = std::sqrt(square_off_identity(inverse_, swept.map.m));
+    const double stretch = inverse_stretch(over);
+    inverse_error_ = 1.0001 * (stretch * stretch * reach + stretch * rest) +
                      0x1p-46 * inverse_norm_ * inverse_norm_ * norm(swept.map.m);
 }
 

@@ -62,6 +62,16 @@ public:
     [[nodiscard]] std::uint64_t left_out() const { return left_out_; }
 
 private:
+    struct Extent;
+    struct Step;
+    [[nodiscard]] static Step step_between(const BallMotion::Maps& m0, const BallMotion::Maps& m1,
+                                           const SweptMap& swept, const Extent& extent);
+    [[nodiscard]] static double errors_of(const BallMotion::Maps& m, const SweptMap& swept,
+                                          const Extent& extent);
+    [[nodiscard]] double deviation_of(const Step& step, const Extent& extent) const;
+    void set_velocity(const BallMotion& over, const SweptMap& swept);
+    void set_inverse(const BallMotion& over, const SweptMap& swept, double least_weight);
+
     FacingCones& cones_a_;
     FacingCones& cones_b_;
     const EventModel& b_;

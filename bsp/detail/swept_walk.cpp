@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trisect/bsp/detail/inverse_matrix.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -105,33 +107,16 @@ double inverse_stretch(const BallMotion& motion) {
             reach += entry.reach * entry.reach;
             size += entry.value * entry.value;
         }
-    std::array<std::array<double, 3>, 3> x{};
-    double determinant = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t i1 = (i + 1) % 3;
-            const std::size_t i2 = (i + 2) % 3;
-            const std::size_t j1 = (j + 1) % 3;
-            const std::size_t j2 = (j + 2) % 3;
-            x[j][i] = v[i1][j1] * v[i2][j2] - v[i1][j2] * v[i2][j1];
-            if (i == 0) determinant += v[0][j] * x[j][0];
-        }
+    const std::array<std::array<double, 3>, 3> x = inverse_of(v);
+    const double rest = square_off_identity(x, v);
     std::array<double, 3> rows{};
     std::array<double, 3> columns{};
-    double rest = 0;
     double inverse = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
-            x[i][j] /= determinant;
             rows[i] += magnitude_of(x[i][j]);
             columns[j] += magnitude_of(x[i][j]);
             inverse += x[i][j] * x[i][j];
-        }
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double e =
-                (i == j ? 1 : 0) - (x[i][0] * v[0][j] + x[i][1] * v[1][j] + x[i][2] * v[2][j]);
-            rest += e * e;
         }
     const double norm = std::min(std::sqrt(inverse), std::sqrt(*std::ranges::max_element(rows) *
                                                                *std::ranges::max_element(columns)));
