@@ -263,15 +263,17 @@ private:
 
     // Pairs that may contain a place without being known to: by the boxes of their triangles in A.
     void meet_other_pairs() {
+        // The last term takes the roundings.
+        const double slack =
+            1.001 * (models_.a.position_error + largest_error_) + 0x1p-50 * models_.a.largest;
         for (std::uint32_t n = 0; n < pairs_.size(); ++n) {
             const ModelTriangle& t = models_.a.triangles[pairs_[n].a];
             std::array<double, 3> lo{};
             std::array<double, 3> hi{};
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto c = [&](std::size_t i) { return models_.a.position(t.vertex[i])[k]; };
-                const double slack = models_.a.position_error + largest_error_;
-                lo[k] = std::nextafter(std::min({c(0), c(1), c(2)}) - slack, -INFINITY);
-                hi[k] = std::nextafter(std::max({c(0), c(1), c(2)}) + slack, INFINITY);
+                lo[k] = std::min({c(0), c(1), c(2)}) - slack;
+                hi[k] = std::max({c(0), c(1), c(2)}) + slack;
             }
             const auto first = std::ranges::lower_bound(
                 places_, lo[0], {}, [](const ContactPlace& p) { return p.at[0]; });
