@@ -329,7 +329,9 @@ private:
 
 std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh, const ImportOptions& options,
                                              std::size_t least_part) {
-    return on_threads(options.threads, [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
+    const bool small = std::max(mesh.points.size(), mesh.face_count()) < 2 * least_part;
+    const std::uint32_t wanted = small ? 1 : options.threads;
+    return on_threads(wanted, [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
         const Sharing sharing{threads, least_part};
         if (!is_triangle_mesh(mesh, sharing)) return std::nullopt;
         return TriangleImporter(mesh, options, sharing).run();

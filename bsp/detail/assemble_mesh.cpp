@@ -419,7 +419,9 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
 
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                           std::uint32_t threads) {
-    return on_threads(threads,
+    // No arena for what no step would divide.
+    const bool small = solid.root.node->size() < 8 * least_groups;
+    return on_threads(small ? 1 : threads,
                       [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
 }
 
