@@ -11,10 +11,13 @@
 // has 5 to 20 operations over 2 to 6 operands, is evaluated in one pass and again step by step on
 // the trees of the results before. Boundaries must be the same sets with the same faces.
 //
-//     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--threads T]
-//                         [--only-pair I] [--only-formula I]
+// A chain has two to five steps with solids that integer maps take out of each other's grid. Its
+// leaves are arranged in doubles, fragments of earlier steps included; how many is counted.
 //
-// Works in T processes; a crash of one is recorded with the case and the rest goes on. The last two
+//     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]
+//                         [--only-pair I] [--only-formula I] [--only-chain I]
+//
+// Works in T processes; a crash of one is recorded with the case and the rest goes on. The last
 // options repeat one case of the seed, which is how a disagreement is looked into. Exits with 1 if
 // there was any.
 
@@ -55,9 +58,11 @@ struct Options {
     std::uint64_t seed = 1;
     std::uint64_t pairs = 300;
     std::uint64_t formulas = 30;
+    std::uint64_t chains = 0;
     std::uint64_t threads = 1;
     std::optional<std::uint64_t> only_pair;
     std::optional<std::uint64_t> only_formula;
+    std::optional<std::uint64_t> only_chain;
 };
 
 /// Shared by the processes.
@@ -65,10 +70,14 @@ struct Counters {
     std::atomic<std::uint64_t> pairs;
     std::atomic<std::uint64_t> formulas;
     std::atomic<std::uint64_t> operations;  // of all formulas
-    std::atomic<std::uint64_t> results;     // cell tree against naive
-    std::atomic<std::uint64_t> stepwise;    // cell tree, step by step, against naive
-    std::atomic<std::uint64_t> classic;     // classic BSP tree against naive
-    std::atomic<std::uint64_t> empty;       // expected results without boundary
+    std::atomic<std::uint64_t> chains;
+    std::atomic<std::uint64_t> mixed_leaves;     // of all chains
+    std::atomic<std::uint64_t> plain_leaves;     // of them
+    std::atomic<std::uint64_t> plain_fragments;  // in those
+    std::atomic<std::uint64_t> results;          // cell tree against naive
+    std::atomic<std::uint64_t> stepwise;         // cell tree, step by step, against naive
+    std::atomic<std::uint64_t> classic;          // classic BSP tree against naive
+    std::atomic<std::uint64_t> empty;            // expected results without boundary
     std::atomic<std::uint64_t> disagreements;
     std::atomic<std::uint64_t> wrong_flags;  // right boundary, wrong is_empty or is_whole_space
     std::atomic<std::uint64_t> crashes;
@@ -287,12 +296,67 @@ void run_formula(const Options& options, std::uint64_t index, Counters& counters
     ++counters.formulas;
 }
 
-/// Cases are the pairs, then the formulas.
+/// Why the last result of a chain is wrong; empty when it is right.
+std::string chain_difference(reference::Random& random, Counters& counters) {
+    constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 100};
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = leaf_sizes[random.below(4)];
+    const auto operand = [&] {
+        return engines::mapped(reference::random_embedded_solid(random), random);
+    };
+    std::vector<reference::Operand> operands{operand()};
+    auto expression = reference::Expression::leaf(0);
+    trisect::Solid result = engines::solid(operands[0], trisect::Embedding::Assume);
+    for (std::size_t steps = 2 + random.below(4); operands.size() <= steps;) {
+        const Kind kind = random.chance(1, 3) ? Kind::Union : Kind::Difference;
+        expression = reference::Expression::node(
+            kind, {expression, reference::Expression::leaf(operands.size())});
+        operands.push_back(operand());
+        const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume);
+        const Timer timer(counters.microseconds_ours);
+        trisect::EvaluateStats stats;
+        result = trisect::evaluate(
+            engines::formula(reference::pair_expression(kind), {result, tool}), options, &stats);
+        counters.mixed_leaves += stats.mixed_leaves;
+        counters.plain_leaves += stats.plain_leaves;
+        counters.plain_fragments += stats.plain_fragments;
+    }
+    const Timer timer(counters.microseconds_naive);
+    const auto wanted = reference::evaluate(operands, expression);
+    return engines::difference(result.to_brep(), reference::canonical_boundary(wanted.cells));
+}
+
+void run_chain(const Options& options, std::uint64_t index, Counters& counters) {
+    reference::Random random = generator(options.seed, 2, index);
+    std::string why;
+    try {
+        why = chain_difference(random, counters);
+    } catch (const std::exception& e) {
+        why = std::string("exception: ") + e.what();
+    }
+    ++counters.chains;
+    if (why.empty()) return;
+    ++counters.disagreements;
+    std::printf("DISAGREEMENT %s: %s\n", case_name(options, "--only-chain", index).c_str(),
+                why.c_str());
+    std::fflush(stdout);
+}
+
+/// Cases are the pairs, then the formulas, then the chains.
 void run_case(const Options& options, std::uint64_t index, Counters& counters) {
     if (index < options.pairs)
         run_pair(options, index, counters);
-    else
+    else if (index < options.pairs + options.formulas)
         run_formula(options, index - options.pairs, counters);
+    else
+        run_chain(options, index - options.pairs - options.formulas, counters);
+}
+
+std::string name_of_case(const Options& options, std::uint64_t index) {
+    if (index < options.pairs) return case_name(options, "--only-pair", index);
+    index -= options.pairs;
+    if (index < options.formulas) return case_name(options, "--only-formula", index);
+    return case_name(options, "--only-chain", index - options.formulas);
 }
 
 /// The cases next_case, next_case + threads, ...
@@ -300,7 +364,7 @@ pid_t start_worker(const Options& options, Progress& progress, Counters& counter
     std::fflush(stdout);
     const pid_t child = fork();
     if (child != 0) return child;
-    const std::uint64_t cases = options.pairs + options.formulas;
+    const std::uint64_t cases = options.pairs + options.formulas + options.chains;
     while (progress.next_case < cases) {
         run_case(options, progress.next_case, counters);
         progress.next_case += options.threads;
@@ -326,10 +390,7 @@ void run_all(const Options& options, Counters& counters) {
         if (WIFEXITED(status) && WEXITSTATUS(status) == 0) continue;
         ++counters.crashes;
         const std::uint64_t at = progress[i].next_case;
-        const bool pair = at < options.pairs;
-        std::printf("CRASH %s\n", case_name(options, pair ? "--only-pair" : "--only-formula",
-                                            pair ? at : at - options.pairs)
-                                      .c_str());
+        std::printf("CRASH %s\n", name_of_case(options, at).c_str());
         progress[i].next_case += options.threads;
         workers[start_worker(options, progress[i], counters)] = i;
     }
@@ -346,6 +407,10 @@ void print(const Counters& c) {
     row("pairs", c.pairs);
     row("formulas", c.formulas);
     row("operations in formulas", c.operations);
+    row("chains", c.chains);
+    row("their leaves that were arranged", c.mixed_leaves);
+    row("of those, in doubles", c.plain_leaves);
+    row("fragments of earlier steps in those", c.plain_fragments);
     row("results of the cell tree compared with the naive engine", c.results);
     row("the same, formulas step by step", c.stepwise);
     row("results of the classic BSP tree compared with the naive engine", c.classic);
@@ -372,12 +437,16 @@ std::optional<Options> parse(int argc, char** argv) {
             out.pairs = value;
         else if (name == "--formulas")
             out.formulas = value;
+        else if (name == "--chains")
+            out.chains = value;
         else if (name == "--threads")
             out.threads = value;
         else if (name == "--only-pair")
             out.only_pair = value;
         else if (name == "--only-formula")
             out.only_formula = value;
+        else if (name == "--only-chain")
+            out.only_chain = value;
         else
             return std::nullopt;
     }
@@ -391,8 +460,8 @@ int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
         std::fprintf(stderr,
-                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--threads T]\n"
-                     "       [--only-pair I] [--only-formula I]\n",
+                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]\n"
+                     "       [--only-pair I] [--only-formula I] [--only-chain I]\n",
                      argv[0]);
         return 2;
     }
@@ -402,6 +471,8 @@ int main(int argc, char** argv) {
         run_pair(*options, *options->only_pair, counters);
     else if (options->only_formula)
         run_formula(*options, *options->only_formula, counters);
+    else if (options->only_chain)
+        run_chain(*options, *options->only_chain, counters);
     else
         run_all(*options, counters);
     print(counters);
