@@ -24,6 +24,8 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/meeting_pairs.h>
 #include <trisect/bsp/detail/proof_body.h>
+#include <trisect/bsp/detail/proof_tree.h>
+#include <trisect/bsp/detail/proof_vector.h>
 
 namespace trisect {
 
@@ -33,24 +35,13 @@ using detail::Feature;
 using detail::InterferenceModelData;
 using detail::ProofBody;
 using Vector = RationalPoint;
-using Approximate = std::array<double, 3>;
+using detail::proof::Approximate;
+using detail::proof::cross;
+using detail::proof::dot;
+using detail::proof::exact;
+using detail::proof::minus;
+using detail::proof::opposite;
 using Corners = std::array<Vector, 3>;
-
-Vector minus(const Vector& u, const Vector& v) { return {u[0] - v[0], u[1] - v[1], u[2] - v[2]}; }
-ExactRational dot(const Vector& u, const Vector& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-Vector cross(const Vector& u, const Vector& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-double dot(const Approximate& u, const Approximate& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-Vector exact(const Approximate& v) {
-    return {ExactRational::from_double(v[0]), ExactRational::from_double(v[1]),
-            ExactRational::from_double(v[2])};
-}
-Vector opposite(const Vector& v) { return {-v[0], -v[1], -v[2]}; }
 
 // Of size about 1, in multiples of 2^-52, which keeps products short. Zero stays zero.
 Approximate scaled(const Approximate& v) {
@@ -197,35 +188,20 @@ public:
     }
 
     std::optional<std::vector<SlabNode>> build() {
-        if (!add(0, a_.triangles.size(), 0, b_.triangles.size())) return std::nullopt;
-        return std::move(nodes_);
+        return detail::ProofTree<SlabNode, detail::NoTime, SlabBuilder>(*this, {limit_})
+            .build({0, a_.triangles.size(), 0, b_.triangles.size(), {}, {}});
+    }
+    bool separate(const detail::ProofRange<>& r, SlabNode& node) const {
+        const auto of_a = a_.corners(r.a0, r.a1);
+        const auto of_b = b_.corners(r.b0, r.b1);
+        auto slab = slab_of_ranges(of_a, of_b);
+        if (!slab && r.is_single()) slab = slab_of_triangles(r.a0, r.b0, of_a, of_b);
+        if (slab) node.slab = std::move(*slab);
+        return slab.has_value();
     }
 
 private:
     using Indices = std::span<const std::uint32_t>;
-
-    bool add(std::size_t a0, std::size_t a1, std::size_t b0, std::size_t b1) {
-        if (nodes_.size() >= limit_) return false;
-        const auto of_a = a_.corners(a0, a1);
-        const auto of_b = b_.corners(b0, b1);
-        const std::size_t at = nodes_.size();
-        nodes_.emplace_back();
-        const bool single = a1 - a0 == 1 && b1 - b0 == 1;
-        auto slab = slab_of_ranges(of_a, of_b);
-        if (!slab && single) slab = slab_of_triangles(a0, b0, of_a, of_b);
-        if (slab) {
-            nodes_[at].slab = std::move(*slab);
-            return true;
-        }
-        if (single) return false;
-        const bool split_a = a1 - a0 >= b1 - b0;
-        const std::size_t ma = (a0 + a1) / 2;
-        const std::size_t mb = (b0 + b1) / 2;
-        nodes_[at].kind = split_a ? SlabNode::Kind::SplitA : SlabNode::Kind::SplitB;
-        if (!add(a0, split_a ? ma : a1, b0, split_a ? b1 : mb)) return false;
-        nodes_[at].other = static_cast<std::uint32_t>(nodes_.size());
-        return add(split_a ? ma : a0, a1, split_a ? b0 : mb, b1);
-    }
 
     // What doubles say of a direction.
     struct Extent {
@@ -278,7 +254,8 @@ private:
         if (auto s = quick_slab(near_way_, along)) return s;
         if (!is_hopeless(along))
             if (auto s = slab_along(way_, of_a, of_b)) return s;
-        for (const Approximate& d : directions(of_a, of_b)) {
+        for (const Approximate& d :
+             detail::proof_directions(scaled(minus(b_.middle(of_b), a_.middle(of_a))))) {
             const Extent e = extent(d, of_a, of_b);
             if (auto s = quick_slab(d, e)) return s;
             if (!is_hopeless(e))
@@ -286,30 +263,6 @@ private:
         }
         return std::nullopt;
     }
-    static Approximate middle(const ProofBody& body, Indices corners) {
-        Approximate lo = body.near[corners.front()];
-        Approximate hi = lo;
-        for (const std::uint32_t v : corners)
-            for (std::size_t k = 0; k < 3; ++k) {
-                lo[k] = std::min(lo[k], body.near[v][k]);
-                hi[k] = std::max(hi[k], body.near[v][k]);
-            }
-        Approximate r{};
-        for (std::size_t k = 0; k < 3; ++k) r[k] = lo[k] + (hi[k] - lo[k]) / 2;
-        return r;
-    }
-    [[nodiscard]] std::array<Approximate, 7> directions(Indices of_a, Indices of_b) const {
-        const Approximate from = middle(a_, of_a);
-        const Approximate to = middle(b_, of_b);
-        return {scaled(Approximate{to[0] - from[0], to[1] - from[1], to[2] - from[2]}),
-                Approximate{1, 0, 0},
-                Approximate{0, 1, 0},
-                Approximate{0, 0, 1},
-                Approximate{-1, 0, 0},
-                Approximate{0, -1, 0},
-                Approximate{0, 0, -1}};
-    }
-
     [[nodiscard]] std::optional<Slab> slab_of_triangles(std::size_t i, std::size_t j, Indices of_a,
                                                         Indices of_b) const {
         Corners p;
@@ -362,7 +315,6 @@ private:
     Approximate near_way_{};
     double distance_ = 0;
     std::size_t limit_;
-    std::vector<SlabNode> nodes_;
 };
 
 }  // namespace

@@ -21,6 +21,8 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/detail/proof_body.h>
+#include <trisect/bsp/detail/proof_tree.h>
+#include <trisect/bsp/detail/proof_vector.h>
 
 namespace trisect {
 
@@ -30,17 +32,13 @@ using detail::Ball;
 using detail::BallMotion;
 using detail::BallVector;
 using detail::ProofBody;
-using Approximate = std::array<double, 3>;
+using detail::proof::Approximate;
+using detail::proof::dot;
+using detail::proof::minus;
 using Node = EnclosedFreedomNode;
 
 constexpr int max_depth = 300;
 
-Approximate minus(const Approximate& u, const Approximate& v) {
-    return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
-}
-double dot(const Approximate& u, const Approximate& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
 double sum_of_magnitudes(const Approximate& v) {
     return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
@@ -76,6 +74,8 @@ struct View {
 
 class FreedomFinder {
 public:
+    using Range = detail::ProofRange<double>;
+
     FreedomFinder(const ProofBody& a, const EnclosedMotion& motion_a, const ProofBody& b,
                   const EnclosedMotion& motion_b, std::vector<double> breaks, std::size_t limit)
         : a_(a),
@@ -87,18 +87,28 @@ public:
 
     // Nothing where it fails.
     std::optional<std::vector<Node>> find(double from, double to) {
-        nodes_.clear();
-        if (!add({from, to, 0, a_.triangles.size(), 0, b_.triangles.size()}, 0))
-            return std::nullopt;
-        return std::move(nodes_);
+        return detail::ProofTree<Node, double, FreedomFinder>(*this, {limit_, max_depth})
+            .build({0, a_.triangles.size(), 0, b_.triangles.size(), from, to});
     }
+    bool separate(const Range& r, Node& node) {
+        if (kink_within(r)) return false;
+        auto plane = plane_between(views(r.from, r.to), a_.corners(r.a0, r.a1),
+                                   b_.corners(r.b0, r.b1), r.is_single());
+        if (plane) node.plane = std::move(*plane);
+        return plane.has_value();
+    }
+    std::optional<double> time_to_split(const Range& r) {
+        if (const auto kink = kink_within(r)) return kink;
+        const double middle = r.from + (r.to - r.from) / 2;
+        if (!(r.from < middle && middle < r.to)) return std::nullopt;
+        if (r.is_single() ||
+            moves_far(views(r.from, r.to), a_.corners(r.a0, r.a1), b_.corners(r.b0, r.b1)))
+            return middle;
+        return std::nullopt;
+    }
+    static void set_time(Node& node, double time) { node.time = time; }
 
 private:
-    struct Range {
-        double from;
-        double to;
-        std::size_t a0, a1, b0, b1;
-    };
     struct Views {
         View a;
         View b;
@@ -115,62 +125,10 @@ private:
         return at->second;
     }
 
-    bool add(const Range& r, int depth) {
-        if (nodes_.size() >= limit_ || depth > max_depth) return false;
-        const std::size_t at = nodes_.size();
-        nodes_.emplace_back();
-        Range first = r;
-        Range second = r;
-        const auto split_time = [&](double time) {
-            nodes_[at].kind = Node::Kind::SplitTime;
-            nodes_[at].time = time;
-            first.to = second.from = time;
-        };
-        const bool single = r.a1 - r.a0 == 1 && r.b1 - r.b0 == 1;
+    [[nodiscard]] std::optional<double> kink_within(const Range& r) const {
         const auto kink = std::upper_bound(breaks_.begin(), breaks_.end(), r.from);
-        if (kink != breaks_.end() && *kink < r.to) {
-            split_time(*kink);
-        } else {
-            const Views& v = views(r.from, r.to);
-            const auto of_a = a_.corners(r.a0, r.a1);
-            const auto of_b = b_.corners(r.b0, r.b1);
-            if (auto plane = plane_between(v, of_a, of_b, single)) {
-                nodes_[at].plane = std::move(*plane);
-                return true;
-            }
-            const double middle = r.from + (r.to - r.from) / 2;
-            const bool can_split_time = r.from < middle && middle < r.to;
-            if (single && !can_split_time) return false;
-            if (can_split_time && (single || moves_far(v, of_a, of_b))) {
-                split_time(middle);
-            } else if (r.a1 - r.a0 >= r.b1 - r.b0) {
-                nodes_[at].kind = Node::Kind::SplitA;
-                first.a1 = second.a0 = (r.a0 + r.a1) / 2;
-            } else {
-                nodes_[at].kind = Node::Kind::SplitB;
-                first.b1 = second.b0 = (r.b0 + r.b1) / 2;
-            }
-        }
-        if (!add(first, depth + 1)) return false;
-        nodes_[at].other = static_cast<std::uint32_t>(nodes_.size());
-        return add(second, depth + 1);
-    }
-
-    static Approximate middle_of(const ProofBody& body, Indices corners) {
-        Approximate sum{};
-        for (const std::uint32_t v : corners)
-            for (std::size_t k = 0; k < 3; ++k) sum[k] += body.near[v][k];
-        for (double& c : sum) c /= static_cast<double>(corners.size());
-        return sum;
-    }
-    static double squared_size(const ProofBody& body, Indices corners) {
-        const Approximate m = middle_of(body, corners);
-        double square = 0;
-        for (const std::uint32_t v : corners) {
-            const Approximate d = minus(body.near[v], m);
-            square = std::max(square, dot(d, d));
-        }
-        return square;
+        if (kink == breaks_.end() || !(*kink < r.to)) return std::nullopt;
+        return *kink;
     }
     static double squared_way(const View& view, const ProofBody& body, Indices corners) {
         double square = 0;
@@ -186,17 +144,16 @@ private:
         if (!std::isfinite(v.a.by_length + v.a.constant + v.b.by_length + v.b.constant))
             return true;
         const double way = std::max(squared_way(v.a, a_, of_a), squared_way(v.b, b_, of_b));
-        return 4 * way > std::max(squared_size(a_, of_a), squared_size(b_, of_b));
+        return 4 * way > std::max(a_.squared_size(of_a), b_.squared_size(of_b));
     }
 
     std::optional<SeparatingPlane> plane_between(const Views& v, Indices of_a, Indices of_b,
                                                  bool single) const {
         const std::size_t half_a = v.a.motion.degree / 2;
         const std::size_t half_b = v.b.motion.degree / 2;
-        const Approximate from = v.a.place(half_a, middle_of(a_, of_a));
-        const Approximate to = v.b.place(half_b, middle_of(b_, of_b));
-        std::vector<Approximate> directions{minus(to, from), {1, 0, 0},  {0, 1, 0}, {0, 0, 1},
-                                            {-1, 0, 0},      {0, -1, 0}, {0, 0, -1}};
+        const Approximate from = v.a.place(half_a, a_.middle(of_a));
+        const Approximate to = v.b.place(half_b, b_.middle(of_b));
+        std::vector<Approximate> directions = detail::proof_directions(minus(to, from));
         if (single) {
             detail::TriangleCorners p;
             detail::TriangleCorners q;
@@ -266,7 +223,6 @@ private:
     const EnclosedMotion& motion_b_;
     std::vector<double> breaks_;
     std::size_t limit_;
-    std::vector<Node> nodes_;
     std::map<std::pair<double, double>, Views> views_;
 };
 

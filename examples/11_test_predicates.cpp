@@ -13,13 +13,11 @@
 #include <string>
 #include <vector>
 
-#include <trisect/kernel/plane.h>
-#include <trisect/kernel/predicates.h>
+#include <trisect/kernel/predicate_suite_side.h>
 
 namespace {
 
 namespace suite = trisect::predicate_suite;
-using suite::PlaneEquation;
 using suite::Point2;
 using suite::Point3;
 
@@ -40,20 +38,6 @@ Number orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3&
     const auto w = row(d);
     return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) +
            u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-// The library asks about planes with integer coefficients: side_of in predicates.h.
-int side_by_trisect(const PlaneEquation& p, const PlaneEquation& q, const PlaneEquation& r,
-                    const PlaneEquation& s) {
-    using trisect::Plane;
-    const auto plane = [](const PlaneEquation& e) {
-        const auto n = [&e](std::size_t i) { return static_cast<std::int64_t>(e[i]); };
-        return Plane(n(0), n(1), n(2), Plane::Offset(n(3)));
-    };
-    const Plane a = plane(p);
-    const Plane b = plane(q);
-    const Plane c = plane(r);
-    return sign_of(side_of(approximate(a, b, c), a, b, c, plane(s)));
 }
 
 // The number of families with a wrong answer.
@@ -84,5 +68,5 @@ int main(int argc, char** argv) {
     (void)print("orient3d, long doubles", suite::test_orient3d(orient3d<long double>, options));
     const int exact =
         print("orient3d, exact", suite::test_orient3d(suite::exact_orient3d, options));
-    return exact + print("side, Trisect", suite::test_side(side_by_trisect, options));
+    return exact + print("side, Trisect", suite::test_side(suite::side_by_trisect, options));
 }

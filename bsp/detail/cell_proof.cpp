@@ -27,25 +27,12 @@ constexpr std::size_t few_pieces = 12;
 constexpr std::size_t most_candidates = 24;
 constexpr int max_depth = 2000;
 
-mpq_class dot(const GmpVector& u, const GmpVector& v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-GmpVector minus(const GmpVector& u, const GmpVector& v) {
-    return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
-}
-GmpVector cross(const GmpVector& u, const GmpVector& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 GmpVector middle_of(const ConvexPolygon& p) {
     GmpVector sum;
     for (const GmpVector& v : p)
         for (std::size_t k = 0; k < 3; ++k) sum[k] += v[k];
     for (mpq_class& c : sum) c /= static_cast<unsigned long>(p.size());
     return sum;
-}
-
-RationalPoint rational(const GmpVector& v) {
-    return {from_gmp(v[0]), from_gmp(v[1]), from_gmp(v[2])};
 }
 
 struct GmpPlane {

@@ -12,11 +12,11 @@
 #include <optional>
 #include <vector>
 
+#include <trisect/bsp/detail/gmp_vector.h>
 #include <trisect/bsp/interference_certificate.h>
 
 namespace trisect::detail {
 
-using GmpVector = std::array<mpq_class, 3>;
 using ConvexPolygon = std::vector<GmpVector>;
 
 /// What is looked for.

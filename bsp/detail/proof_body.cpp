@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <trisect/bsp/detail/exact_place.h>
+#include <trisect/bsp/detail/proof_vector.h>
 
 namespace trisect::detail {
 
@@ -51,6 +52,24 @@ std::vector<std::uint32_t> ProofBody::corners(std::size_t from, std::size_t to) 
     return r;
 }
 
+std::array<double, 3> ProofBody::middle(std::span<const std::uint32_t> vertices) const {
+    std::array<double, 3> sum{};
+    for (const std::uint32_t v : vertices)
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += near[v][k];
+    for (double& c : sum) c /= static_cast<double>(vertices.size());
+    return sum;
+}
+
+double ProofBody::squared_size(std::span<const std::uint32_t> vertices) const {
+    const std::array<double, 3> m = middle(vertices);
+    double square = 0;
+    for (const std::uint32_t v : vertices) {
+        const std::array<double, 3> d = proof::minus(near[v], m);
+        square = std::max(square, proof::dot(d, d));
+    }
+    return square;
+}
+
 double ProofBody::centre(const CertifiedTriangle& t, std::size_t axis) const {
     return near[t.vertex[0].index][axis] + near[t.vertex[1].index][axis] +
            near[t.vertex[2].index][axis];
@@ -84,6 +103,10 @@ void ProofBody::order(std::size_t from, std::size_t to) {
     order(middle, to);
 }
 
+std::vector<std::array<double, 3>> proof_directions(const std::array<double, 3>& way) {
+    return {way, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+}
+
 void add_proof_directions(const TriangleCorners& p, const TriangleCorners& q,
                           std::vector<std::array<double, 3>>& directions) {
     const ClosestPoints closest = closest_points(p, q);
@@ -92,14 +115,9 @@ void add_proof_directions(const TriangleCorners& p, const TriangleCorners& q,
         for (std::size_t k = 0; k < 3; ++k)
             way[k] += closest.on_q[i] * q[i][k] - closest.on_p[i] * p[i][k];
     directions.insert(directions.begin(), way);
-    const auto minus = [](const std::array<double, 3>& u, const std::array<double, 3>& v) {
-        return std::array<double, 3>{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
-    };
     for (const TriangleCorners& t : {p, q}) {
-        const std::array<double, 3> u = minus(t[1], t[0]);
-        const std::array<double, 3> v = minus(t[2], t[0]);
-        const std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                      u[0] * v[1] - u[1] * v[0]};
+        const std::array<double, 3> n =
+            proof::cross(proof::minus(t[1], t[0]), proof::minus(t[2], t[0]));
         directions.push_back(n);
         directions.push_back({-n[0], -n[1], -n[2]});
     }

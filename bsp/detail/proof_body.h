@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/detail/interference_model_data.h>
@@ -27,6 +28,10 @@ struct ProofBody {
     /// In the world.
     ProofBody(const InterferenceModelData& model, const Pose& pose);
 
+    /// In doubles: the mean of vertices, and the square of the distance of the farthest from it.
+    [[nodiscard]] std::array<double, 3> middle(std::span<const std::uint32_t> vertices) const;
+    [[nodiscard]] double squared_size(std::span<const std::uint32_t> vertices) const;
+
     /// The vertices of a range of triangles, each once, in ascending order.
     [[nodiscard]] std::vector<std::uint32_t> corners(std::size_t from, std::size_t to) const;
 
@@ -35,6 +40,9 @@ private:
     void order(std::size_t from, std::size_t to);
     [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t axis) const;
 };
+
+/// Normals of planes that may keep far bodies apart: the way between them, and the axes.
+[[nodiscard]] std::vector<std::array<double, 3>> proof_directions(const std::array<double, 3>& way);
 
 /// Puts the way between the closest points of two triangles in front of `directions`, and the
 /// normals of both, either way round, at its end: normals of planes that may keep them apart.

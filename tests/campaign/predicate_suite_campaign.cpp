@@ -20,8 +20,7 @@
 #include <cstring>
 #include <string>
 
-#include <trisect/kernel/plane.h>
-#include <trisect/kernel/predicates.h>
+#include <trisect/kernel/predicate_suite_side.h>
 
 namespace {
 
@@ -55,19 +54,6 @@ int side_by_cgal(const PlaneEquation& p, const PlaneEquation& q, const PlaneEqua
     const Number sum = number(s[3]) * w - number(s[2]) * minor(0, 1, 3) +
                        number(s[1]) * minor(0, 2, 3) - number(s[0]) * minor(1, 2, 3);
     return static_cast<int>(CGAL::sign(sum)) * static_cast<int>(CGAL::sign(w));
-}
-
-int side_by_trisect(const PlaneEquation& p, const PlaneEquation& q, const PlaneEquation& r,
-                    const PlaneEquation& s) {
-    using trisect::Plane;
-    const auto plane = [](const PlaneEquation& e) {
-        const auto n = [&e](std::size_t i) { return static_cast<std::int64_t>(e[i]); };
-        return Plane(n(0), n(1), n(2), Plane::Offset(n(3)));
-    };
-    const Plane a = plane(p);
-    const Plane b = plane(q);
-    const Plane c = plane(r);
-    return sign_of(side_of(approximate(a, b, c), a, b, c, plane(s)));
 }
 
 /// What has to be right.
@@ -128,6 +114,6 @@ int main(int argc, char** argv) {
     row("orient3d, CGAL Epick", Claim::InRange, suite::test_orient3d(orient3d<CGAL::Epick>, o));
     row("orient3d, CGAL Epeck", Claim::Everything, suite::test_orient3d(orient3d<CGAL::Epeck>, o));
     row("side, CGAL Epeck", Claim::Everything, suite::test_side(side_by_cgal, o));
-    row("side, Trisect", Claim::Everything, suite::test_side(side_by_trisect, o));
+    row("side, Trisect", Claim::Everything, suite::test_side(suite::side_by_trisect, o));
     return good ? 0 : 1;
 }

@@ -15,7 +15,7 @@
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 
-#include "interference/brute_force.h"
+#include "interference/placed_pair.h"
 
 namespace {
 
@@ -30,19 +30,11 @@ using trisect::RationalPoint;
 using trisect::Relation;
 using trisect::Solid;
 
-struct Case {
-    InterferenceModel a;
-    InterferenceModel b;
-    Pose pose_a;
-    Pose pose_b;
-
-    explicit Case(std::uint64_t seed) {
+struct Case : brute::PlacedPair {
+    explicit Case(std::uint64_t seed) : PlacedPair(pair_of(seed)) {}
+    static brute::PlacedPair pair_of(std::uint64_t seed) {
         reference::Random random(seed);
-        const brute::Scene scene = brute::random_scene(random);
-        a = InterferenceModel(scene.a.solid());
-        b = InterferenceModel(scene.b.solid());
-        pose_a = scene.pose_a;
-        pose_b = scene.pose_b;
+        return brute::placed_pair(random);
     }
     [[nodiscard]] InterferenceCertificate certificate() const {
         return certify(a, pose_a, b, pose_b);

@@ -8,15 +8,15 @@
 
 #include <string>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/boundary_distance.h>
 
-#include "interference/brute_force.h"
+#include "interference/placed_pair.h"
 
 namespace {
 
+using brute::box;
 using trisect::certify_distance;
 using trisect::check_distance_certificate;
 using trisect::DistanceCertificate;
@@ -26,12 +26,7 @@ using trisect::Pose;
 using trisect::SlabNode;
 using trisect::Solid;
 
-struct Case {
-    InterferenceModel a;
-    InterferenceModel b;
-    Pose pose_a;
-    Pose pose_b;
-
+struct Case : brute::PlacedPair {
     [[nodiscard]] DistanceCertificate certificate() const {
         return certify_distance(a, pose_a, b, pose_b);
     }
@@ -43,9 +38,7 @@ struct Case {
 // Every other pair is moved apart; pairs of a small grid have many closest features then.
 Case random_case(std::uint64_t seed) {
     reference::Random random(seed);
-    const brute::Scene scene = brute::random_scene(random);
-    Case c{InterferenceModel(scene.a.solid()), InterferenceModel(scene.b.solid()), scene.pose_a,
-           scene.pose_b};
+    Case c{brute::placed_pair(random)};
     if (seed % 2 == 0) return c;
     std::array<double, 3> by{};
     for (double& x : by) x = static_cast<double>(random.between(-6, 6));
@@ -66,27 +59,24 @@ void expect_proved(const Case& c, const std::string& squared = {}) {
     }
 }
 
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
-
 TEST(DistanceCertificates, OfNamedConfigurations) {
     const auto unit = box(0, 0, 0, 1, 1, 1);
-    expect_proved({unit, box(3, 0, 0, 4, 1, 1), Pose(), Pose()}, "4");      // faces
-    expect_proved({unit, box(3, 3, 0, 4, 4, 1), Pose(), Pose()}, "8");      // edges, parallel
-    expect_proved({unit, box(2, 3, 4, 5, 5, 5), Pose(), Pose()}, "14");     // corners
-    expect_proved({unit, box(1, 0, 0, 2, 1, 1), Pose(), Pose()}, "0");      // touching
-    expect_proved({unit, box(-4, -4, -4, 5, 5, 5), Pose(), Pose()}, "16");  // within: the clearance
-    expect_proved({unit, unit, Pose(), Pose()}, "0");
+    expect_proved({{unit, box(3, 0, 0, 4, 1, 1), Pose(), Pose()}}, "4");   // faces
+    expect_proved({{unit, box(3, 3, 0, 4, 4, 1), Pose(), Pose()}}, "8");   // edges, parallel
+    expect_proved({{unit, box(2, 3, 4, 5, 5, 5), Pose(), Pose()}}, "14");  // corners
+    expect_proved({{unit, box(1, 0, 0, 2, 1, 1), Pose(), Pose()}}, "0");   // touching
+    expect_proved({{unit, box(-4, -4, -4, 5, 5, 5), Pose(), Pose()}},
+                  "16");  // within: the clearance
+    expect_proved({{unit, unit, Pose(), Pose()}}, "0");
     // Edges that are askew; a corner over a face that is turned.
-    expect_proved({unit, unit, Pose(), Pose::from_quaternion({3, 1, 1, 0}, {0, 3, 1})});
-    expect_proved({unit, unit, Pose(), Pose::from_quaternion({5, 1, -2, 3}, {3, -2, 1})});
-    expect_proved({unit, unit, Pose(),
-                   Pose::from_doubles({1, 0, 0, 1 + 0x1p-40, 0, 1, 0, 0.1, 0, 0, 1, 0.3})});
+    expect_proved({{unit, unit, Pose(), Pose::from_quaternion({3, 1, 1, 0}, {0, 3, 1})}});
+    expect_proved({{unit, unit, Pose(), Pose::from_quaternion({5, 1, -2, 3}, {3, -2, 1})}});
+    expect_proved({{unit, unit, Pose(),
+                    Pose::from_doubles({1, 0, 0, 1 + 0x1p-40, 0, 1, 0, 0.1, 0, 0, 1, 0.3})}});
 }
 
 TEST(DistanceCertificates, OfEmptySolidsAreIncomplete) {
-    const Case c{InterferenceModel(Solid()), box(0, 0, 0, 1, 1, 1), Pose(), Pose()};
+    const Case c{{InterferenceModel(Solid()), box(0, 0, 0, 1, 1, 1), Pose(), Pose()}};
     DistanceCertificate certificate = c.certificate();
     EXPECT_FALSE(certificate.is_complete);
     EXPECT_EQ(c.check(certificate), "");
@@ -97,9 +87,9 @@ TEST(DistanceCertificates, OfEmptySolidsAreIncomplete) {
 TEST(DistanceCertificates, OfCurvedParts) {
     const auto torus = InterferenceModel(Solid::from_mesh(trisect::make_torus(3, 1, 24, 12)));
     const auto ball = InterferenceModel(Solid::from_mesh(trisect::make_icosphere(1, 2)));
-    expect_proved({torus, ball, Pose(), Pose()});  // in the hole, equally far all around
-    expect_proved({torus, torus, Pose(), Pose::from_quaternion({1, 1, 0, 0}, {3, 0, 0})});
-    expect_proved({torus, ball, Pose(), Pose::from_quaternion({3, 1, 2, 0}, {4, 4, 1})});
+    expect_proved({{torus, ball, Pose(), Pose()}});  // in the hole, equally far all around
+    expect_proved({{torus, torus, Pose(), Pose::from_quaternion({1, 1, 0, 0}, {3, 0, 0})}});
+    expect_proved({{torus, ball, Pose(), Pose::from_quaternion({3, 1, 2, 0}, {4, 4, 1})}});
 }
 
 TEST(DistanceCertificates, OfRandomScenesAreAccepted) {

@@ -19,6 +19,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/predicate_suite_side.h>
 #include <trisect/kernel/predicates.h>
 
 namespace {
@@ -167,14 +168,6 @@ std::optional<int> orient3d_by_kernel(const std::array<Point3, 4>& p) {
     return trisect::sign_of(side_of(q[3], Plane::through(q[0], q[1], q[2])));
 }
 
-int side_by_kernel(const PlaneEquation& p, const PlaneEquation& q, const PlaneEquation& r,
-                   const PlaneEquation& s) {
-    const Plane a = plane_of(p);
-    const Plane b = plane_of(q);
-    const Plane c = plane_of(r);
-    return trisect::sign_of(side_of(approximate(a, b, c), a, b, c, plane_of(s)));
-}
-
 TEST(PredicateSuite, TheKernelIsRightInAllFamilies) {
     suite::Generator generator(21);
     std::uint64_t compared = 0;
@@ -189,7 +182,7 @@ TEST(PredicateSuite, TheKernelIsRightInAllFamilies) {
         }
     }
     EXPECT_GT(compared, 15'000U);
-    for (const auto& row : suite::test_side(side_by_kernel, {.seed = 22, .cases = 5000}))
+    for (const auto& row : suite::test_side(suite::side_by_trisect, {.seed = 22, .cases = 5000}))
         EXPECT_EQ(row.wrong + row.inconsistent, 0U) << row.family << ": " << row.first;
 }
 
@@ -226,7 +219,7 @@ TEST(SignManifest, MillionSignsOverAllFamilies) {
             const int det = sign_of_det(planes[0], planes[1], planes[2]);
             hash.add(det);
             if (!planes[3].is_valid()) continue;
-            if (det != 0) hash.add(side_by_kernel(e[0], e[1], e[2], e[3]));
+            if (det != 0) hash.add(suite::side_by_trisect(e[0], e[1], e[2], e[3]));
             for (int axis = 0; axis < 3; ++axis)
                 hash.add(sign_of_cross(planes[0], planes[3], axis));
             hash.add(sign_of_dot(planes[0], planes[3]));
