@@ -15,7 +15,6 @@
 #include <vector>
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
@@ -113,27 +112,37 @@ public:
             one(0);
             return;
         }
-        on_threads(threads_, [&](std::uint32_t) {
-            FirstFailure failure;
-            Handover start;
-            Handover end;
-            start.give();
-            oneapi::tbb::this_task_arena::isolate([&] {
-                oneapi::tbb::parallel_for(
-                    std::size_t{0}, count_,
-                    [&](std::size_t part) {
-                        start.take();
-                        failure.guard(part, [&] { one(part); });
-                        end.give();
-                    },
-                    oneapi::tbb::simple_partitioner());
-            });
-            end.take();
-            failure.rethrow();
-        });
+        on_threads(threads_, [&](std::uint32_t) { share(one); });
     }
 
 private:
+    // Each thread takes the next part until there is none.
+    template <class One>
+    void share(const One& one) const {
+        std::atomic<std::size_t> next{0};
+        FirstFailure failure;
+        const auto take_parts = [&] {
+            for (std::size_t part = next++; part < count_; part = next++)
+                failure.guard(part, [&] { one(part); });
+        };
+        Handover start;
+        Handover end;
+        start.give();
+        oneapi::tbb::this_task_arena::isolate([&] {
+            oneapi::tbb::task_group group;
+            for (std::size_t i = std::min(threads_here(), count_); i > 1; --i)
+                group.run([&] {
+                    start.take();
+                    take_parts();
+                    end.give();
+                });
+            take_parts();
+            group.wait();
+        });
+        end.take();
+        failure.rethrow();
+    }
+
     static std::size_t parts_of(std::size_t size, std::uint32_t threads, std::size_t least) {
         if (threads == 1 || size < 2 * least) return 1;
         const std::size_t slots = threads != 0 ? threads : threads_here();
