@@ -2,11 +2,21 @@
 //
 // check A: does the mesh bound a solid? Every defect with its place, and what else there is to say
 // about the file.
+//
+// An exact boundary was checked when it was read: corners on their planes, edges that cancel. What
+// remains are holes outside their faces, and whether it meets itself. Its signed volume is the
+// integral of the winding number w; evaluation knows the volumes of w > 0 and of w != 0. If all
+// three fractions are equal, w is nowhere negative and nowhere above one.
+#include <trisect/brep/io/exact_boundary.h>
+#include <trisect/brep/measure.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/expression.h>
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <span>
+#include <utility>
 
 #include "commands.h"
 #include "mesh_files.h"
@@ -34,12 +44,57 @@ std::string answer_text(const ValidationReport& report, std::span<const FileRema
                              remarks.size());
 }
 
+struct Findings {
+    ValidationReport report;
+    std::vector<FileRemark> remarks;
+};
+
+Findings check_mesh(Session& session, const std::string& name, const ValidateOptions& options) {
+    auto [mesh, remarks] =
+        session.stage("read", [&] { return read_input_with_remarks(session, name); });
+    ValidationReport report =
+        session.stage("check", [&, &shape = mesh] { return validate_input(shape, name, options); });
+    return {std::move(report), std::move(remarks)};
+}
+
+bool winds_once(const Session& session, const Brep& brep) {
+    const ExactRational signed_volume = exact_volume(brep);
+    const Solid solid = Solid::from_brep(brep, Embedding::Resolve);
+    using Winding = EvaluateOptions::Winding;
+    const auto has_signed_volume = [&](Winding winding) {
+        EvaluateOptions options = session.evaluation_options({});
+        options.winding = winding;
+        return exact_volume(evaluate(solid, options).to_brep()) == signed_volume;
+    };
+    return has_signed_volume(Winding::Positive) && has_signed_volume(Winding::NonZero);
+}
+
+Findings check_exact(Session& session, const std::string& name, const ValidateOptions& options) {
+    const Brep brep =
+        session.stage("read", [&] { return read_exact(std::filesystem::path(name)); });
+    return session.interruptible_stage("check", [&] {
+        ValidationReport report = validate(brep, options);
+        if (!brep.is_empty() && !winds_once(session, brep))
+            report.add(DefectKind::SelfIntersection, [&] {
+                const Point3d place = bounds(brep)->lower;
+                return Defect{DefectKind::SelfIntersection,
+                              {},
+                              {},
+                              place,
+                              "the boundary winds around some points more than once or a negative "
+                              "number of times; it begins at " +
+                                  place_text(place)};
+            });
+        return Findings{std::move(report), {}};
+    });
+}
+
 }  // namespace
 
 void add_check_command(CLI::App& app, CheckOptions& options) {
     CLI::App* command =
         app.add_subcommand("check", "does a mesh bound a solid? exit code 1 if anything is found");
-    command->add_option("A", options.input, "mesh file")->required();
+    command->add_option("A", options.input, "mesh file, or an exact boundary (.exact)")->required();
     command
         ->add_option_function<std::string>(
             "--places",
@@ -54,13 +109,12 @@ void add_check_command(CLI::App& app, CheckOptions& options) {
 
 Outcome run_check(Session& session, const CheckOptions& options) {
     session.plan(2);
-    const auto [mesh, remarks] =
-        session.stage("read", [&] { return read_input_with_remarks(session, options.input); });
     ValidateOptions validation;
     validation.list_limit = options.places;
     if (session.options().lattice) validation.lattice = Lattice{*session.options().lattice};
-    const ValidationReport report = session.stage(
-        "check", [&, &shape = mesh] { return validate_input(shape, options.input, validation); });
+    const auto [report, remarks] = has_exact_boundary(options.input)
+                                       ? check_exact(session, options.input, validation)
+                                       : check_mesh(session, options.input, validation);
     const LatticeReport& lattice = report.lattice();
     note_rounding(session, lattice, options.input);
     Outcome out;

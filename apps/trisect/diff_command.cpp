@@ -53,8 +53,9 @@ std::string answer_text(const Description& both, const Description& first,
 
 void add_diff_command(CLI::App& app, DiffOptions& options) {
     CLI::App* command = app.add_subcommand("diff", "are two sets equal? exit code 1 if not");
-    command->add_option("A", options.inputs[0], "mesh file")->required();
-    command->add_option("B", options.inputs[1], "mesh file")->required();
+    command->add_option("A", options.inputs[0], "mesh file, or an exact boundary (.exact)")
+        ->required();
+    command->add_option("B", options.inputs[1], "the same")->required();
     command->add_flag("--exact", options.exact, "also the volumes as fractions");
     add_operand_options(*command, options.operands);
 }

@@ -17,9 +17,6 @@ void add_info_command(CLI::App& app, InfoOptions& options) {
 
 namespace {
 
-/// By the extension, as for meshes.
-bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
-
 Description describe_exact(Session& session, const InfoOptions& options) {
     const Brep brep = session.stage("read", [&] { return read_exact(options.input); });
     return session.stage("measure", [&] { return describe(brep, {options.exact}); });

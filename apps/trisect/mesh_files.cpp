@@ -108,6 +108,8 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 
 }  // namespace
 
+bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
+
 PolygonMesh read_input(const Session& session, const std::string& name) {
     const InputFile file = input_file(session, name);
     return read_mesh(file.bytes.view(), file.format, file.name);

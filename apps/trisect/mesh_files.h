@@ -33,6 +33,10 @@ private:
     ValidationReport report_;
 };
 
+/// Whether a file holds an exact boundary (brep/io/exact_boundary.h): by the extension, as for
+/// meshes.
+[[nodiscard]] bool has_exact_boundary(const std::string& name);
+
 /// "-" is the standard input, whose format is that of --format or else shown by its content.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
 

@@ -47,9 +47,6 @@ Embedding embedding_of(const OperandOptions& options) {
     return options.assume_embedded ? Embedding::Assume : Embedding::Resolve;
 }
 
-// By the extension, as for meshes.
-bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
-
 Operand exact_operand(const Session& session, const std::string& name,
                       const OperandOptions& options) {
     if (session.options().lattice)

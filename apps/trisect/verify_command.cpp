@@ -2,16 +2,27 @@
 //
 // verify OP A B [MORE...] RESULT: certifies a result that somebody else computed. What the verdicts
 // mean, and why they are proved, is said in bsp/verify.h.
+//
+// Where a file is an exact boundary, the sets are compared as they are. Only when they differ are
+// its corners rounded to doubles, for the radius and the witness.
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/io/exact_boundary.h>
 #include <trisect/bsp/verify.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <map>
+#include <span>
+#include <utility>
 
 #include "choice.h"
 #include "commands.h"
 #include "mesh_files.h"
+#include "operand.h"
 #include "report_json.h"
 #include "values.h"
 
@@ -123,6 +134,54 @@ void note_moves(Session& session, const VerifyReport& report,
     }
 }
 
+bool are_equal(Session& session, BooleanOperation operation,
+               const std::vector<std::string>& files) {
+    std::vector<Solid> solids;
+    for (Operand& o : session.stage("read", [&] { return read_operands(session, files, {}); }))
+        solids.push_back(std::move(o.solid));
+    return session.interruptible_stage("compare", [&] {
+        const Expression exact =
+            expression_of(operation, std::span(solids).first(solids.size() - 1));
+        return evaluate(exact ^ solids.back(), session.evaluation_options({})).is_empty();
+    });
+}
+
+VerifyReport verify_meshes(Session& session, BooleanOperation operation,
+                           const VerifyCommandOptions& options) {
+    std::vector<PolygonMesh> meshes = session.stage("read", [&] {
+        std::vector<PolygonMesh> out;
+        for (const std::string& name : options.files)
+            out.push_back(has_exact_boundary(name)
+                              ? to_polygon_mesh(read_exact(std::filesystem::path(name)))
+                              : read_input(session, name));
+        return out;
+    });
+    const PolygonMesh result = std::move(meshes.back());
+    meshes.pop_back();
+    VerifyOptions verification;
+    verification.within = options.within;
+    verification.piece_limit = options.pieces;
+    verification.evaluate = session.evaluation_options({});
+    if (session.options().lattice) verification.lattice = Lattice{*session.options().lattice};
+    VerifyReport report = session.interruptible_stage(
+        "verify", [&] { return verify(operation, meshes, result, verification); });
+    note_moves(session, report, options.files);
+    return report;
+}
+
+VerifyReport verify_exactly(Session& session, BooleanOperation operation,
+                            const VerifyCommandOptions& options) {
+    if (options.within)
+        throw UsageError("--within: distances from exact boundaries (.exact) are not certified");
+    if (are_equal(session, operation, options.files)) return VerifyReport();
+    VerifyReport report = verify_meshes(session, operation, options);
+    session.note("exact boundaries were rounded to doubles for the radius and the witness");
+    if (report.verdict == Verdict::Equal)
+        report.lower = report.upper = std::numeric_limits<double>::quiet_NaN();
+    if (report.verdict != Verdict::NotClosed) report.verdict = Verdict::Different;
+    return report;
+}
+
 }  // namespace
 
 void add_verify_command(CLI::App& app, VerifyCommandOptions& options) {
@@ -131,7 +190,9 @@ void add_verify_command(CLI::App& app, VerifyCommandOptions& options) {
     add_word_option(*command, "OP", options.operation,
                     {"union", "intersection", "difference", "xor"}, "what was computed")
         ->required();
-    command->add_option("A B RESULT", options.files, "operands, and last the mesh to be certified")
+    command
+        ->add_option("A B RESULT", options.files,
+                     "operands, and last the mesh to be certified; also exact boundaries (.exact)")
         ->required()
         ->expected(3, 1 << 20);
     command
@@ -157,24 +218,12 @@ void add_verify_command(CLI::App& app, VerifyCommandOptions& options) {
 }
 
 Outcome run_verify(Session& session, const VerifyCommandOptions& options) {
-    session.plan(2);
     check_standard_input(options.files);
-    std::vector<PolygonMesh> meshes = session.stage("read", [&] {
-        std::vector<PolygonMesh> out;
-        for (const std::string& name : options.files) out.push_back(read_input(session, name));
-        return out;
-    });
-    const PolygonMesh result = std::move(meshes.back());
-    meshes.pop_back();
-    VerifyOptions verification;
-    verification.within = options.within;
-    verification.piece_limit = options.pieces;
-    verification.evaluate = session.evaluation_options({});
-    if (session.options().lattice) verification.lattice = Lattice{*session.options().lattice};
-    const VerifyReport report = session.interruptible_stage("verify", [&] {
-        return verify(operation_named(options.operation), meshes, result, verification);
-    });
-    note_moves(session, report, options.files);
+    const BooleanOperation operation = operation_named(options.operation);
+    const bool exact = std::ranges::any_of(options.files, has_exact_boundary);
+    session.plan(exact ? 4 : 2);
+    const VerifyReport report = exact ? verify_exactly(session, operation, options)
+                                      : verify_meshes(session, operation, options);
     Outcome out;
     out.code = code_of(report.verdict);
     out.document = document_of(report, options);

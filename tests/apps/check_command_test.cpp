@@ -24,6 +24,58 @@ TEST_F(CheckCommand, NothingIsFoundInABox) {
     EXPECT_TRUE(report["defects"].empty());
 }
 
+TEST_F(CheckCommand, ExactBoundaries) {
+    const std::string exact = path("a.exact");
+    ASSERT_EQ(trisect({"difference", box("a.obj", {0, 0, 0}, {9, 9, 9}),
+                       box("b.obj", {3, 3, 3}, {5, 5, 5}), "-o", path("a.off"), "--exact", exact})
+                  .code,
+              0);
+    const Finished cavity = trisect({"check", exact, "--json"});
+    EXPECT_EQ(cavity.code, 0) << cavity.out;
+    EXPECT_EQ(cavity.json()["solid"], true);
+    // Two cubes that overlap, listed as one boundary.
+    const auto cube = [](int first, int low, int high, std::string& planes, std::string& points,
+                         std::string& faces) {
+        const int p = first == 0 ? 0 : 6;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto normal = [&](int sign) {
+                std::string text;
+                for (int k = 0; k < 3; ++k) text += k == axis ? std::to_string(sign) + " " : "0 ";
+                return text;
+            };
+            planes += normal(-1) + std::to_string(low) + "\n";
+            planes += normal(1) + std::to_string(-high) + "\n";
+        }
+        for (int i = 0; i < 8; ++i) {
+            points += "p";
+            for (int k = 0; k < 3; ++k)
+                points += " " + std::to_string(((i >> k) & 1) != 0 ? high : low);
+            points += "\n";
+        }
+        const int corners[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                   {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+        for (int f = 0; f < 6; ++f) {
+            faces += std::to_string(p + f) + " 0 " + std::to_string(p + f) + " 1 4";
+            for (const int c : corners[f]) faces += " " + std::to_string(first + c);
+            faces += "\n";
+        }
+    };
+    std::string planes;
+    std::string points;
+    std::string faces;
+    cube(0, 0, 4, planes, points, faces);
+    const auto text = [&](const std::string& n6, const std::string& n8) {
+        return "trisect-exact 1\nlattice 0\nplanes " + n6 + "\n" + planes + "vertices " + n8 +
+               "\n" + points + "faces " + n6 + "\n" + faces;
+    };
+    EXPECT_EQ(trisect({"check", write("one.exact", text("6", "8"))}).code, 0);
+    cube(8, 2, 6, planes, points, faces);
+    const Finished crossing = trisect({"check", write("two.exact", text("12", "16")), "--json"});
+    EXPECT_EQ(crossing.code, 1) << crossing.err;
+    EXPECT_EQ(crossing.json()["solid"], false);
+    EXPECT_EQ(crossing.json()["counts"]["self_intersection"], 1);
+}
+
 TEST_F(CheckCommand, OpenEdgesHavePlaces) {
     const Finished result = trisect({"check", open_box("open.obj"), "--json"});
     EXPECT_EQ(result.code, 1);

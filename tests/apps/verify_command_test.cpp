@@ -62,6 +62,41 @@ TEST_F(VerifyCommand, WithinADistance) {
     EXPECT_EQ(trisect({"verify", "intersection", a_, b_, near, "--within", "-1"}).code, 2);
 }
 
+TEST_F(VerifyCommand, ExactBoundariesAreComparedAsTheyAre) {
+    const std::string tetrahedron = write("t.obj",
+                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
+    const std::string exact = path("kept.exact");
+    const std::string rounded = path("kept.off");
+    ASSERT_EQ(trisect({"intersection", tetrahedron, block, "-o", rounded, "--exact", exact}).code,
+              0);
+    // Corners at thirds: the file of doubles is another set, the exact one is not.
+    EXPECT_EQ(trisect({"verify", "intersection", tetrahedron, block, rounded}).code, 1);
+    const Finished good = trisect({"verify", "intersection", tetrahedron, block, exact, "--json"});
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_EQ(good.json()["verdict"], "equal");
+    EXPECT_EQ(good.json()["radius"]["upper"], 0.0);
+    EXPECT_EQ(trisect({"diff", exact, exact}).code, 0);
+    EXPECT_EQ(trisect({"diff", exact, rounded}).code, 1);
+    // As an operand, too: what is cut off and what is kept make the whole.
+    const std::string rest = path("rest.exact");
+    ASSERT_EQ(
+        trisect({"difference", tetrahedron, block, "-o", path("r.off"), "--exact", rest}).code, 0);
+    EXPECT_EQ(trisect({"verify", "union", exact, rest, tetrahedron}).code, 0);
+    const Finished bad = trisect({"verify", "union", exact, block, rest, "--json"});
+    EXPECT_EQ(bad.code, 1);
+    EXPECT_EQ(bad.json()["verdict"], "different");
+    EXPECT_FALSE(bad.json()["witness"].is_null());
+    // Too near for doubles: different all the same, and no witness is made up.
+    const Finished near = trisect({"verify", "union", rounded, rounded, exact, "--json"});
+    EXPECT_EQ(near.code, 1);
+    EXPECT_EQ(near.json()["verdict"], "different");
+    EXPECT_TRUE(near.json()["radius"]["upper"].is_null());
+    EXPECT_TRUE(near.json()["witness"].is_null());
+    EXPECT_EQ(trisect({"verify", "union", exact, rest, tetrahedron, "--within", "1"}).code, 2);
+}
+
 TEST_F(VerifyCommand, OpenResultsAreFindings) {
     const Finished open = trisect({"verify", "union", a_, b_, open_box("open.obj"), "--json"});
     EXPECT_EQ(open.code, 1);
