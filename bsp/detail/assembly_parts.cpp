@@ -206,14 +206,26 @@ const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
 }
 
 void Gatherer::mark_crossed() {
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Crossings::Operand& o = solid_.crossings->operands[i];
-        const auto marks = std::ranges::find(
-            out_.sources, o.serial, [](const FacetMarks& m) { return m.source()->serial(); });
-        if (marks == out_.sources.end()) continue;
-        for (const FacetCrossing& c : solid_.crossings->pairs) {
-            marks->set_present(c.facets[i], o.inside_above);
-            marks->set_worked(c.facets[i], o.inside_above);
+    const Crossings& crossings = *solid_.crossings;
+    std::vector<std::pair<std::uint64_t, FacetMarks*>> by_serial;
+    for (FacetMarks& marks : out_.sources) by_serial.emplace_back(marks.source()->serial(), &marks);
+    std::ranges::sort(by_serial);
+    auto facet = crossings.shown.begin();
+    for (std::size_t i = 0; i < crossings.operands.size(); ++i) {
+        const Crossings::Operand& o = crossings.operands[i];
+        const auto end =
+            i + 1 < crossings.operands.size()
+                ? std::lower_bound(facet, crossings.shown.end(), crossings.operands[i + 1].first)
+                : crossings.shown.end();
+        if (facet == end) continue;
+        const auto at = std::ranges::lower_bound(by_serial, o.serial, {},
+                                                 &std::pair<std::uint64_t, FacetMarks*>::first);
+        FacetMarks* const marks =
+            at != by_serial.end() && at->first == o.serial ? at->second : nullptr;
+        for (; facet != end; ++facet) {
+            if (marks == nullptr) continue;
+            marks->set_present(*facet - o.first, o.inside_above);
+            marks->set_worked(*facet - o.first, o.inside_above);
         }
     }
 }

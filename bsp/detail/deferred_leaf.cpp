@@ -6,7 +6,7 @@
 
 #include <trisect/bsp/detail/deferred_leaf.h>
 
-#include <span>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -16,16 +16,18 @@
 namespace trisect::detail {
 
 PolygonList DeferredLeaf::arrange() const {
-    std::array<std::vector<PolygonRef>, 2> refs;
+    std::vector<std::vector<PolygonRef>> refs(operands.size());
     std::vector<LeafOperand> listed;
-    for (std::size_t i = 0; i < 2; ++i) {
-        refs[i].assign(operands[i].polygons.begin(), operands[i].polygons.end());
-        listed.push_back({static_cast<std::int32_t>(i), refs[i], operands[i].flipped, true,
-                          operands[i].winding});
+    std::int32_t slots = 0;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        const Operand& o = operands[i];
+        refs[i].assign(o.polygons.begin(), o.polygons.end());
+        listed.push_back({o.slot, refs[i], o.flipped, true, o.winding});
+        slots = std::max(slots, o.slot + 1);
     }
     EvaluateOptions options;
     options.winding = rule;
-    SlotValues values(2, -1);
+    SlotValues values(static_cast<std::size_t>(slots), -1);
     EvaluateStats uncounted;
     thread_local LeafArranger arranger;
     LeafResult result =

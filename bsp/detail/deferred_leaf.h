@@ -3,9 +3,9 @@
 // DeferredLeaf: a leaf in which facets cross that nobody has cut yet.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <mutex>
+#include <vector>
 
 #include <trisect/bsp/cell_tree.h>
 #include <trisect/bsp/detail/residual.h>
@@ -13,20 +13,21 @@
 
 namespace trisect::detail {
 
-/// What a leaf of two imported meshes in general position needs to cut its facets when the first
+/// What a leaf of imported meshes in general position needs to cut its facets when the first
 /// one asks for its polygons: a later operation there, a query. Who writes the result as a mesh
 /// does not ask (traced_facets.h). Immutable.
 class DeferredLeaf {
 public:
     struct Operand {
-        PolygonList polygons;  ///< whole facets
-        bool flipped = false;  ///< they are to be read with the other orientation
-        int winding = 0;       ///< at the leaf's reference point
+        std::int32_t slot = 0;  ///< of the formula
+        PolygonList polygons;   ///< whole facets
+        bool flipped = false;   ///< they are to be read with the other orientation
+        int winding = 0;        ///< at the leaf's reference point
     };
 
     Cell cell;
     FinePoint reference;
-    std::array<Operand, 2> operands;  ///< slots 0 and 1 of the formula
+    std::vector<Operand> operands;
     Residual::Ref formula;
     EvaluateOptions::Winding rule = EvaluateOptions::Winding::Positive;
     /// Those of the leaf's polygons that nothing crosses in the cell.

@@ -32,10 +32,10 @@
 #include <tbb/task_group.h>
 
 #include <trisect/bsp/detail/axis_polygon.h>
-#include <trisect/bsp/detail/axis_trace.h>
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/covered_cells.h>
 #include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/deep_recursion.h>
 #include <trisect/bsp/detail/deferred_leaf.h>
@@ -44,10 +44,10 @@
 #include <trisect/bsp/detail/partition.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
 #include <trisect/bsp/detail/prism_facets.h>
+#include <trisect/bsp/detail/reference_points.h>
 #include <trisect/bsp/detail/refine_leaf.h>
 #include <trisect/bsp/detail/slab.h>
 #include <trisect/bsp/detail/stack_arena.h>
-#include <trisect/bsp/detail/trace_winding.h>
 #include <trisect/bsp/detail/work_budget.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/handover.h>
@@ -74,7 +74,7 @@ struct Shared {
     std::size_t slots;
     MemoryBudget memory;
     bool parallel = false;
-    bool collect_crossings = false;
+    const Crossings* crossings = nullptr;  // their operands, if they are collected
     tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
 
     Worker& worker();
@@ -86,29 +86,32 @@ class Worker {
 public:
     explicit Worker(Shared& shared)
         : shared_(shared), options_(shared.options), values_(shared.slots, -1) {
-        arranger_.collect_crossings(shared.collect_crossings);
+        if (shared.crossings != nullptr) arranger_.collect_crossings(shared.crossings->operands);
     }
 
     CellRef solve(CellTask& task);
     CellRef deep_solve(CellTask& task) {
         return with_enough_stack([&] { return solve(task); });
     }
-    // Winding number of a solid, given by the node of a cell, at a point of the cell.
-    std::optional<int> winding_at(const CellNode& root, bool complemented, const Cell& cell,
-                                  const FinePoint& p);
     [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
     [[nodiscard]] const std::vector<FacetName>& incomplete() const { return incomplete_; }
     [[nodiscard]] const Crossings& crossings() const { return arranger_.crossings(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return arranger_.seen(); }
+    [[nodiscard]] const CoveredCells& covered() const { return covered_; }
     [[nodiscard]] StackArena& arena() { return arena_; }
 
 private:
-    using Children = std::array<CellTask, 2>;
+    using Children = CellChildren;
 
     // For ParallelParts: as many as the arena has, or the calling one.
     [[nodiscard]] std::uint32_t threads() const { return shared_.parallel ? 0 : 1; }
 
     void prune(CellTask& task);
     void drop(CellTask& task);
+    template <class IsLeft>
+    void note_dropped(const CellTask& task, const IsLeft& is_left);
+    void note_all(std::int32_t slot, const CellNode& node);
+    [[nodiscard]] std::vector<LeafOperand> list_operands(const CellTask& task);
     CellRef constant(const CellTask& task, bool inside);
     CellRef share(CellTask& task, bool negated);
     CellRef share_list(const CellTask& task, const CellOperand& o, bool negated);
@@ -129,13 +132,6 @@ private:
     void refine_frame(CellTask& task);
     Children children_of(const CellTask& task, const Wall& wall);
 
-    bool place_reference(const CellTask& task, const Wall& wall, int which, Children& children);
-    bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
-                   const CellTask& other_side, CellTask& out);
-    bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis,
-                     CellTask& out);
-    std::optional<int> list_winding(const CellTask& task, const CellOperand& o, const FinePoint& p,
-                                    std::optional<int> axis);
     void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out);
 
     Shared& shared_;
@@ -144,6 +140,7 @@ private:
     SlotValues values_;
     std::vector<std::uint8_t> used_;
     LeafArranger arranger_;
+    CoveredCells covered_;
     std::vector<FacetName> incomplete_;
     Workbench bench_;
     StackArena arena_;
@@ -156,13 +153,6 @@ Worker& Shared::worker() {
     auto& w = workers.local();
     if (!w) w = std::make_unique<Worker>(*this);
     return *w;
-}
-
-// A leaf that someone refined stands for its refinement.
-const CellNode* unfolded(const CellNode* node) {
-    if (!node->is_leaf()) return node;
-    const CellNode* refinement = node->refinement();
-    return refinement != nullptr ? refinement : node;
 }
 
 CellRef child_of(const CellNode& node, bool complemented, std::size_t i) {
@@ -191,10 +181,49 @@ void Worker::drop(CellTask& task) {
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
     used_.assign(values_.size(), 0);
     for_each_slot(*task.formula, [&](std::int32_t s) { used_[static_cast<std::size_t>(s)] = 1; });
-    const auto end = std::remove_if(
-        task.operands.begin(), task.operands.end(),
-        [&](const CellOperand& o) { return used_[static_cast<std::size_t>(o.slot)] == 0; });
+    const auto is_left = [&](const CellOperand& o) {
+        return used_[static_cast<std::size_t>(o.slot)] != 0;
+    };
+    if (shared_.crossings != nullptr) note_dropped(task, is_left);
+    const auto end = std::remove_if(task.operands.begin(), task.operands.end(),
+                                    [&](const CellOperand& o) { return !is_left(o); });
     task.operands = {task.operands.data(), static_cast<std::size_t>(end - task.operands.begin())};
+}
+
+// What is dropped with its polygons is not compared in this cell.
+template <class IsLeft>
+void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
+    std::size_t listed = 0;
+    std::size_t dropped = 0;
+    bool lists = true;
+    for (const CellOperand& o : task.operands) {
+        if (o.size() == 0) continue;
+        ++listed;
+        if (!is_left(o)) ++dropped;
+        lists = lists && o.is_list;
+    }
+    if (dropped == 0 || listed < 2) return;
+    if (lists && task.formula->kind == Residual::Kind::Constant) {
+        covered_.add(task);
+        return;
+    }
+    for (const CellOperand& o : task.operands) {
+        if (o.is_list) {
+            for (const PackedBox& e : o.list())
+                arranger_.note_doubtful(o.slot, o.polygon(e.id).facet);
+        } else {
+            note_all(o.slot, *o.node);
+        }
+    }
+}
+
+// All facets that the leaves below a node list.
+void Worker::note_all(std::int32_t slot, const CellNode& node) {
+    if (node.is_leaf()) {
+        for (const PolygonRef& r : node.polygons()) arranger_.note_doubtful(slot, r.facet);
+        return;
+    }
+    for (int i = 0; i < 2; ++i) with_enough_stack([&] { note_all(slot, *node.child(i).node); });
 }
 
 CellRef Worker::constant(const CellTask& task, bool inside) {
@@ -303,20 +332,28 @@ std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
                       [&](const LeafProblem& p) { return arranger_.arrange_prisms(p, stats_); });
 }
 
-template <class Arrange>
-std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
-    make_lists(task, std::nullopt);
+// Operands that are lists, with their polygons.
+std::vector<LeafOperand> Worker::list_operands(const CellTask& task) {
     polygons_.clear();
     for (const CellOperand& o : task.operands)
         for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
     std::vector<LeafOperand> operands;
+    operands.reserve(task.operands.size());
     std::size_t first = 0;
     for (const CellOperand& o : task.operands) {
         operands.push_back({o.slot, std::span(polygons_).subspan(first, o.count), o.complemented,
                             o.embedded, o.winding});
         first += o.count;
-        values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
     }
+    return operands;
+}
+
+template <class Arrange>
+std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
+    make_lists(task, std::nullopt);
+    const std::vector<LeafOperand> operands = list_operands(task);
+    for (const CellOperand& o : task.operands)
+        values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
     const bool inside = value_of(*task.formula, values_);
     const LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
     std::optional<LeafResult> kept = arrange(problem);
@@ -341,14 +378,17 @@ CellRef Worker::defer(const CellTask& task, PolygonList uncrossed, bool inside,
     leaf->rule = options_.winding;
     const std::uint64_t size = uncrossed.size() + crossed;
     leaf->uncrossed = std::move(uncrossed);
-    for (std::size_t i = 0; i < 2; ++i) {
-        const CellOperand& o = task.operands[i];
+    for (const CellOperand& o : task.operands) {
+        DeferredLeaf::Operand& listed = leaf->operands.emplace_back();
+        listed.slot = o.slot;
+        listed.flipped = o.complemented;
+        listed.winding = o.winding;
+        if (o.count == 0) continue;
         // Of an imported mesh, refined or not: one source, no facet turned over.
         const PolygonRef first = o.polygon(o.list()[0].id);
         facets_.clear();
         for (const PackedBox& e : o.list()) facets_.push_back(o.polygon(e.id).facet);
-        leaf->operands[i] = {PolygonList::whole_facets(*first.source, first.flipped, facets_, 0),
-                             o.complemented, o.winding};
+        listed.polygons = PolygonList::whole_facets(*first.source, first.flipped, facets_, 0);
         shared_.memory.keep(facets_.size() * sizeof(std::uint32_t));
     }
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
@@ -501,151 +541,6 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
     for (int i = 0; i < 2; ++i)
         TRISECT_EXPECTS(place_reference(task, wall, i, out), "no reference point found in a cell");
     return out;
-}
-
-std::optional<int> Worker::winding_at(const CellNode& root, bool complemented, const Cell& cell,
-                                      const FinePoint& p) {
-    const CellNode* node = unfolded(&root);
-    Cell at = cell;
-    while (true) {
-        if (node->is_leaf() && node->reference() == p)
-            return complemented_winding(node->winding(), complemented);
-        if (node->is_leaf() && node->size() > 4 * refinable_leaf)
-            if (const CellNode* fine = refined(*node, at)) node = fine;
-        if (node->is_leaf()) break;
-        const std::size_t i = p.c[static_cast<std::size_t>(node->axis())] > node->wall() ? 1 : 0;
-        const CellRef& c = node->child(static_cast<int>(i));
-        at = i == 0 ? at.below(node->axis(), node->wall()) : at.above(node->axis(), node->wall());
-        complemented = complemented != c.complemented;
-        node = unfolded(c.node.get());
-    }
-    const std::vector<PolygonRef> refs(node->polygons().begin(), node->polygons().end());
-    const auto change = trace_winding(refs, false, node->reference(), p);
-    if (!change) return std::nullopt;
-    return complemented_winding(node->winding() + *change, complemented);
-}
-
-// The lattice positions that a segment comes near.
-Box box_around(const FinePoint& a, const FinePoint& b) {
-    Box segment;
-    for (std::size_t k = 0; k < 3; ++k) {
-        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> wall_bits) - 1;
-        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> wall_bits) + 2;
-    }
-    return segment;
-}
-
-std::optional<int> Worker::list_winding(const CellTask& task, const CellOperand& o,
-                                        const FinePoint& p, std::optional<int> axis) {
-    if (o.count == 0) return o.winding;
-    const PackedReach near(PackedBox::of(task.frame, box_around(task.reference, p)));
-    if (axis) {
-        AxisTrace trace(task.reference, p, *axis);
-        for (const PackedBox& e : o.list())
-            if (near.meets(e)) trace.add(o.polygon(e.id));
-        const auto change = trace.change(o.complemented);
-        if (!change) return std::nullopt;
-        return o.winding + *change;
-    }
-    std::vector<PolygonRef> met;
-    for (const PackedBox& e : o.list())
-        if (near.meets(e)) met.push_back(o.polygon(e.id));
-    const auto change = trace_winding(met, o.complemented, task.reference, p);
-    if (!change) return std::nullopt;
-    return o.winding + *change;
-}
-
-// Winding numbers of all operands at p, which lies in the task's cell; `axis` when only that
-// coordinate differs from the reference.
-bool Worker::windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis,
-                         CellTask& out) {
-    for (std::size_t i = 0; i < task.operands.size(); ++i) {
-        const CellOperand& o = task.operands[i];
-        const std::optional<int> w = o.is_list ? list_winding(task, o, p, axis)
-                                               : winding_at(*o.node, o.complemented, task.cell, p);
-        if (!w) return false;
-        out.operands[i].winding = *w;
-    }
-    out.reference = p;
-    return true;
-}
-
-// The same for a point straight behind a wall, on whose other side the reference lies. What meets
-// the way there reaches over to that side, unless the way passes a lattice position behind the
-// wall.
-bool Worker::pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
-                       const CellTask& other_side, CellTask& out) {
-    const auto k = static_cast<std::size_t>(wall.axis);
-    if (p.c[k] >> wall_bits != wall.last_below() || p.c[k] % wall_scale == 0)
-        return windings_at(task, p, wall.axis, out);
-    for (std::size_t i = 0; i < task.operands.size(); ++i) {
-        const CellOperand& o = task.operands[i];
-        const std::optional<int> w = o.is_list
-                                         ? list_winding(task, other_side.operands[i], p, wall.axis)
-                                         : winding_at(*o.node, o.complemented, task.cell, p);
-        if (!w) return false;
-        out.operands[i].winding = *w;
-    }
-    out.reference = p;
-    return true;
-}
-
-bool Worker::place_reference(const CellTask& task, const Wall& wall, int which,
-                             Children& children) {
-    const auto k = static_cast<std::size_t>(wall.axis);
-    CellTask& out = children[static_cast<std::size_t>(which)];
-    const CellTask& other_side = children[static_cast<std::size_t>(1 - which)];
-    if (out.cell.contains(task.reference)) {
-        out.reference = task.reference;
-        for (std::size_t i = 0; i < task.operands.size(); ++i)
-            out.operands[i].winding = task.operands[i].winding;
-        return true;
-    }
-    // A tree that is cut along its own wall knows points on both sides, without a trace.
-    for (const CellOperand& o : out.operands) {
-        if (o.is_list) continue;
-        const CellNode* node = o.node;
-        while (!node->is_leaf()) node = node->child(which == 0 ? 1 : 0).node.get();
-        const FinePoint p = node->reference();
-        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
-        break;
-    }
-    // Straight through the wall; the segment hits little.
-    FinePoint p = task.reference;
-    for (const std::int64_t step : {3, 37, 59, 101}) {
-        p.c[k] = wall.position + (which == 0 ? -step : step);
-        if (out.cell.contains(p) && pass_wall(task, wall, p, other_side, out)) return true;
-    }
-    // Then anywhere near the polygons.
-    Box around;
-    for (const CellOperand& o : task.operands) {
-        if (!o.is_list || o.box.is_empty()) continue;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            around.lo[axis] =
-                std::min(around.lo[axis], task.frame.last_below(axis, o.box.low(axis)) + 1);
-            around.hi[axis] =
-                std::max(around.hi[axis], task.frame.last_below(axis, o.box.high(axis) + 1));
-        }
-    }
-    if (around.is_empty()) around = out.cell.lattice_box();
-    for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            // Near the polygons, or at the end of the cell that is nearest to them.
-            std::int64_t lo = std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * wall_scale);
-            std::int64_t hi = std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * wall_scale);
-            if (hi - lo < wall_scale / 2) {
-                const bool cell_is_above = (around.hi[axis] + 2) * wall_scale < out.cell.hi[axis];
-                lo = cell_is_above ? out.cell.lo[axis] + 1
-                                   : std::max(out.cell.lo[axis] + 1, out.cell.hi[axis] - 512);
-                hi = std::min(out.cell.hi[axis] - 1, lo + 512);
-            }
-            const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
-            const auto c = lo + static_cast<std::int64_t>(mix64(attempt * 3 + axis) % range);
-            p.c[axis] = (c & 1) != 0 ? c + 1 : c;
-        }
-        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
-    }
-    return false;
 }
 
 CellRef Worker::divide(CellTask& task) {
@@ -811,19 +706,18 @@ bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
 }
 
 // Winding number of a root at a point: at once where the way there is free.
-std::optional<int> winding_of_root(Worker& worker, const SolidState& state, const FinePoint& p) {
+std::optional<int> winding_of_root(const SolidState& state, const FinePoint& p) {
     const CellNode& n = *state.root.node;
     const Source* whole =
         n.is_leaf() && n.polygons().has_all_facets() ? n.polygons().whole_source() : nullptr;
     if (whole != nullptr && passes_by(whole->box(), n.reference(), p))
         return complemented_winding(n.winding(), state.root.complemented);
-    return worker.winding_at(n, state.root.complemented, Cell{}, p);
+    return winding_in_tree(n, state.root.complemented, Cell{}, p);
 }
 
-bool place_root(Worker& worker, std::span<const std::shared_ptr<const SolidState>> states,
-                CellTask& task) {
+bool place_root(std::span<const std::shared_ptr<const SolidState>> states, CellTask& task) {
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const auto w = winding_of_root(worker, *states[i], task.reference);
+        const auto w = winding_of_root(*states[i], task.reference);
         if (!w) return false;
         CellOperand o;
         o.slot = static_cast<std::int32_t>(i);
@@ -844,12 +738,12 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
     task.formula = formula;
     task.reference = outer_reference(states);
     task.operands = {worker.arena().take<CellOperand>(states.size()), states.size()};
-    bool placed = place_root(worker, states, task);
+    bool placed = place_root(states, task);
     for (int attempt = 0; attempt < 100 && !placed; ++attempt) {
         for (std::size_t k = 0; k < 3; ++k)
             task.reference.c[k] -= static_cast<std::int64_t>(
                 2 * (mix64(static_cast<std::uint64_t>(attempt) * 3 + k) % 2000));
-        placed = place_root(worker, states, task);
+        placed = place_root(states, task);
     }
     TRISECT_EXPECTS(placed, "no reference point for the operands");
     CellRef root = worker.solve(task);
@@ -863,8 +757,12 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
                             std::span<const std::shared_ptr<const SolidState>> solids,
                             const EvaluateOptions& options) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
-    Shared shared{options, solids.size(),         MemoryBudget(options.max_memory),
-                  false,   crossings.has_value(), {}};
+    Shared shared{options,
+                  solids.size(),
+                  MemoryBudget(options.max_memory),
+                  false,
+                  crossings ? &*crossings : nullptr,
+                  {}};
     std::uint64_t polygons = 0;
     for (const auto& s : solids) polygons += s->root.node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
@@ -880,6 +778,13 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
     }
     if (crossings) {
         for (const auto& worker : shared.workers) crossings->append(worker->crossings());
+        CoveredCells covered;
+        std::vector<std::uint32_t> seen;
+        for (const auto& worker : shared.workers) {
+            covered.append(worker->covered());
+            seen.insert(seen.end(), worker->seen().begin(), worker->seen().end());
+        }
+        covered.compare(seen, options, result.stats, *crossings);
         crossings->arrange();
         result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }

@@ -47,8 +47,15 @@ public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
     std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem, EvaluateStats& stats);
     std::optional<LeafResult> arrange_prisms(const LeafProblem& problem, EvaluateStats& stats);
-    void collect_crossings(bool collect) { collect_ = collect; }
+    void collect_crossings(std::span<const Crossings::Operand> operands) {
+        collect_ = true;
+        crossings_.operands.assign(operands.begin(), operands.end());
+    }
+    void note_doubtful(std::int32_t slot, std::uint32_t facet) {
+        crossings_.doubtful.push_back(crossings_.number_of(static_cast<std::size_t>(slot), facet));
+    }
     [[nodiscard]] const Crossings& crossings() const { return crossings_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return seen_; }
 
 private:
     template <class Work>
@@ -75,6 +82,7 @@ private:
     LeafFormula formula_;
     bool collect_ = false;
     Crossings crossings_;
+    std::vector<std::uint32_t> seen_;
     std::vector<PolygonRef> out_;
     std::vector<std::pair<const WorkPolygon*, LeafSides>> kept_;
 };
@@ -87,9 +95,17 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
     return impl_->arrange(problem, values, stats);
 }
 
-void LeafArranger::collect_crossings(bool collect) { impl_->collect_crossings(collect); }
+void LeafArranger::collect_crossings(std::span<const Crossings::Operand> operands) {
+    impl_->collect_crossings(operands);
+}
+
+void LeafArranger::note_doubtful(std::int32_t slot, std::uint32_t facet) {
+    impl_->note_doubtful(slot, facet);
+}
 
 const Crossings& LeafArranger::crossings() const { return impl_->crossings(); }
+
+const std::vector<std::uint32_t>& LeafArranger::seen() const { return impl_->seen(); }
 
 std::optional<LeafResult> LeafArranger::arrange_across_axes(const LeafProblem& problem,
                                                             EvaluateStats& stats) {
@@ -136,13 +152,12 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
 std::optional<LeafResult> LeafArranger::Impl::arrange_plain(const LeafProblem& problem,
                                                             EvaluateStats& stats) {
     return or_end_fragments([&]() -> std::optional<LeafResult> {
-        if (!collect_ || problem.operands.size() != 2) {
+        if (!collect_ || problem.operands.size() < 2) {
             if (!plain_.arrange(problem, stats, out_)) return std::nullopt;
             return LeafResult{std::move(out_), {}};
         }
-        const auto crossed = plain_.arrange_uncrossed(problem, stats, out_);
+        const auto crossed = plain_.arrange_uncrossed(problem, stats, out_, crossings_, seen_);
         if (!crossed) return std::nullopt;
-        plain_.add_crossings(crossings_.pairs);
         return LeafResult{std::move(out_), {}, *crossed};
     });
 }
@@ -150,8 +165,7 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_plain(const LeafProblem& p
 void LeafArranger::Impl::note_doubtful(const LeafProblem& problem) {
     if (!collect_) return;
     for (const LeafOperand& o : problem.operands)
-        for (const PolygonRef& r : o.polygons)
-            crossings_.doubtful[static_cast<std::size_t>(o.slot)].push_back(r.facet);
+        for (const PolygonRef& r : o.polygons) note_doubtful(o.slot, r.facet);
 }
 
 LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& values,

@@ -40,9 +40,13 @@ public:
     /// to.
     [[nodiscard]] LeafResult arrange(const LeafProblem& problem, SlotValues& values,
                                      EvaluateStats& stats);
-    /// Whether the crossings of leaves are collected, and facets that something crosses are left
-    /// out where that is possible. \pre formulas have slots 0 and 1
-    void collect_crossings(bool collect);
+    /// From now on the crossings of leaves are collected, and facets that something crosses are
+    /// left out where that is possible. `operands` are those of the formula, by slot.
+    void collect_crossings(std::span<const Crossings::Operand> operands);
+    /// A facet of an operand may cross others where no leaf compares them.
+    void note_doubtful(std::int32_t slot, std::uint32_t facet);
+    /// By number, the facets that leaves found crossed, in formulas of more than two operands.
+    [[nodiscard]] const std::vector<std::uint32_t>& seen() const;
     /// What was collected so far; unordered, and pairs may be there several times.
     [[nodiscard]] const Crossings& crossings() const;
     /// The same when all polygons are across an axis and the leaf is not too large for that; else

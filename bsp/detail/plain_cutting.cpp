@@ -590,6 +590,16 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     return last_result_;
 }
 
+std::optional<std::span<const int>> PlainCutting::windings_on(LeafIndex item) {
+    start_item(item);
+    if (const auto at = windings_->anchor_of(item, *stats_).windings; at >= 0)
+        return windings_->windings(at);
+    if (!make_shape() || !clip_to_cell()) return std::nullopt;
+    if (clipped_.size == 0) return std::span<const int>();
+    if (!trace_start()) return std::nullopt;
+    return start_windings_;
+}
+
 // Makes the item its first part, without a shape. False when it cannot bound the result.
 bool PlainCutting::add_item() {
     known_windings_.assign(start_windings_.begin(), start_windings_.end());

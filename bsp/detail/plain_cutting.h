@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -73,6 +74,9 @@ public:
     [[nodiscard]] Result cut(LeafIndex item);
     /// An item that nothing crosses: does it bound the result?
     [[nodiscard]] Result whole(LeafIndex item);
+    /// Winding numbers by operand at some point that an item has in the cell; nothing when it may
+    /// have none there. `nullopt`: doubles cannot tell. Valid until the next call.
+    [[nodiscard]] std::optional<std::span<const int>> windings_on(LeafIndex item);
 
     [[nodiscard]] std::span<const PlainPart> parts() const { return {parts_.data(), count_}; }
     /// The polygon of the last item with its part in the cell, or with one of its parts, as its

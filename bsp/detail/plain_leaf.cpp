@@ -18,25 +18,39 @@
 
 #include <trisect/bsp/detail/plain_leaf.h>
 
+#include <algorithm>
+
 #include <trisect/bsp/detail/polygon_in_cell.h>
 
 namespace trisect::detail {
 
 bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
-    return try_to_arrange(problem, true, stats, out);
+    return try_to_arrange(problem, nullptr, stats, out);
 }
 
 std::optional<std::size_t> PlainLeaf::arrange_uncrossed(const LeafProblem& problem,
                                                         EvaluateStats& stats,
-                                                        std::vector<PolygonRef>& out) {
-    if (!try_to_arrange(problem, false, stats, out)) return std::nullopt;
+                                                        std::vector<PolygonRef>& out,
+                                                        Crossings& crossings,
+                                                        std::vector<std::uint32_t>& seen) {
+    const std::size_t covers = crossings.covers.size();
+    const std::size_t seen_before = seen.size();
+    seen_ = &seen;
+    if (!try_to_arrange(problem, &crossings, stats, out)) {
+        crossings.covers.resize(covers);
+        seen.resize(seen_before);
+        return std::nullopt;
+    }
+    pairs_.add_to(crossings, facets_);
     return crossed_;
 }
 
-bool PlainLeaf::try_to_arrange(const LeafProblem& problem, bool crossed_too, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out) {
+bool PlainLeaf::try_to_arrange(const LeafProblem& problem, Crossings* crossings,
+                               EvaluateStats& stats, std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
+    // Crossings are of whole facets.
+    if (crossings != nullptr && facets_.fragment_count() != 0) return false;
     const EvaluateStats before = stats;
     bool done = false;
     const auto undo = [&] {
@@ -45,7 +59,7 @@ bool PlainLeaf::try_to_arrange(const LeafProblem& problem, bool crossed_too, Eva
         out.clear();
     };
     try {
-        done = arrange_listed(crossed_too, stats, out);
+        done = arrange_listed(crossings, stats, out);
     } catch (...) {
         undo();
         throw;
@@ -54,17 +68,18 @@ bool PlainLeaf::try_to_arrange(const LeafProblem& problem, bool crossed_too, Eva
     return done;
 }
 
-bool PlainLeaf::arrange_listed(bool crossed_too, EvaluateStats& stats,
+bool PlainLeaf::arrange_listed(Crossings* crossings, EvaluateStats& stats,
                                std::vector<PolygonRef>& out) {
-    if (!pairs_.relate_all(facets_, !crossed_too, stats)) return false;
+    if (!pairs_.relate_all(facets_, crossings != nullptr, stats)) return false;
     windings_.start(facets_, pairs_);
     formula_.start(facets_.problem());
     crossed_ = 0;
     cutting_.start(facets_, pairs_, windings_, formula_, stats);
     for (LeafIndex i = 0; i < facets_.size(); ++i) {
         const bool crossed = !pairs_.contacts(i).empty();
-        if (crossed && !crossed_too) {
+        if (crossed && crossings != nullptr) {
             ++crossed_;
+            if (!add_covers(i, *crossings, *seen_)) return false;
             continue;
         }
         if (crossed) {
@@ -82,15 +97,49 @@ bool PlainLeaf::arrange_listed(bool crossed_too, EvaluateStats& stats,
     return true;
 }
 
-void PlainLeaf::add_crossings(std::vector<FacetCrossing>& out) const {
-    for (const PlainCrossing& c : pairs_.crossings()) {
-        FacetCrossing& made = out.emplace_back();
-        for (std::size_t k = 0; k < 2; ++k) {
-            made.facets[k] = facets_[c.items[k]].ref.facet;
-            const PlainEnd& end = c.ends[k];
-            made.ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
-        }
+// Whether a crossing surely has an end in the cell.
+bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
+    const auto contacts = pairs_.contacts(item);
+    return std::ranges::any_of(contacts, [&](const PlainContact& c) {
+        return std::ranges::any_of(pairs_.crossing(c.crossing).ends, [&](const PlainEnd& end) {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (end.at.c[k] - end.at.error < facets_.inner_lo()[k] ||
+                    end.at.c[k] + end.at.error > facets_.inner_hi()[k])
+                    return false;
+            return true;
+        });
+    });
+}
+
+// Notes a facet that something crosses, and the operands that it lies in here, of those that do not
+// cross it. One whose part in the cell is empty is somebody else's.
+bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
+    if (crossings.operands.size() == 2) return true;
+    const std::size_t n = facets_.operand_count();
+    const std::size_t own = LeafWork::u(facets_[item].operand);
+    const std::uint32_t number = crossings.number_of(slot_of(own), facets_[item].ref.facet);
+    crosses_.assign(n, 0);
+    crosses_[own] = 1;
+    std::size_t others = n - 1;
+    for (const PlainContact& c : pairs_.contacts(item)) {
+        std::uint8_t& crosses = crosses_[LeafWork::u(facets_[c.other].operand)];
+        others -= crosses == 0 ? 1 : 0;
+        crosses = 1;
     }
+    if (others == 0 && is_crossed_inside(item)) {
+        seen.push_back(number);
+        return true;
+    }
+    const auto windings = cutting_.windings_on(item);
+    if (!windings) return false;
+    if (windings->empty()) return true;
+    seen.push_back(number);
+    for (std::size_t o = 0; o < n; ++o) {
+        const std::size_t slot = slot_of(o);
+        if (crosses_[o] == 0 && (*windings)[o] != crossings.operands[slot].open)
+            crossings.covers.push_back({number, static_cast<std::uint32_t>(slot)});
+    }
+    return true;
 }
 
 // The outside faces upwards, unless flipped.

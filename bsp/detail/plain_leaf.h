@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,20 +28,27 @@ public:
     /// or doubles cannot tell; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
-    /// The same without the facets that something crosses in the cell; returns nothing for false,
-    /// else how many of those there are.
+    /// The same without the facets that something crosses in the cell: these and what covers them
+    /// are added to `crossings`, which has the operands of the formula, and their numbers to `seen`
+    /// if the formula has more than two. Returns nothing for false, else how many of those facets
+    /// there are.
     [[nodiscard]] std::optional<std::size_t> arrange_uncrossed(const LeafProblem& problem,
                                                                EvaluateStats& stats,
-                                                               std::vector<PolygonRef>& out);
-    /// Appends the pairs of facets that cross in the last leaf. \pre it was arranged, and has two
-    /// operands.
-    void add_crossings(std::vector<FacetCrossing>& out) const;
+                                                               std::vector<PolygonRef>& out,
+                                                               Crossings& crossings,
+                                                               std::vector<std::uint32_t>& seen);
 
 private:
-    [[nodiscard]] bool arrange_listed(bool crossed_too, EvaluateStats& stats,
+    [[nodiscard]] bool arrange_listed(Crossings* crossings, EvaluateStats& stats,
                                       std::vector<PolygonRef>& out);
-    [[nodiscard]] bool try_to_arrange(const LeafProblem& problem, bool crossed_too,
+    [[nodiscard]] bool try_to_arrange(const LeafProblem& problem, Crossings* crossings,
                                       EvaluateStats& stats, std::vector<PolygonRef>& out);
+    [[nodiscard]] bool add_covers(LeafIndex item, Crossings& crossings,
+                                  std::vector<std::uint32_t>& seen);
+    [[nodiscard]] bool is_crossed_inside(LeafIndex item) const;
+    [[nodiscard]] std::size_t slot_of(std::size_t operand) const {
+        return static_cast<std::size_t>(facets_.problem().operands[operand].slot);
+    }
     void emit(LeafIndex item, const PlainCutting::Result& result, std::vector<PolygonRef>& out);
 
     PlainFacets facets_;
@@ -49,6 +57,8 @@ private:
     PlainCutting cutting_;
     LeafFormula formula_;
     std::size_t crossed_ = 0;  // facets
+    std::vector<std::uint32_t>* seen_ = nullptr;
+    std::vector<std::uint8_t> crosses_;  // by operand
 };
 
 }  // namespace trisect::detail

@@ -213,7 +213,8 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     }
 }
 
-bool PlainPairs::relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
+bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks, bool edges_apart,
+                        EvaluateStats& stats) {
     edges_apart_ = edges_apart;
     crossings_.clear();
     list_candidates(facets);
@@ -227,7 +228,11 @@ bool PlainPairs::relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats
             if (row == first) met &= ~0U << (i + 1) % 4;
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-                if (!compare(facets, candidates_[i].item, candidates_[j].item, stats)) return false;
+                const LeafIndex s = candidates_[i].item;
+                const LeafIndex t = candidates_[j].item;
+                if (!marks.empty() && marks[LeafWork::u(s)] == 0 && marks[LeafWork::u(t)] == 0)
+                    continue;
+                if (!compare(facets, s, t, stats)) return false;
             }
         }
     }
@@ -235,6 +240,19 @@ bool PlainPairs::relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats
     stats.pairs_cutting += crossings_.size();
     list_contacts(facets.size());
     return true;
+}
+
+void PlainPairs::add_to(Crossings& crossings, const PlainFacets& facets) const {
+    for (const PlainCrossing& c : crossings_) {
+        FacetCrossing& made = crossings.pairs.emplace_back();
+        for (std::size_t k = 0; k < 2; ++k) {
+            const PlainFacet& f = facets[c.items[k]];
+            const std::int32_t slot = facets.problem().operands[LeafWork::u(f.operand)].slot;
+            made.facets[k] = crossings.number_of(static_cast<std::size_t>(slot), f.ref.facet);
+            const PlainEnd& end = c.ends[k];
+            made.ends[k] = {facets.in_lattice(end.at), end.of_second, end.edge};
+        }
+    }
 }
 
 bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/box_rows.h>
+#include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/plain_facets.h>
 
 namespace trisect::detail {
@@ -48,7 +49,17 @@ public:
     /// exactly, unless `edges_apart`: then such a pair is one about which they cannot tell.
     /// Polygons that meet in no more than a point of their edges do not cross, but are marked as
     /// touched. Counts pairs.
-    [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats);
+    [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
+        return relate(facets, {}, edges_apart, stats);
+    }
+    /// The same, with `edges_apart`, for pairs with at least one marked facet.
+    [[nodiscard]] bool relate_marked(PlainFacets& facets, std::span<const std::uint8_t> marks,
+                                     EvaluateStats& stats) {
+        return relate(facets, marks, true, stats);
+    }
+    /// Appends the crossings by the facets' numbers in a formula. \pre whole facets; every operand
+    /// has one source
+    void add_to(Crossings& crossings, const PlainFacets& facets) const;
 
     [[nodiscard]] const PlainCrossing& crossing(std::int32_t i) const {
         return crossings_[static_cast<std::size_t>(i)];
@@ -66,6 +77,8 @@ private:
         double lo = 0;  // along the axis of the sweep
         LeafIndex item = 0;
     };
+    [[nodiscard]] bool relate(PlainFacets& facets, std::span<const std::uint8_t> marks,
+                              bool edges_apart, EvaluateStats& stats);
     void list_candidates(const PlainFacets& facets);
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                   PlainCrossing& out) const;

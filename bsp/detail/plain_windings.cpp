@@ -82,6 +82,7 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     reference_ = facets.reference();
     operands_ = facets.operand_count();
     has_boxes_ = false;
+    has_ways_ = false;
     ids_.clear();
     nodes_.clear();
     known_.clear();
@@ -265,8 +266,69 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
             continue;
         nodes_[LeafWork::u(r)].state = State::Known;
         nodes_[LeafWork::u(r)].windings = keep(traced_);
+        spread(r);
         return;
     }
+}
+
+void PlainWindings::list_ways() {
+    has_ways_ = true;
+    ways_.clear();
+    for (LeafIndex i = 0; i < facets_->size(); ++i) {
+        if (pairs_->contacts(i).empty() || !(*facets_)[i].is_whole()) continue;
+        const auto& vertices = vertices_[LeafWork::u(i)];
+        for (std::int8_t c = 0; c < 3; ++c) {
+            const auto d = static_cast<std::int8_t>(c == 2 ? 0 : c + 1);
+            const LeafIndex a = vertices[static_cast<std::size_t>(c)];
+            const LeafIndex b = vertices[static_cast<std::size_t>(d)];
+            if (a < 0 || b < 0) continue;
+            const LeafIndex from = root(a);
+            const LeafIndex to = root(b);
+            if (from == to) continue;
+            ways_.push_back({from, to, i, c, c});
+            ways_.push_back({to, from, i, c, d});
+        }
+    }
+    std::ranges::sort(ways_, [](const Way& a, const Way& b) {
+        return a.from != b.from ? a.from < b.from : a.to < b.to;
+    });
+}
+
+// From a tree that has become known to all that edges connect it with.
+void PlainWindings::spread(LeafIndex r) {
+    if (!has_ways_) list_ways();
+    reached_.assign(1, r);
+    while (!reached_.empty()) {
+        const LeafIndex from = reached_.back();
+        reached_.pop_back();
+        const auto begin = std::ranges::lower_bound(ways_, from, {}, &Way::from);
+        for (auto way = begin; way != ways_.end() && way->from == from; ++way) {
+            if (nodes_[LeafWork::u(way->to)].state == State::Known) continue;
+            const auto known = windings(nodes_[LeafWork::u(from)].windings);
+            traced_.assign(known.begin(), known.end());
+            if (!follow(*way, traced_)) continue;
+            Node& to = nodes_[LeafWork::u(way->to)];
+            to.state = State::Known;
+            to.windings = keep(traced_);
+            reached_.push_back(way->to);
+        }
+    }
+}
+
+// What changes along an edge, which lies in the cell: all that it pierces is known. False where it
+// meets an edge.
+bool PlainWindings::follow(const Way& way, std::span<int> w) const {
+    for (const PlainContact& c : pairs_->contacts(way.item)) {
+        const PlainCrossing& crossing = pairs_->crossing(c.crossing);
+        const bool above = (crossing.above[c.is_second ? 1 : 0] >> way.corner & 1U) != 0;
+        const PlainFacet& f = (*facets_)[c.other];
+        for (const PlainEnd& end : crossing.ends) {
+            if (end.edge_of(c.is_second) != way.edge) continue;
+            if (end.other_edge >= 0) return false;
+            w[LeafWork::u(f.operand)] += above ? f.orientation : -f.orientation;
+        }
+    }
+    return true;
 }
 
 LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {

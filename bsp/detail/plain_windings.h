@@ -16,8 +16,9 @@ namespace trisect::detail {
 
 /// Winding numbers of the other operands are the same all over a facet that nothing crosses. So
 /// vertices in the cell, and edges that run through it, hang together by such facets, and one trace
-/// to any vertex serves all that hang together with it; also the facets that are crossed. The same
-/// idea as in leaf_anchors.h, on doubles.
+/// to any vertex serves all that hang together with it; also the facets that are crossed. Along an
+/// edge of these they change where it pierces others, which is known by then: so one trace serves
+/// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles.
 class PlainWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
@@ -51,6 +52,17 @@ private:
         LeafIndex example = -1;   // another vertex of the same tree; of a root
         LeafIndex windings = -1;  // of a root that is known
     };
+    /// An edge in the cell, seen from one of its ends.
+    struct Way {
+        LeafIndex from = 0;  // roots
+        LeafIndex to = 0;
+        LeafIndex item = 0;
+        std::int8_t edge = 0;    // of the item
+        std::int8_t corner = 0;  // of the item, where the way starts
+    };
+    void list_ways();
+    void spread(LeafIndex root);
+    [[nodiscard]] bool follow(const Way& way, std::span<int> w) const;
     [[nodiscard]] LeafIndex node_of(const StampMap::Key& key, LeafIndex item, int corner);
     void add_corners(LeafIndex item, bool free);
     void add_edges(LeafIndex item);
@@ -77,6 +89,9 @@ private:
     std::vector<LeafIndex> first_;  // a node of an item, -1 none
     std::vector<int> known_;        // a row of `operands_` for each
     std::vector<int> traced_;
+    std::vector<Way> ways_;  // along edges of facets that are crossed, by `from`
+    bool has_ways_ = false;
+    std::vector<LeafIndex> reached_;
     BoxRows boxes_;  // of all facets; made for the first trace
     bool has_boxes_ = false;
 };

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two boundaries in general position cross in closed polylines. On each facet they leave paths of
-// segments, from one point of its outline to another or closed, and these are where the result's
-// part of the facet ends: there the winding number of the other operand changes. So the outline of
-// that part is known without any cutting: the segments, each with the part on its left, and what
-// lies between them of the facet's own edges. A segment that ends in an edge lets the part go on
-// from there counter-clockwise, up to where the next segment starts.
+// segments, and these are where the result's part of the facet ends (facet_outline.cpp). So the
+// outline of that part is known without any cutting, however many operands cross the facet.
 //
 // What leaves have made of the same facet is convex pieces, cut by the walls of cells and by the
 // lines of segments far beyond their ends. To join those takes several times as long, and comes to
-// the same: every vertex of either is where an edge pierces a facet, or a corner.
+// the same: every vertex of either is where an edge pierces a facet, where three facets meet, or a
+// corner.
 //
-// A facet with nothing but closed paths is left to the pieces, as is one whose segments do not make
-// closed outlines by name.
+// A facet of which doubles cannot tell the outline is left to the pieces.
 
 #include <trisect/bsp/detail/traced_facets.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
+
+#include <trisect/bsp/detail/facet_outline.h>
 
 namespace trisect::detail {
 
@@ -36,193 +32,190 @@ public:
         : crossings_(crossings), parts_(parts), edges_(edges) {}
 
     void run() {
-        for (std::size_t side = 0; side < 2; ++side) {
-            const auto t =
-                std::ranges::find(parts_.sources, crossings_.operands[side].serial,
-                                  [](const FacetMarks& marks) { return marks.source()->serial(); });
-            if (t == parts_.sources.end()) return;  // nothing of it is left
-            marks_[side] = &*t;
-        }
+        find_marks();
         ends_.assign(crossings_.pairs.size(), {-1, -1});
         edges_of_.assign(crossings_.pairs.size(), {-1, -1});
-        for (std::size_t side = 0; side < 2; ++side) {
-            order_[side].resize(crossings_.pairs.size());
-            std::iota(order_[side].begin(), order_[side].end(), 0U);
-            if (side == 1)
-                std::ranges::sort(order_[side], {}, [&](std::uint32_t i) {
-                    return std::pair(crossings_.pairs[i].facets[1], i);
-                });
-            name_planes(side);
+        const auto& pairs = crossings_.pairs;
+        const auto& by_second = crossings_.by_second;
+        std::size_t first = 0;
+        std::size_t second = 0;
+        for (const std::uint32_t facet : crossings_.shown) {
+            while (first < pairs.size() && pairs[first].facets[0] < facet) ++first;
+            while (second < pairs.size() && pairs[by_second[second]].facets[1] < facet) ++second;
+            sides_.clear();
+            for (; first < pairs.size() && pairs[first].facets[0] == facet; ++first)
+                sides_.push_back({static_cast<std::uint32_t>(first), 0});
+            for (; second < pairs.size() && pairs[by_second[second]].facets[1] == facet; ++second)
+                sides_.push_back({by_second[second], 1});
+            if (!std::ranges::binary_search(crossings_.doubtful, facet)) look_at(facet);
         }
-        for (std::size_t side = 0; side < 2; ++side) trace_all(side);
     }
 
 private:
-    // Where a segment ends in an edge of the facet.
-    struct EdgePoint {
-        PointId point = -1;
-        std::int8_t edge = 0;
-        bool opens = false;  // the result's part goes on from here along the edge
+    // A pair, and which of its facets is looked at.
+    struct Side {
+        std::uint32_t pair = 0;
+        std::uint32_t side = 0;
     };
 
-    // Looked up once for each facet.
-    void name_planes(std::size_t side) {
-        const Source* const source = marks_[side]->source();
-        std::uint32_t last = 0;
-        PlaneId edge = -1;
-        for (const std::uint32_t i : order_[side]) {
-            const std::uint32_t facet = crossings_.pairs[i].facets[side];
-            if (edge < 0 || facet != last)
-                edge = parts_.bench.plane(PlaneName::edge(source, facet, 0));
-            last = facet;
-            edges_of_[i][side] = edge;
+    // Nothing is left of a source without marks.
+    void find_marks() {
+        for (const Crossings::Operand& o : crossings_.operands) {
+            const auto at =
+                std::ranges::lower_bound(parts_.sources, o.serial, {},
+                                         [](const FacetMarks& m) { return m.source()->serial(); });
+            const bool found = at != parts_.sources.end() && at->source()->serial() == o.serial;
+            marks_.push_back(found ? &*at : nullptr);
         }
     }
 
-    void trace_all(std::size_t side) {
-        const Crossings::Operand& operand = crossings_.operands[side];
-        const auto& doubtful = crossings_.doubtful[side];
-        const auto& order = order_[side];
-        for (std::size_t i = 0; i < order.size();) {
-            const std::uint32_t facet = crossings_.pairs[order[i]].facets[side];
-            std::size_t j = i + 1;
-            while (j < order.size() && crossings_.pairs[order[j]].facets[side] == facet) ++j;
-            const auto pairs = std::span(order).subspan(i, j - i);
-            i = j;
-            if (!marks_[side]->takes_part(facet, operand.inside_above) ||
-                marks_[side]->is_worked(facet, !operand.inside_above) ||
-                std::ranges::binary_search(doubtful, facet))
-                continue;
-            const std::size_t first = edges_.size();
-            if (trace(side, facet, pairs)) {
-                marks_[side]->set_traced(facet);
-                ++parts_.stats.traced_facets;
-            } else {
-                edges_.resize(first);
+    void look_at(std::uint32_t number) {
+        const std::size_t operand = crossings_.operand_of(number);
+        const Crossings::Operand& o = crossings_.operands[operand];
+        FacetMarks* const marks = marks_[operand];
+        const std::uint32_t facet = number - o.first;
+        if (marks == nullptr || !marks->takes_part(facet, o.inside_above) ||
+            marks->is_worked(facet, !o.inside_above))
+            return;
+        const Source* const source = marks->source();
+        if (!list_segments() || !outline_.trace(corners_of(*source, facet), segments_)) return;
+        add_edges(*marks, facet, o.inside_above);
+        marks->set_traced(facet);
+        ++parts_.stats.traced_facets;
+    }
+
+    static std::array<const LatticePoint*, 3> corners_of(const Source& source,
+                                                         std::uint32_t facet) {
+        return {&source.corner(facet, 0), &source.corner(facet, 1), &source.corner(facet, 2)};
+    }
+
+    // False when nothing is left of an operand that crosses the facet.
+    bool list_segments() {
+        segments_.clear();
+        cutters_.clear();
+        for (const Side& s : sides_) {
+            const FacetCrossing& c = crossings_.pairs[s.pair];
+            const std::uint32_t number = c.facets[1 - s.side];
+            const std::size_t operand = crossings_.operand_of(number);
+            if (marks_[operand] == nullptr) return false;
+            const Crossings::Operand& o = crossings_.operands[operand];
+            const Source& cutter = *marks_[operand]->source();
+            const std::uint32_t facet = number - o.first;
+            OutlineSegment& segment = segments_.emplace_back();
+            segment.cutter = small_number_of(operand);
+            segment.corners = corners_of(cutter, facet);
+            segment.open_below = o.is_open_below();
+            // Within the facet, to the left of the product of the normals, is what lies below the
+            // other facet for the first one, and above it for the second one.
+            const bool along = segment.open_below == (s.side == 0);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const FacetCrossing::End& end = c.ends[along ? k : 1 - k];
+                segment.at[k] = end.at;
+                const bool is_own = end.of_second == (s.side == 1);
+                segment.edge[k] = static_cast<std::int8_t>(is_own ? end.edge : -1);
+                if (is_own) continue;
+                const std::uint64_t v = cutter.corner_index(facet, end.edge);
+                const std::uint64_t w = cutter.corner_index(facet, (end.edge + 1) % 3);
+                segment.through[k] = std::min(v, w) << 32 | std::max(v, w);
             }
         }
+        return true;
     }
 
-    bool trace(std::size_t side, std::uint32_t facet, std::span<const std::uint32_t> pairs) {
-        const Crossings::Operand& operand = crossings_.operands[side];
-        const Source* const source = marks_[side]->source();
-        const PlaneId own = edges_of_[pairs[0]][side];
-        const std::int32_t number = marks_[side]->number_of_worked(facet, operand.inside_above);
-        const std::size_t first = edges_.size();
-        on_edges_.clear();
-        // Within the facet, to the left of the product of the normals, is what lies below the other
-        // facet for the first one, and above it for the second one.
-        const bool keep_below = (operand.keep == 1) != crossings_.operands[1 - side].flipped;
-        const bool along = keep_below == (side == 0);
-        for (const std::uint32_t i : pairs) {
-            const FacetCrossing& c = crossings_.pairs[i];
-            const auto& points = ends_of(i);
-            const PlaneId other = parts_.bench.support_of(edges_of_[i][1 - side]);
-            for (std::size_t end = 0; end < 2; ++end)
-                if (c.ends[end].of_second == (side == 1))
-                    on_edges_.push_back({points[end], c.ends[end].edge, (end == 1) == along});
-            edges_.push_back(
-                {points[along ? 0 : 1], points[along ? 1 : 0], number, {other, !keep_below}});
+    std::uint32_t small_number_of(std::size_t operand) {
+        const auto at = std::ranges::find(cutters_, operand);
+        if (at == cutters_.end()) {
+            cutters_.push_back(operand);
+            return static_cast<std::uint32_t>(cutters_.size()) - 1;
         }
-        if (on_edges_.empty() || !sort_along(*source, facet)) return false;
-        if (!add_between(*source, facet, own, number)) return false;
-        const std::span<BoundaryEdge> made = std::span(edges_).subspan(first);
-        if (!is_closed(made)) return false;
-        if (operand.inside_above) {
-            std::ranges::reverse(made);
-            for (BoundaryEdge& e : made) std::swap(e.from, e.to);
+        return static_cast<std::uint32_t>(at - cutters_.begin());
+    }
+
+    void add_edges(FacetMarks& marks, std::uint32_t facet, bool flipped) {
+        if (outline_.edges().empty()) return;
+        ref_ = {marks.source(), nullptr, facet, false, false};
+        own_ = edge_of(sides_[0].pair, sides_[0].side);
+        const std::int32_t number = marks.number_of_worked(facet, flipped);
+        for (const OutlineEdge& e : outline_.edges()) {
+            PointId from = point_of(e.from);
+            PointId to = point_of(e.to);
+            if (flipped) std::swap(from, to);
+            edges_.push_back({from, to, number, line_of(e)});
+        }
+        if (flipped) {
+            const auto n = static_cast<std::ptrdiff_t>(outline_.edges().size());
+            std::reverse(edges_.end() - n, edges_.end());
         }
         BoundaryFacet& f = parts_.facets[u(number)];
-        f.support = parts_.bench.support_of(own);
+        f.support = parts_.bench.support_of(own_);
         f.parts = 1;
-        return true;
     }
 
-    const std::array<PointId, 2>& ends_of(std::uint32_t pair) {
-        auto& ends = ends_[pair];
-        if (ends[0] >= 0) return ends;
-        const FacetCrossing& c = crossings_.pairs[pair];
-        for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t side = c.ends[k].of_second ? 1 : 0;
-            const Source* const source = marks_[side]->source();
-            const PolygonRef ref{source, nullptr, c.facets[side], false, false};
-            Workbench& bench = parts_.bench;
-            const PlaneId first = edges_of_[pair][side];
-            ends[k] = bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
-                                   bench.support_of(edges_of_[pair][1 - side]), c.ends[k].at);
-        }
-        return ends;
+    WorkEdge line_of(const OutlineEdge& e) {
+        if (e.edge >= 0) return {own_ + e.edge, false};
+        return {support_of_cutter(e.segment), !segments_[e.segment].open_below};
     }
 
-    // In the order of a walk around the facet. False when two points cannot be told apart.
-    bool sort_along(const Source& source, std::uint32_t facet) {
-        bool distinct = true;
-        std::ranges::sort(on_edges_, [&](const EdgePoint& a, const EdgePoint& b) {
-            if (a.edge != b.edge) return a.edge < b.edge;
-            if (a.point == b.point) return false;
-            const LatticePoint& from = source.corner(facet, a.edge);
-            const LatticePoint& to = source.corner(facet, (a.edge + 1) % 3);
-            const std::array<std::int64_t, 3> way{to.x - from.x, to.y - from.y, to.z - from.z};
-            int axis = 0;
-            for (int k = 1; k < 3; ++k)
-                if (std::abs(way[u(k)]) > std::abs(way[u(axis)])) axis = k;
-            const int order = compare_along(parts_.bench, a.point, b.point, axis);
-            distinct = distinct && order != 0;
-            return order == (way[u(axis)] > 0 ? -1 : 1);
-        });
-        return distinct &&
-               std::ranges::adjacent_find(on_edges_, {}, &EdgePoint::point) == on_edges_.end();
-    }
-
-    // What the part has of the facet's own edges.
-    bool add_between(const Source& source, std::uint32_t facet, PlaneId own, std::int32_t number) {
-        const std::size_t n = on_edges_.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const EdgePoint& from = on_edges_[i];
-            const EdgePoint& to = on_edges_[i + 1 < n ? i + 1 : 0];
-            if (from.opens == to.opens) return false;
-            if (!from.opens) continue;
-            const auto add = [&](PointId a, PointId b, int edge) {
-                edges_.push_back({a, b, number, {own + edge, false}});
-            };
-            PointId at = from.point;
-            int edge = from.edge;
-            // The last one of them may open a part that runs around all corners.
-            for (bool around = i + 1 == n; edge != to.edge || around; edge = (edge + 1) % 3) {
-                const PointId corner = parts_.bench.corner(&source, facet, (edge + 1) % 3);
-                add(at, corner, edge);
-                at = corner;
-                around = false;
+    PointId point_of(const OutlinePoint& p) {
+        Workbench& bench = parts_.bench;
+        switch (p.kind) {
+            case OutlinePoint::Kind::Corner:
+                return bench.corner(ref_.source, ref_.facet, p.which);
+            case OutlinePoint::Kind::End: {
+                // Ends of segments come in the order of their direction.
+                const Side& s = sides_[p.segment];
+                const bool along = segments_[p.segment].open_below == (s.side == 0);
+                return end_of(s.pair, along ? u(p.which) : 1 - u(p.which));
             }
-            add(at, to.point, edge);
+            case OutlinePoint::Kind::Meeting:
+                break;
         }
-        return true;
+        const PlaneId a = support_of_cutter(p.segment);
+        return bench.vertex(ref_, bench.support_of(own_), a, support_of_cutter(p.other), p.at);
     }
 
-    // Whether as many edges end in every vertex as begin there.
-    bool is_closed(std::span<const BoundaryEdge> made) {
-        from_.clear();
-        to_.clear();
-        for (const BoundaryEdge& e : made) {
-            from_.push_back(e.from);
-            to_.push_back(e.to);
-        }
-        std::ranges::sort(from_);
-        std::ranges::sort(to_);
-        return from_ == to_;
+    PlaneId support_of_cutter(std::uint32_t segment) {
+        const Side& s = sides_[segment];
+        return parts_.bench.support_of(edge_of(s.pair, 1 - s.side));
+    }
+
+    PointId end_of(std::uint32_t pair, std::size_t k) {
+        PointId& point = ends_[pair][k];
+        if (point >= 0) return point;
+        const FacetCrossing& c = crossings_.pairs[pair];
+        const std::size_t side = c.ends[k].of_second ? 1 : 0;
+        const std::size_t operand = crossings_.operand_of(c.facets[side]);
+        const PolygonRef ref{marks_[operand]->source(), nullptr,
+                             c.facets[side] - crossings_.operands[operand].first, false, false};
+        Workbench& bench = parts_.bench;
+        const PlaneId first = edge_of(pair, side);
+        return point = bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
+                                    bench.support_of(edge_of(pair, 1 - side)), c.ends[k].at);
+    }
+
+    // The plane of the first edge of one of a pair's facets.
+    PlaneId edge_of(std::uint32_t pair, std::size_t side) {
+        PlaneId& plane = edges_of_[pair][side];
+        if (plane >= 0) return plane;
+        const std::uint32_t number = crossings_.pairs[pair].facets[side];
+        const std::size_t operand = crossings_.operand_of(number);
+        return plane = parts_.bench.plane(PlaneName::edge(
+                   marks_[operand]->source(), number - crossings_.operands[operand].first, 0));
     }
 
     const Crossings& crossings_;
     BoundaryParts& parts_;
     std::vector<BoundaryEdge>& edges_;
-    std::array<FacetMarks*, 2> marks_{};
-    std::vector<std::array<PointId, 2>> ends_;  // of the pairs, where they were asked for
-    // Of the pairs and by operand: the first edge plane of the facet.
-    std::vector<std::array<PlaneId, 2>> edges_of_;
-    std::array<std::vector<std::uint32_t>, 2> order_;  // the pairs, by facet
-    std::vector<EdgePoint> on_edges_;                  // of one facet
-    std::vector<PointId> from_;
-    std::vector<PointId> to_;
+    std::vector<FacetMarks*> marks_;                // by operand
+    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were asked for
+    std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
+    // Of one facet:
+    std::vector<Side> sides_;
+    std::vector<OutlineSegment> segments_;
+    std::vector<std::size_t> cutters_;
+    FacetOutline outline_;
+    PolygonRef ref_;
+    PlaneId own_ = -1;
 };
 
 }  // namespace
