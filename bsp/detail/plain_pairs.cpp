@@ -213,26 +213,41 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     }
 }
 
+// Which boxes of a row are marked, and which row is the next one that has some.
+void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
+    const std::size_t rows = boxes_.row_count();
+    marked_.assign(rows, 0);
+    next_marked_.assign(rows + 1, rows);
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+        if (marks[LeafWork::u(candidates_[i].item)] != 0)
+            marked_[i / 4] = static_cast<std::uint8_t>(marked_[i / 4] | 1U << i % 4);
+    for (std::size_t row = rows; row-- > 0;)
+        next_marked_[row] = marked_[row] != 0 ? row : next_marked_[row + 1];
+}
+
 bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks, bool edges_apart,
                         EvaluateStats& stats) {
     edges_apart_ = edges_apart;
     crossings_.clear();
     list_candidates(facets);
+    if (!marks.empty()) mark_rows(marks);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         check_budget(*facets.problem().options, stats);
         const BoxRows::Probe probe = boxes_.probe(i);
+        const bool all = marks.empty() || (marked_[i / 4] >> i % 4 & 1U) != 0;
         const std::size_t first = (i + 1) / 4;
-        for (std::size_t row = first;
-             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0]; ++row) {
+        const auto next = [&](std::size_t row) {
+            return all || row >= boxes_.row_count() ? row : next_marked_[row];
+        };
+        for (std::size_t row = next(first);
+             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0];
+             row = next(row + 1)) {
             unsigned met = boxes_.meeting(row, probe);
             if (row == first) met &= ~0U << (i + 1) % 4;
+            if (!all) met &= marked_[row];
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-                const LeafIndex s = candidates_[i].item;
-                const LeafIndex t = candidates_[j].item;
-                if (!marks.empty() && marks[LeafWork::u(s)] == 0 && marks[LeafWork::u(t)] == 0)
-                    continue;
-                if (!compare(facets, s, t, stats)) return false;
+                if (!compare(facets, candidates_[i].item, candidates_[j].item, stats)) return false;
             }
         }
     }

@@ -80,6 +80,7 @@ private:
     [[nodiscard]] bool relate(PlainFacets& facets, std::span<const std::uint8_t> marks,
                               bool edges_apart, EvaluateStats& stats);
     void list_candidates(const PlainFacets& facets);
+    void mark_rows(std::span<const std::uint8_t> marks);
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                   PlainCrossing& out) const;
     [[nodiscard]] Relation relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
@@ -90,7 +91,9 @@ private:
     bool edges_apart_ = false;
     std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
     std::vector<Candidate> candidates_;
-    BoxRows boxes_;  // of the candidates, the axis of the sweep first
+    BoxRows boxes_;                         // of the candidates, the axis of the sweep first
+    std::vector<std::uint8_t> marked_;      // of rows, where only marked ones count
+    std::vector<std::size_t> next_marked_;  // rows
     std::vector<PlainCrossing> crossings_;
     std::vector<PlainContact> contacts_;
     std::vector<std::size_t> first_contact_;
