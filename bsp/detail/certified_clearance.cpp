@@ -3,7 +3,7 @@
 #include <trisect/bsp/detail/certified_clearance.h>
 
 #include <algorithm>
-#include <ranges>
+#include <functional>
 
 namespace trisect::detail::certified {
 
@@ -45,9 +45,9 @@ bool Clearance::is_not_negative(const Polynomial& p, const ClearanceRange& r) co
 }
 
 // Bernstein coefficients first; polynomials of corners for which these say nothing.
-template <class Points>
-bool Clearance::stay_above(const Points& points, bool are_of_b, const ClearanceRange& r,
-                           const SeparatingPlane& plane) {
+template <class Points, class ToPoint>
+bool Clearance::stay_above(const Points& points, ToPoint point, bool are_of_b,
+                           const ClearanceRange& r, const SeparatingPlane& plane) {
     const Piece& map = are_of_b ? to_a_ : to_b_;
     const ExactRational& to = goes_to_the_event(r) ? event_->upper() : r.to;
     const auto key = std::make_tuple(are_of_b, r.from, to);
@@ -55,13 +55,14 @@ bool Clearance::stay_above(const Points& points, bool are_of_b, const ClearanceR
     if (controls == controls_.end())
         controls = controls_.emplace(key, ControlMaps(map, r.from, to)).first;
     const std::vector<IntegerPlane> planes = controls->second.planes(plane);
-    return std::ranges::all_of(points, [&](const IntegerPoint& x) {
+    const auto stays = [&](const IntegerPoint& x) {
         if (std::ranges::all_of(planes, [&x](const IntegerPlane& q) { return q.side_of(x) >= 0; }))
             return true;
         return is_not_negative(
             dot(constant(plane.normal), map.point(x.rational())) + Polynomial(plane.offset) * map.w,
             r);
-    });
+    };
+    return std::ranges::all_of(points, stays, point);
 }
 
 bool Clearance::are_apart(const ClearanceRange& r, const std::vector<std::uint32_t>& of_b,
@@ -75,10 +76,10 @@ bool Clearance::are_apart(const ClearanceRange& r, const std::vector<std::uint32
         return std::ranges::all_of(
                    r.part->points(),
                    [&](const IntegerPoint& x) { return resting.side_of(x) <= 0; }) &&
-               stay_above(of_b | std::views::transform(corner), true, r, plane.plane);
+               stay_above(of_b, corner, true, r, plane.plane);
     return std::ranges::all_of(of_b,
                                [&](std::uint32_t v) { return resting.side_of(corner(v)) >= 0; }) &&
-           stay_above(r.part->points(), false, r, opposite(plane.plane));
+           stay_above(r.part->points(), std::identity(), false, r, opposite(plane.plane));
 }
 
 bool Clearance::are_apart_by_edges(const ClearanceRange& r, const std::vector<std::uint32_t>& of_b,

@@ -61,9 +61,9 @@ private:
         return event_ && r.to == event_->lower();
     }
     [[nodiscard]] bool is_not_negative(const Polynomial& p, const ClearanceRange& r) const;
-    template <class Points>
-    [[nodiscard]] bool stay_above(const Points& points, bool are_of_b, const ClearanceRange& r,
-                                  const SeparatingPlane& plane);
+    template <class Points, class ToPoint>
+    [[nodiscard]] bool stay_above(const Points& points, ToPoint point, bool are_of_b,
+                                  const ClearanceRange& r, const SeparatingPlane& plane);
     [[nodiscard]] bool are_apart_by_edges(const ClearanceRange& r,
                                           const std::vector<std::uint32_t>& of_b,
                                           const SupportingPlane& plane) const;

@@ -27,7 +27,7 @@ using trisect::detail::ParallelParts;
 using trisect::detail::resize_on_threads;
 
 TEST(ParallelParts, CoverEveryNumberOnce) {
-    for (const std::size_t size : {0, 1, 2, 7, 1000, 4097}) {
+    for (const std::size_t size : {0UL, 1UL, 2UL, 7UL, 1000UL, 4097UL}) {
         for (const std::uint32_t threads : {0U, 1U, 2U, 5U}) {
             const ParallelParts parts(size, threads, 3);
             std::vector<int> seen(size);
@@ -91,7 +91,7 @@ TEST(ParallelParts, TwoThingsAtOnce) {
 TEST(ParallelParts, ResizedVectorsKeepWhatTheyHave) {
     for (const std::uint32_t threads : {0U, 1U, 2U}) {
         std::vector<std::uint32_t> values(100, 7);
-        for (const std::size_t size : {100, 60, 1'000'000, 1'000'000, 0}) {
+        for (const std::size_t size : {100UL, 60UL, 1'000'000UL, 1'000'000UL, 0UL}) {
             const std::size_t before = values.size();
             std::vector<std::uint32_t> expected = values;
             expected.resize(size);
