@@ -23,7 +23,7 @@ namespace trisect::detail {
 
 namespace {
 
-using Vector = OrientedBox::Vector;
+using Vector = TurnedBox::Vector;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector cross(const Vector& a, const Vector& b) {
@@ -93,16 +93,17 @@ BoxFrame::BoxFrame(const std::array<std::int64_t, 3>& low, const std::array<std:
     margin = 0x1p-44 * reach;
 }
 
-OrientedBox::OrientedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
-                         const std::array<std::int64_t, 3>& high_corner)
+TurnedBox::TurnedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
+                     const std::array<std::int64_t, 3>& high_corner)
     : low(relative(frame, {low_corner[0], low_corner[1], low_corner[2]})),
       high(relative(frame, {high_corner[0], high_corner[1], high_corner[2]})) {}
 
-std::optional<OrientedBox> OrientedBox::around(
-    const BoxFrame& frame, std::span<const LatticePoint> points,
-    std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> order) {
+std::optional<TurnedBox> TurnedBox::around(const BoxFrame& frame,
+                                           std::span<const LatticePoint> points,
+                                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                                           std::span<const std::uint32_t> order) {
     const Directions d = directions_of(frame, points, triangles, order);
-    OrientedBox box;
+    TurnedBox box;
     box.axis[0] = normalized(d.normal);
     // Twice, because what is left of an edge along the normal is mostly error.
     box.axis[1] =
@@ -123,12 +124,12 @@ std::optional<OrientedBox> OrientedBox::around(
     return box;
 }
 
-bool OrientedBox::is_apart(const OrientedBox& other, const BoxFrame& frame) const {
+bool TurnedBox::is_apart(const TurnedBox& other, const BoxFrame& frame) const {
     return is_apart_along_own_axes(other, frame.margin) ||
            other.is_apart_along_own_axes(*this, frame.margin);
 }
 
-bool OrientedBox::is_apart_along_own_axes(const OrientedBox& other, double margin) const {
+bool TurnedBox::is_apart_along_own_axes(const TurnedBox& other, double margin) const {
     for (std::size_t i = 0; i < 3; ++i) {
         double least = 0;
         double most = 0;

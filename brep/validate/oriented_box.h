@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OrientedBox: a box around triangles that is turned with them, in doubles on the safe side.
+// TurnedBox: a box around triangles that is turned with them, in doubles on the safe side.
 #pragma once
 
 #include <array>
@@ -24,29 +24,29 @@ struct BoxFrame {
 };
 
 /// The points whose coordinates along three nearly orthonormal axes are between `low` and `high`.
-struct OrientedBox {
+struct TurnedBox {
     using Vector = std::array<double, 3>;
 
     std::array<Vector, 3> axis{Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};
     Vector low{}, high{};
 
     /// Along the axes.
-    OrientedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
-                const std::array<std::int64_t, 3>& high_corner);
+    TurnedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
+              const std::array<std::int64_t, 3>& high_corner);
 
     /// Turned with the triangles `order`: along their normals where these agree, and along their
     /// longest edge. Nothing when they suggest no directions. O(n).
-    [[nodiscard]] static std::optional<OrientedBox> around(
+    [[nodiscard]] static std::optional<TurnedBox> around(
         const BoxFrame& frame, std::span<const LatticePoint> points,
         std::span<const std::array<std::uint32_t, 3>> triangles,
         std::span<const std::uint32_t> order);
 
     /// True only if the boxes, as exact sets, are disjoint: an axis of one of them separates them.
-    [[nodiscard]] bool is_apart(const OrientedBox& other, const BoxFrame& frame) const;
+    [[nodiscard]] bool is_apart(const TurnedBox& other, const BoxFrame& frame) const;
 
 private:
-    OrientedBox() = default;
-    [[nodiscard]] bool is_apart_along_own_axes(const OrientedBox& other, double margin) const;
+    TurnedBox() = default;
+    [[nodiscard]] bool is_apart_along_own_axes(const TurnedBox& other, double margin) const;
 };
 
 }  // namespace trisect::detail

@@ -155,7 +155,7 @@ int line_axis(const Plane& a, const Plane& b) {
     return -1;
 }
 
-TriangleContact contact_on_line(const Half& a, const Half& b, int shared) {
+PairContact contact_on_line(const Half& a, const Half& b, int shared) {
     const int axis = line_axis(a.plane, b.plane);
     if (axis < 0) return {};  // parallel and, by the signs, not the same plane
     const Interval i = interval_on(a, b.plane, axis);
@@ -164,8 +164,7 @@ TriangleContact contact_on_line(const Half& a, const Half& b, int shared) {
     const Point& high = compare_coordinate(i.high, k.high, axis) < 0 ? i.high : k.high;
     const auto order = compare_coordinate(low, high, axis);
     if (order > 0) return {};
-    if (order == 0)
-        return shared == 0 ? TriangleContact{ContactKind::Touch, low} : TriangleContact{};
+    if (order == 0) return shared == 0 ? PairContact{ContactKind::Touch, low} : PairContact{};
     // A segment. With one shared corner, which is one of its ends, the other end is the witness.
     const bool on_edges = a.zeros() == 2 && b.zeros() == 2;
     const auto is_corner_of_both = [&](const Point& p) {
@@ -191,7 +190,7 @@ public:
         make_counter_clockwise(b_);
     }
 
-    [[nodiscard]] TriangleContact contact(int shared) const {
+    [[nodiscard]] PairContact contact(int shared) const {
         // Of all edges, the best separation: corners strictly outside, outside or on, neither.
         bool insides_apart = false;
         for (const auto& [x, y] : {std::pair{&a_, &b_}, std::pair{&b_, &a_}}) {
@@ -227,7 +226,7 @@ private:
     }
 
     // Insides disjoint: the contact is a point or a segment whose ends are corners.
-    [[nodiscard]] TriangleContact touch(int shared) const {
+    [[nodiscard]] PairContact touch(int shared) const {
         if (shared >= 2) return {};
         for (const auto& [x, y] : {std::pair{&a_, &b_}, std::pair{&b_, &a_}})
             for (const LatticePoint& q : x->p)
@@ -268,8 +267,8 @@ private:
 
 }  // namespace
 
-TriangleContact find_contact(std::span<const LatticePoint> points, const IndexedTriangle& a,
-                             const IndexedTriangle& b) {
+PairContact find_contact(std::span<const LatticePoint> points, const IndexedTriangle& a,
+                         const IndexedTriangle& b) {
     const int shared = shared_corners(a, b);
     if (shared == 3) return {};
     if (shared < 2 && ProjectedFilter(points, a, b).is_apart()) return {};

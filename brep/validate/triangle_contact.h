@@ -20,7 +20,7 @@ enum class ContactKind : std::uint8_t {
     Overlap  ///< coplanar with a common area
 };
 
-struct TriangleContact {
+struct PairContact {
     ContactKind kind = ContactKind::None;
     Point witness;  ///< a point of the contact that is not a shared corner, if kind is not None
 };
@@ -29,7 +29,7 @@ using IndexedTriangle = std::array<std::uint32_t, 3>;
 
 /// \pre neither triangle is degenerate; equal corners have equal indices.
 /// Two triangles with the same three corners give None: they are found as duplicate faces.
-[[nodiscard]] TriangleContact find_contact(std::span<const LatticePoint> points,
-                                           const IndexedTriangle& a, const IndexedTriangle& b);
+[[nodiscard]] PairContact find_contact(std::span<const LatticePoint> points,
+                                       const IndexedTriangle& a, const IndexedTriangle& b);
 
 }  // namespace trisect::detail

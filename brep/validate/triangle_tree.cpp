@@ -145,17 +145,17 @@ bool TriangleTree::TurnedBoxes::is_hot(std::uint32_t node) {
     if (visits > hot_visits) return true;
     const Node& n = tree_.nodes_[node];
     check_stop(n.count());
-    const auto box = OrientedBox::around(frame_, tree_.points_, tree_.triangles_,
-                                         std::span(tree_.order_).subspan(n.begin, n.count()));
+    const auto box = TurnedBox::around(frame_, tree_.points_, tree_.triangles_,
+                                       std::span(tree_.order_).subspan(n.begin, n.count()));
     visits = hot_visits + 1 + static_cast<std::uint32_t>(boxes_.size());
-    boxes_.push_back(box ? *box : OrientedBox(frame_, n.box.low, n.box.high));
+    boxes_.push_back(box ? *box : TurnedBox(frame_, n.box.low, n.box.high));
     return true;
 }
 
-OrientedBox TriangleTree::TurnedBoxes::box_of(std::uint32_t node) const {
+TurnedBox TriangleTree::TurnedBoxes::box_of(std::uint32_t node) const {
     if (visits_[node] > hot_visits) return boxes_[visits_[node] - hot_visits - 1];
     const LatticeBox& box = tree_.nodes_[node].box;
-    return OrientedBox(frame_, box.low, box.high);
+    return TurnedBox(frame_, box.low, box.high);
 }
 
 }  // namespace trisect::detail

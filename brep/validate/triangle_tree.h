@@ -142,13 +142,13 @@ private:
 
     private:
         [[nodiscard]] bool is_hot(std::uint32_t node);
-        [[nodiscard]] OrientedBox box_of(std::uint32_t node) const;
+        [[nodiscard]] TurnedBox box_of(std::uint32_t node) const;
 
         static constexpr std::uint32_t hot_visits = 32;
         const TriangleTree& tree_;
         BoxFrame frame_;
         std::vector<std::uint32_t> visits_;  // by node; hot_visits + 1 + its number in boxes_
-        std::vector<OrientedBox> boxes_;
+        std::vector<TurnedBox> boxes_;
     };
 
     [[nodiscard]] Grouped group(std::span<const std::uint32_t> sheets) const;

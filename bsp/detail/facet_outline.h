@@ -42,7 +42,7 @@ struct OutlinePoint {
 };
 
 /// An edge of the open part, which is on its left seen from above the facet.
-struct OutlineEdge {
+struct TracedEdge {
     OutlinePoint from;
     OutlinePoint to;
     std::int8_t edge = -1;      ///< of the facet; -1: it lies in a segment
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] bool trace(const std::array<const LatticePoint*, 3>& corners,
                              std::span<const OutlineSegment> segments);
     /// Edges of the open part, in no order; none where it is empty.
-    [[nodiscard]] std::span<const OutlineEdge> edges() const { return edges_; }
+    [[nodiscard]] std::span<const TracedEdge> edges() const { return edges_; }
 
 private:
     /// A bit for each cutter that covers a point.
@@ -135,7 +135,7 @@ private:
     std::array<const LatticePoint*, 3> corners_{};
     std::span<const OutlineSegment> segments_;
     std::size_t cutters_ = 0;
-    std::vector<OutlineEdge> edges_;
+    std::vector<TracedEdge> edges_;
     std::vector<Link> links_;
     std::vector<std::uint32_t> next_;  // of segments: the one that goes on
     std::vector<Normal> normals_;      // of segments

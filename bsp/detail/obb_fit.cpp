@@ -42,8 +42,8 @@ void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
 Double3 scaled(const Double3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 
 // Exactly orthogonal up to rounding, whatever came in. \pre x != 0
-Frame frame_of(const Double3& x, const Double3& roughly_y) {
-    Frame f;
+AreaFrame frame_of(const Double3& x, const Double3& roughly_y) {
+    AreaFrame f;
     f.axis[0] = scaled(x, 1 / std::sqrt(dot(x, x)));
     Double3 y = minus(roughly_y, scaled(f.axis[0], dot(f.axis[0], roughly_y)));
     double yy = dot(y, y);
@@ -79,7 +79,7 @@ void AreaMoments::add(const Double3& a, const Double3& b, const Double3& c) {
     }
 }
 
-Frame principal_frame(const AreaMoments& m) {
+AreaFrame principal_frame(const AreaMoments& m) {
     if (!(m.area > 0)) return {};
     const Double3 c{m.first[0] / m.area, m.first[1] / m.area, m.first[2] / m.area};
     Matrix a{};
@@ -103,7 +103,7 @@ Frame principal_frame(const AreaMoments& m) {
     return frame_of(column(order[0]), column(order[1]));
 }
 
-Frame triangle_frame(const Double3& a, const Double3& b, const Double3& c) {
+AreaFrame triangle_frame(const Double3& a, const Double3& b, const Double3& c) {
     const std::array<Double3, 3> side{minus(b, a), minus(c, b), minus(a, c)};
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i)

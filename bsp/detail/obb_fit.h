@@ -30,12 +30,12 @@ struct AreaMoments {
 };
 
 /// An orthonormal frame up to rounding, by descending spread of the area.
-struct Frame {
+struct AreaFrame {
     std::array<Double3, 3> axis{Double3{1, 0, 0}, Double3{0, 1, 0}, Double3{0, 0, 1}};
 };
 
-[[nodiscard]] Frame principal_frame(const AreaMoments& moments);
+[[nodiscard]] AreaFrame principal_frame(const AreaMoments& moments);
 /// Along the longest side and the normal of one triangle.
-[[nodiscard]] Frame triangle_frame(const Double3& a, const Double3& b, const Double3& c);
+[[nodiscard]] AreaFrame triangle_frame(const Double3& a, const Double3& b, const Double3& c);
 
 }  // namespace trisect::detail

@@ -44,7 +44,7 @@ struct Item {
 struct Part {
     std::size_t begin = 0;
     std::size_t end = 0;
-    Frame frame;
+    AreaFrame frame;
     [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 

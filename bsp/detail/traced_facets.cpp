@@ -136,7 +136,7 @@ private:
         ref_ = {marks.source(), nullptr, facet, false, false};
         own_ = edge_of(sides_[0].pair, sides_[0].side);
         const std::int32_t number = marks.number_of_worked(facet, flipped);
-        for (const OutlineEdge& e : outline_.edges()) {
+        for (const TracedEdge& e : outline_.edges()) {
             PointId from = point_of(e.from);
             PointId to = point_of(e.to);
             if (flipped) std::swap(from, to);
@@ -151,7 +151,7 @@ private:
         f.parts = 1;
     }
 
-    WorkEdge line_of(const OutlineEdge& e) {
+    WorkEdge line_of(const TracedEdge& e) {
         if (e.edge >= 0) return {own_ + e.edge, false};
         return {support_of_cutter(e.segment), !segments_[e.segment].open_below};
     }

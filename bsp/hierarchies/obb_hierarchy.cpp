@@ -154,7 +154,7 @@ protected:
         return fit_along(detail::triangle_frame(corners[0], corners[1], corners[2]), corners,
                          error);
     }
-    static Volume fit_along(const detail::Frame& frame, std::span<const Double3> corners,
+    static Volume fit_along(const detail::AreaFrame& frame, std::span<const Double3> corners,
                             double error) {
         Box box;
         box.axis = frame.axis;

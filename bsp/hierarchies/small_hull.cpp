@@ -103,7 +103,7 @@ private:
     }
 
     void add_extremes() {
-        const detail::Frame frame = spread();
+        const detail::AreaFrame frame = spread();
         std::array<double, 3> scale{};
         for (std::size_t i = 0; i < 3; ++i) {
             const Double3& u = frame.axis[i];
@@ -122,7 +122,7 @@ private:
     }
 
     // Principal axes of the points.
-    [[nodiscard]] detail::Frame spread() const {
+    [[nodiscard]] detail::AreaFrame spread() const {
         detail::AreaMoments m;
         m.area = static_cast<double>(points_.size());
         for (const Double3& p : points_)

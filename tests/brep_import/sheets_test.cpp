@@ -307,7 +307,7 @@ TEST(Sheets, ConeOfManyTrianglesIsOneSheet) {
     EXPECT_EQ(validate(mesh, options).count(DefectKind::SelfIntersection), 0U);
 }
 
-TEST(OrientedBox, BoxesThatAreApartHoldNothingThatMeets) {
+TEST(TurnedBox, BoxesThatAreApartHoldNothingThatMeets) {
     Random random(3);  // NOLINT
     int apart = 0;
     for (int round = 0; round < 20000; ++round) {
@@ -335,8 +335,8 @@ TEST(OrientedBox, BoxesThatAreApartHoldNothingThatMeets) {
         const detail::BoxFrame frame({0, 0, 0}, {reach + 3, reach + 3, reach + 3});
         const std::array<std::uint32_t, 3> low{0, 1, 2};
         const std::array<std::uint32_t, 3> high{3, 4, 5};
-        const auto x = detail::OrientedBox::around(frame, p, triangles, low);
-        const auto y = detail::OrientedBox::around(frame, p, triangles, high);
+        const auto x = detail::TurnedBox::around(frame, p, triangles, low);
+        const auto y = detail::TurnedBox::around(frame, p, triangles, high);
         if (!x || !y || !x->is_apart(*y, frame)) continue;
         ++apart;
         for (const std::uint32_t i : low)

@@ -147,7 +147,7 @@ TEST(ObbTree, NoTrianglesNoBoxes) {
 }
 
 // A frame at random, its axes rounded to floats as in a tree.
-trisect::detail::Frame random_frame(Random& random) {
+trisect::detail::AreaFrame random_frame(Random& random) {
     const Double3 a{uniform(random), uniform(random), uniform(random)};
     const Double3 b{uniform(random), uniform(random), uniform(random)};
     return trisect::detail::triangle_frame({0, 0, 0}, a, b);
