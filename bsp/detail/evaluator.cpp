@@ -41,11 +41,13 @@
 #include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/leaf_arrangement.h>
 #include <trisect/bsp/detail/leaf_problem.h>
+#include <trisect/bsp/detail/operand_lists.h>
 #include <trisect/bsp/detail/partition.h>
-#include <trisect/bsp/detail/polygon_in_cell.h>
 #include <trisect/bsp/detail/prism_facets.h>
 #include <trisect/bsp/detail/reference_points.h>
 #include <trisect/bsp/detail/refine_leaf.h>
+#include <trisect/bsp/detail/root_task.h>
+#include <trisect/bsp/detail/shared_list.h>
 #include <trisect/bsp/detail/slab.h>
 #include <trisect/bsp/detail/stack_arena.h>
 #include <trisect/bsp/detail/work_budget.h>
@@ -63,8 +65,6 @@ constexpr std::uint64_t parallel_size = 4096;
 constexpr std::uint64_t axis_leaf_factor = 8;
 // And where all operands are prisms along one axis.
 constexpr std::uint64_t prism_leaf_factor = 40;
-// Where rounded positions get this coarse for what has to be parted, a finer frame is made.
-constexpr int coarse_extent = 128;
 
 class Worker;
 
@@ -114,7 +114,6 @@ private:
     [[nodiscard]] std::vector<LeafOperand> list_operands(const CellTask& task);
     CellRef constant(const CellTask& task, bool inside);
     CellRef share(CellTask& task, bool negated);
-    CellRef share_list(const CellTask& task, const CellOperand& o, bool negated);
     CellRef resolve(CellTask& task);
     std::optional<CellRef> resolve_across_axes(CellTask& task);
     std::optional<CellRef> resolve_prisms(CellTask& task);
@@ -123,16 +122,7 @@ private:
     CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
     CellRef divide(CellTask& task);
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
-
-    std::optional<Wall> wall_of_trees(const CellTask& task) const;
-    void refine_large(CellTask& task) const;
-    void make_lists(CellTask& task, const std::optional<Wall>& wall);
-    void make_leaf(CellOperand& operand, const Cell& cell);
-    void make_frame(CellTask& task) const;
-    void refine_frame(CellTask& task);
     Children children_of(const CellTask& task, const Wall& wall);
-
-    void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out);
 
     Shared& shared_;
     const EvaluateOptions& options_;
@@ -144,21 +134,15 @@ private:
     std::vector<FacetName> incomplete_;
     Workbench bench_;
     StackArena arena_;
-    std::vector<PolygonRef> polygons_;                   // of leaves
-    std::vector<std::uint32_t> facets_;                  // of a leaf that is deferred
-    std::vector<std::shared_ptr<const CellNode>> made_;  // leaves that name flattened lists
+    OperandLists lists_{arena_, bench_};
+    std::vector<PolygonRef> polygons_;   // of leaves
+    std::vector<std::uint32_t> facets_;  // of a leaf that is deferred
 };
 
 Worker& Shared::worker() {
     auto& w = workers.local();
     if (!w) w = std::make_unique<Worker>(*this);
     return *w;
-}
-
-CellRef child_of(const CellNode& node, bool complemented, std::size_t i) {
-    CellRef c = node.child(static_cast<int>(i));
-    c.complemented = c.complemented != complemented;
-    return c;
 }
 
 // --- Steps 1 and 2: prune, share.
@@ -236,65 +220,11 @@ CellRef Worker::share(CellTask& task, bool negated) {
     const CellOperand& o = task.operands[0];
     ++stats_.shared_cells;
     if (!o.is_list) return {o.node->shared_from_this(), o.complemented != negated};
-    return share_list(task, o, negated);
-}
-
-// Listed are the polygons whose boxes meet the cell. Of a list without one that certainly lies in
-// the cell those that do not meet it are taken out: a leaf that lists polygons must not be
-// homogeneous only because nobody looked.
-CellRef Worker::share_list(const CellTask& task, const CellOperand& o, bool negated) {
-    const PolygonList& names = o.node->polygons();
-    const bool flip = o.complemented != negated;
-    const int winding = complemented_winding(o.winding, negated);
-    const PackedBox within = [&] {
-        PackedBox b = packed_cell(task.frame, task.cell);
-        // Rounding outwards at walls of other frames: one position farther in is certain.
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (!task.frame.first_above(k, task.cell.lo[k] >> wall_bits) &&
-                b.low(k) > -packed_limit)
-                ++b.lo[k];
-            if (!task.frame.first_above(k, task.cell.hi[k] >> wall_bits) &&
-                b.high(k) < packed_limit)
-                ++b.minus_hi[k];
-        }
-        return b;
-    }();
-    const auto mark = arena_.mark();
-    auto* ids = arena_.take<std::uint32_t>(o.count);
-    std::uint32_t* front = ids;
-    std::uint32_t* back = ids + o.count;
-    for (const PackedBox& e : o.list()) {
-        if (within.contains(e)) {
-            *front++ = e.id;
-        } else {
-            *--back = e.id;
-        }
-    }
-    const auto contained = static_cast<std::size_t>(front - ids);
-    std::reverse(back, ids + o.count);
-    std::size_t count = o.count;
-    if (contained == 0) {
-        count = static_cast<std::size_t>(
-            std::remove_if(
-                ids, ids + o.count,
-                [&](std::uint32_t id) { return !meets_cell(bench_, o.polygon(id), task.cell); }) -
-            ids);
-    }
-    PolygonList list;
-    if (names.whole_source() != nullptr) {
-        list = PolygonList::whole_facets(*names.whole_source(), names.flipped() != flip,
-                                         {ids, count}, contained);
-    } else {
-        std::vector<PolygonRef> refs(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            refs[i] = o.polygon(ids[i]);
-            refs[i].flipped = refs[i].flipped != flip;
-        }
-        list = PolygonList(std::move(refs));
-    }
-    arena_.release(mark);
+    PolygonList list = shared_list(task, o, negated, bench_, arena_);
     shared_.memory.keep(list.bytes());
-    return {CellNode::leaf(std::move(list), task.reference, winding, o.node->is_mixed()), false};
+    return {CellNode::leaf(std::move(list), task.reference,
+                           complemented_winding(o.winding, negated), o.node->is_mixed()),
+            false};
 }
 
 // --- Step 3: few polygons.
@@ -350,7 +280,7 @@ std::vector<LeafOperand> Worker::list_operands(const CellTask& task) {
 
 template <class Arrange>
 std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
-    make_lists(task, std::nullopt);
+    lists_.make(task, std::nullopt, threads());
     const std::vector<LeafOperand> operands = list_operands(task);
     for (const CellOperand& o : task.operands)
         values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
@@ -394,89 +324,9 @@ CellRef Worker::defer(const CellTask& task, PolygonList uncrossed, bool inside,
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
-// Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
-// there, so it is clipped to the leaf that lists it.
-void Worker::flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out) {
-    const CellNode& node = *tree.node;
-    if (!node.is_leaf()) {
-        for (std::size_t i = 0; i < 2; ++i)
-            with_enough_stack([&] {
-                flatten(child_of(node, tree.complemented, i),
-                        i == 0 ? cell.below(node.axis(), node.wall())
-                               : cell.above(node.axis(), node.wall()),
-                        out);
-            });
-        return;
-    }
-    for (const PolygonRef& r : node.polygons()) {
-        make_room(out);
-        auto part = clip_to_cell(bench_, r, cell);
-        if (!part) continue;
-        part->flipped = part->flipped != tree.complemented;
-        out.push_back(*part);
-    }
-}
-
-// Makes a leaf of an operand's subtree.
-void Worker::make_leaf(CellOperand& operand, const Cell& cell) {
-    if (operand.is_list || operand.node->is_leaf()) return;
-    std::vector<PolygonRef> parts;
-    bench_.clear();
-    try {
-        flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
-    } catch (...) {
-        end_fragments(parts);
-        throw;
-    }
-    made_.push_back(CellNode::leaf(PolygonList(std::move(parts)), {}, 0, true));
-    operand.node = made_.back().get();
-    operand.complemented = false;
-}
-
-// A frame for all lists and leaves of a task.
-void Worker::make_frame(CellTask& task) const {
-    Box all;
-    for (const CellOperand& o : task.operands) {
-        if (!o.is_list && !o.node->is_leaf()) continue;
-        const bool unbounded = o.size() == 1 && o.node->polygons().size() == 1 &&
-                               o.node->polygons()[0].source->is_half_space();
-        const Box b = exact_box(o, task.cell);
-        if (!unbounded && !b.is_empty()) all.add(b);
-    }
-    task.has_frame = true;
-    if (!all.is_empty()) task.frame = Frame::covering(all);
-}
-
-bool has_wall(const CellOperand& o, const std::optional<Wall>& wall) {
-    return wall && !o.is_list && !o.node->is_leaf() && o.node->axis() == wall->axis &&
-           o.node->wall() == wall->position;
-}
-
-// Makes lists of all operands, except trees that have the wall. When nothing but lists is left, the
-// frame is made anew: the one so far may belong to one operand and be narrow.
-void Worker::make_lists(CellTask& task, const std::optional<Wall>& wall) {
-    bool opened = false;
-    for (CellOperand& o : task.operands) {
-        if (o.is_list || has_wall(o, wall)) continue;
-        make_leaf(o, task.cell);
-        opened = true;
-    }
-    if (!opened) return;
-    const bool anew = task.has_frame && !wall;
-    if (anew || !task.has_frame) make_frame(task);
-    for (CellOperand& o : task.operands) {
-        if (has_wall(o, wall)) continue;
-        if (!o.is_list) {
-            open_leaf(o, task, arena_, threads());
-        } else if (anew) {
-            reframe(o, task, arena_);
-        }
-    }
-}
-
 // --- Step 4: divide.
 
-std::optional<Wall> Worker::wall_of_trees(const CellTask& task) const {
+std::optional<Wall> wall_of_trees(const CellTask& task) {
     const CellOperand* largest = nullptr;
     for (const CellOperand& o : task.operands)
         if (!o.is_list && !o.node->is_leaf() && (largest == nullptr || o.size() > largest->size()))
@@ -486,7 +336,7 @@ std::optional<Wall> Worker::wall_of_trees(const CellTask& task) const {
 }
 
 // A leaf of a solid that outnumbers everything else in the cell is refined for good.
-void Worker::refine_large(CellTask& task) const {
+void refine_large(CellTask& task) {
     const std::uint64_t total = task.size();
     for (CellOperand& o : task.operands) {
         if (o.is_list || !o.node->is_leaf()) continue;
@@ -495,22 +345,6 @@ void Worker::refine_large(CellTask& task) const {
             continue;
         if (const CellNode* node = refined(*o.node, task.cell)) o.node = node;
     }
-}
-
-// What still has to be parted is small in the frame: make a finer one.
-void Worker::refine_frame(CellTask& task) {
-    if (task.frame.shift == 0 || contested_extent(task) >= coarse_extent) return;
-    Box all;
-    for (const CellOperand& o : task.operands) {
-        if (o.unbounded || o.count == 0) continue;
-        const Box b = exact_box(o, task.cell);
-        if (!b.is_empty()) all.add(b);
-    }
-    if (all.is_empty()) return;
-    const Frame finer = Frame::covering(all);
-    if (finer.shift >= task.frame.shift) return;
-    task.frame = finer;
-    for (CellOperand& o : task.operands) reframe(o, task, arena_);
 }
 
 // Both children of a cell. Their lists are in the arena.
@@ -546,9 +380,9 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
 CellRef Worker::divide(CellTask& task) {
     refine_large(task);
     std::optional<Wall> wall = wall_of_trees(task);
-    make_lists(task, wall);
+    lists_.make(task, wall, threads());
     if (!wall) {
-        refine_frame(task);
+        lists_.refine_frame(task);
         const bool too_deep = task.stalled >= (task.size() > 400 ? 12 : 3) || task.depth > 400;
         if (!too_deep) wall = choose_wall(task, options_.wall_offset);
     }
@@ -573,6 +407,36 @@ bool is_homogeneous(const CellRef& r) { return r.node->is_leaf() && r.node->size
 
 int value_at_reference(const CellRef& r) {
     return complemented_winding(r.node->winding(), r.complemented);
+}
+
+// A subtree that comes back unchanged is shared as a whole.
+std::optional<CellRef> unchanged(const CellTask& task, const std::array<CellRef, 2>& results) {
+    for (const CellOperand& o : task.operands) {
+        if (o.is_list || o.node->is_leaf()) continue;
+        for (const bool complemented : {false, true}) {
+            bool same = true;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const CellRef& c = o.node->child(static_cast<int>(i));
+                same = same && results[i].node == c.node &&
+                       results[i].complemented == (c.complemented != complemented);
+            }
+            if (same) return CellRef{o.node->shared_from_this(), complemented};
+        }
+        break;
+    }
+    return std::nullopt;
+}
+
+// What a cell is, when the two sides of its wall are known.
+CellRef merged(const CellTask& task, const Wall& wall, std::array<CellRef, 2> results) {
+    if (auto node = unchanged(task, results)) return *std::move(node);
+    if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&
+        value_at_reference(results[0]) == value_at_reference(results[1]))
+        return {
+            CellNode::leaf(PolygonList(), task.reference, value_at_reference(results[0]), false),
+            false};
+    return {CellNode::split(wall.axis, wall.position, std::move(results[0]), std::move(results[1])),
+            false};
 }
 
 CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children& children) {
@@ -605,27 +469,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
     } else {
         for (std::size_t i = 0; i < 2; ++i) results[i] = deep_solve(children[i]);
     }
-    // A subtree that comes back unchanged is shared as a whole.
-    for (const CellOperand& o : task.operands) {
-        if (o.is_list || o.node->is_leaf()) continue;
-        for (const bool complemented : {false, true}) {
-            bool same = true;
-            for (std::size_t i = 0; i < 2; ++i) {
-                const CellRef& c = o.node->child(static_cast<int>(i));
-                same = same && results[i].node == c.node &&
-                       results[i].complemented == (c.complemented != complemented);
-            }
-            if (same) return {o.node->shared_from_this(), complemented};
-        }
-        break;
-    }
-    if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&
-        value_at_reference(results[0]) == value_at_reference(results[1]))
-        return {
-            CellNode::leaf(PolygonList(), task.reference, value_at_reference(results[0]), false),
-            false};
-    return {CellNode::split(wall.axis, wall.position, std::move(results[0]), std::move(results[1])),
-            false};
+    return merged(task, wall, std::move(results));
 }
 
 // With one unknown the formula is that unknown, its complement, or constant.
@@ -672,80 +516,11 @@ CellRef Worker::solve(CellTask& task) {
     return divide(task);
 }
 
-// A point outside the boxes of all leaves, three units beyond their common corner; or, when there
-// is a tree, any point that it knows.
-FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> states) {
-    Box all;
-    for (const auto& s : states) {
-        const CellNode* n = s->root.node.get();
-        if (!n->is_leaf()) {
-            while (!n->is_leaf()) n = n->child(0).node.get();
-            return n->reference();
-        }
-        const PolygonList& polygons = n->polygons();
-        const Source* whole = polygons.has_all_facets() ? polygons.whole_source() : nullptr;
-        if (whole != nullptr && !whole->is_half_space()) {
-            if (!whole->box().is_empty()) all.add(whole->box());
-            continue;
-        }
-        for (const PolygonRef& r : polygons)
-            if (r.fragment != nullptr || !r.source->is_half_space()) all.add(r.box());
-    }
-    FinePoint p;
-    for (std::size_t k = 0; k < 3; ++k)
-        p.c[k] = all.is_empty() ? 0 : (all.lo[k] - 3) * wall_scale + 2 * static_cast<int>(k) + 12;
-    return p;
-}
-
-bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (std::max(a.c[k], b.c[k]) < box.lo[k] * wall_scale ||
-            std::min(a.c[k], b.c[k]) > box.hi[k] * wall_scale)
-            return true;
-    return false;
-}
-
-// Winding number of a root at a point: at once where the way there is free.
-std::optional<int> winding_of_root(const SolidState& state, const FinePoint& p) {
-    const CellNode& n = *state.root.node;
-    const Source* whole =
-        n.is_leaf() && n.polygons().has_all_facets() ? n.polygons().whole_source() : nullptr;
-    if (whole != nullptr && passes_by(whole->box(), n.reference(), p))
-        return complemented_winding(n.winding(), state.root.complemented);
-    return winding_in_tree(n, state.root.complemented, Cell{}, p);
-}
-
-bool place_root(std::span<const std::shared_ptr<const SolidState>> states, CellTask& task) {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        const auto w = winding_of_root(*states[i], task.reference);
-        if (!w) return false;
-        CellOperand o;
-        o.slot = static_cast<std::int32_t>(i);
-        o.winding = *w;
-        o.embedded = states[i]->embedded;
-        o.complemented = states[i]->root.complemented;
-        o.node = unfolded(states[i]->root.node.get());
-        ::new (&task.operands[i]) CellOperand(o);
-    }
-    return true;
-}
-
 CellRef solve_root(Shared& shared, const Residual::Ref& formula,
                    std::span<const std::shared_ptr<const SolidState>> states) {
     Worker& worker = shared.worker();
     const auto mark = worker.arena().mark();
-    CellTask task;
-    task.formula = formula;
-    task.reference = outer_reference(states);
-    task.operands = {worker.arena().take<CellOperand>(states.size()), states.size()};
-    bool placed = place_root(states, task);
-    for (int attempt = 0; attempt < 100 && !placed; ++attempt) {
-        for (std::size_t k = 0; k < 3; ++k)
-            task.reference.c[k] -= static_cast<std::int64_t>(
-                2 * (mix64(static_cast<std::uint64_t>(attempt) * 3 + k) % 2000));
-        placed = place_root(states, task);
-    }
-    TRISECT_EXPECTS(placed, "no reference point for the operands");
+    CellTask task = root_task(formula, states, worker.arena());
     CellRef root = worker.solve(task);
     worker.arena().release(mark);
     return root;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists are made of leaves and, where the operands' trees do not share a wall, of whole subtrees:
+// the polygons below a node, each clipped to the leaf that lists it. Boxes of lists are rounded to
+// a frame; one frame that covers all lists and leaves of the task is made when the first list is,
+// and a finer one where rounding would hide what has to be parted.
+
+#include <trisect/bsp/detail/operand_lists.h>
+
+#include <cstddef>
+#include <utility>
+
+#include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/packed_box.h>
+#include <trisect/bsp/detail/partition.h>
+#include <trisect/bsp/detail/polygon_in_cell.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Where rounded positions get this coarse for what has to be parted, a finer frame is made.
+constexpr int coarse_extent = 128;
+
+CellRef child_of(const CellNode& node, bool complemented, std::size_t i) {
+    CellRef c = node.child(static_cast<int>(i));
+    c.complemented = c.complemented != complemented;
+    return c;
+}
+
+// A frame for all lists and leaves of a task.
+void make_frame(CellTask& task) {
+    Box all;
+    for (const CellOperand& o : task.operands) {
+        if (!o.is_list && !o.node->is_leaf()) continue;
+        const bool unbounded = o.size() == 1 && o.node->polygons().size() == 1 &&
+                               o.node->polygons()[0].source->is_half_space();
+        const Box b = exact_box(o, task.cell);
+        if (!unbounded && !b.is_empty()) all.add(b);
+    }
+    task.has_frame = true;
+    if (!all.is_empty()) task.frame = Frame::covering(all);
+}
+
+bool has_wall(const CellOperand& o, const std::optional<Wall>& wall) {
+    return wall && !o.is_list && !o.node->is_leaf() && o.node->axis() == wall->axis &&
+           o.node->wall() == wall->position;
+}
+
+}  // namespace
+
+// Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
+// there, so it is clipped to the leaf that lists it.
+void OperandLists::flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out) {
+    const CellNode& node = *tree.node;
+    if (!node.is_leaf()) {
+        for (std::size_t i = 0; i < 2; ++i)
+            with_enough_stack([&] {
+                flatten(child_of(node, tree.complemented, i),
+                        i == 0 ? cell.below(node.axis(), node.wall())
+                               : cell.above(node.axis(), node.wall()),
+                        out);
+            });
+        return;
+    }
+    for (const PolygonRef& r : node.polygons()) {
+        make_room(out);
+        auto part = clip_to_cell(bench_, r, cell);
+        if (!part) continue;
+        part->flipped = part->flipped != tree.complemented;
+        out.push_back(*part);
+    }
+}
+
+// Makes a leaf of an operand's subtree.
+void OperandLists::make_leaf(CellOperand& operand, const Cell& cell) {
+    if (operand.is_list || operand.node->is_leaf()) return;
+    std::vector<PolygonRef> parts;
+    bench_.clear();
+    try {
+        flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
+    } catch (...) {
+        end_fragments(parts);
+        throw;
+    }
+    made_.push_back(CellNode::leaf(PolygonList(std::move(parts)), {}, 0, true));
+    operand.node = made_.back().get();
+    operand.complemented = false;
+}
+
+void OperandLists::make(CellTask& task, const std::optional<Wall>& wall, std::uint32_t threads) {
+    bool opened = false;
+    for (CellOperand& o : task.operands) {
+        if (o.is_list || has_wall(o, wall)) continue;
+        make_leaf(o, task.cell);
+        opened = true;
+    }
+    if (!opened) return;
+    const bool anew = task.has_frame && !wall;
+    if (anew || !task.has_frame) make_frame(task);
+    for (CellOperand& o : task.operands) {
+        if (has_wall(o, wall)) continue;
+        if (!o.is_list) {
+            open_leaf(o, task, arena_, threads);
+        } else if (anew) {
+            reframe(o, task, arena_);
+        }
+    }
+}
+
+void OperandLists::refine_frame(CellTask& task) const {
+    if (task.frame.shift == 0 || contested_extent(task) >= coarse_extent) return;
+    Box all;
+    for (const CellOperand& o : task.operands) {
+        if (o.unbounded || o.count == 0) continue;
+        const Box b = exact_box(o, task.cell);
+        if (!b.is_empty()) all.add(b);
+    }
+    if (all.is_empty()) return;
+    const Frame finer = Frame::covering(all);
+    if (finer.shift >= task.frame.shift) return;
+    task.frame = finer;
+    for (CellOperand& o : task.operands) reframe(o, task, arena_);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lists of polygons instead of subtrees and leaves, for the operands of a task.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/cell_task.h>
+#include <trisect/bsp/detail/stack_arena.h>
+#include <trisect/bsp/detail/workbench.h>
+
+namespace trisect::detail {
+
+/// Makes the lists that partition() distributes and leaf arrangements read. Keeps the leaves that
+/// it makes of subtrees, since lists name their polygons.
+class OperandLists {
+public:
+    OperandLists(StackArena& arena, Workbench& bench) : arena_(arena), bench_(bench) {}
+
+    /// Makes lists of all operands, except trees that have the wall. When nothing but lists is
+    /// left, the frame is made anew: the one so far may belong to one operand and be narrow.
+    /// `threads` as in ParallelParts.
+    void make(CellTask& task, const std::optional<Wall>& wall, std::uint32_t threads);
+
+    /// A finer frame for the task where what still has to be parted is small in its own.
+    /// \pre all operands are lists.
+    void refine_frame(CellTask& task) const;
+
+private:
+    void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out);
+    void make_leaf(CellOperand& operand, const Cell& cell);
+
+    StackArena& arena_;
+    Workbench& bench_;
+    std::vector<std::shared_ptr<const CellNode>> made_;
+};
+
+}  // namespace trisect::detail
