@@ -23,6 +23,7 @@
 #include <trisect/bsp/detail/assembly_parts.h>
 #include <trisect/bsp/detail/boundary_edges.h>
 #include <trisect/bsp/detail/face_loops.h>
+#include <trisect/bsp/detail/point_order.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/stop_scope.h>

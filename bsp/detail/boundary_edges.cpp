@@ -19,6 +19,7 @@
 
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/edge_chains.h>
+#include <trisect/bsp/detail/edge_splitter.h>
 #include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>

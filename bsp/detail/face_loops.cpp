@@ -17,6 +17,7 @@
 #include <numeric>
 
 #include <trisect/brep/detail/loops_below.h>
+#include <trisect/bsp/detail/point_order.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
