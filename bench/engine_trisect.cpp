@@ -33,6 +33,8 @@ public:
         return Solid::from_mesh(mesh, import_);
     }
 
+    void index(const Body& body) override { solid(body).refine(options_.threads); }
+
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
         stats_ = {};

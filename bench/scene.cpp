@@ -119,6 +119,11 @@ PolygonMesh small_sphere(double radius, const Point3d& centre) {
 Scene small_cut_scene(const std::string& scene, const std::vector<std::string>& words) {
     PolygonMesh part = shapes::icosphere(sphere_level(scene, words[1]));
     PolygonMesh tool = small_sphere(0.1, shapes::along_1_2_3(1));
+    if (words.size() > 2 && words[2] == "indexed") {
+        Scene s = short_chain(std::move(part), {std::move(tool)});
+        s.indexed = true;
+        return s;
+    }
     if (words.size() > 2) {
         if (words[2] != "near" && words[2] != "far") unknown(scene);
         const Point3d before =

@@ -37,6 +37,7 @@ struct Scene {
     std::vector<Operation> operations;      ///< that make sense for it
     std::size_t steps = 0;                  ///< of a chain
     std::size_t untimed = 0;                ///< steps at its start that prepare and do not count
+    bool indexed = false;                   ///< a chain whose stock is indexed before, untimed
     std::function<Step(std::size_t)> step;  ///< by its number, from 0
     [[nodiscard]] bool is_chain() const { return steps != 0; }
 };
@@ -48,7 +49,9 @@ struct Scene {
 ///     b:5k b:82k b:328k b:1.3M      two icospheres, centres half a radius apart
 ///     c:82k c:1.3M                  an icosphere less one of 320 triangles and a tenth its size
 ///     c:82k:near c:1.3M:near        the same after an untimed cut beside it; :far on the other
-///     side d:spheres d:cubes             the union of 1000 solids, turned and placed at random
+///     side
+///     c:82k:indexed c:1.3M:indexed  the same in a part that was indexed before, untimed
+///     d:spheres d:cubes             the union of 1000 solids, turned and placed at random
 ///     d:tori                        the union of fifty tori (TRISECT_MODELS)
 ///     e:25k e:99k e:400k            milling: 1000 cuts by a sphere of 320 triangles in a block;
 ///                                   e:99k:10000 for another number of cuts, 1000 a layer
