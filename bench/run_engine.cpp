@@ -131,8 +131,7 @@ struct Chain {
     std::size_t window = 0;
     std::vector<double> step_ms;
     std::vector<double> resident_mb;
-    double index_ms = 0;  ///< of an indexed scene, and what that takes
-    double index_mb = 0;
+    double index_ms = 0;  ///< of an indexed scene
 };
 
 class Job {
@@ -203,11 +202,9 @@ void Job::run_chain(Times& t) {
     body_ = engine_.import(scene_.operands[0]);
     if (scene_.untimed == 0 && !scene_.indexed) t.import = import.milliseconds();
     if (scene_.indexed) {
-        const double before = resident_megabytes();
         const Stopwatch index(options_.clock);
         engine_.index(body_);
         chain_.index_ms = index.milliseconds();
-        chain_.index_mb = resident_megabytes() - before;
     }
     double window_ms = 0;
     for (std::size_t i = 0; i < scene_.steps; ++i) {
@@ -281,8 +278,7 @@ json Job::summary() {
         out["chain"] = {{"steps", chain_.steps},     {"of", scene_.steps},
                         {"untimed", scene_.untimed}, {"window", chain_.window},
                         {"step_ms", chain_.step_ms}, {"resident_mb", chain_.resident_mb}};
-    if (scene_.indexed)
-        out["index"] = {{"ms", chain_.index_ms}, {"resident_mb", chain_.index_mb}};
+    if (scene_.indexed) out["index_ms"] = chain_.index_ms;
     out["counters"] = counters_;
     if (options_.profile) {
         const Stopwatch watch(options_.clock);

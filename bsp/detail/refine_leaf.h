@@ -11,11 +11,12 @@
 namespace trisect::detail {
 
 /// A leaf whose polygons outnumber those of the other operands is halved by itself; so a small tool
-/// does not decide where a large part is cut, and no part is cut twice.
+/// does not decide where a large part is cut, and no part is cut twice. Halves that are still as
+/// large are halved at once, a few levels deep.
 inline constexpr std::size_t refinable_leaf = 512;
 
 /// The leaf's two halves as a node with children, made when first asked for and kept with the leaf.
-/// The wall depends on the leaf and its cell only. Nothing when halving does not part the polygons.
+/// The walls depend on the leaf and its cell only. Nothing when halving does not part the polygons.
 /// Safe to call from several threads at once.
 [[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell);
 
