@@ -392,6 +392,7 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     gather_parts(solid, parts, by_planes, threads);
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     const auto join = [&] {
+        if (parts.are_joined) return sort_by_facet(parts, edges);
         join_facets(parts, edges);
         remove_straight_vertices(parts, true, {}, edges);
         // Facets that nothing changed are left alone, so that it does not show which of them the

@@ -88,6 +88,7 @@ public:
         check_stop(edges_.size());
         conform_edges(traced, of_leaves);
         out_.representatives = std::move(same_);
+        out_.are_joined = axis_faces_.takes_all();
         out_.stats.leaves = leaves_.size();
         out_.stats.axis_facets = axis_faces_.taken_count();
         out_.stats.parts += axis_faces_.part_count();
@@ -516,6 +517,7 @@ void Gatherer::merge_equal_points() {
     const Workbench& bench = out_.bench;
     same_.resize(bench.point_count());
     std::iota(same_.begin(), same_.end(), 0);
+    if (axis_faces_.takes_all()) return;
     const auto better = [&](PointId a, PointId b) {
         return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
     };
@@ -537,6 +539,10 @@ void Gatherer::merge_equal_points() {
 // Edges of traced facets, which come first, and of planes across axes, which come last, have all
 // their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
+    if (axis_faces_.takes_all()) {
+        out_.edges = std::move(edges_);
+        return;
+    }
     for (BoundaryEdge& e : edges_) {
         e.from = same_[u(e.from)];
         e.to = same_[u(e.to)];

@@ -32,6 +32,8 @@ struct BoundaryParts {
     std::vector<BoundaryEdge> edges;    ///< of these facets
     /// By point: the one that stands for all that equal it. Edges have no others.
     std::vector<PointId> representatives;
+    /// The edges are those of whole faces, and no vertex is left that means nothing.
+    bool are_joined = false;
     AssemblyStats stats;
 };
 

@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <trisect/bsp/detail/axis_clip.h>
 #include <trisect/kernel/contract.h>
@@ -250,6 +251,7 @@ void AxisFaces::judge() {
         taken_[i] = facets_[i].sheet >= 0 && !sheets_[u(facets_[i].sheet)].is_general;
         taken_count_ += taken_[i] ? 1 : 0;
     }
+    takes_all_ = taken_count_ == facets_.size();
 }
 
 // Surely: a part of it is missing, or an edge of it has a vertex inside.
@@ -327,7 +329,8 @@ AxisFaces::Ranks AxisFaces::ranks_of(const LatticePoint& p) const {
 }
 
 // Corners of parts count as vertices even where all faces run straight on: a facet with one inside
-// an edge has changed, and whether facets are put together one by one must not show.
+// an edge has changed, and whether facets are put together one by one must not show. Where none are
+// only those of facets that pass through count, and the others have a name to give.
 void AxisFaces::list_corners() {
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         if (!taken_[i]) continue;
@@ -335,22 +338,20 @@ void AxisFaces::list_corners() {
         for (int c = 0; c < 3; ++c)
             if ((facets_[i].corners >> c & 1) != 0) corners_.push_back({f.source, f.facet, c});
     }
+    first_passing_ = corners_.size();
     corners_.insert(corners_.end(), passing_.begin(), passing_.end());
     passing_ = {};
 }
 
+// Outlines turn where planes of other axes are, so their places need not be listed.
 void AxisFaces::rank_coordinates() {
     const auto add = [&](const LatticePoint& p) {
         for (std::size_t k = 0; k < 3; ++k) coordinates_[k].push_back(p[static_cast<int>(k)]);
     };
     for (const LatticePoint& p : places_) add(p);
     for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));
-    for (const Sheet& s : sheets_) {
+    for (const Sheet& s : sheets_)
         coordinates_[s.plane.axis].push_back(s.plane.position / wall_scale);
-        if (s.is_general) continue;
-        for (const AxisStretch& t : s.outline.stretches())
-            coordinates_[(s.plane.axis + 1 + t.axis) % 3].push_back(t.at);
-    }
     for (std::size_t k = 0; k < 3; ++k) {
         auto& all = coordinates_[k];
         std::ranges::sort(all);
@@ -359,49 +360,122 @@ void AxisFaces::rank_coordinates() {
     }
     for (std::size_t i = 0; i < sheets_.size(); ++i) {
         const AxisPlane& p = sheets_[i].plane;
-        sheet_of_[p.axis][rank(p.axis, p.position / wall_scale)] = static_cast<std::int32_t>(i);
+        sheets_[i].rank = rank(p.axis, p.position / wall_scale);
+        sheet_of_[p.axis][sheets_[i].rank] = static_cast<std::int32_t>(i);
     }
+    for (Sheet& s : sheets_)
+        if (!s.is_general) rank_places(s);
+}
+
+// Neighbours in an outline mostly have neighbouring ranks.
+void AxisFaces::rank_places(Sheet& sheet) {
+    std::array<std::uint32_t, 2> last{};
+    sheet.outline.rank_places([&](std::size_t i, std::int64_t place) {
+        const std::size_t axis = (sheet.plane.axis + 1 + i) % 3;
+        const auto& all = coordinates_[axis];
+        std::uint32_t& r = last[i];
+        if (all[r] != place && (++r >= all.size() || all[r] != place)) r = rank(axis, place);
+        TRISECT_EXPECTS(r < all.size() && all[r] == place, "an outline turns where no plane is");
+        return std::int64_t{r};
+    });
+}
+
+// A vertex is named by the corner of a source if there is one there: by the first.
+void AxisFaces::name_corners() {
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const Ranks at =
+            ranks_of(corners_[i].source->corner(corners_[i].facet, corners_[i].corner));
+        const bool is_new = corner_ids_.insert(key_of(at), static_cast<std::int32_t>(i)).second;
+        if (takes_all_ ? i >= first_passing_ : is_new) add_other(at);
+    }
+    for (const LatticePoint& p : places_) add_other(ranks_of(p));
+    for (auto& others : other_stops_) {
+        std::ranges::sort(others);
+        others.erase(std::unique(others.begin(), others.end()), others.end());
+    }
+}
+
+void AxisFaces::add_other(const Ranks& at) {
+    for (std::size_t k = 0; k < 3; ++k) other_stops_[k].push_back({line_at(k, at), at[k]});
+}
+
+AxisFaces::Ranks AxisFaces::line_of(const Sheet& sheet, const AxisStretch& stretch) {
+    Ranks at{};
+    at[sheet.plane.axis] = sheet.rank;
+    at[across_of(sheet, stretch)] = static_cast<std::uint32_t>(stretch.at);
+    return at;
 }
 
 void AxisFaces::make_stops() {
-    const auto add_all = [&](const LatticePoint& p) {
-        for (std::size_t k = 0; k < 3; ++k) stops_[k].push_back(stop_at(k, ranks_of(p)));
-    };
-    for (const LatticePoint& p : places_) add_all(p);
-    // A vertex is named by the corner of a source if there is one there: by the first.
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        const LatticePoint& p = corners_[i].source->corner(corners_[i].facet, corners_[i].corner);
-        if (corner_ids_.insert(key_of(ranks_of(p)), static_cast<std::int32_t>(i)).second)
-            add_all(p);
-    }
+    for (Sheet& s : sheets_)
+        if (!s.is_general) s.stops.resize(s.outline.stretches().size());
     for (Sheet& s : sheets_) {
         if (s.is_general) continue;
-        const std::size_t k = s.plane.axis;
-        s.outline.rank_places([&](std::size_t i, std::int64_t place) {
-            return std::int64_t{rank((k + 1 + i) % 3, place)};
-        });
-        Ranks at{};
-        at[k] = rank(k, s.plane.position / wall_scale);
-        for (const AxisStretch& t : s.outline.stretches()) {
-            const std::size_t across = (k + 1 + t.axis) % 3;
-            const std::size_t along = 3 - k - across;
-            at[across] = static_cast<std::uint32_t>(t.at);
-            for (const std::int64_t end : {t.low, t.high}) {
-                at[along] = static_cast<std::uint32_t>(end);
-                stops_[along].push_back(stop_at(along, at));
-            }
-        }
-    }
-    for (auto& stops : stops_) {
-        std::sort(stops.begin(), stops.end());
-        stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+        for (const AxisOutline::Run& run : s.outline.runs())
+            if (s.stops[run.first].end == 0) add_line(s, s.outline.stretches()[run.first]);
     }
 }
 
-PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
+// All vertices on the line of a stretch, for all stretches there.
+void AxisFaces::add_line(Sheet& sheet, const AxisStretch& stretch) {
+    const std::size_t across = across_of(sheet, stretch);
+    const std::size_t along = along_of(sheet, stretch);
+    const Ranks at = line_of(sheet, stretch);
+    Sheet& beside = sheet_at_rank(across, at[across]);
+    std::array<Sheet*, 2> sheets{&sheet, beside.is_general ? nullptr : &beside};
+    std::array<LineRun, 4> runs;
+    std::size_t count = 0;
+    line_.clear();
+    for (Sheet* const s : sheets) {
+        if (s == nullptr) continue;
+        const std::size_t other = s == &sheet ? across : sheet.plane.axis;
+        const auto axis = static_cast<std::uint8_t>((other + 2 - s->plane.axis) % 3);
+        for (const bool faces_up : {false, true}) {
+            const std::size_t run = s->outline.run_at(faces_up, axis, at[other]);
+            if (run == s->outline.runs().size()) continue;
+            runs[count++] = {s, s->outline.runs()[run]};
+            for (const AxisStretch& t : runs[count - 1].stretches()) {
+                line_.push_back(static_cast<std::uint32_t>(t.low));
+                line_.push_back(static_cast<std::uint32_t>(t.high));
+            }
+        }
+    }
+    for (const Other& o : others_on(along, at)) line_.push_back(o.place);
+    std::ranges::sort(line_);
+    line_.erase(std::unique(line_.begin(), line_.end()), line_.end());
+    const auto first = static_cast<std::uint32_t>(stops_.size());
+    for (const std::uint32_t place : line_) stops_.push_back({place});
+    if (keeps_lines_) {
+        lines_[along].insert({line_at(along, at), 0}, static_cast<std::int32_t>(all_lines_.size()));
+        all_lines_.push_back({first, static_cast<std::uint32_t>(stops_.size())});
+    }
+    for (const LineRun& r : std::span(runs).first(count)) {
+        std::uint32_t i = 0;
+        for (std::uint32_t n = r.run.first; n < r.run.end; ++n) {
+            const AxisStretch& t = r.sheet->outline.stretches()[n];
+            while (line_[i] != t.low) ++i;
+            r.sheet->stops[n].first = first + i;
+            while (line_[i] != t.high) ++i;
+            r.sheet->stops[n].end = first + i + 1;
+        }
+    }
+}
+
+std::span<const AxisFaces::Other> AxisFaces::others_on(std::size_t along, const Ranks& line) const {
+    const std::vector<Other>& all = other_stops_[along];
+    const LineKey key = line_at(along, line);
+    const auto first = std::ranges::lower_bound(all, key, {}, &Other::line);
+    return {first, std::ranges::upper_bound(first, all.end(), key, {}, &Other::line)};
+}
+
+AxisFaces::Sheet& AxisFaces::sheet_at_rank(std::size_t axis, std::uint32_t rank) {
     const std::int32_t sheet = sheet_of_[axis][rank];
     TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane is");
-    Sheet& s = sheets_[u(sheet)];
+    return sheets_[u(sheet)];
+}
+
+PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
+    Sheet& s = sheet_at_rank(axis, rank);
     if (s.id < 0) s.id = parts_.bench.plane(s.name);
     return s.id;
 }
@@ -425,9 +499,11 @@ PointId AxisFaces::make_point(const Ranks& ranks) {
 
 void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
     if (taken_count_ == 0) return;
+    keeps_lines_ = !others_.empty();
     place_others();
     list_corners();
     rank_coordinates();
+    name_corners();
     make_stops();
     for (std::size_t i = 0; i < others_.size(); ++i)
         (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
@@ -439,62 +515,30 @@ void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
 }
 
 void AxisFaces::make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges) {
-    const std::size_t k = sheet.plane.axis;
     for (const std::int32_t first : sheet.first) {
         if (first < 0) continue;
         BoundaryFacet& f = parts_.facets[u(first)];
         f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
         f.parts = 1;
     }
-    sheet.outline.arrange_loops();
-    Ranks at{};
-    at[k] = rank(k, sheet.plane.position / wall_scale);
-    for (const AxisStretch& s : sheet.outline.stretches()) {
-        const std::size_t across = (k + 1 + s.axis) % 3;
-        const std::size_t along = 3 - k - across;
-        at[across] = static_cast<std::uint32_t>(s.at);
-        at[along] = static_cast<std::uint32_t>(s.from());
-        const PlaneId beside = plane_of(across, at[across]);
-        const bool is_up = sheets_[u(sheet_of_[across][at[across]])].plane.sign > 0;
-        add_edges({-1, -1, sheet.first[s.faces_up ? 1 : 0], {beside, s.is_low == is_up}}, along, at,
-                  static_cast<std::uint32_t>(s.to()), edges);
+    for (const std::uint32_t n : sheet.outline.loops()) {
+        const AxisStretch& s = sheet.outline.stretches()[n];
+        const std::size_t across = across_of(sheet, s);
+        const std::size_t along = along_of(sheet, s);
+        Ranks at = line_of(sheet, s);
+        const Sheet& beside = sheet_at_rank(across, at[across]);
+        BoundaryEdge e{-1, -1, sheet.first[s.faces_up ? 1 : 0], {}};
+        e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
+        const auto stops = std::span(stops_).subspan(sheet.stops[n].first,
+                                                     sheet.stops[n].end - sheet.stops[n].first);
+        for (std::size_t i = 0; i < stops.size(); ++i) {
+            Stop& stop = stops[s.runs_up() ? i : stops.size() - 1 - i];
+            at[along] = stop.place;
+            if (stop.point < 0) stop.point = point_at(at);
+            e.from = std::exchange(e.to, stop.point);
+            if (i != 0) edges.push_back(e);
+        }
     }
-}
-
-std::span<const AxisFaces::Stop> AxisFaces::stops_between(std::size_t along, const Ranks& line,
-                                                          std::uint32_t low,
-                                                          std::uint32_t high) const {
-    Ranks at = line;
-    at[along] = low;
-    const auto& stops = stops_[along];
-    const auto begin = std::upper_bound(stops.begin(), stops.end(), stop_at(along, at));
-    at[along] = high;
-    const Stop last = stop_at(along, at);
-    auto end = begin;
-    while (end != stops.end() && *end < last) ++end;
-    return {begin, end};
-}
-
-// From stop to stop.
-void AxisFaces::add_edges(const BoundaryEdge& run, std::size_t along, const Ranks& from,
-                          std::uint32_t to, std::vector<BoundaryEdge>& edges) {
-    const bool up = from[along] < to;
-    const auto inside =
-        stops_between(along, from, std::min(from[along], to), std::max(from[along], to));
-    Ranks at = from;
-    BoundaryEdge e = run;
-    e.to = last_point_ >= 0 && at == last_place_ ? last_point_ : point_at(at);
-    const auto go_to = [&](std::uint32_t place) {
-        at[along] = place;
-        e.from = e.to;
-        e.to = point_at(at);
-        edges.push_back(e);
-    };
-    for (std::size_t i = 0; i < inside.size(); ++i)
-        go_to(place_of(inside[up ? i : inside.size() - 1 - i]));
-    go_to(to);
-    last_place_ = at;
-    last_point_ = e.to;
 }
 
 // An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
@@ -521,9 +565,16 @@ void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& 
     const double margin = 2 + from.error + to.error;
     const std::uint32_t first = rank_at(low - margin);
     const std::uint32_t last = rank_at(high + margin);
-    for (const Stop s : stops_between(along, at, first == 0 ? 0 : first - 1, last + 1)) {
-        at[along] = place_of(s);
+    const auto add = [&](std::uint32_t place) {
+        if (place + 1 < first || place > last) return;
+        at[along] = place;
         out.push_back(point_at(at));
+    };
+    if (const std::int32_t line = lines_[along].find({line_at(along, at), 0}); line >= 0) {
+        const Stops& on_line = all_lines_[u(line)];
+        for (std::uint32_t i = on_line.first; i < on_line.end; ++i) add(stops_[i].place);
+    } else {
+        for (const Other& o : others_on(along, at)) add(o.place);
     }
 }
 

@@ -37,6 +37,10 @@ public:
     }
     /// How many facets are taken, and how many parts of facets.
     [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
+    /// Whether make_edges() makes all edges that there are: then all vertices are different,
+    /// nothing is left to join, and outlines turn at all vertices but corners of facets that pass
+    /// through.
+    [[nodiscard]] bool takes_all() const { return takes_all_; }
     [[nodiscard]] std::size_t part_count() const { return part_count_; }
     /// Whether a leaf lists nothing but polygons across an axis, and facets are taken.
     [[nodiscard]] bool is_across_axes(std::size_t leaf) const {
@@ -55,6 +59,16 @@ public:
 private:
     static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+    // A vertex on a line.
+    struct Stop {
+        std::uint32_t place = 0;  // its rank along the line
+        PointId point = -1;       // once it was asked for
+    };
+    // The stops of one line, or of a stretch with its ends.
+    struct Stops {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
     /// A plane. By facing of its faces, down and up: the first facet.
     struct Sheet {
         AxisPlane plane;
@@ -63,7 +77,17 @@ private:
         bool is_general = false;  // not taken
         std::size_t parts = 0;
         PlaneId id = -1;  // once it was asked for
+        std::uint32_t rank = 0;
         AxisOutline outline;
+        std::vector<Stops> stops;  // of each stretch
+    };
+    // Stretches on a line, of one plane and facing.
+    struct LineRun {
+        Sheet* sheet = nullptr;
+        AxisOutline::Run run;
+        [[nodiscard]] std::span<const AxisStretch> stretches() const {
+            return sheet->outline.stretches().subspan(run.first, run.end - run.first);
+        }
     };
     struct Facet {
         std::int32_t sheet = -1;
@@ -80,13 +104,17 @@ private:
     };
     // Places by their ranks among the coordinates of each axis.
     using Ranks = std::array<std::uint32_t, 3>;
-    // A place on a line: ranks along the two axes after that of the line, then along the line.
-    using Stop = Int128;
-    static Stop stop_at(std::size_t along, const Ranks& r) {
-        const auto line = (std::uint64_t{r[(along + 1) % 3]} << 32) | r[(along + 2) % 3];
-        return (Stop{line} << 32) | r[along];
+    // A line by the ranks along the two axes after its own.
+    using LineKey = std::uint64_t;
+    static LineKey line_at(std::size_t along, const Ranks& r) {
+        return (LineKey{r[(along + 1) % 3]} << 32) | r[(along + 2) % 3];
     }
-    static std::uint32_t place_of(Stop stop) { return static_cast<std::uint32_t>(stop); }
+    // A vertex at which no outline need turn.
+    struct Other {
+        LineKey line = 0;
+        std::uint32_t place = 0;
+        friend auto operator<=>(const Other&, const Other&) = default;
+    };
 
     [[nodiscard]] const FacetMarks& marks_of(const Source* source);
     [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
@@ -101,17 +129,26 @@ private:
     void place_others();
     void list_corners();
     void rank_coordinates();
+    void rank_places(Sheet& sheet);
+    void name_corners();
+    void add_other(const Ranks& at);
     void make_stops();
+    void add_line(Sheet& sheet, const AxisStretch& stretch);
     void make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges);
-    void add_edges(const BoundaryEdge& run, std::size_t along, const Ranks& from, std::uint32_t to,
-                   std::vector<BoundaryEdge>& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
     [[nodiscard]] PointId point_at(const Ranks& ranks);
     [[nodiscard]] PointId make_point(const Ranks& ranks);
-    [[nodiscard]] std::span<const Stop> stops_between(std::size_t along, const Ranks& line,
-                                                      std::uint32_t low, std::uint32_t high) const;
+    [[nodiscard]] static std::size_t along_of(const Sheet& sheet, const AxisStretch& stretch) {
+        return (sheet.plane.axis + 2 - stretch.axis) % 3;
+    }
+    [[nodiscard]] static std::size_t across_of(const Sheet& sheet, const AxisStretch& stretch) {
+        return (sheet.plane.axis + 1 + stretch.axis) % 3;
+    }
+    [[nodiscard]] static Ranks line_of(const Sheet& sheet, const AxisStretch& stretch);
+    [[nodiscard]] std::span<const Other> others_on(std::size_t along, const Ranks& line) const;
+    [[nodiscard]] Sheet& sheet_at_rank(std::size_t axis, std::uint32_t rank);
     static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
 
     BoundaryParts& parts_;
@@ -124,10 +161,13 @@ private:
     std::vector<bool> taken_;
     std::size_t taken_count_ = 0;
     std::size_t part_count_ = 0;
+    bool takes_all_ = false;
+    bool keeps_lines_ = false;  // for add_vertices_in()
     // Corners that are vertices of parts of facets taken, then those of facets that pass through,
     // in leaves across axes.
     std::vector<CornerName> corners_;
     std::vector<CornerName> passing_;
+    std::size_t first_passing_ = 0;  // of corners_, once they are there too
     // Vertices of facets that are not taken, where they are on the lattice, and their places.
     std::vector<PointId> others_;
     std::vector<LatticePoint> places_;
@@ -135,11 +175,13 @@ private:
 
     std::array<std::vector<std::int64_t>, 3> coordinates_;  // sorted
     std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
-    std::array<std::vector<Stop>, 3> stops_;                // by the axis of their line, sorted
+    std::array<std::vector<Other>, 3> other_stops_;         // sorted
+    std::vector<Stop> stops_;                               // line by line
+    std::vector<Stops> all_lines_;     // where somebody may ask, and their keys
+    std::array<FlatMap, 3> lines_;     // by axis
+    std::vector<std::uint32_t> line_;  // the places on the line in the making
     FlatMap corner_ids_;
     FlatMap point_ids_;
-    Ranks last_place_{};  // of the edge made last: its end
-    PointId last_point_ = -1;
 };
 
 }  // namespace trisect::detail

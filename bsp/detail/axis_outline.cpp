@@ -9,9 +9,7 @@
 #include <trisect/bsp/detail/axis_outline.h>
 
 #include <algorithm>
-#include <tuple>
 
-#include <trisect/kernel/contract.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -113,6 +111,10 @@ bool AxisOutline::add_stretch(std::size_t kind, const Change& from, std::int64_t
     s.at = from.at() / wall_scale;
     s.low = from.place() / wall_scale;
     s.high = to / wall_scale;
+    const auto number = static_cast<std::uint32_t>(stretches_.size());
+    if (runs_.size() == first_run_[kind] || stretches_.back().at != s.at)
+        runs_.push_back({number, number});
+    runs_.back().end = number + 1;
     stretches_.push_back(s);
     return true;
 }
@@ -139,50 +141,66 @@ bool AxisOutline::add_stretches(std::size_t kind) {
 
 bool AxisOutline::finish() {
     stretches_.clear();
-    bool valid = true;
-    for (std::size_t kind = 0; kind < changes_.size() && valid; ++kind) valid = add_stretches(kind);
-    return valid;
+    runs_.clear();
+    for (std::size_t kind = 0; kind < changes_.size(); ++kind) {
+        first_run_[kind] = runs_.size();
+        if (!add_stretches(kind)) return false;
+    }
+    first_run_.back() = runs_.size();
+    return true;
+}
+
+std::size_t AxisOutline::run_at(bool faces_up, std::uint8_t axis, std::int64_t at) const {
+    const std::size_t kind = kind_of(faces_up, axis);
+    std::size_t low = first_run_[kind];
+    std::size_t high = first_run_[kind + 1];
+    while (low < high) {
+        const std::size_t middle = (low + high) / 2;
+        if (stretches_[runs_[middle].first].at < at) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < first_run_[kind + 1] && stretches_[runs_[low].first].at == at ? low : runs_.size();
 }
 
 bool AxisOutline::turns_between(bool faces_up, std::uint8_t axis, std::int64_t at, std::int64_t low,
                                 std::int64_t high) const {
-    const auto key = [](const AxisStretch& s) {
-        return std::tuple(s.faces_up, s.axis, s.at, s.high);
-    };
-    auto it = std::ranges::upper_bound(stretches_, std::tuple(faces_up, axis, at, low), {}, key);
+    const std::size_t run = run_at(faces_up, axis, at);
+    if (run == runs_.size()) return false;
     // The first that ends beyond `low`.
-    if (it == stretches_.end() || it->faces_up != faces_up || it->axis != axis || it->at != at)
-        return false;
+    const auto on_line = stretches().subspan(runs_[run].first, runs_[run].end - runs_[run].first);
+    const auto it = std::ranges::upper_bound(on_line, low, {}, &AxisStretch::high);
+    if (it == on_line.end()) return false;
     return it->high < high || (it->low > low && it->low < high);
 }
 
 // The stretch that begins where another one ends: one across the other axis, at its end.
-std::size_t AxisOutline::next_of(const AxisStretch& s) const {
-    const auto other = static_cast<std::uint8_t>(1 - s.axis);
-    const auto key = [](const AxisStretch& t) {
-        return std::tuple(t.faces_up, t.axis, t.at, t.high);
-    };
-    const auto first =
-        std::ranges::lower_bound(stretches_, std::tuple(s.faces_up, other, s.to(), s.at), {}, key);
-    for (auto it = first; it != stretches_.end() && it - first < 2; ++it)
-        if (it->faces_up == s.faces_up && it->axis == other && it->at == s.to() &&
-            it->from() == s.at && !used_[static_cast<std::size_t>(it - stretches_.begin())])
-            return static_cast<std::size_t>(it - stretches_.begin());
+std::size_t AxisOutline::next_of(const AxisStretch& s, const std::vector<bool>& used) const {
+    const std::size_t run = run_at(s.faces_up, static_cast<std::uint8_t>(1 - s.axis), s.to());
+    if (run == runs_.size()) return stretches_.size();
+    const auto begin = stretches_.begin();
+    const auto end = begin + runs_[run].end;
+    auto it = std::ranges::lower_bound(begin + runs_[run].first, end, s.at, {}, &AxisStretch::high);
+    for (int i = 0; i < 2 && it != end; ++i, ++it)
+        if (const auto n = static_cast<std::size_t>(it - begin); it->from() == s.at && !used[n])
+            return n;
     return stretches_.size();
 }
 
-void AxisOutline::arrange_loops() {
-    used_.assign(stretches_.size(), false);
-    std::vector<AxisStretch> ordered;
+std::vector<std::uint32_t> AxisOutline::loops() const {
+    std::vector<bool> used(stretches_.size(), false);
+    std::vector<std::uint32_t> ordered;
     ordered.reserve(stretches_.size());
     for (std::size_t start = 0; start < stretches_.size(); ++start) {
-        for (std::size_t i = start; i < stretches_.size() && !used_[i];
-             i = next_of(stretches_[i])) {
-            used_[i] = true;
-            ordered.push_back(stretches_[i]);
+        for (std::size_t i = start; i < stretches_.size() && !used[i];
+             i = next_of(stretches_[i], used)) {
+            used[i] = true;
+            ordered.push_back(static_cast<std::uint32_t>(i));
         }
     }
-    stretches_ = std::move(ordered);
+    return ordered;
 }
 
 }  // namespace trisect::detail

@@ -63,6 +63,14 @@ public:
     /// something covers a place twice, or an end is not on the lattice.
     [[nodiscard]] bool finish();
     [[nodiscard]] std::span<const AxisStretch> stretches() const { return stretches_; }
+    /// The stretches [first, end) are all that lie on one line with one facing, in their order.
+    struct Run {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
+    [[nodiscard]] std::span<const Run> runs() const { return runs_; }
+    /// The number of a run; runs().size() if there is none.
+    [[nodiscard]] std::size_t run_at(bool faces_up, std::uint8_t axis, std::int64_t at) const;
     /// Whether a stretch of one facing ends strictly between two places of a line.
     [[nodiscard]] bool turns_between(bool faces_up, std::uint8_t axis, std::int64_t at,
                                      std::int64_t low, std::int64_t high) const;
@@ -76,8 +84,8 @@ public:
             s.high = rank(1 - s.axis, s.high);
         }
     }
-    /// Puts every stretch behind the one that it continues, loop after loop.
-    void arrange_loops();
+    /// Numbers of all stretches, each behind the one that it continues, loop after loop.
+    [[nodiscard]] std::vector<std::uint32_t> loops() const;
 
 private:
     // Where the number of polygons on the one side of a line less that on the other changes by one:
@@ -113,13 +121,14 @@ private:
         return (faces_up ? 2U : 0U) + axis;
     }
     [[nodiscard]] bool add_stretches(std::size_t kind);
-    [[nodiscard]] std::size_t next_of(const AxisStretch& s) const;
+    [[nodiscard]] std::size_t next_of(const AxisStretch& s, const std::vector<bool>& used) const;
     [[nodiscard]] bool add_stretch(std::size_t kind, const Change& from, std::int64_t to,
                                    int cover);
 
     std::array<std::vector<Change>, 4> changes_;  // by facing and axis
     std::vector<AxisStretch> stretches_;
-    std::vector<bool> used_;
+    std::vector<Run> runs_;
+    std::array<std::size_t, 5> first_run_{};  // by facing and axis
 };
 
 }  // namespace trisect::detail

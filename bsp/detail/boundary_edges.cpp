@@ -85,17 +85,6 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
     return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
 }
 
-void sort_by_facet(std::size_t facet_count, std::vector<BoundaryEdge>& edges) {
-    const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
-    if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
-    std::vector<std::size_t> fill(facet_count + 1, 0);
-    for (const BoundaryEdge& e : edges) ++fill[u(e.facet) + 1];
-    std::partial_sum(fill.begin(), fill.end(), fill.begin());
-    std::vector<BoundaryEdge> sorted(edges.size());
-    for (const BoundaryEdge& e : edges) sorted[fill[u(e.facet)]++] = e;
-    edges.swap(sorted);
-}
-
 // Where coincident facets of two operands meet at a wall because one of them dropped out of the
 // formula beyond it, each side knows only its own vertices on the wall.
 void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
@@ -112,13 +101,24 @@ void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
         splitter.add_candidate(e.to);
     }
     splitter.split(walls, edges);
-    sort_by_facet(parts.facets.size(), edges);
+    sort_by_facet(parts, edges);
 }
 
 }  // namespace
 
+void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
+    if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
+    std::vector<std::size_t> fill(parts.facets.size() + 1, 0);
+    for (const BoundaryEdge& e : edges) ++fill[u(e.facet) + 1];
+    std::partial_sum(fill.begin(), fill.end(), fill.begin());
+    std::vector<BoundaryEdge> sorted(edges.size());
+    for (const BoundaryEdge& e : edges) sorted[fill[u(e.facet)]++] = e;
+    edges.swap(sorted);
+}
+
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
-    sort_by_facet(parts.facets.size(), edges);
+    sort_by_facet(parts, edges);
     std::vector<BoundaryEdge> out;
     out.reserve(edges.size());
     EdgeSplitter splitter(parts.bench, parts.facets);
@@ -265,7 +265,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         }
         edges.resize(left);
     }
-    sort_by_facet(parts.facets.size(), edges);
+    sort_by_facet(parts, edges);
     if (joined != 0) arrange_all(edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
         TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
@@ -291,7 +291,7 @@ void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdg
         for (; i < edges.size() && edges[i].facet == number; ++i) edges[i].facet = first;
     }
     if (!joined) return;
-    sort_by_facet(parts.facets.size(), edges);
+    sort_by_facet(parts, edges);
     arrange_all(edges);
 }
 

@@ -10,6 +10,9 @@
 
 namespace trisect::detail {
 
+/// Puts the edges into the order of their facets; those of one facet stay in theirs.
+void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
 /// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish.
 /// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
 /// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
