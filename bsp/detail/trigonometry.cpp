@@ -75,7 +75,7 @@ mpq_class angle_of(const mpz_class& y, const mpz_class& x) {
     const SineCosine t = sine_cosine(mpq_class(proposal));
     const mpz_class along = x * t.cosine + y * t.sine;
     const mpz_class across = y * t.cosine - x * t.sine;
-    if (sgn(along) <= 0 || abs(across) << 40U > along)
+    if (sgn(along) <= 0 || (abs(across) << 40U) > along)
         throw Error(ErrorCode::Internal, "the arctangent of the C library is far off");
     mpz_class q = across << fixed_bits;
     mpz_fdiv_q(q.get_mpz_t(), q.get_mpz_t(), along.get_mpz_t());
