@@ -112,22 +112,13 @@ private:
         return at->second;
     }
 
-    static Approximate place(const BallMotion& motion, std::size_t k, const Approximate& x) {
-        const BallMotion::Maps& m = motion.maps[k];
-        Approximate y{};
-        for (std::size_t i = 0; i < 3; ++i)
-            y[i] = (m.matrix[i][0].value * x[0] + m.matrix[i][1].value * x[1] +
-                    m.matrix[i][2].value * x[2] + m.shift[i].value) /
-                   m.weight.value;
-        return y;
-    }
     // Farther than half of what is larger.
     bool moves_far(const BallMotion& motion, std::span<const std::uint32_t> of_a,
                    std::span<const std::uint32_t> of_b) const {
         double square = 0;
         for (const std::uint32_t v : {of_b.front(), of_b.back()}) {
-            const Approximate d =
-                minus(place(motion, motion.degree, b_.near[v]), place(motion, 0, b_.near[v]));
+            const Approximate d = minus(motion.guessed_image(motion.degree, b_.near[v]),
+                                        motion.guessed_image(0, b_.near[v]));
             square = std::max(square, dot(d, d));
         }
         return 4 * square > std::max(a_.squared_size(of_a), b_.squared_size(of_b));
@@ -140,14 +131,14 @@ private:
                                                  bool single) const {
         const std::size_t half = motion.degree / 2;
         const Approximate from = a_.middle(of_a);
-        const Approximate to = place(motion, half, b_.middle(of_b));
+        const Approximate to = motion.guessed_image(half, b_.middle(of_b));
         std::vector<Approximate> directions = detail::proof_directions(minus(to, from));
         if (single) {
             detail::TriangleCorners p;
             detail::TriangleCorners q;
             for (std::size_t i = 0; i < 3; ++i) {
                 p[i] = a_.near[of_a[i]];
-                q[i] = place(motion, half, b_.near[of_b[i]]);
+                q[i] = motion.guessed_image(half, b_.near[of_b[i]]);
             }
             detail::add_proof_directions(p, q, directions);
         }

@@ -234,19 +234,11 @@ private:
     // In fractions.
     [[nodiscard]] std::optional<Slab> slab_along(const Vector& d, Indices of_a,
                                                  Indices of_b) const {
-        std::optional<ExactRational> highest;
-        std::optional<ExactRational> lowest;
-        for (const std::uint32_t v : of_a) {
-            ExactRational x = dot(d, a_.points[v]);
-            if (!highest || *highest < x) highest = std::move(x);
-        }
-        for (const std::uint32_t v : of_b) {
-            ExactRational x = dot(d, b_.points[v]);
-            if (!lowest || x < *lowest) lowest = std::move(x);
-        }
-        const ExactRational thick = *lowest - *highest;
+        ExactRational highest = highest_along(d, of_a, a_);
+        ExactRational lowest = lowest_along(d, of_b, b_);
+        const ExactRational thick = lowest - highest;
         if (thick.sign() <= 0 || thick * thick < squared_ * dot(d, d)) return std::nullopt;
-        return Slab{d, std::move(*highest), std::move(*lowest)};
+        return Slab{d, std::move(highest), std::move(lowest)};
     }
 
     [[nodiscard]] std::optional<Slab> slab_of_ranges(Indices of_a, Indices of_b) const {

@@ -61,15 +61,6 @@ struct View {
     [[nodiscard]] double deviation(const Approximate& x) const {
         return (by_length * sum_of_magnitudes(x) + constant) * (1 + 0x1p-30);
     }
-    [[nodiscard]] Approximate place(std::size_t k, const Approximate& x) const {
-        const BallMotion::Maps& m = motion.maps[k];
-        Approximate y{};
-        for (std::size_t i = 0; i < 3; ++i)
-            y[i] = (m.matrix[i][0].value * x[0] + m.matrix[i][1].value * x[1] +
-                    m.matrix[i][2].value * x[2] + m.shift[i].value) /
-                   m.weight.value;
-        return y;
-    }
 };
 
 class FreedomFinder {
@@ -134,7 +125,8 @@ private:
         double square = 0;
         for (const std::uint32_t v : {corners.front(), corners.back()}) {
             const Approximate& x = body.near[v];
-            const Approximate d = minus(view.place(view.motion.degree, x), view.place(0, x));
+            const Approximate d = minus(view.motion.guessed_image(view.motion.degree, x),
+                                        view.motion.guessed_image(0, x));
             square = std::max(square, dot(d, d));
         }
         return square;
@@ -151,15 +143,15 @@ private:
                                                  bool single) const {
         const std::size_t half_a = v.a.motion.degree / 2;
         const std::size_t half_b = v.b.motion.degree / 2;
-        const Approximate from = v.a.place(half_a, a_.middle(of_a));
-        const Approximate to = v.b.place(half_b, b_.middle(of_b));
+        const Approximate from = v.a.motion.guessed_image(half_a, a_.middle(of_a));
+        const Approximate to = v.b.motion.guessed_image(half_b, b_.middle(of_b));
         std::vector<Approximate> directions = detail::proof_directions(minus(to, from));
         if (single) {
             detail::TriangleCorners p;
             detail::TriangleCorners q;
             for (std::size_t i = 0; i < 3; ++i) {
-                p[i] = v.a.place(half_a, a_.near[of_a[i]]);
-                q[i] = v.b.place(half_b, b_.near[of_b[i]]);
+                p[i] = v.a.motion.guessed_image(half_a, a_.near[of_a[i]]);
+                q[i] = v.b.motion.guessed_image(half_b, b_.near[of_b[i]]);
             }
             detail::add_proof_directions(p, q, directions);
         }

@@ -52,18 +52,10 @@ std::optional<SeparatingPlane> plane_along(const Vector& direction,
                                            std::span<const std::uint32_t> below, const ProofBody& a,
                                            std::span<const std::uint32_t> above, const ProofBody& b,
                                            bool strict) {
-    std::optional<ExactRational> highest;
-    std::optional<ExactRational> lowest;
-    for (const std::uint32_t v : below) {
-        ExactRational x = dot(direction, a.points[v]);
-        if (!highest || *highest < x) highest = std::move(x);
-    }
-    for (const std::uint32_t v : above) {
-        ExactRational x = dot(direction, b.points[v]);
-        if (!lowest || x < *lowest) lowest = std::move(x);
-    }
-    if (strict ? !(*highest < *lowest) : *lowest < *highest) return std::nullopt;
-    return SeparatingPlane{direction, -((*highest + *lowest) / ExactRational(2))};
+    const ExactRational highest = highest_along(direction, below, a);
+    const ExactRational lowest = lowest_along(direction, above, b);
+    if (strict ? !(highest < lowest) : lowest < highest) return std::nullopt;
+    return SeparatingPlane{direction, -((highest + lowest) / ExactRational(2))};
 }
 
 // The directions of separating planes of two triangles or convex sets are among these.

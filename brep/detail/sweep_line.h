@@ -13,6 +13,15 @@
 
 namespace trisect::detail {
 
+/// Whether edge a lies below edge b where a vertical line meets both; `figure` as in SweepLine. The
+/// one that begins first is asked about the beginning of the other.
+template <class Figure>
+[[nodiscard]] bool lies_below(const Figure& figure, std::uint32_t a, std::uint32_t b) {
+    if (figure.from(a) == figure.from(b)) return figure.above(a, figure.to(b)) > 0;
+    return figure.from(a) < figure.from(b) ? figure.above(a, figure.from(b)) > 0
+                                           : figure.above(b, figure.from(a)) < 0;
+}
+
 /// A figure's edges do not cross; a region of it lies to the left of each. Only edges that run with
 /// the sweep are kept: the region is above them, and they stand for it.
 ///
@@ -57,11 +66,7 @@ private:
         using is_transparent = void;
         const SweepLine* line;
         bool operator()(Index a, Index b) const {
-            const Figure& f = line->figure_;
-            const Index e = line->edge_[a];
-            const Index g = line->edge_[b];
-            if (f.from(e) == f.from(g)) return f.above(e, f.to(g)) > 0;
-            return f.from(e) < f.from(g) ? f.above(e, f.from(g)) > 0 : f.above(g, f.from(e)) < 0;
+            return lies_below(line->figure_, line->edge_[a], line->edge_[b]);
         }
         bool operator()(Index a, Vertex v) const {
             return line->figure_.above(line->edge_[a], v.rank) > 0;

@@ -21,6 +21,7 @@
 #include <set>
 #include <vector>
 
+#include <trisect/brep/detail/sweep_line.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -99,8 +100,8 @@ public:
     [[nodiscard]] bool has_equal_places() const {
         return std::adjacent_find(places_.begin(), places_.end()) != places_.end();
     }
-    [[nodiscard]] Index first(Index s) const { return segments_[s].first; }
-    [[nodiscard]] Index last(Index s) const { return segments_[s].last; }
+    [[nodiscard]] Index from(Index s) const { return segments_[s].first; }
+    [[nodiscard]] Index to(Index s) const { return segments_[s].last; }
     [[nodiscard]] bool runs_with_sweep(Index s) const { return segments_[s].with_sweep; }
     /// Segments in the order in which they end; they are numbered in the order in which they begin.
     [[nodiscard]] Index ending(Index i) const { return by_last_[i]; }
@@ -129,12 +130,12 @@ public:
         Index next_end = 0;
         for (Index vertex = 0; vertex < segments_.vertex_count(); ++vertex) {
             check_stop();
-            for (; next_end < segments_.size() &&
-                   segments_.last(segments_.ending(next_end)) == vertex;
+            for (;
+                 next_end < segments_.size() && segments_.to(segments_.ending(next_end)) == vertex;
                  ++next_end)
                 line_.erase(where_[segments_.ending(next_end)]);
             const Index begin = next_begin;
-            while (next_begin < segments_.size() && segments_.first(next_begin) == vertex)
+            while (next_begin < segments_.size() && segments_.from(next_begin) == vertex)
                 ++next_begin;
             if (!pass(vertex, begin, next_begin)) return false;
         }
@@ -148,12 +149,7 @@ private:
     struct Below {
         using is_transparent = void;
         const Segments* segments;
-        bool operator()(Index a, Index b) const {
-            const Segments& s = *segments;
-            if (s.first(a) == s.first(b)) return s.above(a, s.last(b)) > 0;
-            return s.first(a) < s.first(b) ? s.above(a, s.first(b)) > 0
-                                           : s.above(b, s.first(a)) < 0;
-        }
+        bool operator()(Index a, Index b) const { return lies_below(*segments, a, b); }
         bool operator()(Index a, Vertex v) const { return segments->above(a, v.rank) > 0; }
         bool operator()(Vertex v, Index a) const { return segments->above(a, v.rank) < 0; }
     };
@@ -187,8 +183,8 @@ private:
         return region_above_low == region_below_high;
     }
     [[nodiscard]] bool stay_apart(Index low, Index high) const {
-        const Index end_low = segments_.last(low);
-        const Index end_high = segments_.last(high);
+        const Index end_low = segments_.to(low);
+        const Index end_high = segments_.to(high);
         if (end_low == end_high) return true;
         return end_low < end_high ? segments_.above(high, end_low) < 0
                                   : segments_.above(low, end_high) > 0;

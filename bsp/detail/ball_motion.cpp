@@ -152,4 +152,15 @@ BallMotion BallMotion::half(bool right) const {
     return r;
 }
 
+std::array<double, 3> BallMotion::guessed_image(std::size_t k,
+                                                const std::array<double, 3>& x) const {
+    const Maps& m = maps[k];
+    std::array<double, 3> y{};
+    for (std::size_t i = 0; i < 3; ++i)
+        y[i] = (m.matrix[i][0].value * x[0] + m.matrix[i][1].value * x[1] +
+                m.matrix[i][2].value * x[2] + m.shift[i].value) /
+               m.weight.value;
+    return y;
+}
+
 }  // namespace trisect::detail

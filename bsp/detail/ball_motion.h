@@ -60,6 +60,10 @@ struct BallMotion {
 
     [[nodiscard]] double middle() const { return (from + to) / 2; }
 
+    /// Where the k-th coefficients take a point, without their errors: to guess.
+    [[nodiscard]] std::array<double, 3> guessed_image(std::size_t k,
+                                                      const std::array<double, 3>& x) const;
+
     std::size_t degree = 0;
     double from = 0;  ///< exact: multiples of powers of two
     double to = 1;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Points and planes for the checkers of certificates and for nothing else: no part of the library
-// decides with them. Fractions where few numbers are at stake; integers where all vertices are
-// asked, since fractions that are reduced at every step cost ten times as much.
+// decides with them, and those who look for certificates have their own (proof_vector.h), on
+// purpose, so that a wrong formula shows. Fractions where few numbers are at stake; integers where
+// all vertices are asked, since fractions that are reduced at every step cost ten times as much.
 #pragma once
 
 #include <gmpxx.h>

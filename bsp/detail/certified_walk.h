@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How checkers of certificates walk down a tree over ranges of triangles and of time. Those who
-// make such trees have a walk of their own (proof_tree.h).
+// make such trees share no code with it on purpose (proof_tree.h).
 #pragma once
 
 #include <algorithm>

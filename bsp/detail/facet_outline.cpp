@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/brep/planar_loops.h>
 #include <trisect/bsp/detail/plain_facets.h>
 
 namespace trisect::detail {
@@ -429,19 +430,8 @@ bool FacetOutline::set_projection() {
 // 1: to the left; 0 when doubles cannot tell.
 int FacetOutline::turn(const Approximation& a, const Approximation& b,
                        const Approximation& c) const {
-    const double bu = b.c[axis_u_] - a.c[axis_u_];
-    const double bv = b.c[axis_v_] - a.c[axis_v_];
-    const double cu = c.c[axis_u_] - a.c[axis_u_];
-    const double cv = c.c[axis_v_] - a.c[axis_v_];
-    const double p = bu * cv;
-    const double q = bv * cu;
-    const double eb = slack * (a.error + b.error);
-    const double ec = slack * (a.error + c.error);
-    const double error = 0x1p-50 * (std::fabs(p) + std::fabs(q)) +
-                         slack * (eb * (std::fabs(cu) + std::fabs(cv)) +
-                                  ec * (std::fabs(bu) + std::fabs(bv)) + 2 * eb * ec);
-    const double area = p - q;
-    return area > error ? 1 : (area < -error ? -1 : 0);
+    return PlaneProjection::filtered_orientation(
+        a, b, c, {static_cast<int>(axis_u_), static_cast<int>(axis_v_)});
 }
 
 }  // namespace trisect::detail

@@ -103,6 +103,20 @@ void ProofBody::order(std::size_t from, std::size_t to) {
     order(middle, to);
 }
 
+ExactRational lowest_along(const RationalPoint& direction, std::span<const std::uint32_t> vertices,
+                           const ProofBody& body) {
+    ExactRational lowest = proof::dot(direction, body.points[vertices.front()]);
+    for (const std::uint32_t v : vertices.subspan(1))
+        if (ExactRational x = proof::dot(direction, body.points[v]); x < lowest)
+            lowest = std::move(x);
+    return lowest;
+}
+
+ExactRational highest_along(const RationalPoint& direction, std::span<const std::uint32_t> vertices,
+                            const ProofBody& body) {
+    return -lowest_along(proof::opposite(direction), vertices, body);
+}
+
 std::vector<std::array<double, 3>> proof_directions(const std::array<double, 3>& way) {
     return {way, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
 }

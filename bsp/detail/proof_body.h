@@ -41,6 +41,15 @@ private:
     [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t axis) const;
 };
 
+/// The least and the greatest product of a direction with some of a body's vertices.
+/// \pre there are any.
+[[nodiscard]] ExactRational lowest_along(const RationalPoint& direction,
+                                         std::span<const std::uint32_t> vertices,
+                                         const ProofBody& body);
+[[nodiscard]] ExactRational highest_along(const RationalPoint& direction,
+                                          std::span<const std::uint32_t> vertices,
+                                          const ProofBody& body);
+
 /// Normals of planes that may keep far bodies apart: the way between them, and the axes.
 [[nodiscard]] std::vector<std::array<double, 3>> proof_directions(const std::array<double, 3>& way);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How those who look for certificates build trees over ranges of triangles and of time. Checkers
-// have a walk of their own (certified_walk.h).
+// share no code with it on purpose (certified_walk.h).
 #pragma once
 
 #include <cstddef>
