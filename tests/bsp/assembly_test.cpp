@@ -213,6 +213,7 @@ TEST(PlanesAcrossAxes, FacetsThatMayBeUnchangedAreLeftOut) {
 void random_boxes(int rounds, bool coincident) {
     std::mt19937 random(5);
     const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+    std::uint64_t outlined = 0;
     for (int round = 0; round < rounds; ++round) {
         std::vector<Expression> terms;
         for (int i = 0; i < 6; ++i) {
@@ -231,6 +232,7 @@ void random_boxes(int rounds, bool coincident) {
         const PolygonMesh first = solid.to_mesh();
         expect_matching_edges(first);
         expect_general_way_agrees(solid);
+        outlined += stats_of(solid).axis_facets;
         for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
@@ -242,6 +244,7 @@ void random_boxes(int rounds, bool coincident) {
             EXPECT_TRUE(coincident || other == first) << round << ' ' << leaf;
         }
     }
+    EXPECT_GT(outlined, 500U);
 }
 
 TEST(CoplanarFacetsOfAMesh, RandomBoxesOfAGridMatch) { random_boxes(40, true); }

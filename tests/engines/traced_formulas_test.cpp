@@ -21,6 +21,7 @@ using Kind = Expression::Kind;
 struct Count {
     std::uint64_t traced = 0;
     std::uint64_t worked = 0;
+    std::uint64_t bounded = 0;  // results that have meshes to compare
 };
 
 trisect::Solid evaluate(const std::vector<Operand>& operands, const Expression& expression,
@@ -48,6 +49,7 @@ void expect_same_as_pieces(const trisect::Solid& result, Count& count) {
     const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*result.state(), &stats);
     count.traced += stats.traced_facets;
     count.worked += stats.worked_facets;
+    ++count.bounded;
     EXPECT_EQ(mesh.corners, expected.corners);
     EXPECT_TRUE(mesh.points == expected.points);
     EXPECT_EQ(engines::open_edge(mesh), "");
@@ -124,6 +126,7 @@ TEST(TracedFormulas, RandomSolids) {
                          Expression::node(seed % 2 == 0 ? Kind::Union : Kind::Intersection, terms),
                          count);
     }
+    EXPECT_GT(count.bounded, 90U);
     EXPECT_GT(count.traced * 10, count.worked * 5);
 }
 
@@ -139,6 +142,9 @@ TEST(TracedFormulas, RandomSolidsOnTheSmallGrid) {
             seed % 2 == 0 ? all_of(Kind::Union, operands.size()) : first_without(operands.size()),
             count);
     }
+    EXPECT_EQ(count.bounded, 3U * 60);
+    EXPECT_GT(count.worked, 1000U);
+    EXPECT_LT(count.traced * 2, count.worked);
 }
 
 TEST(TracedFormulas, ThreeBarsCrossOnOneSideOfABlock) {
@@ -178,6 +184,7 @@ TEST(TracedFormulas, CoincidentSidesOfTwoOthersCrossAFacet) {
     const Operand right = tilted(reference::box({10, 5, -3}, {15, 12, 12}), 1, 2);
     expect_agreement_of_all({tilted(reference::box({0, 0, 0}, {30, 30, 6}), 0, 0), left, right},
                             count);
+    EXPECT_LT(count.traced, count.worked);
 }
 
 TEST(TracedFormulas, AVertexOfOneOnAnEdgeOfAnother) {
@@ -187,6 +194,7 @@ TEST(TracedFormulas, AVertexOfOneOnAnEdgeOfAnother) {
          reference::tetrahedron({5, 0, 10}, {3, -4, 14}, {8, -3, 15}, {6, 4, 16}),
          reference::tetrahedron({2, 3, 5}, {4, 8, 14}, {9, 2, 13}, {5, 4, 16})},
         count);
+    EXPECT_LT(count.traced, count.worked);
 }
 
 // Four planes of four solids in one point of the first one's side.
@@ -198,6 +206,7 @@ TEST(TracedFormulas, ThreeOthersMeetInOnePointOfAFacet) {
          reference::tetrahedron({0, -10, -8}, {0, 10, -6}, {0, 1, 9}, {13, 2, -2}),
          reference::tetrahedron({-9, -9, -8}, {9, 9, -8}, {1, 1, 11}, {12, -11, -2})},
         count);
+    EXPECT_LT(count.traced, count.worked);
 }
 
 // Cells within the large block are done at once, whatever the others have there.
