@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boundary: a solid as the checkers of certificates see it, and nobody else.
+// Boundary: a solid as the checkers of certificates see it. No part of the library decides with it;
+// some who look for certificates ask it what their checker would.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moving corners, for the checkers of certificates and for nothing else.
+// Moving corners, for the checkers of certificates. Of those who look for certificates only that of
+// overlaps uses them, to ask its checker (certified_clearance.h).
 #pragma once
 
 #include <array>

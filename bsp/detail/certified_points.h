@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points and planes for the checkers of certificates and for nothing else: no part of the library
-// decides with them, and those who look for certificates have their own (proof_vector.h), on
-// purpose, so that a wrong formula shows. Fractions where few numbers are at stake; integers where
-// all vertices are asked, since fractions that are reduced at every step cost ten times as much.
+// Points and planes for the checkers of certificates: no part of the library decides with them, and
+// those who look for certificates have their own on purpose (proof_vector.h), so that a wrong
+// formula shows; but where they ask a checker (certified_clearance.h). Fractions where few numbers
+// are at stake; integers where all vertices are asked, since fractions that are reduced at every
+// step cost ten times as much.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A time of contact, for the checkers of certificates and for nothing else.
+// A time of contact, for the checkers of certificates. Of those who look for certificates only that
+// of overlaps uses it, to ask its checker (certified_clearance.h).
 #pragma once
 
 #include <string>
