@@ -29,6 +29,7 @@ class HoleTest {
 public:
     HoleTest(const Brep& brep, FaceId face) : brep_(brep), face_(face), plane_(brep.plane(face)) {
         const int axis = plane_.dominant_axis();
+        u_ = (axis + 1) % 3;
         v_ = (axis + 2) % 3;
         up_ = plane_.normal(axis) > 0;
     }
@@ -40,8 +41,13 @@ public:
             const Point& p = brep_.point(brep_.origin(e));
             const Point& q = brep_.point(brep_.target(e));
             if (p == h || q == h) return 0;
-            const bool p_above = compare_coordinate(p, h, v_) > 0;
-            const bool q_above = compare_coordinate(q, h, v_) > 0;
+            const auto p_level = compare_coordinate(p, h, v_);
+            const auto q_level = compare_coordinate(q, h, v_);
+            const bool p_above = p_level > 0;
+            const bool q_above = q_level > 0;
+            if (p_level == 0 && q_level == 0 &&  // the edge runs along the ray
+                (compare_coordinate(p, h, u_) > 0) != (compare_coordinate(q, h, u_) > 0))
+                return 0;
             if (p_above == q_above) continue;
             const auto left = side(e, p, q, h);
             if (!left) return std::nullopt;
@@ -74,6 +80,7 @@ private:
     const Brep& brep_;
     FaceId face_;
     const Plane& plane_;
+    int u_ = 0;
     int v_ = 0;
     bool up_ = true;
 };

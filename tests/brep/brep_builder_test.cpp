@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <random>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/error.h>
 
 #include "solids.h"
@@ -287,6 +291,90 @@ TEST(BrepBuilder, PlanePointsNameVertices) {
     const Brep brep = std::move(b).build();
     expect_invariants(brep);
     EXPECT_EQ(brep.source(FaceId(3)), (FaceSource{1, 7}));
+}
+
+// Squares of a chessboard that touch in corners, each with up to two holes, all loops of one call
+// in any order: every square is a region of its own, with the holes that lie in it.
+TEST(ConnectedRegions, SquaresOfAChessboardWithHoles) {
+    std::mt19937 random(3);  // NOLINT
+    const Plane floor = Plane::axis_aligned(2, 1, 0);
+    for (int round = 0; round < 200; ++round) {
+        const bool halves = round % 2 != 0;  // corners that are no lattice points
+        std::vector<Point> points;
+        const auto corner = [&](std::int64_t x, std::int64_t y) {
+            const Point p = halves ? Point(Plane::axis_aligned(0, 2, 2 * x + 1),
+                                           Plane::axis_aligned(1, 2, 2 * y + 1), floor)
+                                   : Point(LatticePoint{x, y, 0});
+            const auto at = static_cast<std::size_t>(std::find(points.begin(), points.end(), p) -
+                                                     points.begin());
+            if (at == points.size()) points.push_back(p);
+            return static_cast<std::uint32_t>(at);
+        };
+        const auto square = [&](std::int64_t x, std::int64_t y, std::int64_t side) {
+            return IndexLoop{corner(x, y), corner(x + side, y), corner(x + side, y + side),
+                             corner(x, y + side)};
+        };
+        std::vector<IndexLoop> loops;
+        std::set<std::set<std::set<std::uint32_t>>> expected;
+        for (std::int64_t i = 0; i < 4; ++i) {
+            for (std::int64_t k = 0; k < 4; ++k) {
+                if ((i + k) % 2 != 0 || random() % 5 == 0) continue;
+                std::set<std::set<std::uint32_t>> region;
+                const auto add = [&](IndexLoop loop, bool is_hole) {
+                    region.insert({loop.begin(), loop.end()});
+                    if (is_hole) std::reverse(loop.begin(), loop.end());
+                    std::rotate(loop.begin(), loop.begin() + random() % 4, loop.end());
+                    loops.push_back(std::move(loop));
+                };
+                add(square(9 * i, 9 * k, 9), false);
+                if (random() % 2 == 0) add(square(9 * i + 1, 9 * k + 1, 2), true);
+                if (random() % 2 == 0) add(square(9 * i + 4, 9 * k + 4, 3), true);
+                expected.insert(std::move(region));
+            }
+        }
+        if (loops.empty()) continue;
+        std::shuffle(loops.begin(), loops.end(), random);
+        std::set<std::set<std::set<std::uint32_t>>> found;
+        for (const auto& region : connected_regions(floor, points, loops)) {
+            std::set<std::set<std::uint32_t>> names;
+            for (const IndexLoop& loop : region) {
+                EXPECT_EQ(loop.size(), 4U);
+                names.insert({loop.begin(), loop.end()});
+            }
+            EXPECT_TRUE(expected.contains(names)) << "round " << round;
+            found.insert(std::move(names));
+        }
+        EXPECT_EQ(found, expected) << "round " << round;
+    }
+}
+
+TEST(BrepBuilder, PolygonThatPassesThroughAVertexTwiceBecomesTwoFaces) {
+    // Two cubes that share a vertical edge; their floors and lids are drawn as one loop each.
+    const auto prism_of = [](bool once) {
+        SolidSketch s;
+        for (const std::int64_t x : {0, 4}) s.walls(rectangle(x, x, x + 4, x + 4), 4);
+        for (const bool top : {false, true}) {
+            const std::int64_t z = top ? 4 : 0;
+            const Polygon both{{0, 0, z}, {4, 0, z}, {4, 4, z}, {8, 4, z},
+                               {8, 8, z}, {4, 8, z}, {4, 4, z}, {0, 4, z}};
+            const Polygon loop = top ? both : reversed(both);
+            const Plane up = Plane::axis_aligned(2, 1, z);
+            const Plane plane = top ? up : up.flipped();
+            if (once) {
+                std::vector<std::uint32_t> ids;
+                for (const LatticePoint& p : loop) ids.push_back(s.vertex(p));
+                s.builder().add_polygon(plane, ids, {});
+            } else {
+                s.face(plane, {loop});
+            }
+        }
+        return s.build();
+    };
+    for (const bool once : {true, false}) {
+        const Brep b = prism_of(once);
+        expect_invariants(b);
+        EXPECT_EQ(b.counts(), (BrepCounts{16, 48, 24, 12, 12, 2})) << once;
+    }
 }
 
 }  // namespace

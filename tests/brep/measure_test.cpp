@@ -213,4 +213,55 @@ TEST(Measure, LargestCoordinates) {
     EXPECT_EQ(*centroid(b), (Point3d{0, 0, 0}));
 }
 
+// Its doubled area is 3 sqrt(N^2 + 1) = 3 N + 3 / (2 N) - ...: just above an odd number of 54 bits,
+// the middle between two doubles, of which the even one lies below.
+TEST(Measure, AreaJustAboveTheMiddleBetweenTwoDoubles) {
+    constexpr std::int64_t n = (std::int64_t{1} << 52) + 3;
+    const LatticePoint o{0, 0, 0}, z{0, 0, 3}, far{1, -n, 0}, apex{1, 0, 0};
+    const Brep b = SolidSketch()
+                       .face({{o, z, far}})
+                       .face({{o, far, apex}})
+                       .face({{z, apex, far}})
+                       .face({{o, apex, z}})
+                       .build();
+    const Area a = area(b, FaceId(0));
+    EXPECT_FALSE(a.exact.has_value());
+    EXPECT_EQ(a.value, std::ldexp(static_cast<double>((std::int64_t{3} << 51) + 5), 0));
+}
+
+// The octant's corner cut off by 3x + 5y + 7z = d, as material or as a cavity.
+TEST(Measure, SignOfVolumeOfShellsOffTheLattice) {
+    for (const std::int64_t d : {1, 11, 1'000'003}) {
+        for (const bool cavity : {false, true}) {
+            const Plane x(-1, 0, 0, Plane::Offset(0)), y(0, -1, 0, Plane::Offset(0));
+            const Plane z(0, 0, -1, Plane::Offset(0)), cut(3, 5, 7, Plane::Offset(-d));
+            BrepBuilder builder{Lattice{}};
+            const auto o = builder.add_vertex(Point(x, y, z));
+            const auto px = builder.add_vertex(Point(cut, y, z));
+            const auto py = builder.add_vertex(Point(x, cut, z));
+            const auto pz = builder.add_vertex(Point(x, y, cut));
+            const auto face = [&](const Plane& p, std::uint32_t i, std::uint32_t k,
+                                  std::uint32_t m) {
+                if (cavity) {
+                    builder.add_face(p.flipped(), {{m, k, i}}, {});
+                } else {
+                    builder.add_face(p, {{i, k, m}}, {});
+                }
+            };
+            face(z, o, py, px);
+            face(y, o, px, pz);
+            face(x, o, pz, py);
+            face(cut, px, py, pz);
+            const Brep b = std::move(builder).build();
+            EXPECT_EQ(sign_of_volume(b, ShellId(0)), cavity ? -1 : 1);
+            const ExactRational volume = ExactRational(d) * ExactRational(d) * ExactRational(d) /
+                                         ExactRational(6 * 3 * 5 * 7);
+            EXPECT_EQ(exact_volume(b), cavity ? -volume : volume);
+            EXPECT_EQ(*exact_centroid(b), (std::array{ExactRational(d) / ExactRational(12),
+                                                      ExactRational(d) / ExactRational(20),
+                                                      ExactRational(d) / ExactRational(28)}));
+        }
+    }
+}
+
 }  // namespace
