@@ -34,8 +34,15 @@ if(TRISECT_SANITIZE)
     endif()
 endif()
 target_compile_options(trisect_options INTERFACE ${TRISECT_INSTRUMENTATION})
-# Counts are taken in the library only (trisect_add_library); programs have to be linked for it.
+# Counts are taken in the library only (trisect_add_library); programs have to be linked for it. The
+# libraries come first: of an inline function that a program compiled as well the linker keeps the
+# first copy, and only the library's counts.
 if(TRISECT_COVERAGE)
     list(APPEND TRISECT_INSTRUMENTATION --coverage)
+    target_link_options(
+        trisect_options
+        INTERFACE
+            "SHELL:-Wl,--whole-archive $<TARGET_FILE:trisect_bsp> $<TARGET_FILE:trisect_brep> $<TARGET_FILE:trisect_kernel> -Wl,--no-whole-archive"
+    )
 endif()
 target_link_options(trisect_options INTERFACE ${TRISECT_INSTRUMENTATION})
