@@ -128,13 +128,13 @@ public:
         check_stop(input_.points.size());
         points() = to_lattice(input_.points, lattice, out_.report.lattice, sharing_.threads);
         check_stop(input_.face_count());
-        const bool cancel = connect();
+        const SideBalance sides = connect();
         check_stop();
-        check_stop();
-        if (!cancel) return std::nullopt;
+        if (!sides.cancel) return std::nullopt;
         out_.report.inside_out = is_inside_out();
         drop_degenerate();
-        drop_unused_points();
+        if (!sides.reach_all_points || out_.report.degenerate_faces_dropped != 0)
+            drop_unused_points();
         return std::move(out_);
     }
 
@@ -142,8 +142,8 @@ private:
     std::vector<LatticePoint>& points() { return out_.mesh.points; }
     std::vector<Triangle>& triangles() { return out_.mesh.triangles; }
 
-    // Welds, renames and looks at the triangles; returns whether their sides cancel.
-    bool connect() {
+    // Welds, renames, looks at the triangles and at their sides.
+    SideBalance connect() {
         const std::size_t n = points().size();
         // Where each triangle has points of its own their names say nothing.
         const bool shared = n <= input_.face_count();
@@ -151,16 +151,17 @@ private:
         if (parts.count() == 1 || !shared) {
             weld();
             look_at_triangles();
-            return sides_cancel(points().size(), triangles());
+            return balance_sides(points().size(), triangles());
         }
-        bool cancel = false;
-        both_at_once([&] { cancel = sides_cancel(n, input_.corners); },
+        SideBalance sides;
+        both_at_once([&] { sides = balance_sides(n, input_.corners); },
                      [&] {
                          weld();
                          look_at_triangles();
                      });
         // Sides that cancel go on to do so when points get the same name.
-        return cancel || (!names_.empty() && sides_cancel(points().size(), triangles()));
+        if (sides.cancel || names_.empty()) return sides;
+        return balance_sides(points().size(), triangles());
     }
 
     void weld() {
@@ -178,14 +179,12 @@ private:
 
     void look_at_triangles() {
         resize_on_threads(triangles(), input_.face_count(), sharing_.threads);
-        used_.resize(points().size());
         set_bounds();
         const ParallelParts parts = sharing_.parts(triangles().size());
         std::vector<Found> found(parts.count());
         const auto look_at = [&](const auto& name) {
-            const bool alone = parts.count() == 1;
             parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-                look(begin, end, alone, name, found[part]);
+                look(begin, end, name, found[part]);
             });
         };
         if (names_.empty()) {
@@ -200,12 +199,9 @@ private:
         }
     }
 
-    // Names the corners of some triangles and looks at them. Threads that are not alone mark the
-    // same points, and look first, so that they need not wait for each other's caches.
+    // Names the corners of some triangles and looks at them.
     template <class Name>
-    void look(std::size_t begin, std::size_t end, bool alone, const Name& name, Found& found) {
-        // Bytes may alias anything: what the loop reads must not be read through `this`.
-        std::uint8_t* const used = used_.data();
+    void look(std::size_t begin, std::size_t end, const Name& name, Found& found) {
         const LatticePoint* const point = points().data();
         const double clear = clear_;
         const std::int64_t z0 = points().empty() ? 0 : 3 * points()[0].z;
@@ -220,11 +216,6 @@ private:
             const LatticePoint& a = point[i];
             const LatticePoint& b = point[j];
             const LatticePoint& c = point[k];
-            for (const std::uint32_t v : {i, j, k}) {
-                const std::atomic_ref mark(used[v]);
-                if (alone || mark.load(std::memory_order_relaxed) == 0)
-                    mark.store(1, std::memory_order_relaxed);
-            }
             const double n = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
                              static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
             sum += n * static_cast<double>(a.z + b.z + c.z - z0);
@@ -284,14 +275,12 @@ private:
                          });
         std::vector<std::uint32_t>& face = out_.mesh.face_of_triangle;
         face.reserve(triangles().size() - degenerate_.size());
-        std::fill(used_.begin(), used_.end(), std::uint8_t{0});
         auto dropped = degenerate_.begin();
         for (std::uint32_t f = 0; f < triangles().size(); ++f) {
             if (dropped != degenerate_.end() && *dropped == f) {
                 ++dropped;
                 continue;
             }
-            for (const std::uint32_t v : triangles()[f]) used_[v] = 1;
             triangles()[face.size()] = triangles()[f];
             face.push_back(f);
         }
@@ -299,11 +288,13 @@ private:
     }
 
     void drop_unused_points() {
-        if (std::find(used_.begin(), used_.end(), std::uint8_t{0}) == used_.end()) return;
+        std::vector<std::uint8_t> used(points().size());
+        for (const Triangle& t : triangles())
+            for (const std::uint32_t v : t) used[v] = 1;
         std::vector<std::uint32_t> name(points().size());
         std::uint32_t n = 0;
         for (std::size_t i = 0; i < name.size(); ++i) {
-            if (used_[i] == 0) continue;
+            if (used[i] == 0) continue;
             points()[n] = points()[i];
             name[i] = n++;
         }
@@ -316,7 +307,6 @@ private:
     Sharing sharing_;
     ImportedMesh out_;
     std::vector<std::uint32_t> names_;  ///< of the input's points; empty: their indices
-    std::vector<std::uint8_t> used_;
     std::vector<std::uint32_t> degenerate_;
     double sum_ = 0;  ///< six times the volume
     double sum_bound_ = 0;

@@ -10,12 +10,18 @@
 
 namespace trisect::detail {
 
-/// True exactly when find_net_edges of the same triangles is empty; says nothing about where not.
-/// Sides that join a point to itself do not count. O(n), and 4 bytes a side.
+struct SideBalance {
+    bool cancel = false;            ///< exactly when find_net_edges of the same triangles is empty
+    bool reach_all_points = false;  ///< each is a corner of a triangle of three points
+};
+
+/// Says nothing about where sides do not cancel. Sides that join a point to itself do not count.
+/// O(n), and 65 bytes a point; what goes beyond eight triangles at a point is sorted.
 /// \pre every corner is less than point_count; fewer than 2^30 triangles.
-[[nodiscard]] bool sides_cancel(std::size_t point_count,
-                                std::span<const std::array<std::uint32_t, 3>> triangles);
+[[nodiscard]] SideBalance balance_sides(std::size_t point_count,
+                                        std::span<const std::array<std::uint32_t, 3>> triangles);
 /// The same; triangle i has the corners 3 i, 3 i + 1 and 3 i + 2.
-[[nodiscard]] bool sides_cancel(std::size_t point_count, std::span<const std::uint32_t> corners);
+[[nodiscard]] SideBalance balance_sides(std::size_t point_count,
+                                        std::span<const std::uint32_t> corners);
 
 }  // namespace trisect::detail

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -366,11 +367,23 @@ bool cancels_by_map(const PolygonMesh& mesh) {
     return std::all_of(net.begin(), net.end(), [](const auto& e) { return e.second == 0; });
 }
 
-bool sides_cancel(const PolygonMesh& mesh) {
+detail::SideBalance balance_sides(const PolygonMesh& mesh) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t f = 0; f < mesh.face_count(); ++f)
         triangles.push_back({mesh.face(f)[0], mesh.face(f)[1], mesh.face(f)[2]});
-    return detail::sides_cancel(mesh.points.size(), triangles);
+    return detail::balance_sides(mesh.points.size(), triangles);
+}
+
+bool sides_cancel(const PolygonMesh& mesh) { return balance_sides(mesh).cancel; }
+
+// Whether every point is a corner of a triangle of three points.
+bool reach_all_points(const PolygonMesh& mesh) {
+    std::set<std::uint32_t> reached;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const std::set<std::uint32_t> corners(mesh.face(f).begin(), mesh.face(f).end());
+        if (corners.size() == 3) reached.insert(corners.begin(), corners.end());
+    }
+    return reached.size() == mesh.points.size();
 }
 
 TEST(SideBalance, AgreesWithCountingEveryEdge) {
@@ -383,7 +396,9 @@ TEST(SideBalance, AgreesWithCountingEveryEdge) {
             m.corners[below(random, m.corners.size())] =
                 static_cast<std::uint32_t>(below(random, m.points.size()));
         const bool expected = cancels_by_map(m);
-        ASSERT_EQ(sides_cancel(m), expected) << round;
+        const detail::SideBalance sides = balance_sides(m);
+        ASSERT_EQ(sides.cancel, expected) << round;
+        ASSERT_EQ(sides.reach_all_points, reach_all_points(m)) << round;
         balanced += expected ? 1 : 0;
     }
     EXPECT_GT(balanced, 6000);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A mark for the few functions that gain from wider registers than every x86-64 processor has: they
+// are compiled twice, and the loader takes the one that the processor can run. Both give the same
+// bits: the wider one may not be given contracted or reordered floating-point arithmetic to do.
+#pragma once
+
+// The loader's choice (an ifunc) comes before a sanitizer is ready; clang 14 has no such clones of
+// functions in anonymous namespaces.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define TRISECT_WIDE_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define TRISECT_WIDE_CLONES
+#endif
