@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "line_words.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -14,30 +15,7 @@ namespace {
 
 constexpr std::uint64_t points_file_limit = std::uint64_t{2} << 30;
 
-bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
-
-/// The words of one line, with the column where each begins.
-struct Word {
-    std::string_view text;
-    std::size_t column = 0;
-};
-
-std::vector<Word> words_of(std::string_view line) {
-    std::vector<Word> words;
-    std::size_t i = 0;
-    while (i < line.size()) {
-        if (is_separator(line[i])) {
-            ++i;
-            continue;
-        }
-        const std::size_t begin = i;
-        while (i < line.size() && !is_separator(line[i])) ++i;
-        words.push_back({line.substr(begin, i - begin), begin + 1});
-    }
-    return words;
-}
-
-double coordinate(const Word& word, const FilePlace& line) {
+double coordinate(const LineWord& word, const FilePlace& line) {
     try {
         return parse_number(word.text, "point");
     } catch (const UsageError& e) {
@@ -55,7 +33,7 @@ std::vector<std::array<double, 3>> parse_points(std::string_view text, const std
         const std::size_t end = std::min(text.find('\n'), text.size());
         const std::string_view line = text.substr(0, std::min(end, text.find('#')));
         text.remove_prefix(std::min(end + 1, text.size()));
-        const std::vector<Word> words = words_of(line);
+        const std::vector<LineWord> words = words_of(line);
         if (words.empty()) continue;
         std::array<double, 3> point{};
         for (std::size_t k = 0; k < std::min<std::size_t>(3, words.size()); ++k) {

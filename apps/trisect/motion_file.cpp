@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "line_words.h"
 #include "motion_document.h"
 #include "values.h"
 
@@ -22,27 +23,6 @@ constexpr std::uint64_t motion_file_limit = std::uint64_t{64} << 20;
 constexpr std::size_t pose_words = 12;
 constexpr std::size_t screw_words = 11;  // with the word itself
 
-struct Word {
-    std::string_view text;
-    std::size_t column = 0;
-};
-
-bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
-
-std::vector<Word> words_of(std::string_view line) {
-    std::vector<Word> words;
-    for (std::size_t i = 0; i < line.size();) {
-        if (is_separator(line[i])) {
-            ++i;
-            continue;
-        }
-        const std::size_t begin = i;
-        while (i < line.size() && !is_separator(line[i])) ++i;
-        words.push_back({line.substr(begin, i - begin), begin + 1});
-    }
-    return words;
-}
-
 /// The motion as far as it has been read.
 class MotionReader {
 public:
@@ -51,7 +31,7 @@ public:
     void line(std::string_view text) {
         ++place_.line;
         place_.column = 1;
-        const std::vector<Word> words = words_of(text.substr(0, text.find('#')));
+        const std::vector<LineWord> words = words_of(text.substr(0, text.find('#')));
         if (words.empty()) return;
         if (words.front().text == "screw")
             screw(words);
@@ -78,11 +58,11 @@ private:
             throw InputError(place_, e.what());
         }
     }
-    double number(const Word& word) {
+    double number(const LineWord& word) {
         place_.column = word.column;
         return checked([&] { return parse_number(word.text, "motion"); });
     }
-    std::int64_t integer(const Word& word) {
+    std::int64_t integer(const LineWord& word) {
         place_.column = word.column;
         return checked([&] { return parse_integer(word.text, "motion"); });
     }
@@ -90,7 +70,7 @@ private:
         if (!condition) throw InputError(place_, message);
     }
 
-    void pose(const std::vector<Word>& words) {
+    void pose(const std::vector<LineWord>& words) {
         expect(words.size() == pose_words, "a line is twelve numbers, or 'screw' and ten numbers");
         std::array<double, pose_words> rows{};
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = number(words[i]);
@@ -100,7 +80,7 @@ private:
         pose_ = next;
     }
 
-    void screw(const std::vector<Word>& words) {
+    void screw(const std::vector<LineWord>& words) {
         expect(words.size() == screw_words, "a screw is ten numbers");
         Screw screw;
         for (std::size_t i = 0; i < 4; ++i) screw.turn[i] = integer(words[1 + i]);

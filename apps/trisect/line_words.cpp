@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "line_words.h"
+
+#include <algorithm>
+
+namespace trisect::app {
+
+std::vector<LineWord> words_of(std::string_view line) {
+    constexpr std::string_view separators = " \t,\r";
+    std::vector<LineWord> words;
+    std::size_t begin = line.find_first_not_of(separators);
+    while (begin != std::string_view::npos) {
+        const std::size_t end = std::min(line.find_first_of(separators, begin), line.size());
+        words.push_back({line.substr(begin, end - begin), begin + 1});
+        begin = line.find_first_not_of(separators, end);
+    }
+    return words;
+}
+
+}  // namespace trisect::app
