@@ -62,6 +62,7 @@ public:
                 {"pieces", stats_.pieces},
                 {"traces", stats_.traces},
                 {"traces_retried", stats_.traces_retried},
+                {"traces_near", stats_.traces_near},
                 {"depth", stats_.depth}};
     }
 

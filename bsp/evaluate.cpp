@@ -53,6 +53,7 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     pieces += part.pieces;
     traces += part.traces;
     traces_retried += part.traces_retried;
+    traces_near += part.traces_near;
     traces_within += part.traces_within;
     pairs_touching += part.pairs_touching;
     untouched_polygons += part.untouched_polygons;

@@ -102,6 +102,7 @@ struct EvaluateStats {
     std::uint64_t linked = 0;
     std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
     std::uint64_t traces_retried = 0;  ///< degenerate segments
+    std::uint64_t traces_near = 0;     ///< that started where an earlier one had ended
     std::uint64_t traces_within = 0;   ///< winding numbers carried over within a polygon
     std::uint64_t cuts_undone = 0;     ///< because nothing differed on their two sides
     std::uint64_t memory = 0;          ///< most bytes held at once, as max_memory counts them

@@ -51,7 +51,7 @@ void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWind
     stats_ = &stats;
     n_ = facets.operand_count();
     row_ = formula.row_size();
-    last_windings_ = -1;
+    answers_.fill({});
 }
 
 PlainPart& PlainCutting::add_part() {
@@ -67,6 +67,7 @@ PlainPart& PlainCutting::add_part() {
 bool PlainCutting::make_shape() {
     vertices_.clear();
     const PlainFacet& f = (*facets_)[item_];
+    facets_->make_outline(item_);
     clipped_.size = 0;
     clipped_.above = 0;
     for (std::size_t c = 0; c < f.size; ++c) {
@@ -569,7 +570,13 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     const PlainFacet& f = (*facets_)[item];
     LeafIndex windings = windings_->anchor_of(item, *stats_).windings;
     const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
-    if (windings >= 0 && windings == last_windings_ && key == last_key_) return last_result_;
+    const auto answer_for = [&](LeafIndex w) -> Answer& {
+        return answers_[(4 * LeafWork::u(w) + static_cast<std::size_t>(key)) % answers_.size()];
+    };
+    const auto is_known = [&](LeafIndex w) {
+        return answer_for(w).windings == w && answer_for(w).key == key;
+    };
+    if (windings >= 0 && is_known(windings)) return answer_for(windings).result;
     if (windings < 0) {
         if (!f.contained && f.is_whole() &&
             certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
@@ -578,16 +585,15 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
         if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
         if (!trace_start()) return {Remains::Doubtful, false};
         windings = windings_->remember(item, start_windings_);
+        if (is_known(windings)) return answer_for(windings).result;
     }
     PlainPart& part = add_part();
-    const auto known = windings_->windings(windings);
-    set_sides(part, known);
+    set_sides(part, windings_->windings(windings));
     settle(part);
-    last_windings_ = windings;
-    last_key_ = key;
-    last_result_ = {};
-    if (part.state == PlainPart::State::Kept) last_result_ = {Remains::Uncut, part.inside_above};
-    return last_result_;
+    Result result;
+    if (part.state == PlainPart::State::Kept) result = {Remains::Uncut, part.inside_above};
+    answer_for(windings) = {windings, key, result};
+    return result;
 }
 
 std::optional<std::span<const int>> PlainCutting::windings_on(LeafIndex item) {

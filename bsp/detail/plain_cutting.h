@@ -177,10 +177,13 @@ private:
     std::vector<int> known_windings_;
     Approximation start_;
     std::vector<std::int8_t> start_sides_;
-    // The last answer of whole(): most items hang together with the one before.
-    LeafIndex last_windings_ = -1;
-    int last_key_ = 0;
-    Result last_result_;
+    // Answers of whole(): most items have windings that were looked at before.
+    struct Answer {
+        LeafIndex windings = -1;
+        int key = 0;
+        Result result;
+    };
+    std::array<Answer, 8> answers_;
 };
 
 }  // namespace trisect::detail

@@ -10,7 +10,6 @@
 #include <trisect/bsp/detail/plain_facets.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 namespace trisect::detail {
@@ -140,7 +139,7 @@ void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafInd
                         static_cast<double>(p.z - origin_[2])};
     }
     if (!f.is_whole()) {
-        add_outline(f);
+        add_box(f);
         return;
     }
     for (std::size_t k = 0; k < 3; ++k) {
@@ -149,16 +148,21 @@ void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafInd
     }
 }
 
-// Of a fragment: its corners from the leaf's origin, with the rounding that this takes, and a box
-// that contains them.
-void PlainFacets::add_outline(PlainFacet& f) {
-    const std::span<const Approximation> vertices = f.ref.fragment->vertices();
+void PlainFacets::add_box(PlainFacet& f) {
+    const Fragment& fragment = *f.ref.fragment;
     ++fragments_;
-    f.size = static_cast<std::uint8_t>(vertices.size());
+    f.size = static_cast<std::uint8_t>(fragment.edges().size());
+    f.walls = walls_of(fragment);
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.lo[k] = static_cast<double>(fragment.box().lo[k] - origin_[k]);
+        f.hi[k] = static_cast<double>(fragment.box().hi[k] - origin_[k]);
+    }
+}
+
+// Of a fragment: its corners from the leaf's origin, with the rounding that this takes.
+void PlainFacets::add_outline(PlainFacet& f) {
     f.outline = static_cast<std::uint32_t>(outlines_.size());
-    f.walls = walls_of(*f.ref.fragment);
-    f.lo.fill(std::numeric_limits<double>::infinity());
-    f.hi.fill(-std::numeric_limits<double>::infinity());
+    const std::span<const Approximation> vertices = f.ref.fragment->vertices();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         Approximation a = vertices[i];
         if (const int corner = f.mesh_corner(i); corner >= 0) {
@@ -169,12 +173,7 @@ void PlainFacets::add_outline(PlainFacet& f) {
                 a.c[k] -= static_cast<double>(origin_[k]);
                 largest = std::max(largest, std::fabs(a.c[k]));
             }
-            // Twice: for what the box takes of it.
             a.error = 1.0001 * a.error + 0x1p-51 * largest;
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            f.lo[k] = std::min(f.lo[k], a.c[k] - a.error);
-            f.hi[k] = std::max(f.hi[k], a.c[k] + a.error);
         }
         outlines_.push_back(a);
     }

@@ -45,6 +45,7 @@ struct PlainPlane {
 struct PlainFacet {
     /// Fragments with more corners are left to the long way.
     static constexpr std::size_t max_outline = 20;
+    static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
 
     PolygonRef ref;
     LeafIndex operand = 0;
@@ -53,9 +54,9 @@ struct PlainFacet {
     std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot tell, 2: not computed
     bool contained = false;             ///< lies in the cell
     std::uint8_t size = 3;              ///< corners of the outline
-    std::uint8_t walls = 0;     ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
-                                ///< ends at that wall of the cell by name
-    std::uint32_t outline = 0;  ///< of a fragment, see PlainFacets::corner()
+    std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
+                             ///< ends at that wall of the cell by name
+    std::uint32_t outline = no_outline;       ///< of a fragment, see PlainFacets::corner()
     std::array<std::uint32_t, 3> vertices{};  ///< of the whole facet
     std::array<Vector3, 3> corners{};         ///< of the whole facet
     Vector3 lo{};                             ///< of the box, within the cell
@@ -107,10 +108,18 @@ public:
     }
     [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
         PlainFacet& f = facets_[LeafWork::u(i)];
-        if (f.plane.bound < 0) make_plane(f);
+        if (f.plane.bound < 0) {
+            make_plane(f);
+            make_outline(i);
+        }
         return f.plane;
     }
-    /// A corner of an item's outline.
+    /// Most fragments are never asked for their corners.
+    void make_outline(LeafIndex i) {
+        PlainFacet& f = facets_[LeafWork::u(i)];
+        if (!f.is_whole() && f.outline == PlainFacet::no_outline) add_outline(f);
+    }
+    /// A corner of an item's outline. \pre an item of which plane() or make_outline() was called
     [[nodiscard]] Approximation corner(const PlainFacet& f, std::size_t i) const {
         return f.is_whole() ? Approximation{f.corners[i], 0.0} : outlines_[f.outline + i];
     }
@@ -147,6 +156,7 @@ public:
 private:
     void set_origin(const LatticePoint& origin);
     void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);
+    void add_box(PlainFacet& f);
     void add_outline(PlainFacet& f);
     [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
     void make_plane(PlainFacet& f) const;

@@ -168,6 +168,7 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const std::size_t n = facets.operand_count();
     candidates_.clear();
+    is_candidate_.assign(LeafWork::u(facets.size()), 0);
     // With many operands the boxes of the others overlap nearly everything.
     const bool compare = n <= 8;
     reach_.assign(n, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
@@ -188,6 +189,7 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate = o != LeafWork::u(f.operand) && f.meets(reach_[o].first, reach_[o].second);
         if (!candidate) continue;
+        is_candidate_[LeafWork::u(i)] = 1;
         candidates_.push_back({0, i});
         for (std::size_t k = 0; k < 3; ++k) {
             lengths[k] += f.hi[k] - f.lo[k];

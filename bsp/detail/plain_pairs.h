@@ -65,6 +65,14 @@ public:
         return crossings_[static_cast<std::size_t>(i)];
     }
     [[nodiscard]] std::span<const PlainCrossing> crossings() const { return crossings_; }
+    /// Whether an item's box meets that of all facets of some other operand. \pre two operands
+    [[nodiscard]] bool is_candidate(LeafIndex item) const {
+        return is_candidate_[LeafWork::u(item)] != 0;
+    }
+    /// The box of an operand's facets, within the cell.
+    [[nodiscard]] const std::pair<Vector3, Vector3>& reach(LeafIndex operand) const {
+        return reach_[LeafWork::u(operand)];
+    }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
         const auto i = LeafWork::u(item);
@@ -91,9 +99,10 @@ private:
     bool edges_apart_ = false;
     std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
     std::vector<Candidate> candidates_;
-    BoxRows boxes_;                         // of the candidates, the axis of the sweep first
-    std::vector<std::uint8_t> marked_;      // of rows, where only marked ones count
-    std::vector<std::size_t> next_marked_;  // rows
+    std::vector<std::uint8_t> is_candidate_;  // by item
+    BoxRows boxes_;                           // of the candidates, the axis of the sweep first
+    std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
+    std::vector<std::size_t> next_marked_;    // rows
     std::vector<PlainCrossing> crossings_;
     std::vector<PlainContact> contacts_;
     std::vector<std::size_t> first_contact_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A trace is a straight segment from the leaf's reference point; it counts the facets that it goes
-// through. Which side of a facet its ends are on tells the value of the facet's plane there;
-// whether it goes through the facet or beside it is seen along the axis that is nearest to the
-// normal. A segment so near to an edge that doubles cannot tell is given up.
+// A trace is a straight segment from the leaf's reference point, or from the end of an earlier
+// trace on the same operand, which is mostly near: then there is little to look at. It counts the
+// facets that it goes through. Which side of a facet its ends are on tells the value of the facet's
+// plane there; whether it goes through the facet or beside it is seen along the axis that is
+// nearest to the normal. A segment so near to an edge that doubles cannot tell is given up.
 
 #include <trisect/bsp/detail/plain_windings.h>
 
@@ -79,21 +80,59 @@ int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximatio
 void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     facets_ = &facets;
     pairs_ = &pairs;
-    reference_ = facets.reference();
     operands_ = facets.operand_count();
     has_boxes_ = false;
     has_ways_ = false;
     ids_.clear();
     nodes_.clear();
     known_.clear();
+    for (const LeafOperand& o : facets.problem().operands) known_.push_back(o.winding);
+    starts_.assign(1, {facets.reference(), -1, 0});
     vertices_.resize(LeafWork::u(facets.size()));
     first_.assign(LeafWork::u(facets.size()), -1);
+    regions_.fill(-1);
+    regions_of_.assign(LeafWork::u(facets.size()), -1);
     for (LeafIndex i = 0; i < facets.size(); ++i) {
+        if (const int region = region_of(i); region >= 0) {
+            regions_of_[LeafWork::u(i)] = static_cast<std::int8_t>(region);
+            vertices_[LeafWork::u(i)].fill(-1);
+            continue;
+        }
         const bool free = pairs.contacts(i).empty();
         add_corners(i, free);
         const PlainFacet& f = facets[i];
         if (free && !f.contained && f.is_whole()) add_edges(i);
     }
+}
+
+// A part of the cell beside the box of the other operand has none of its facets and is convex, so
+// the winding number is the same all over it. -1: the item has no point that surely is in such a
+// part of the cell.
+int PlainWindings::region_of(LeafIndex item) const {
+    if (operands_ != 2 || pairs_->is_candidate(item)) return -1;
+    const PlainFacet& f = (*facets_)[item];
+    const auto in_cell = [&](const Vector3& p) { return facets_->in_cell(p); };
+    if (!f.contained && !(f.is_whole() && std::ranges::any_of(f.corners, in_cell))) return -1;
+    const auto& [lo, hi] = pairs_->reach(1 - f.operand);
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        if (f.hi[axis] < lo[axis]) return 6 * f.operand + 2 * k;
+        if (f.lo[axis] > hi[axis]) return 6 * f.operand + 2 * k + 1;
+    }
+    return -1;
+}
+
+// The winding numbers in a region, if they are known: the reference may lie there.
+LeafIndex PlainWindings::windings_in(int region) {
+    LeafIndex& known = regions_[static_cast<std::size_t>(region)];
+    if (known >= 0) return known;
+    const auto axis = static_cast<std::size_t>(region % 6 / 2);
+    const auto& [lo, hi] = pairs_->reach(1 - region / 6);
+    const Approximation& p = facets_->reference();
+    const bool is_there =
+        region % 2 == 0 ? p.c[axis] + p.error < lo[axis] : p.c[axis] - p.error > hi[axis];
+    if (is_there) known = 0;
+    return known;
 }
 
 // A fragment has a node for each corner of its facet that is left of that.
@@ -167,80 +206,123 @@ void PlainWindings::join(LeafIndex a, LeafIndex b) {
     if (nodes_[LeafWork::u(b)].corner >= 0) nodes_[LeafWork::u(a)].example = b;
 }
 
+// There are few different ones: inside and outside, in a leaf of two operands.
 LeafIndex PlainWindings::keep(std::span<const int> windings) {
+    constexpr LeafIndex looked_at = 8;
     const auto at = static_cast<LeafIndex>(known_.size() / operands_);
+    for (LeafIndex i = at - 1; i >= 0 && i >= at - looked_at; --i)
+        if (std::ranges::equal(this->windings(i), windings)) return i;
     known_.insert(known_.end(), windings.begin(), windings.end());
     return at;
+}
+
+const PlainWindings::Start& PlainWindings::nearest_start(const Approximation& target,
+                                                         LeafIndex own) const {
+    constexpr std::size_t looked_at = 24;
+    const auto distance = [&](const Start& s) {
+        double d = 0;
+        for (std::size_t k = 0; k < 3; ++k) d += std::fabs(s.at.c[k] - target.c[k]);
+        return d;
+    };
+    const Start* nearest = &starts_[0];
+    double least = distance(*nearest);
+    for (std::size_t i = starts_.size(); i-- > 1 && starts_.size() - i <= looked_at;) {
+        if (starts_[i].own != own) continue;
+        if (const double d = distance(starts_[i]); d < least) {
+            least = d;
+            nearest = &starts_[i];
+        }
+    }
+    return *nearest;
 }
 
 bool PlainWindings::at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
                              std::vector<int>& w) {
     check_budget(*facets_->problem().options, stats);
     ++stats.traces;
-    w.clear();
-    for (const LeafOperand& o : facets_->problem().operands) w.push_back(o.winding);
+    const Start& start = nearest_start(target, own);
+    const bool near = start.own >= 0;
+    if (trace(start, target, own, w)) {
+        stats.traces_near += near ? 1 : 0;
+    } else if (!near || !trace(starts_[0], target, own, w)) {
+        ++stats.traces_retried;
+        return false;
+    }
+    starts_.push_back({target, own, keep(w)});
+    return true;
+}
+
+bool PlainWindings::trace(const Start& start, const Approximation& target, LeafIndex own,
+                          std::vector<int>& w) {
+    const auto known = windings(start.windings);
+    w.assign(known.begin(), known.end());
     Vector3 lo;
     Vector3 hi;
     for (std::size_t k = 0; k < 3; ++k) {
         // One more unit than the errors, so that rounding does not matter.
-        lo[k] = std::min(reference_.c[k] - reference_.error, target.c[k] - target.error) - 1;
-        hi[k] = std::max(reference_.c[k] + reference_.error, target.c[k] + target.error) + 1;
+        lo[k] = std::min(start.at.c[k] - start.at.error, target.c[k] - target.error) - 1;
+        hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
     if (!has_boxes_) list_boxes();
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
     for (std::size_t row = 0; row < boxes_.row_count(); ++row)
         for (unsigned met = boxes_.meeting(row, probe); met != 0; met &= met - 1) {
             const std::size_t i = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-            if (!add_crossing(static_cast<LeafIndex>(i), target, lo, hi, w)) {
-                ++stats.traces_retried;
-                return false;
-            }
+            if (!add_crossing(static_cast<LeafIndex>(i), start.at, target, lo, hi, w)) return false;
         }
     return true;
 }
 
-// All points between the reference and a target that can be in a plane which the target may be in,
-// as the target with a larger error. False when that says too little.
-bool PlainWindings::near_target(double at_start, double start_error, double at_target,
-                                double target_error, const Approximation& target,
-                                Approximation& x) const {
-    const double reach = std::fabs(at_target) + target_error;
-    const double height = std::fabs(at_start) - start_error;
+namespace {
+
+// A plane at both ends of a trace: its values, and what they are off by at most.
+struct AtEnds {
+    double start;
+    double start_error;
+    double target;
+    double target_error;
+};
+
+// All points of a trace that can be in a plane which the target may be in, as the target with a
+// larger error. False when that says too little.
+bool near_target(const AtEnds& plane, const Approximation& start, const Approximation& target,
+                 Approximation& x) {
+    const double reach = std::fabs(plane.target) + plane.target_error;
+    const double height = std::fabs(plane.start) - plane.start_error;
     if (!(height > 4 * reach)) return false;
     double span = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        span = std::max(span, std::fabs(reference_.c[k] - target.c[k]));
-    // With the value v at the target and w at the reference the plane is met at v / (v - w) of the
-    // way from the target, |v| <= reach and |w| >= height.
+    for (std::size_t k = 0; k < 3; ++k) span = std::max(span, std::fabs(start.c[k] - target.c[k]));
+    // With the value v at the target and w at the start the plane is met at v / (v - w) of the way
+    // from the target, |v| <= reach and |w| >= height.
     x = target;
-    x.error += 1.5 * (span + reference_.error + target.error) * reach / height;
+    x.error += 1.5 * (span + start.error + target.error) * reach / height;
     return true;
 }
 
+}  // namespace
+
 // Counts a facet of another operand if the segment goes through it; false when that is doubtful.
-bool PlainWindings::add_crossing(LeafIndex i, const Approximation& target, const Vector3& lo,
-                                 const Vector3& hi, std::vector<int>& w) {
+bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
+                                 const Approximation& target, const Vector3& lo, const Vector3& hi,
+                                 std::vector<int>& w) {
     PlainFacet& f = (*facets_)[i];
     if (!f.meets(lo, hi)) return true;
     const PlainPlane& plane = facets_->plane(i);
-    const double at_target = plane.value(target.c);
-    const double target_error = plane.error(target);
-    const double at_start = plane.value(reference_.c);
-    const double start_error = plane.error(reference_);
-    if (!(std::fabs(at_start) > start_error)) return false;
+    const AtEnds at{plane.value(start.c), plane.error(start), plane.value(target.c),
+                    plane.error(target)};
+    if (!(std::fabs(at.start) > at.start_error)) return false;
     Approximation x;
-    if (!(std::fabs(at_target) > target_error)) {
+    if (!(std::fabs(at.target) > at.target_error)) {
         // The target may be in the plane. It is not on the facet: so beside that, or nobody knows.
-        return near_target(at_start, start_error, at_target, target_error, target, x) &&
-               is_inside(*facets_, f, x) < 0;
+        return near_target(at, start, target, x) && is_inside(*facets_, f, x) < 0;
     }
-    if ((at_start > 0) == (at_target > 0)) return true;
+    if ((at.start > 0) == (at.target > 0)) return true;
     const int inside =
-        interpolate(reference_, at_start, target, at_target, start_error + target_error, x)
+        interpolate(start, at.start, target, at.target, at.start_error + at.target_error, x)
             ? is_inside(*facets_, f, x)
             : 0;
     if (inside == 0) return false;
-    if (inside > 0) w[LeafWork::u(f.operand)] += at_start > 0 ? f.orientation : -f.orientation;
+    if (inside > 0) w[LeafWork::u(f.operand)] += at.start > 0 ? f.orientation : -f.orientation;
     return true;
 }
 
@@ -261,6 +343,7 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
         const Node& n = nodes_[LeafWork::u(at)];
         if (n.corner < 0) continue;  // edges only: see remember()
         const PlainFacet& f = (*facets_)[n.item];
+        facets_->make_outline(n.item);
         if (!at_point(facets_->corner(f, static_cast<std::size_t>(n.corner)), f.operand, stats,
                       traced_))
             continue;
@@ -333,6 +416,8 @@ bool PlainWindings::follow(const Way& way, std::span<int> w) const {
 
 LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {
     const LeafIndex kept = keep(windings);
+    if (const int region = regions_of_[LeafWork::u(item)]; region >= 0)
+        regions_[static_cast<std::size_t>(region)] = kept;
     const LeafIndex first = first_[LeafWork::u(item)];
     if (first < 0) return kept;
     Node& r = nodes_[LeafWork::u(root(first))];
@@ -342,6 +427,11 @@ LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings)
 }
 
 PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& stats) {
+    if (const int region = regions_of_[LeafWork::u(item)]; region >= 0) {
+        const LeafIndex known = windings_in(region);
+        if (known >= 0) ++stats.linked;
+        return {known, 0};
+    }
     if (const LeafIndex first = first_[LeafWork::u(item)]; first >= 0) {
         // All its vertices hang together; which one it is does not matter.
         const LeafIndex r = root(first);

@@ -18,7 +18,9 @@ namespace trisect::detail {
 /// vertices in the cell, and edges that run through it, hang together by such facets, and one trace
 /// to any vertex serves all that hang together with it; also the facets that are crossed. Along an
 /// edge of these they change where it pierces others, which is known by then: so one trace serves
-/// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles.
+/// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles. Facets
+/// beside the box of the only other operand are not even looked at: EvaluateStats::linked counts
+/// them.
 class PlainWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
@@ -37,7 +39,8 @@ public:
         return {known_.data() + LeafWork::u(i) * operands_, operands_};
     }
     /// Winding numbers at a point on a facet of the operand `own`, with a meaningless one for that.
-    /// False when doubles cannot tell.
+    /// The way there starts at the nearest point on that operand where they are known by now, or at
+    /// the cell's reference. False when doubles cannot tell.
     [[nodiscard]] bool at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
                                 std::vector<int>& w);
 
@@ -60,6 +63,17 @@ private:
         std::int8_t edge = 0;    // of the item
         std::int8_t corner = 0;  // of the item, where the way starts
     };
+    /// Where a trace may start.
+    struct Start {
+        Approximation at;
+        LeafIndex own = -1;       ///< on a facet of this operand; -1: on none
+        LeafIndex windings = -1;  ///< of the others
+    };
+    [[nodiscard]] const Start& nearest_start(const Approximation& target, LeafIndex own) const;
+    [[nodiscard]] bool trace(const Start& start, const Approximation& target, LeafIndex own,
+                             std::vector<int>& w);
+    [[nodiscard]] int region_of(LeafIndex item) const;
+    [[nodiscard]] LeafIndex windings_in(int region);
     void list_ways();
     void spread(LeafIndex root);
     [[nodiscard]] bool follow(const Way& way, std::span<int> w) const;
@@ -72,22 +86,23 @@ private:
     void find_windings(LeafIndex root, EvaluateStats& stats);
     LeafIndex keep(std::span<const int> windings);
     void list_boxes();
-    [[nodiscard]] bool near_target(double at_start, double start_error, double at_target,
-                                   double target_error, const Approximation& target,
-                                   Approximation& x) const;
-    [[nodiscard]] bool add_crossing(LeafIndex item, const Approximation& target, const Vector3& lo,
+    [[nodiscard]] bool add_crossing(LeafIndex item, const Approximation& start,
+                                    const Approximation& target, const Vector3& lo,
                                     const Vector3& hi, std::vector<int>& w);
 
     PlainFacets* facets_ = nullptr;
     const PlainPairs* pairs_ = nullptr;
-    Approximation reference_;
     std::size_t operands_ = 0;
+    std::vector<Start> starts_;  // the reference, and where traces have ended
     StampMap ids_;
     std::vector<Node> nodes_;
     // Nodes of the corners of an item's whole facet; -1 not in the cell, or not in the outline.
     std::vector<std::array<LeafIndex, 3>> vertices_;
     std::vector<LeafIndex> first_;  // a node of an item, -1 none
-    std::vector<int> known_;        // a row of `operands_` for each
+    // Of items beside the box of the only other operand: 6 · operand + 2 · axis, 1 more above it.
+    std::vector<std::int8_t> regions_of_;
+    std::array<LeafIndex, 12> regions_{};  // windings there, -1 unknown
+    std::vector<int> known_;               // a row of `operands_` for each
     std::vector<int> traced_;
     std::vector<Way> ways_;  // along edges of facets that are crossed, by `from`
     bool has_ways_ = false;

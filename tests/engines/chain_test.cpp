@@ -26,6 +26,8 @@ struct Counts {
     std::uint64_t plain = 0;
     std::uint64_t mixed = 0;
     std::uint64_t fragments = 0;
+    std::uint64_t near = 0;    // traces from where an earlier one had ended
+    std::uint64_t linked = 0;  // facets beside all of the other operand
 };
 
 // The first operand, then one step with each of the others.
@@ -56,6 +58,8 @@ void expect_agreement(const std::vector<Operand>& operands, const std::vector<Ki
             counts.plain += stats.plain_leaves;
             counts.mixed += stats.mixed_leaves;
             counts.fragments += stats.plain_fragments;
+            counts.near += stats.traces_near;
+            counts.linked += stats.linked;
         }
         EXPECT_EQ(
             engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells)),
@@ -86,6 +90,8 @@ TEST(Chain, StepsInGeneralPosition) {
     }
     EXPECT_GT(counts.plain * 10, counts.mixed * 7);
     EXPECT_GT(counts.fragments, 1000U);
+    EXPECT_GT(counts.near, 500U);
+    EXPECT_GT(counts.linked, 1000U);
 }
 
 // Everywhere between two places of the tool the edges of one cross the edges of the other; with
