@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lists are made of leaves and, where the operands' trees do not share a wall, of whole subtrees:
-// the polygons below a node, each clipped to the leaf that lists it. Boxes of lists are rounded to
+// the polygons below a node, each clipped to the leaf that lists it. A whole facet that all leaves
+// list which it meets stays whole: clipped it would come back as a fragment for each of them, at
+// every step of a chain that comes by. Boxes of lists are rounded to
 // a frame; one frame that covers all lists and leaves of the task is made when the first list is,
 // and a finer one where rounding would hide what has to be parted.
 
 #include <trisect/bsp/detail/operand_lists.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
 #include <trisect/bsp/detail/choose_wall.h>
 #include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/facet_in_cell.h>
 #include <trisect/bsp/detail/packed_box.h>
 #include <trisect/bsp/detail/partition.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
@@ -51,7 +55,8 @@ bool has_wall(const CellOperand& o, const std::optional<Wall>& wall) {
 }  // namespace
 
 // Lists the polygons below a node. A polygon that also reaches into other leaves may be missing
-// there, so it is clipped to the leaf that lists it.
+// there, so it is clipped to the leaf that lists it; whole facets that do are left to
+// join_leaves().
 void OperandLists::flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out) {
     const CellNode& node = *tree.node;
     if (!node.is_leaf()) {
@@ -64,12 +69,63 @@ void OperandLists::flatten(const CellRef& tree, const Cell& cell, std::vector<Po
             });
         return;
     }
-    for (const PolygonRef& r : node.polygons()) {
-        make_room(out);
-        auto part = clip_to_cell(bench_, r, cell);
-        if (!part) continue;
-        part->flipped = part->flipped != tree.complemented;
-        out.push_back(*part);
+    const auto leaf = static_cast<std::uint32_t>(leaf_cells_.size());
+    leaf_cells_.push_back(cell);
+    for (PolygonRef r : node.polygons()) {
+        r.flipped = r.flipped != tree.complemented;
+        if (r.fragment == nullptr && !r.source->is_half_space() && !cell.contains(r.box())) {
+            reaching_.push_back({r, leaf});
+        } else {
+            add_clipped(r, cell, out);
+        }
+    }
+}
+
+void OperandLists::add_clipped(const PolygonRef& polygon, const Cell& cell,
+                               std::vector<PolygonRef>& out) {
+    make_room(out);
+    if (const auto part = clip_to_cell(bench_, polygon, cell)) out.push_back(*part);
+}
+
+// Whether all leaves list a facet that it meets. `listed`: by those that do.
+bool OperandLists::is_whole(std::span<const Reaching> listed) const {
+    // Every leaf would be asked about every facet.
+    constexpr std::size_t many_leaves = 64;
+    if (leaf_cells_.size() > many_leaves) return false;
+    const PolygonRef& facet = listed[0].polygon;
+    for (const Reaching& r : listed)
+        if (r.polygon.flipped != facet.flipped) return false;
+    const Box box = facet.box();
+    std::size_t next = 0;
+    for (std::uint32_t leaf = 0; leaf < leaf_cells_.size(); ++leaf) {
+        if (next < listed.size() && listed[next].leaf == leaf) {
+            ++next;
+        } else if (leaf_cells_[leaf].meets(box) &&
+                   !certainly_misses(facet, leaf_cells_[leaf].lattice_box())) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Lists the facets that reach out of their leaves.
+void OperandLists::join_leaves(std::vector<PolygonRef>& out) {
+    const auto name = [](const Reaching& r) {
+        return std::pair(r.polygon.source->serial(), r.polygon.facet);
+    };
+    std::ranges::sort(reaching_, {}, [&](const Reaching& r) { return std::pair(name(r), r.leaf); });
+    for (std::size_t begin = 0; begin < reaching_.size();) {
+        std::size_t end = begin + 1;
+        while (end < reaching_.size() && name(reaching_[end]) == name(reaching_[begin])) ++end;
+        const std::span listed(&reaching_[begin], end - begin);
+        if (is_whole(listed)) {
+            make_room(out);
+            PolygonRef& whole = out.emplace_back(listed[0].polygon);
+            for (const Reaching& r : listed) whole.touched = whole.touched || r.polygon.touched;
+        } else {
+            for (const Reaching& r : listed) add_clipped(r.polygon, leaf_cells_[r.leaf], out);
+        }
+        begin = end;
     }
 }
 
@@ -78,8 +134,11 @@ void OperandLists::make_leaf(CellOperand& operand, const Cell& cell) {
     if (operand.is_list || operand.node->is_leaf()) return;
     std::vector<PolygonRef> parts;
     bench_.clear();
+    leaf_cells_.clear();
+    reaching_.clear();
     try {
         flatten({operand.node->shared_from_this(), operand.complemented}, cell, parts);
+        join_leaves(parts);
     } catch (...) {
         end_fragments(parts);
         throw;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
@@ -31,12 +32,23 @@ public:
     void refine_frame(CellTask& task) const;
 
 private:
+    /// A whole facet, listed by a leaf out of which it reaches.
+    struct Reaching {
+        PolygonRef polygon;
+        std::uint32_t leaf = 0;
+    };
     void flatten(const CellRef& tree, const Cell& cell, std::vector<PolygonRef>& out);
+    void add_clipped(const PolygonRef& polygon, const Cell& cell, std::vector<PolygonRef>& out);
+    [[nodiscard]] bool is_whole(std::span<const Reaching> listed) const;
+    void join_leaves(std::vector<PolygonRef>& out);
     void make_leaf(CellOperand& operand, const Cell& cell);
 
     StackArena& arena_;
     Workbench& bench_;
     std::vector<std::shared_ptr<const CellNode>> made_;
+    // Of the subtree that becomes a leaf.
+    std::vector<Cell> leaf_cells_;
+    std::vector<Reaching> reaching_;
 };
 
 }  // namespace trisect::detail

@@ -107,6 +107,32 @@ TEST(CellSharing, TheSecondCutAtAPlaceVisitsFewCells) {
     EXPECT_LT(stats.depth, 100);
 }
 
+std::size_t fragments_of(const Solid& s) {
+    std::size_t n = 0;
+    for (const CellNode* node : nodes_of(s)) {
+        if (!node->is_leaf()) continue;
+        for (const auto& r : node->polygons()) n += r.fragment != nullptr ? 1 : 0;
+    }
+    return n;
+}
+
+// Cavities cut no facet. The first one leaves many small leaves above it, which become one beside
+// the second one.
+TEST(CellSharing, FacetsAcrossWallsStayWholeWhenLeavesBecomeOne) {
+    trisect::EvaluateOptions small_leaves;
+    small_leaves.leaf_polygons = 12;
+    const Solid first = small_box(-1, -1.5, 97);
+    const Solid second = small_box(1.5, -1.5, 97);
+    const Solid a = evaluate(ball() - first, small_leaves);
+    const Solid b = evaluate(a - second);
+    EXPECT_EQ(fragments_of(a), 0U);
+    EXPECT_LT(nodes_of(b).size(), nodes_of(a).size());
+    EXPECT_EQ(fragments_of(b), 0U);
+    const Solid cold = evaluate(ball() - (first | second));
+    EXPECT_EQ(trisect::exact_volume(b.to_brep()), trisect::exact_volume(cold.to_brep()));
+    EXPECT_EQ(b.to_brep().counts().faces, cold.to_brep().counts().faces);
+}
+
 TEST(CellSharing, ComplementsShareTheTree) {
     const Solid a = refined_ball();
     const Solid outside = evaluate(~a);
