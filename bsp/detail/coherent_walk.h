@@ -16,6 +16,7 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/detail/obb_pose.h>
 #include <trisect/bsp/detail/obb_walk.h>
+#include <trisect/bsp/detail/parting_planes.h>
 
 namespace trisect::detail {
 
@@ -63,19 +64,10 @@ private:
         std::uint8_t open = 0;
         Opens opens = Opens::Neither;
         bool in_use = true;
-        bool has_planes = false;
-        bool again = false;  // to be tested in full, since what is below has parted
+        bool has_plane = false;  // of a pair of triangles
         std::array<std::uint32_t, 4> below{};
     };
     static constexpr std::uint32_t none = 0xffffffffU;
-    // For each lane that is not open a direction in A and how far A's side reaches along it: a
-    // plane between the two that stays where it is while B moves. Of a pair of triangles lane 0
-    // alone.
-    struct Planes {
-        ObbPose::Directions along{};
-        Float4 reach{};
-    };
-
     [[nodiscard]] Opens opens(ObbId a, ObbId b) const;
     [[nodiscard]] PairVerdict compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
                                       TriangleCorners& q);
@@ -99,7 +91,6 @@ private:
     void keep_apart(std::uint32_t v, double gap);
     bool visit(std::uint32_t v);
     void visit_lanes(std::uint32_t v);
-    [[nodiscard]] bool planes_part_lanes(std::uint32_t v);
     bool visit_leaves(std::uint32_t v);
     [[nodiscard]] double gap_along_plane(std::uint32_t v, const TriangleCorners& p,
                                          const TriangleCorners& q) const;
@@ -109,6 +100,7 @@ private:
     void begin(std::uint32_t v);
     Answer visit_open();
     Answer make_front();
+    void stand();
     Answer renew_front();
     Answer answer() const { return unknown_ == 0 ? Answer::Apart : Answer::Unknown; }
 
@@ -131,14 +123,17 @@ private:
     ObbWalk::Stack stack_;
 
     std::vector<Visit> visits_;
-    std::vector<Planes> planes_;  // of visits that have some
+    // Of visits: planes that part the lanes that are not open, which stay where they are while B
+    // moves. Of a pair of triangles the first direction alone, asked in doubles.
+    std::vector<PartingPlanes> planes_;
     std::vector<std::uint32_t> unused_;
     DueList due_;                        // of visits
     std::vector<std::uint32_t> open_;    // visits to be made in this question
     std::optional<ObbPose> front_pose_;  // where the odometer stands
     double odometer_ = 0;  // bounds how far any point has moved since the front was made
     double step_ = 0;      // the last addition to it
-    std::size_t fresh_size_ = 0;
+    double turn_ = 0;      // bounds how far B has turned since the oldest plane was found
+    PlanePose plane_pose_;
     bool unmoved_ = false;
     bool last_from_front_ = false;  // the last answer was the front's, and not Crossing
 

@@ -35,14 +35,15 @@ public:
     void drop(std::uint32_t name) { set(name, never); }
     [[nodiscard]] double operator[](std::uint32_t name) const { return readings_[name]; }
 
-    /// Calls visit(name) for all that are due. visit must not set anything; what was due and is not
-    /// set to another reading or dropped afterwards may be forgotten.
-    template <class Visit>
-    void take(double now, Visit&& visit) {
+    /// Calls look(name, reading) for all that are due, which returns the new reading; what it
+    /// leaves due, and is not set or dropped afterwards, may be forgotten. look must not set
+    /// anything.
+    template <class Look>
+    void take(double now, Look&& look) {
         for (std::size_t b = 0; b < least_.size(); ++b) {
             if (!(least_[b] <= now)) continue;
             // Without branches: in a busy block any may be due.
-            const double* readings = &readings_[block * b];
+            double* readings = &readings_[block * b];
             unsigned due = 0;
             double least = never;
             for (std::size_t i = 0; i < block; ++i) {
@@ -50,9 +51,13 @@ public:
                 due |= static_cast<unsigned>(is_due) << i;
                 least = std::min(least, is_due ? never : readings[i]);
             }
-            for (; due != 0; due &= due - 1)
-                visit(static_cast<std::uint32_t>(block * b) +
-                      static_cast<std::uint32_t>(std::countr_zero(due)));
+            for (; due != 0; due &= due - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(due));
+                const double next = look(static_cast<std::uint32_t>(block * b + i), readings[i]);
+                if (!(next > now)) continue;
+                readings[i] = next;
+                least = std::min(least, next);
+            }
             least_[b] = least;
         }
     }

@@ -47,14 +47,19 @@
 // √3·16 u |t| Λ, products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same
 // margin. The factor 1 - 2^-18 takes the lengths and the last roundings.
 //
-// Planes that were found under another pose (`gaps_along`). The boxes' second sets, centre + Σ s_i
-// axis_i, are within the slabs, and any L, |L| <= 1 + 2^-20, will do, whatever the map:
+// Planes that were found under another pose (parting_planes.h). The distance of the two sets along
+// L, in the frame of box A, is that along U_A^T L in A, whatever U_A is. That direction n, of
+// length at most 1 + 2^-20, is computed up to 7 u, which changes distances by 7 u Λ. B's second set
+// is within Σ s_j b_j u_j of its centre, so that under another map, M + D, its least place along n
+// is at least
 //
-//     L·T + M'^T L · c_B s - Σ b'_j |M'^T L · u_j| - (L·c_A + Σ a_i |L·axis_i|) > 0
+//     n·(M c_B + T) - Σ b_j |n·M u_j| - |D| |b| (1 + 2^-20),
 //
-// M'^T L: 7 u; times c_B: 11 u s reach_B with the product by s; times u_j: 12 u of b'_j; L·T: 6 u
-// |T|; A's reach: 3 u |c_A| + 8 u Σ a_i, below 17 u reach_A; five sums: 5 u Λ. All below 40 u Λ +
-// 20 u Σ b', which is less than the margins' 64 u.
+// and the first two terms are known as the gap under M, A's reach and n·(M c_B + T) under M. A
+// place n·T + M'^T n · c_B s is computed up to 6 u |T| + 11 u s reach_B + u Λ < 18 u Λ; the sum
+// that is kept has three roundings, of terms below Λ each (|b| <= reach_B, |D| <= 2 s), the other
+// one six. So each of the two is off by less than 32 u Λ, and the margins, 64 u Λ, are taken from
+// both.
 //
 // Displacements. |ΔM x + Δt| <= |ΔM| |x| + |Δt|. Similarities are M = s Q + E, |E| < 2^-23 s, and
 // the difference of two rotations has singular values 0, σ, σ, so its norm is its Frobenius norm
@@ -101,6 +106,7 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     matrix_ = m;
     way_ = t;
     radius_ = b.radius;
+    matrix_error_ = matrix_error;
     inexact_ = 2 * way_error + 3 * matrix_error * b.reach;
 
     // The squares of lengths of images, and how far they are from one number.
@@ -144,24 +150,31 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
         in_range ? static_cast<float>(1.0001 * margin) : std::numeric_limits<float>::infinity();
 }
 
-double ObbPose::displacement_from(const ObbPose& other) const {
+// Of the matrices as they are in doubles, and up to rounding.
+double ObbPose::stretch_from(const ObbPose& other) const {
     double squares = 0;
-    double way = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
             const double d = matrix_[i][j] - other.matrix_[i][j];
             squares += d * d;
         }
+    const double stretch = std::sqrt(squares);
+    if (!rigid_ || !other.rigid_ || mirrors_ != other.mirrors_) return stretch;
+    const auto s = static_cast<double>(scale_);
+    const auto t = static_cast<double>(other.scale_);
+    return std::min(stretch, 0.70711 * stretch + 2.5 * std::abs(s - t) + 0x1p-21 * (s + t));
+}
+
+// The factors take the roundings.
+double ObbPose::turn_from(const ObbPose& other) const {
+    return 1.0001 * stretch_from(other) + 3 * (matrix_error_ + other.matrix_error_);
+}
+
+double ObbPose::displacement_from(const ObbPose& other) const {
+    double way = 0;
+    for (std::size_t i = 0; i < 3; ++i)
         way += (way_[i] - other.way_[i]) * (way_[i] - other.way_[i]);
-    }
-    double stretch = std::sqrt(squares);
-    if (rigid_ && other.rigid_ && mirrors_ == other.mirrors_) {
-        const auto s = static_cast<double>(scale_);
-        const auto t = static_cast<double>(other.scale_);
-        stretch = std::min(stretch, 0.70711 * stretch + 2.5 * std::abs(s - t) + 0x1p-21 * (s + t));
-    }
-    // The factor takes the roundings.
-    return 1.0001 * (stretch * radius_ + std::sqrt(way)) + inexact_ + other.inexact_;
+    return 1.0001 * (stretch_from(other) * radius_ + std::sqrt(way)) + inexact_ + other.inexact_;
 }
 
 }  // namespace trisect::detail

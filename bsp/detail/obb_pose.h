@@ -57,19 +57,18 @@ public:
     /// about so far apart; any direction when they overlap.
     template <class BoxesA, class BoxesB>
     [[nodiscard]] Float4 gaps(const BoxesA& a, const BoxesB& b, Directions& along) const;
-    /// How far box A, or each lane of node A, reaches along the directions.
-    template <class BoxesA>
-    [[nodiscard]] static Float4 reach_along(const BoxesA& a, const Directions& along);
-    /// A lower bound of the distance from what reaches no farther than `reach` along each direction
-    /// to box B, or to each lane of node B, in units of A; positive only if they are apart. A tenth
-    /// of the cost of `gaps`, and the planes stay where they are when B moves.
-    template <class BoxesB>
-    [[nodiscard]] Float4 gaps_along(const Directions& along, Float4 reach, const BoxesB& b) const;
     /// Bound on how far any point below a box of B is from where another pose of the same trees
     /// puts it, in units of A.
     [[nodiscard]] double displacement_from(const ObbPose& other) const;
+    /// Bound on the norm of the difference of the linear parts, in units of A for a unit of B.
+    [[nodiscard]] double turn_from(const ObbPose& other) const;
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
+
+    // The map in floats, as tests of planes need it (parting_planes.h).
+    [[nodiscard]] float turned(std::size_t i, std::size_t j) const { return m_[i][j]; }
+    [[nodiscard]] float way(std::size_t i) const { return t_[i]; }
+    [[nodiscard]] float margin() const { return margin_; }
 
 private:
     // Boxes in the frame of box A, the axes of which are the coordinate axes there.
@@ -109,6 +108,7 @@ private:
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
     template <class Gap>
     void find_gap(const Lanes& l, bool all, Gap& best) const;
+    [[nodiscard]] double stretch_from(const ObbPose& other) const;
     [[nodiscard]] Float4 gap(const Lanes& l, bool all) const;
 
     std::array<std::array<float, 3>, 3> m_{};  // divided by scale
@@ -116,6 +116,7 @@ private:
     std::array<std::array<double, 3>, 3> matrix_{};
     std::array<double, 3> way_{};
     double clearance_ = 0;
+    double matrix_error_ = 0;  // of an entry of the matrix
     double inexact_ = 0;  // bound on the distance of a point of B from where these doubles put it
     double radius_ = 0;   // of what is in B's boxes, in its units
     float scale_ = 1;
@@ -281,39 +282,16 @@ Float4 ObbPose::gaps(const BoxesA& a, const BoxesB& b, Directions& along) const 
     Directions d = directions(l, best.axis);
     // Of unit length, towards B, in A's units.
     const Float4 length = larger(square_root(obb_lanes::product(d, d)), all_lanes(1e-30F));
+    const Float4 inverse = all_lanes(1) / length;
     const Mask4 back = obb_lanes::product(d, l.t) < all_lanes(0);
-    const Float4 factor = (back ? all_lanes(-1) : all_lanes(1)) / length;
+    const Float4 factor = back ? -inverse : inverse;
     for (Float4& c : d) c *= factor;
     for (std::size_t k = 0; k < 3; ++k)
         along[k] = (d[0] * obb_lanes::of(a.axis[0][k]) + d[1] * obb_lanes::of(a.axis[1][k])) +
                    d[2] * obb_lanes::of(a.axis[2][k]);
-    return larger(best.gap, all_lanes(0)) * all_lanes(1 - 0x1p-18F);
-}
-
-template <class BoxesA>
-Float4 ObbPose::reach_along(const BoxesA& a, const Directions& along) {
-    Float4 r = obb_lanes::product(along, a.center);
-    for (std::size_t i = 0; i < 3; ++i)
-        r += obb_lanes::of(a.half[i]) * magnitude(obb_lanes::product(along, a.axis[i]));
-    return r;
-}
-
-template <class BoxesB>
-Float4 ObbPose::gaps_along(const Directions& along, Float4 reach, const BoxesB& b) const {
-    Directions w;
-    for (std::size_t j = 0; j < 3; ++j)
-        w[j] = (along[0] * all_lanes(m_[0][j]) + along[1] * all_lanes(m_[1][j])) +
-               along[2] * all_lanes(m_[2][j]);
-    const Float4 way = obb_lanes::product(along, t_);
-    Float4 across = all_lanes(0);
-    Float4 halves = all_lanes(0);
-    for (std::size_t j = 0; j < 3; ++j) {
-        across += obb_lanes::of(b.half[j]) * magnitude(obb_lanes::product(w, b.axis[j]));
-        halves += obb_lanes::of(b.half[j]);
-    }
-    const Float4 of_b = obb_lanes::product(w, b.center) - (across + all_lanes(0x1p-18F) * halves);
-    return ((way - reach) + (all_lanes(scale_) * of_b - all_lanes(margin_))) *
-           all_lanes(1 - 0x1p-18F);
+    // Gaps are known along vectors of that length, but along the line of centres.
+    const Float4 unit = best.axis == Mask4{15, 15, 15, 15} ? all_lanes(1) : inverse;
+    return larger(best.gap, all_lanes(0)) * (unit * all_lanes(1 - 0x1p-18F));
 }
 
 inline ObbPose::Lanes ObbPose::lanes_of(const OrientedBox& a, const ObbNode& b) const {

@@ -100,9 +100,17 @@ TEST(DueList, ReadingsAgainstAPlainArray) {
         std::size_t due = 0;
         for (const double d : plain) due += d <= now ? 1 : 0;
         EXPECT_EQ(list.count_due(now), due);
+        // Some get a new reading at once, the others afterwards.
         std::vector<std::uint32_t> taken;
-        list.take(now, [&](std::uint32_t name) { taken.push_back(name); });
-        EXPECT_EQ(taken.size(), due);
+        std::size_t looked_at = 0;
+        list.take(now, [&](std::uint32_t name, double reading) {
+            ++looked_at;
+            EXPECT_EQ(reading, plain[name]);
+            if (random.chance(1, 2)) return plain[name] = now + std::abs(uniform(random)) + 0.001;
+            taken.push_back(name);
+            return reading;
+        });
+        EXPECT_EQ(looked_at, due);
         for (const std::uint32_t name : taken) {
             EXPECT_LE(plain[name], now);
             plain[name] = now + std::abs(uniform(random)) + 0.001;
