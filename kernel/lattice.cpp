@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
 
 #include <trisect/kernel/detail/parallel_parts.h>
+#include <trisect/kernel/detail/wide_clones.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -86,28 +89,78 @@ std::int64_t as_integer(double sum) {
     return std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
 }
 
+// Many points are rounded at once, as long as that changes nothing.
+constexpr std::size_t block_size = 256;
+
+struct RoundedBlock {
+    bool is_exact = false;   ///< all are integers below 2^51 already
+    std::uint64_t bits = 0;  ///< of all integers
+};
+
+// Rounds a multiple of four points, four coordinates at a time: a point is three, without gaps.
+TRISECT_WIDE_CLONES RoundedBlock round_fours(const std::array<double, 3>* points, std::size_t n,
+                                             double factor, LatticePoint* out) {
+    using Reals = double __attribute__((vector_size(32)));
+    using Integers = std::int64_t __attribute__((vector_size(32)));
+    static_assert(sizeof(LatticePoint) == sizeof(std::array<double, 3>));
+    const auto* from = reinterpret_cast<const std::byte*>(points);
+    auto* to = reinterpret_cast<std::byte*>(out);
+    Integers off{};  // bits of differences: 0 when there are none
+    Integers all{};
+    Integers in_range = ~Integers{};
+    for (const auto* const end = from + n * sizeof(LatticePoint); from != end;
+         from += sizeof(Reals), to += sizeof(Reals)) {
+        Reals v;
+        std::memcpy(&v, from, sizeof(v));
+        const Reals units = v * factor;
+        const Reals sum = units + rounder;
+        const Integers rounded =
+            reinterpret_cast<Integers>(sum) - std::bit_cast<std::int64_t>(rounder);
+        off |= reinterpret_cast<Integers>((sum - rounder) - units);
+        all |= rounded;
+        in_range &= (units < 0x1p51) & (units > -0x1p51);
+        std::memcpy(to, &rounded, sizeof(rounded));
+    }
+    RoundedBlock block;
+    std::int64_t any_off = 0;
+    std::int64_t bits = 0;
+    std::int64_t all_in_range = -1;
+    for (std::size_t i = 0; i < 4; ++i) {
+        any_off |= off[i];
+        bits |= all[i];
+        all_in_range &= in_range[i];
+    }
+    block.is_exact = any_off == 0 && all_in_range != 0;
+    block.bits = static_cast<std::uint64_t>(bits);
+    return block;
+}
+
+// The same for up to block_size points.
+RoundedBlock round_block(Coordinates points, double factor, LatticePoint* out) {
+    if (points.size() % 4 == 0) return round_fours(points.data(), points.size(), factor, out);
+    std::array<std::array<double, 3>, block_size> padded{};
+    std::array<LatticePoint, block_size> rounded;
+    std::ranges::copy(points, padded.begin());
+    const RoundedBlock block =
+        round_fours(padded.data(), (points.size() + 3) / 4 * 4, factor, rounded.data());
+    std::copy_n(rounded.begin(), points.size(), out);
+    return block;
+}
+
 // All bits of all coordinates in units of 2^limit, when these surely are integers below 2^51. Block
 // by block, since in meshes of measured coordinates the first one ends it.
 std::optional<std::uint64_t> common_bits(Coordinates points, int limit) {
     const double factor = power_of_two(-limit);
-    std::int64_t bits = 0;
+    std::uint64_t bits = 0;
+    std::array<LatticePoint, block_size> rounded;
     while (!points.empty()) {
-        const auto block = points.first(std::min(points.size(), std::size_t{256}));
-        points = points.subspan(block.size());
-        std::int64_t off = 0;  // bits of differences: 0 when there are none
-        double largest = 0;
-        for (const auto& p : block) {
-            for (const double c : p) {
-                const double units = c * factor;
-                const double sum = units + rounder;
-                off |= std::bit_cast<std::int64_t>((sum - rounder) - units);
-                bits |= as_integer(sum);
-                largest = std::max(largest, std::fabs(units));
-            }
-        }
-        if (off != 0 || !(largest < 0x1p51)) return std::nullopt;
+        const auto some = points.first(std::min(points.size(), block_size));
+        points = points.subspan(some.size());
+        const RoundedBlock block = round_block(some, factor, rounded.data());
+        if (!block.is_exact) return std::nullopt;
+        bits |= block.bits;
     }
-    return static_cast<std::uint64_t>(bits);
+    return bits;
 }
 
 // The lowest bit of all coordinates, when they have common bits that are not all zero: then it is
@@ -156,6 +209,15 @@ public:
         report.lossless = report.lossless && report.moved == 0;
     }
 
+    /// Rounds up to block_size points, of which the first one has this index.
+    void round(Coordinates points, std::size_t index, LatticePoint* out) {
+        // Products with less may underflow, to a zero that nobody would notice.
+        const bool is_product_exact = factor_ >= 1;
+        if (is_product_exact && round_block(points, factor_, out).is_exact) return;
+        for (const auto& p : points) *out++ = (*this)(p, index++);
+    }
+
+private:
     LatticePoint operator()(const std::array<double, 3>& p, std::size_t index) {
         const std::array<double, 3> units{p[0] * factor_, p[1] * factor_, p[2] * factor_};
         const bool in_range = std::fabs(units[0]) < 0x1p51 && std::fabs(units[1]) < 0x1p51 &&
@@ -173,7 +235,6 @@ public:
         return {c[0], c[1], c[2]};
     }
 
-private:
     // Keeps the largest moves; not zero when the coordinate moved. What is rounded to zero moves by
     // its own size: scaling a tiny coordinate may underflow.
     double note_move(double coordinate, double units, double rounded) {
@@ -237,7 +298,8 @@ std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> poin
     std::vector<Rounding> roundings(parts.count(), Rounding(lattice));
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         Rounding round(lattice);
-        for (std::size_t i = begin; i < end; ++i) out[i] = round(points[i], i);
+        for (std::size_t i = begin; i < end; i += block_size)
+            round.round(points.subspan(i, std::min(block_size, end - i)), i, &out[i]);
         roundings[part] = round;
     });
     for (const Rounding& round : roundings) round.report_to(report);

@@ -181,6 +181,34 @@ TEST(Lattice, FloatsOfAModelAreLossless) {
     EXPECT_EQ(report.max_move, 0);
 }
 
+// Points are rounded many at once where that changes nothing.
+TEST(Lattice, OneOddCoordinateAmongManyIntegers) {
+    oracle::Source random(8);
+    const std::array<double, 5> odd{0.25, 0x1.fp51, -0x1.fp51, 0x1p-1074, 7};
+    for (int round = 0; round < 3000; ++round) {
+        const Lattice lattice{8 * static_cast<int>(random.between(-1, 1))};
+        Coordinates points(static_cast<std::size_t>(random.between(1, 600)));
+        for (auto& p : points)
+            for (double& c : p)
+                c = std::ldexp(static_cast<double>(random.coordinate(40)), lattice.exponent);
+        const auto last = static_cast<std::int64_t>(points.size()) - 1;
+        const auto at = static_cast<std::size_t>(random.between(0, last));
+        const double c = odd[static_cast<std::size_t>(random.between(0, 4))];
+        points[at][static_cast<std::size_t>(random.between(0, 2))] =
+            c == 0x1p-1074 ? c : std::ldexp(c, lattice.exponent);
+        LatticeReport report;
+        const auto out = to_lattice(points, lattice, report);
+        EXPECT_EQ(report.moved, std::fabs(c) < 1 ? 1U : 0U);
+        EXPECT_EQ(report.lossless, std::fabs(c) >= 1);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (int k = 0; k < 3; ++k) {
+                const double units =
+                    std::ldexp(points[i][static_cast<std::size_t>(k)], -lattice.exponent);
+                ASSERT_EQ(static_cast<double>(out[i][k]), std::nearbyint(units));
+            }
+    }
+}
+
 TEST(Lattice, ReportsWhatItRounds) {
     LatticeReport report;
     const Coordinates points{{0.5, 1.5, 2.5}, {1, 2, 3}, {-0.5, 7.25, 0}};
