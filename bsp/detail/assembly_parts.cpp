@@ -233,7 +233,20 @@ void Gatherer::mark_facets(const Leaf& leaf) {
         note_list(leaf, polygons, table(source));
         return;
     }
-    for (const PolygonRef r : polygons) {
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        // What is_owned() reads of them lies anywhere in memory.
+        if (i + 2 * ahead < polygons.size()) {
+            const PolygonRef next = polygons[i + 2 * ahead];
+            if (!next.source->is_half_space())
+                __builtin_prefetch(&next.source->mesh().triangles[next.facet]);
+        }
+        if (i + ahead < polygons.size()) {
+            const PolygonRef next = polygons[i + ahead];
+            if (!next.source->is_half_space())
+                __builtin_prefetch(&next.source->corner(next.facet, 0));
+        }
+        const PolygonRef r = polygons[i];
         FacetMarks& marks = out_.sources[table(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
         const bool plain = r.fragment == nullptr && !r.touched && !r.source->is_half_space();

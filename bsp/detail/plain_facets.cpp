@@ -19,17 +19,14 @@ namespace {
 // Differences of lattice positions up to this are exact.
 constexpr double exact_limit = 0x1p53;
 
-// Corners lie anywhere in memory: they are asked for well before their turn.
+// Corners lie anywhere in memory: they are asked for well before their turn. The names of their
+// points are already there, since all of the leaf's were asked for at first.
 void look_ahead(std::span<const PolygonRef> polygons) {
     constexpr std::size_t near = 6;
-    constexpr std::size_t far = 2 * near;
-    if (polygons.size() > far)
-        __builtin_prefetch(&polygons[far].source->mesh().triangles[polygons[far].facet]);
-    if (polygons.size() > near) {
-        const LatticeMesh& mesh = polygons[near].source->mesh();
-        for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
-            __builtin_prefetch(&mesh.points[v]);
-    }
+    if (polygons.size() <= near) return;
+    const LatticeMesh& mesh = polygons[near].source->mesh();
+    for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
+        __builtin_prefetch(&mesh.points[v]);
 }
 
 }  // namespace
@@ -67,6 +64,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             if (r.source->is_half_space()) return false;
             if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
                 return false;
+            __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
         }
     }
     bool has_origin = false;

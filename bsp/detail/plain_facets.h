@@ -21,10 +21,10 @@ using Vector3 = std::array<double, 3>;
 /// The support of a facet: points p with normal · (p - origin) = 0. Exact points of the leaf have a
 /// value within `bound` of the computed one; points with an error add `slope` times that.
 struct PlainPlane {
-    Vector3 origin{};
-    Vector3 normal{};
-    double slope = 0;
-    double bound = -1;  ///< -1: not made yet
+    Vector3 origin;
+    Vector3 normal;
+    double slope;
+    double bound = -1;  ///< -1: not made yet, and nothing else is set
 
     [[nodiscard]] double value(const Vector3& p) const {
         return (normal[0] * (p[0] - origin[0]) + normal[1] * (p[1] - origin[1])) +
@@ -47,6 +47,9 @@ struct PlainFacet {
     static constexpr std::size_t max_outline = 20;
     static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
 
+    // Without this an item is filled with zeros before it is filled with what it has.
+    PlainFacet() {}  // NOLINT(modernize-use-equals-default)
+
     PolygonRef ref;
     LeafIndex operand = 0;
     LeafIndex sheet = 0;  ///< one number for each operand and source in it
@@ -56,11 +59,12 @@ struct PlainFacet {
     std::uint8_t size = 3;              ///< corners of the outline
     std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
                              ///< ends at that wall of the cell by name
-    std::uint32_t outline = no_outline;       ///< of a fragment, see PlainFacets::corner()
-    std::array<std::uint32_t, 3> vertices{};  ///< of the whole facet
-    std::array<Vector3, 3> corners{};         ///< of the whole facet
-    Vector3 lo{};                             ///< of the box, within the cell
-    Vector3 hi{};
+    std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
+    // What PlainFacets::list() always sets.
+    std::array<std::uint32_t, 3> vertices;  ///< of the whole facet
+    std::array<Vector3, 3> corners;         ///< of the whole facet
+    Vector3 lo;                             ///< of the box, within the cell
+    Vector3 hi;
     PlainPlane plane;
 
     [[nodiscard]] bool is_whole() const { return ref.fragment == nullptr; }
