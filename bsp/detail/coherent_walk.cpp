@@ -291,8 +291,8 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
             open_b ? add_visit(e.a, lane, v, e.slack) : add_visit(lane, e.b, v, e.slack);
         visits_[v].below[k] = below;
     }
-    if (open == 0 && e.parent != none && step_ > 0 && least > 2 * few_steps &&
-        least > 1.5F * e.tried) {
+    if (open == 0 && e.parent != none && step_ > 0 && least > 4 * few_steps &&
+        least > 2 * e.tried) {
         visits_[v].tried = least;
         begin(e.parent);
     }

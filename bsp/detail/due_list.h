@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -42,15 +43,18 @@ public:
     void take(double now, Look&& look) {
         for (std::size_t b = 0; b < least_.size(); ++b) {
             if (!(least_[b] <= now)) continue;
-            // Without branches: in a busy block any may be due.
+            // Without branches, in a busy block any may be due, and with four minima at a time: one
+            // after the other they would wait for each other.
             double* readings = &readings_[block * b];
             unsigned due = 0;
-            double least = never;
+            std::array<double, 4> later{never, never, never, never};
             for (std::size_t i = 0; i < block; ++i) {
                 const bool is_due = readings[i] <= now;
                 due |= static_cast<unsigned>(is_due) << i;
-                least = std::min(least, is_due ? never : readings[i]);
+                const double r = is_due ? never : readings[i];
+                later[i % 4] = r < later[i % 4] ? r : later[i % 4];
             }
+            double least = std::min(std::min(later[0], later[1]), std::min(later[2], later[3]));
             for (; due != 0; due &= due - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(due));
                 const double next = look(static_cast<std::uint32_t>(block * b + i), readings[i]);
@@ -71,9 +75,13 @@ public:
     }
     /// No reading is less than this.
     [[nodiscard]] double first() const {
-        double first = never;
-        for (const double d : least_) first = std::min(first, d);
-        return first;
+        std::array<double, 4> first{never, never, never, never};
+        std::size_t b = 0;
+        for (; b + 4 <= least_.size(); b += 4)
+            for (std::size_t k = 0; k < 4; ++k)
+                first[k] = least_[b + k] < first[k] ? least_[b + k] : first[k];
+        for (; b < least_.size(); ++b) first[0] = std::min(first[0], least_[b]);
+        return std::min(std::min(first[0], first[1]), std::min(first[2], first[3]));
     }
 
 private:
