@@ -33,6 +33,14 @@ CellRef child_of(const CellNode& node, bool complemented, std::size_t i) {
     return c;
 }
 
+// Contains what a leaf or a list has in a cell. Facets of a mesh are not looked up one by one: a
+// somewhat larger frame costs less.
+Box box_within(const CellOperand& o, const Cell& cell) {
+    const Source* mesh = o.is_list ? nullptr : o.node->polygons().whole_source();
+    if (mesh == nullptr || mesh->is_half_space()) return exact_box(o, cell);
+    return mesh->box().intersected(cell.lattice_box());
+}
+
 // A frame for all lists and leaves of a task.
 void make_frame(CellTask& task) {
     Box all;
@@ -40,7 +48,7 @@ void make_frame(CellTask& task) {
         if (!o.is_list && !o.node->is_leaf()) continue;
         const bool unbounded = o.size() == 1 && o.node->polygons().size() == 1 &&
                                o.node->polygons()[0].source->is_half_space();
-        const Box b = exact_box(o, task.cell);
+        const Box b = box_within(o, task.cell);
         if (!unbounded && !b.is_empty()) all.add(b);
     }
     task.has_frame = true;

@@ -113,11 +113,15 @@ int PlainWindings::region_of(LeafIndex item) const {
     const PlainFacet& f = (*facets_)[item];
     const auto in_cell = [&](const Vector3& p) { return facets_->in_cell(p); };
     if (!f.contained && !(f.is_whole() && std::ranges::any_of(f.corners, in_cell))) return -1;
-    const auto& [lo, hi] = pairs_->reach(1 - f.operand);
+    return region_beside(f.operand, f.lo, f.hi);
+}
+
+int PlainWindings::region_beside(LeafIndex operand, const Vector3& low, const Vector3& high) const {
+    const auto& [lo, hi] = pairs_->reach(1 - operand);
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
-        if (f.hi[axis] < lo[axis]) return 6 * f.operand + 2 * k;
-        if (f.lo[axis] > hi[axis]) return 6 * f.operand + 2 * k + 1;
+        if (high[axis] < lo[axis]) return 6 * operand + 2 * k;
+        if (low[axis] > hi[axis]) return 6 * operand + 2 * k + 1;
     }
     return -1;
 }
@@ -175,6 +179,13 @@ LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int c
         n.parent = next;
         n.item = item;
         n.corner = static_cast<std::int8_t>(corner);
+        const PlainFacet& f = (*facets_)[item];
+        if (corner >= 0 && operands_ == 2) {
+            const auto m =
+                static_cast<std::size_t>(f.mesh_corner(static_cast<std::size_t>(corner)));
+            n.region =
+                static_cast<std::int8_t>(region_beside(f.operand, f.corners[m], f.corners[m]));
+        }
     }
     return id;
 }
@@ -204,6 +215,10 @@ void PlainWindings::join(LeafIndex a, LeafIndex b) {
     if (nodes_[LeafWork::u(a)].corner < 0) std::swap(a, b);
     nodes_[LeafWork::u(b)].parent = a;
     if (nodes_[LeafWork::u(b)].corner >= 0) nodes_[LeafWork::u(a)].example = b;
+    // A region whose windings are known is worth more than another one.
+    std::int8_t& region = nodes_[LeafWork::u(a)].region;
+    const std::int8_t other = nodes_[LeafWork::u(b)].region;
+    if (other >= 0 && (region < 0 || windings_in(region) < 0)) region = other;
 }
 
 // There are few different ones: inside and outside, in a leaf of two operands.
@@ -336,6 +351,14 @@ void PlainWindings::list_boxes() {
 }
 
 void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
+    const int region = nodes_[LeafWork::u(r)].region;
+    if (region >= 0 && windings_in(region) >= 0) {
+        ++stats.linked;
+        nodes_[LeafWork::u(r)].state = State::Known;
+        nodes_[LeafWork::u(r)].windings = windings_in(region);
+        spread(r);
+        return;
+    }
     nodes_[LeafWork::u(r)].state = State::Useless;
     const LeafIndex example = nodes_[LeafWork::u(r)].example;
     for (const LeafIndex at : {r, example}) {
@@ -349,6 +372,8 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
             continue;
         nodes_[LeafWork::u(r)].state = State::Known;
         nodes_[LeafWork::u(r)].windings = keep(traced_);
+        if (region >= 0)
+            regions_[static_cast<std::size_t>(region)] = nodes_[LeafWork::u(r)].windings;
         spread(r);
         return;
     }

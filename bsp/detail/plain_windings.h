@@ -54,6 +54,7 @@ private:
         State state = State::Unknown;
         LeafIndex example = -1;   // another vertex of the same tree; of a root
         LeafIndex windings = -1;  // of a root that is known
+        std::int8_t region = -1;  // of some vertex of the tree; of a root
     };
     /// An edge in the cell, seen from one of its ends.
     struct Way {
@@ -73,6 +74,8 @@ private:
     [[nodiscard]] bool trace(const Start& start, const Approximation& target, LeafIndex own,
                              std::vector<int>& w);
     [[nodiscard]] int region_of(LeafIndex item) const;
+    [[nodiscard]] int region_beside(LeafIndex operand, const Vector3& low,
+                                    const Vector3& high) const;
     [[nodiscard]] LeafIndex windings_in(int region);
     void list_ways();
     void spread(LeafIndex root);
@@ -99,7 +102,8 @@ private:
     // Nodes of the corners of an item's whole facet; -1 not in the cell, or not in the outline.
     std::vector<std::array<LeafIndex, 3>> vertices_;
     std::vector<LeafIndex> first_;  // a node of an item, -1 none
-    // Of items beside the box of the only other operand: 6 · operand + 2 · axis, 1 more above it.
+    // Parts of the cell beside the box of the only other operand: 6 · operand + 2 · axis, 1 more
+    // above it; -1 elsewhere.
     std::vector<std::int8_t> regions_of_;
     std::array<LeafIndex, 12> regions_{};  // windings there, -1 unknown
     std::vector<int> known_;               // a row of `operands_` for each
