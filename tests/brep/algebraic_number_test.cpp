@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/kernel/error.h>
@@ -222,6 +223,31 @@ TEST(AlgebraicNumbers, CopiesMovesAndRationals) {
     EXPECT_EQ(AlgebraicNumber().to_double(), 0.0);
     ASSERT_EQ(c.polynomial().size(), 2U);
     EXPECT_EQ(c.sign_of(c.polynomial()), 0);
+}
+
+TEST(AlgebraicNumber, IsARegularValue) {
+    const auto is_root_of_two = [](const AlgebraicNumber& x) {
+        return x.sign_of(Coefficients{-2, 0, 1}) == 0 && x > AlgebraicNumber(0);
+    };
+    const auto roots = roots_between(Coefficients{-2, 0, 1}, 0, 2);
+    ASSERT_EQ(roots.size(), 1U);
+    const AlgebraicNumber root = roots[0];
+    AlgebraicNumber copy(5);
+    copy = root;
+    EXPECT_TRUE(is_root_of_two(copy));
+    const AlgebraicNumber& same = copy;
+    copy = same;
+    EXPECT_TRUE(is_root_of_two(copy));
+    AlgebraicNumber moved(std::move(copy));
+    EXPECT_TRUE(is_root_of_two(moved));
+    copy = moved;  // what was moved from takes a value again
+    EXPECT_TRUE(is_root_of_two(copy));
+    AlgebraicNumber target;
+    EXPECT_EQ(target, AlgebraicNumber(0));
+    target = std::move(moved);
+    EXPECT_TRUE(is_root_of_two(target));
+    moved = AlgebraicNumber(q("3/7"));
+    EXPECT_EQ(moved.lower(), q("3/7"));
 }
 
 }  // namespace

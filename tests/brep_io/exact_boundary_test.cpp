@@ -138,4 +138,29 @@ TEST(ExactBoundary, ErrorsNameTheirPlace) {
                  trisect::Error);  // does not close
 }
 
+TEST(ExactBoundary, VerticesOfOtherKindsAndLimits) {
+    expect_error(head + planes + "vertices 1\nr 0 0 0\n",
+                 "e:9:1: 'r' where 'p' or 'q' is expected");
+    expect_error(head + planes + "vertices 1\np 0 0 9007199254740992\n",
+                 "e:9:7: '9007199254740992', read as a coordinate, is not below 2^53");
+    const std::string text = head + planes + vertices + faces;
+    const auto limited = [&](auto set) {
+        trisect::ReadLimits limits;
+        set(limits);
+        try {
+            (void)read_exact(text, "e", limits);
+        } catch (const trisect::LimitError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    const auto mentions = [](const std::string& message, const std::string& part) {
+        return message.find(part) != std::string::npos;
+    };
+    EXPECT_TRUE(mentions(limited([](auto& l) { l.bytes = 60; }), "more than 60 bytes"));
+    EXPECT_TRUE(
+        mentions(limited([](auto& l) { l.loop_corners = 2; }), "a loop of more than 2 corners"));
+    EXPECT_EQ(limited([](auto& l) { l.loop_corners = 3; }), "");
+}
+
 }  // namespace

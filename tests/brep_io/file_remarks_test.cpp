@@ -96,4 +96,14 @@ TEST(FileRemarks, ObjCornersThatEndInASlash) {
     EXPECT_EQ(all[0].first.to_string(), "test:5:5");
 }
 
+TEST(FileRemarks, KindsHaveNamesAndOtherFormatsHaveNone) {
+    EXPECT_EQ(name_of(RemarkKind::FacetNormalMissing), "facet_normal_missing");
+    EXPECT_EQ(name_of(RemarkKind::FacetNormalOpposed), "facet_normal_opposed");
+    EXPECT_EQ(name_of(RemarkKind::EmptyIndexField), "empty_index_field");
+    for (const MeshFormat format : {MeshFormat::Off, MeshFormat::Ply}) {
+        const std::string bytes = format_mesh(io_test::tetrahedron(), {.format = format}).bytes;
+        EXPECT_TRUE(remarks(bytes, format).empty());
+    }
+}
+
 }  // namespace

@@ -9,6 +9,8 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <string>
+#include <thread>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -153,6 +155,35 @@ TEST(Files, PipesAreReadAndAClosedPipeIsAnError) {
     sigemptyset(&pending);
     sigpending(&pending);
     EXPECT_EQ(sigismember(&pending, SIGPIPE), 0);
+}
+
+// Its size is not known before: the buffer grows several times.
+TEST(Files, PipesOfManyBytesAreReadWhole) {
+    std::string sent;
+    while (sent.size() < 1'000'000) sent += std::to_string(sent.size()) + " ";
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    std::thread writer([&] {
+        write_descriptor(ends[1], "pipe", sent);
+        ::close(ends[1]);
+    });
+    const FileBytes received = read_descriptor(ends[0], "pipe", 2'000'000);
+    writer.join();
+    ::close(ends[0]);
+    EXPECT_TRUE(received.view() == sent);
+}
+
+TEST(Files, EndlessPipesStopAtTheLimit) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    std::thread writer([&] {
+        // Until nobody reads any more.
+        EXPECT_THROW(write_descriptor(ends[1], "pipe", std::string(5'000'000, 'x')), Error);
+        ::close(ends[1]);
+    });
+    EXPECT_THROW((void)read_descriptor(ends[0], "pipe", 100'000), LimitError);
+    ::close(ends[0]);
+    writer.join();
 }
 
 TEST(Files, BytesAndTextReadAlike) {
