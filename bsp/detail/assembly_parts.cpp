@@ -58,14 +58,15 @@ struct ListPart {
 
 class Gatherer {
 public:
-    Gatherer(const SolidState& solid, BoundaryParts& out, std::uint32_t threads)
+    Gatherer(const SolidState& solid, BoundaryParts& out, bool by_planes, std::uint32_t threads)
         : solid_(solid),
           out_(out),
+          by_planes_(by_planes),
           threads_(threads),
           axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
-    void run(bool by_planes) {
+    void run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
             check_stop(1 + leaf.node->size());
@@ -76,7 +77,7 @@ public:
         number_facets();
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
-        if (by_planes && traced == 0) choose_axis_faces();
+        if (by_planes_ && traced == 0) choose_axis_faces();
         for (Leaf& leaf : leaves_) {
             if (out_.stats.traced_facets == out_.facets.size()) break;
             check_stop(1 + leaf.node->size());
@@ -99,9 +100,11 @@ public:
 private:
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
     [[nodiscard]] const DeferredLeaf* deferred(const Leaf& leaf) const;
+    [[nodiscard]] const AxisPicture* picture(const Leaf& leaf) const;
     void mark_facets(const Leaf& leaf);
     void mark_crossed();
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
+    [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
     void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
     void mark_lists();
     void number_facets();
@@ -120,6 +123,7 @@ private:
 
     const SolidState& solid_;
     BoundaryParts& out_;
+    bool by_planes_;
     std::uint32_t threads_;
     std::vector<Leaf> leaves_;
     std::vector<ListPart> lists_;
@@ -195,7 +199,14 @@ bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bo
 
 // Where the crossings of all leaves are known, those that were deferred stay so.
 const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
-    return solid_.crossings != nullptr ? leaf.node->deferred() : nullptr;
+    const DeferredLeaf* const d = leaf.node->deferred();
+    return solid_.crossings != nullptr && d != nullptr && d->picture == nullptr ? d : nullptr;
+}
+
+// Where planes are outlined as a whole.
+const AxisPicture* Gatherer::picture(const Leaf& leaf) const {
+    const DeferredLeaf* const d = leaf.node->deferred();
+    return by_planes_ && d != nullptr ? d->picture.get() : nullptr;
 }
 
 void Gatherer::mark_crossed() {
@@ -227,7 +238,10 @@ void Gatherer::mark_facets(const Leaf& leaf) {
     const DeferredLeaf* const deferred = this->deferred(leaf);
     if (deferred != nullptr)
         for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
-    const PolygonList& polygons = deferred != nullptr ? deferred->uncrossed : leaf.node->polygons();
+    const AxisPicture* const picture = this->picture(leaf);
+    const PolygonList& polygons = deferred != nullptr  ? deferred->uncrossed
+                                  : picture != nullptr ? picture->facets
+                                                       : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
         source != nullptr && !source->is_half_space()) {
         note_list(leaf, polygons, table(source));
@@ -369,9 +383,19 @@ bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
     });
 }
 
+bool Gatherer::needs_parts(const Leaf& leaf, const AxisPicture& picture) const {
+    return std::any_of(picture.facets.begin(), picture.facets.end(), [&](const PolygonRef& r) {
+        const FacetMarks& marks = out_.sources[out_.table_of(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        return marks.takes_part(r.facet, flipped) &&
+               !axis_faces_.takes(marks.number_of_worked(r.facet, flipped));
+    });
+}
+
 void Gatherer::make_parts(Leaf& leaf) {
     leaf.first_edge = leaf.end_edge = edges_.size();
     if (const auto* d = deferred(leaf); d != nullptr && !needs_parts(*d)) return;
+    if (const auto* p = picture(leaf); p != nullptr && !needs_parts(leaf, *p)) return;
     const PolygonList& polygons = leaf.node->polygons();
     if (const Source* source = polygons.whole_source()) {
         const FacetMarks& marks = out_.sources[table(source)];
@@ -503,7 +527,9 @@ void Gatherer::choose_axis_faces() {
     leaves.reserve(leaves_.size());
     for (const Leaf& leaf : leaves_) {
         if (deferred(leaf) != nullptr) return;
-        leaves.push_back({&leaf.node->polygons(), leaf.cell, leaf.complemented});
+        const AxisPicture* const p = picture(leaf);
+        leaves.push_back(
+            {p != nullptr ? &p->facets : &leaf.node->polygons(), leaf.cell, leaf.complemented, p});
     }
     axis_faces_.choose(leaves);
 }
@@ -584,7 +610,7 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
 
 void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
                   std::uint32_t threads) {
-    Gatherer(solid, parts, threads).run(by_planes);
+    Gatherer(solid, parts, by_planes, threads).run();
 }
 
 }  // namespace trisect::detail

@@ -76,6 +76,24 @@ bool reaches_out(const PolygonRef& r, const Cell& cell) {
     return r.fragment != nullptr ? !ends_at_walls(*r.fragment, cell) : !cell.contains(r.box());
 }
 
+// Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
+// tell.
+template <class Add>
+bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t across, const Add& add) {
+    if (!reaches_out(polygon, cell)) {
+        add(polygon);
+        return true;
+    }
+    AxisPolygon shape;
+    if (!shape.read(polygon) || shape.slanted_count > 1) return false;
+    if (!shape.meets(cell)) return true;
+    const auto part = clip_to_rectangle(shape, rectangle_of(cell, across));
+    if (!part) return true;
+    const HeldFragment held(part->fragment);
+    add(*part);
+    return true;
+}
+
 }  // namespace
 
 // --- Which planes.
@@ -83,7 +101,8 @@ bool reaches_out(const PolygonRef& r, const Cell& cell) {
 void AxisFaces::choose(std::span<const Leaf> leaves) {
     if (parts_.facets.empty()) return;
     across_.clear();
-    for (const Leaf& leaf : leaves) across_.push_back(all_across_axes(*leaf.polygons));
+    for (const Leaf& leaf : leaves)
+        across_.push_back(leaf.picture != nullptr || all_across_axes(*leaf.polygons));
     if (std::ranges::find(across_, true) == across_.end()) return;
     facets_.assign(parts_.facets.size(), {});
     for (std::size_t i = 0; i < leaves.size(); ++i) {
@@ -115,15 +134,66 @@ AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& n
 }
 
 void AxisFaces::read_leaf(const Leaf& leaf) {
+    std::size_t i = 0;
     for (const PolygonRef r : *leaf.polygons) {
         const FacetMarks& marks = marks_of(r.source);
         const bool flipped = r.flipped != leaf.complemented;
         if (marks.takes_part(r.facet, flipped)) {
-            read_polygon(r, marks.number_of_worked(r.facet, flipped), leaf.cell);
+            const std::int32_t number = marks.number_of_worked(r.facet, flipped);
+            if (leaf.picture != nullptr) {
+                read_facet(r, number, leaf.picture->parts[i], leaf.cell);
+            } else {
+                read_polygon(r, number, leaf.cell);
+            }
         } else if (marks.is_present(r.facet, flipped)) {
-            const PlaneName name = PlaneName::support(r.source, r.facet);
-            sheet_at(*axis_plane(name), name).is_general = true;
-            for (int i = 0; i < 3; ++i) passing_.push_back({r.source, r.facet, i});
+            pass(r);
+        }
+        ++i;
+    }
+    if (leaf.picture != nullptr) read_units(*leaf.picture, leaf.complemented);
+}
+
+void AxisFaces::pass(const PolygonRef& facet) {
+    const PlaneName name = PlaneName::support(facet.source, facet.facet);
+    sheet_at(*axis_plane(name), name).is_general = true;
+    for (int i = 0; i < 3; ++i) passing_.push_back({facet.source, facet.facet, i});
+}
+
+// Its parts are in the picture's units. One that is not cut has all its area in the cell.
+void AxisFaces::read_facet(const PolygonRef& facet, std::int32_t number,
+                           const AxisPicture::Part& part, const Cell& cell) {
+    Sheet& sheet = sheet_of(facet, number);
+    Facet& f = facets_[u(number)];
+    (void)count_part(sheet, number);
+    f.is_cut = f.is_cut || part.is_cut;
+    f.corners |= part.corners;
+    if (f.is_cut || sheet.is_general) return;
+    const auto add = [&](const PolygonRef& p) { add_area(p, f, sheet.plane); };
+    if (!with_part_in(facet, cell, sheet.plane.axis, add)) sheet.is_general = true;
+}
+
+void AxisFaces::read_units(const AxisPicture& picture, bool complemented) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::vector<AxisPicture::Layer> layers = picture.layers(k);
+        const AxisGrid::Frame frame = AxisGrid::frame(k);
+        AxisOutline::Units units;
+        units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - k) % 3);
+        units.row_planes = picture.planes[frame.row_axis];
+        units.bit_planes = picture.planes[frame.bit_axis];
+        for (std::size_t p = 1; p < layers.size(); ++p) {
+            const AxisPicture::Layer& low = layers[p - 1];
+            const AxisPicture::Layer& high = layers[p];
+            if (low == high) continue;
+            const Key128 key{k, static_cast<std::uint64_t>(picture.planes[k][p])};
+            const std::int32_t sheet = sheet_ids_.find(key);
+            TRISECT_EXPECTS(sheet >= 0, "no facet bounds a set where it ends");
+            if (sheets_[u(sheet)].is_general) continue;
+            for (const bool inside_low : {true, false}) {
+                std::uint64_t any = 0;
+                for (std::size_t r = 0; r < units.rows.size(); ++r)
+                    any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
+                if (any != 0) sheets_[u(sheet)].outline.add(units, inside_low != complemented);
+            }
         }
     }
 }
@@ -137,7 +207,7 @@ void AxisFaces::block_leaf(const Leaf& leaf) {
     }
 }
 
-void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
+AxisFaces::Sheet& AxisFaces::sheet_of(const PolygonRef& polygon, std::int32_t number) {
     Facet& f = facets_[u(number)];
     if (f.sheet < 0) {
         const PlaneName name = PlaneName::support(polygon.source, polygon.facet);
@@ -145,32 +215,32 @@ void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, con
         f.sheet = static_cast<std::int32_t>(&sheet_at(plane, name) - sheets_.data());
         f.normal_is_up = plane.sign > 0;
     }
-    Sheet& sheet = sheets_[u(f.sheet)];
+    return sheets_[u(f.sheet)];
+}
+
+// Whether it faces up.
+bool AxisFaces::count_part(Sheet& sheet, std::int32_t number) {
+    const bool faces_up = facets_[u(number)].normal_is_up != parts_.facets[u(number)].flipped;
+    auto& first = sheet.first[faces_up ? 1 : 0];
+    if (first < 0 || number < first) first = number;
+    ++sheet.parts;
+    return faces_up;
+}
+
+void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
+    Sheet& sheet = sheet_of(polygon, number);
+    Facet& f = facets_[u(number)];
     if (sheet.is_general) return;
     const auto add = [&](const PolygonRef& part) {
         if (!read_axis_sides(part, sheet.plane.axis, sides_)) {
             sheet.is_general = true;
             return;
         }
-        const bool faces_up = f.normal_is_up != parts_.facets[u(number)].flipped;
-        auto& first = sheet.first[faces_up ? 1 : 0];
-        if (first < 0 || number < first) first = number;
-        sheet.outline.add(sides_, f.normal_is_up, faces_up);
-        ++sheet.parts;
+        sheet.outline.add(sides_, f.normal_is_up, count_part(sheet, number));
         add_area(part, f, sheet.plane);
         note_corners(part, f, sheet.plane.axis);
     };
-    if (!reaches_out(polygon, cell)) return add(polygon);
-    AxisPolygon shape;
-    if (!shape.read(polygon) || shape.slanted_count > 1) {
-        sheet.is_general = true;
-        return;
-    }
-    if (!shape.meets(cell)) return;
-    const auto part = clip_to_rectangle(shape, rectangle_of(cell, sheet.plane.axis));
-    if (!part) return;
-    const HeldFragment held(part->fragment);
-    add(*part);
+    if (!with_part_in(polygon, cell, sheet.plane.axis, add)) sheet.is_general = true;
 }
 
 // In doubles from the facet's first corner. Of n products of differences, each off by the errors of
@@ -259,6 +329,7 @@ bool AxisFaces::has_changed(std::int32_t number) const {
     const Facet& f = facets_[u(number)];
     const BoundaryFacet& facet = parts_.facets[u(number)];
     const Sheet& sheet = sheets_[u(f.sheet)];
+    if (f.is_cut) return true;
     Facet all;
     const PolygonRef whole{facet.source, nullptr, facet.facet, false, false};
     add_area(whole, all, sheet.plane);
@@ -507,27 +578,38 @@ void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
     make_stops();
     for (std::size_t i = 0; i < others_.size(); ++i)
         (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
-    for (Sheet& s : sheets_) {
-        if (s.is_general) continue;
-        check_stop(s.outline.stretches().size());
-        make_edges_of(s, edges);
+    // In the order of their facets.
+    std::vector<std::pair<std::int32_t, std::size_t>> faces;
+    for (std::size_t i = 0; i < sheets_.size(); ++i)
+        for (const std::int32_t first : sheets_[i].first)
+            if (first >= 0 && !sheets_[i].is_general) faces.emplace_back(first, i);
+    std::ranges::sort(faces);
+    edges.reserve(edges.size() + count_edges());
+    for (const auto& [first, sheet] : faces) {
+        check_stop(sheets_[sheet].outline.stretches().size());
+        make_edges_of(sheets_[sheet], first == sheets_[sheet].first[1], edges);
     }
 }
 
-void AxisFaces::make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges) {
-    for (const std::int32_t first : sheet.first) {
-        if (first < 0) continue;
-        BoundaryFacet& f = parts_.facets[u(first)];
-        f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
-        f.parts = 1;
-    }
-    for (const std::uint32_t n : sheet.outline.loops()) {
+std::size_t AxisFaces::count_edges() const {
+    std::size_t out = 0;
+    for (const Sheet& s : sheets_)
+        for (const Stops& stops : s.stops) out += stops.end - stops.first - 1;
+    return out;
+}
+
+void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges) {
+    const std::int32_t first = sheet.first[faces_up ? 1 : 0];
+    BoundaryFacet& f = parts_.facets[u(first)];
+    f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
+    f.parts = 1;
+    for (const std::uint32_t n : sheet.outline.loops(faces_up)) {
         const AxisStretch& s = sheet.outline.stretches()[n];
         const std::size_t across = across_of(sheet, s);
         const std::size_t along = along_of(sheet, s);
         Ranks at = line_of(sheet, s);
         const Sheet& beside = sheet_at_rank(across, at[across]);
-        BoundaryEdge e{-1, -1, sheet.first[s.faces_up ? 1 : 0], {}};
+        BoundaryEdge e{-1, -1, first, {}};
         e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
         const auto stops = std::span(stops_).subspan(sheet.stops[n].first,
                                                      sheet.stops[n].end - sheet.stops[n].first);

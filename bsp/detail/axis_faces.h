@@ -12,6 +12,7 @@
 
 #include <trisect/bsp/detail/assembly_parts.h>
 #include <trisect/bsp/detail/axis_outline.h>
+#include <trisect/bsp/detail/axis_picture.h>
 
 namespace trisect::detail {
 
@@ -25,6 +26,8 @@ public:
         const PolygonList* polygons = nullptr;
         Cell cell;
         bool complemented = false;
+        /// Not null: `polygons` are its facets.
+        const AxisPicture* picture = nullptr;
     };
 
     explicit AxisFaces(BoundaryParts& parts) : parts_(parts) {}
@@ -93,6 +96,7 @@ private:
         std::int32_t sheet = -1;
         bool normal_is_up = false;
         bool is_blocked = false;   // reaches into a cell with polygons of other kinds
+        bool is_cut = false;       // surely: not all of it bounds the result with one facing
         std::uint8_t corners = 0;  // that its parts have, a bit each
         double area = 0;           // of its parts, twice; off by `slack` at most
         double slack = 0;
@@ -120,6 +124,12 @@ private:
     [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
     void read_leaf(const Leaf& leaf);
     void block_leaf(const Leaf& leaf);
+    void read_facet(const PolygonRef& facet, std::int32_t number, const AxisPicture::Part& part,
+                    const Cell& cell);
+    void read_units(const AxisPicture& picture, bool complemented);
+    void pass(const PolygonRef& facet);
+    [[nodiscard]] Sheet& sheet_of(const PolygonRef& polygon, std::int32_t number);
+    [[nodiscard]] bool count_part(Sheet& sheet, std::int32_t number);
     void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell);
     void add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const;
     void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const;
@@ -134,7 +144,8 @@ private:
     void add_other(const Ranks& at);
     void make_stops();
     void add_line(Sheet& sheet, const AxisStretch& stretch);
-    void make_edges_of(Sheet& sheet, std::vector<BoundaryEdge>& edges);
+    [[nodiscard]] std::size_t count_edges() const;
+    void make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);

@@ -52,6 +52,13 @@ std::size_t AxisUnits::unit_of(std::int64_t position) const {
     return positions_[p].at == position ? p : p - 1;
 }
 
+std::uint64_t AxisUnits::units_at(std::int64_t position) const {
+    const std::size_t p = plane_at(position);
+    if (p == positions_.size() || (p == 0 && positions_[p].at != position)) return 0;
+    const std::size_t end = positions_[p].at == position ? std::min(p + 1, count()) : p;
+    return unit_bits(p == 0 ? 0 : p - 1, end);
+}
+
 AxisGrid::Reach AxisGrid::reach(const AxisPolygon& polygon, Frame frame) const {
     const auto first = [&](std::size_t axis, std::int64_t position) {
         return units_[axis].first_from(position);

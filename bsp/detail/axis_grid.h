@@ -37,6 +37,8 @@ public:
     [[nodiscard]] std::size_t first_from(std::int64_t position) const;
     /// The unit that begins at the position or holds it.
     [[nodiscard]] std::size_t unit_of(std::int64_t position) const;
+    /// Bits of the units, one or two, that begin or end at the position or hold it.
+    [[nodiscard]] std::uint64_t units_at(std::int64_t position) const;
 
 private:
     std::vector<Position> positions_;

@@ -51,6 +51,21 @@ void for_each_run(std::span<const AxisPolygon> all, Key key, Visit visit) {
 
 bool AxisLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                        std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete) {
+    may_picture_ = false;
+    return run(problem, stats, out, incomplete);
+}
+
+bool AxisLeaf::picture(const LeafProblem& problem, EvaluateStats& stats,
+                       std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
+                       std::unique_ptr<AxisPicture>& picture) {
+    may_picture_ = true;
+    if (!run(problem, stats, out, incomplete)) return false;
+    if (pictures_ && any_cut_) picture = make_picture();
+    return true;
+}
+
+bool AxisLeaf::run(const LeafProblem& problem, EvaluateStats& stats, std::vector<PolygonRef>& out,
+                   std::vector<FacetName>& incomplete) {
     problem_ = &problem;
     stats_ = &stats;
     out_ = &out;
@@ -72,15 +87,18 @@ bool AxisLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
     remembers_ = problem.formula->is_large();
     evaluate(*problem.formula, result_);
     check_budget(*problem.options, stats);
-    for (std::size_t k = 0; k < 3; ++k) claimed_[k].assign(grid_.units(k).count() + 1, UnitRows{});
     bench_.clear();
-    for_each_run(polygons_, sheet_key, [&](Polygons sheet) { emit_sheet(sheet); });
+    if (pictures_) emit_picture();
+    if (!pictures_) emit_all();
     ++stats.mixed_leaves;
     return true;
 }
 
 bool AxisLeaf::list() {
     polygons_.clear();
+    parts_.clear();
+    any_cut_ = needs_parts_ = false;
+    pictures_ = may_picture_;
     const Cell& cell = problem_->cell;
     for (std::size_t o = 0; o < problem_->operands.size(); ++o) {
         const LeafOperand& operand = problem_->operands[o];
@@ -88,6 +106,9 @@ bool AxisLeaf::list() {
         for (const PolygonRef& ref : operand.polygons) {
             AxisPolygon p;
             if (!p.read(ref)) return false;
+            const PolygonRef& first = operand.polygons[0];
+            pictures_ = pictures_ && ref.fragment == nullptr && !ref.touched &&
+                        ref.source == first.source && ref.flipped == first.flipped;
             if (!p.meets(cell)) continue;
             p.contained = true;
             for (std::size_t k = 0; k < 3; ++k)
@@ -231,14 +252,54 @@ AxisLeaf::Sides AxisLeaf::sides(const std::uint64_t* units, std::size_t axis, st
 
 // --- What bounds the result.
 
+void AxisLeaf::start_planes() {
+    for (std::size_t k = 0; k < 3; ++k) {
+        claimed_[k].assign(grid_.units(k).count() + 1, UnitRows{});
+        found_[k].assign(pictures_ ? grid_.units(k).count() + 1 : 0, 0);
+    }
+}
+
+void AxisLeaf::emit_all() {
+    start_planes();
+    for_each_run(polygons_, sheet_key, [&](Polygons sheet) { emit_sheet(sheet); });
+}
+
+// A plane is outlined as a whole where all of its facets have changed; any other needs the parts of
+// its facets, and then a picture was made in vain.
+void AxisLeaf::emit_picture() {
+    const std::uint64_t untouched = stats_->untouched_polygons;
+    start_planes();
+    for_each_run(polygons_, sheet_key, [&](Polygons sheet) {
+        if (!needs_parts_) emit_sheet(sheet);
+    });
+    if (!needs_parts_) return;
+    pictures_ = false;
+    stats_->untouched_polygons = untouched;
+    out_->clear();
+    incomplete_->clear();
+}
+
 // All polygons of an operand in one plane.
 void AxisLeaf::emit_sheet(Polygons sheet) {
     start_sheet(sheet);
     std::uint64_t any = 0;
     for (std::size_t r = first_row_; r < end_row_; ++r) any |= up_[r] | down_[r];
     clean_.assign(sheet.size(), 0);
-    if (any != 0) find_clean(sheet);
+    if (any != 0) {
+        find_clean(sheet);
+    } else if (pictures_) {
+        for (const AxisPolygon& p : sheet)
+            if (!p.contained) note_incomplete(p, overlapped(p));
+    }
+    if (pictures_) return;
     for_each_run(sheet, group_key, [&](Polygons group) { emit_group(group); });
+}
+
+// Of a facet in the plane of the sheet.
+void AxisLeaf::note_found(std::uint8_t what) {
+    std::uint8_t& found = found_[axis_][plane_];
+    found |= what;
+    if (found == (found_clean | found_cut)) needs_parts_ = true;
 }
 
 void AxisLeaf::start_sheet(Polygons sheet) {
@@ -281,9 +342,12 @@ UnitRows AxisLeaf::overlapped(const AxisPolygon& p) const {
 void AxisLeaf::find_clean(Polygons sheet) {
     for (std::size_t i = 0; i < sheet.size(); ++i) {
         const UnitRows units = overlapped(sheet[i]);
-        if (!is_clean(units)) continue;
-        clean_[i] = 1;
-        emit_clean(sheet[i], units);
+        if (is_clean(units)) {
+            clean_[i] = 1;
+            emit_clean(sheet[i], units);
+        } else if (pictures_) {
+            emit_uncut(sheet[i], units);
+        }
     }
 }
 
@@ -305,7 +369,11 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
     ref.touched = ref.touched || touches_others(p, units);
     if (!ref.touched) ++stats_->untouched_polygons;
     make_room(*out_);
-    if (ref.touched && !p.contained) {
+    if (pictures_) {
+        note_found(found_clean);
+        needs_parts_ = needs_parts_ || ref.touched;
+        parts_.push_back({false, corners_in(p, units)});
+    } else if (ref.touched && !p.contained) {
         const auto part = clip_to_cell(bench_, ref, problem_->cell);
         if (!part) return;  // the box of a fragment may be too large
         ref = *part;
@@ -319,6 +387,53 @@ bool AxisLeaf::is_inside_low(const UnitRows& units) const {
     for (std::size_t r = first_row_; r < end_row_; ++r)
         if (units[r] != 0) return (whole_low_[r] & units[r]) != 0;
     return false;
+}
+
+// A facet of which something is left.
+void AxisLeaf::emit_uncut(const AxisPolygon& p, const UnitRows& units) {
+    bool is_left = false;
+    for (const bool inside_low : {true, false}) {
+        UnitRows kept = inside_low ? up_ : down_;
+        std::uint64_t any = 0;
+        for (std::size_t r = first_row_; r < end_row_; ++r) any |= kept[r] &= units[r];
+        if (any == 0) continue;
+        is_left = any_cut_ = true;
+        note_found(found_cut);
+        PolygonRef ref = p.ref;
+        ref.touched = true;
+        ref.flipped = inside_low == (p.plane.sign < 0);
+        out_->push_back(ref);
+        parts_.push_back({true, corners_in(p, kept)});
+    }
+    if (!is_left && !p.contained) note_incomplete(p, units);
+}
+
+// The corners that the polygon's parts in some of its units have: convex parts have all that they
+// reach.
+std::uint8_t AxisLeaf::corners_in(const AxisPolygon& p, const UnitRows& units) const {
+    const AxisGrid::Frame frame = AxisGrid::frame(axis_);
+    const auto units_at = [&](const LatticePoint& corner, std::size_t axis) {
+        return grid_.units(axis).units_at(corner[static_cast<int>(axis)] * wall_scale);
+    };
+    std::uint8_t out = 0;
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& corner = p.ref.source->corner(p.ref.facet, i);
+        const std::uint64_t bits = units_at(corner, frame.bit_axis);
+        for (std::uint64_t rows = units_at(corner, frame.row_axis); rows != 0; rows &= rows - 1)
+            if ((units[static_cast<std::size_t>(std::countr_zero(rows))] & bits) != 0)
+                out = static_cast<std::uint8_t>(out | 1U << i);
+    }
+    return out;
+}
+
+std::unique_ptr<AxisPicture> AxisLeaf::make_picture() const {
+    auto out = std::make_unique<AxisPicture>();
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i <= grid_.units(k).count(); ++i)
+            out->planes[k].push_back(grid_.units(k).plane(i).at);
+    out->units = result_;
+    out->parts = parts_;
+    return out;
 }
 
 // What is left of the polygons of one source.
@@ -418,11 +533,14 @@ void AxisLeaf::note_incomplete(Polygons group, std::size_t first_made) {
                 return m.source == p.ref.source && m.facet == p.ref.facet;
             }))
             continue;
-        const UnitRows units = overlapped(p);
-        std::uint64_t bounding = 0;
-        for (std::size_t r = first_row_; r < end_row_; ++r) bounding |= bounds_[r] & units[r];
-        if (bounding != 0) incomplete_->push_back({p.ref.source->serial(), p.ref.facet});
+        note_incomplete(p, overlapped(p));
     }
+}
+
+void AxisLeaf::note_incomplete(const AxisPolygon& p, const UnitRows& units) {
+    std::uint64_t bounding = 0;
+    for (std::size_t r = first_row_; r < end_row_; ++r) bounding |= bounds_[r] & units[r];
+    if (bounding != 0) incomplete_->push_back({p.ref.source->serial(), p.ref.facet});
 }
 
 // Whether the boundary of another operand may meet a polygon: it meets the closure of its units,

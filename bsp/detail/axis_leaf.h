@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 
 #include <trisect/bsp/detail/axis_clip.h>
 #include <trisect/bsp/detail/axis_grid.h>
+#include <trisect/bsp/detail/axis_picture.h>
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/solid_state.h>
@@ -29,6 +31,12 @@ public:
     /// False, and nothing is done, when some polygon is of another kind or the grid is too large.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
+    /// The same for whoever can do with a picture. There is one afterwards, and `out` has its
+    /// facets, where facets of imported meshes have to be cut, all that bound the result in their
+    /// planes, and the others are not touched.
+    [[nodiscard]] bool picture(const LeafProblem& problem, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
+                               std::unique_ptr<AxisPicture>& picture);
 
 private:
     // Bits of all units, layer by layer across z, row by row along y; a bit for each along x.
@@ -43,6 +51,8 @@ private:
         std::size_t row, end_row, bit, end_bit;
     };
 
+    [[nodiscard]] bool run(const LeafProblem& problem, EvaluateStats& stats,
+                           std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
     [[nodiscard]] bool list();
     [[nodiscard]] bool make_grid();
     [[nodiscard]] std::size_t rows() const { return grid_.units(1).count(); }
@@ -57,15 +67,23 @@ private:
     void evaluate(const Residual& formula, Units& out);
     [[nodiscard]] Sides sides(const std::uint64_t* units, std::size_t axis, std::size_t plane,
                               std::size_t first_row, std::size_t end_row) const;
+    void start_planes();
+    void emit_all();
+    void emit_picture();
     void emit_sheet(Polygons sheet);
     void start_sheet(Polygons sheet);
     void find_clean(Polygons sheet);
     [[nodiscard]] bool is_clean(const UnitRows& units) const;
     void emit_clean(const AxisPolygon& p, const UnitRows& units);
+    void emit_uncut(const AxisPolygon& p, const UnitRows& units);
+    void note_found(std::uint8_t what);
+    [[nodiscard]] std::uint8_t corners_in(const AxisPolygon& p, const UnitRows& units) const;
+    [[nodiscard]] std::unique_ptr<AxisPicture> make_picture() const;
     void emit_group(Polygons group);
     void emit_rectangles(Polygons group, UnitRows rows, bool inside_low);
     void emit_clipped(Polygons group, const Rectangle& r, bool inside_low);
     void note_incomplete(Polygons group, std::size_t first_made);
+    void note_incomplete(const AxisPolygon& p, const UnitRows& units);
     [[nodiscard]] bool is_inside_low(const UnitRows& units) const;
     [[nodiscard]] UnitRows overlapped(const AxisPolygon& p) const;
     [[nodiscard]] bool overlaps(const AxisPolygon& p, const Rectangle& r) const;
@@ -100,6 +118,14 @@ private:
     UnitRows whole_low_{};  // the result on the lower side
     Polygons sheet_;
     std::vector<std::uint8_t> clean_;  // by polygon, see find_clean()
+    bool may_picture_ = false;
+    bool pictures_ = false;     // a picture is made instead of parts of facets
+    bool needs_parts_ = false;  // a picture is not enough
+    bool any_cut_ = false;
+    static constexpr std::uint8_t found_clean = 1;
+    static constexpr std::uint8_t found_cut = 2;
+    std::array<std::vector<std::uint8_t>, 3> found_;  // by axis and plane
+    std::vector<AxisPicture::Part> parts_;            // of what is pictured
     Workbench bench_;
 };
 

@@ -9,7 +9,10 @@
 #include <trisect/bsp/detail/axis_outline.h>
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
+#include <trisect/bsp/detail/axis_picture.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -99,6 +102,44 @@ void AxisOutline::add(std::span<const AxisSide> sides, bool turns_left, bool fac
     }
 }
 
+void AxisOutline::add(const Units& units, bool faces_up) {
+    add_lines(units, faces_up);
+    Units turned = units;
+    transpose(turned.rows);
+    std::swap(turned.row_planes, turned.bit_planes);
+    turned.row_axis = 1 - units.row_axis;
+    add_lines(turned, faces_up);
+}
+
+// The lines between rows, in the order of changes.
+void AxisOutline::add_lines(const Units& units, bool faces_up) {
+    auto& changes = changes_[kind_of(faces_up, units.row_axis)];
+    const bool low_runs_up = units.row_axis == 1;
+    const std::size_t rows = units.row_planes.size() - 1;
+    std::uint64_t before = 0;
+    for (std::size_t r = 0; r <= rows; ++r) {
+        const std::uint64_t here = r < rows ? units.rows[r] : 0;
+        const std::uint64_t up = low_runs_up ? here & ~before : before & ~here;
+        const std::uint64_t down = (here ^ before) & ~up;
+        before = here;
+        const std::int64_t at = units.row_planes[r];
+        for (std::uint64_t turns = (up ^ up << 1) | (down ^ down << 1); turns != 0;
+             turns &= turns - 1) {
+            const std::uint64_t bit = turns & (~turns + 1);
+            const std::int64_t place =
+                units.bit_planes[static_cast<std::size_t>(std::countr_zero(turns))];
+            // What ends here, and what begins.
+            if (((up << 1) & ~up & bit) != 0) changes.emplace_back(at, place, false);
+            if (((down << 1) & ~down & bit) != 0) changes.emplace_back(at, place, true);
+            if ((up & ~(up << 1) & bit) != 0) changes.emplace_back(at, place, true);
+            if ((down & ~(down << 1) & bit) != 0) changes.emplace_back(at, place, false);
+        }
+        constexpr std::size_t most = axis_units_limit;
+        if ((up >> (most - 1)) != 0) changes.emplace_back(at, units.bit_planes[most], false);
+        if ((down >> (most - 1)) != 0) changes.emplace_back(at, units.bit_planes[most], true);
+    }
+}
+
 bool AxisOutline::add_stretch(std::size_t kind, const Change& from, std::int64_t to, int cover) {
     const auto on_lattice = [](std::int64_t place) { return place % wall_scale == 0; };
     if (cover > 1 || cover < -1 || !on_lattice(from.at()) || !on_lattice(from.place()) ||
@@ -121,7 +162,7 @@ bool AxisOutline::add_stretch(std::size_t kind, const Change& from, std::int64_t
 
 bool AxisOutline::add_stretches(std::size_t kind) {
     auto& changes = changes_[kind];
-    std::sort(changes.begin(), changes.end());
+    if (!std::is_sorted(changes.begin(), changes.end())) std::sort(changes.begin(), changes.end());
     int cover = 0;
     Change from;
     for (std::size_t i = 0; i < changes.size();) {
@@ -189,13 +230,17 @@ std::size_t AxisOutline::next_of(const AxisStretch& s, const std::vector<bool>& 
     return stretches_.size();
 }
 
-std::vector<std::uint32_t> AxisOutline::loops() const {
+std::vector<std::uint32_t> AxisOutline::loops(bool faces_up) const {
+    const auto stretch_at = [&](std::size_t run) {
+        return run < runs_.size() ? runs_[run].first : stretches_.size();
+    };
+    const std::size_t begin = stretch_at(first_run_[kind_of(faces_up, 0)]);
+    const std::size_t end = stretch_at(first_run_[kind_of(faces_up, 1) + 1]);
     std::vector<bool> used(stretches_.size(), false);
     std::vector<std::uint32_t> ordered;
-    ordered.reserve(stretches_.size());
-    for (std::size_t start = 0; start < stretches_.size(); ++start) {
-        for (std::size_t i = start; i < stretches_.size() && !used[i];
-             i = next_of(stretches_[i], used)) {
+    ordered.reserve(end - begin);
+    for (std::size_t start = begin; start < end; ++start) {
+        for (std::size_t i = start; i < end && !used[i]; i = next_of(stretches_[i], used)) {
             used[i] = true;
             ordered.push_back(static_cast<std::uint32_t>(i));
         }

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/bsp/detail/axis_grid.h>
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -59,6 +60,15 @@ public:
     /// counter-clockwise seen from above.
     void add(std::span<const AxisSide> sides, bool turns_left, bool faces_up);
 
+    /// What the bits of a layer of units cover.
+    struct Units {
+        UnitRows rows{};
+        std::uint8_t row_axis = 0;  ///< 0 or 1: rows lie along the other one
+        std::span<const std::int64_t> row_planes;
+        std::span<const std::int64_t> bit_planes;
+    };
+    void add(const Units& units, bool faces_up);
+
     /// What is left, as maximal stretches, sorted by facing, axis, place and ends. False when
     /// something covers a place twice, or an end is not on the lattice.
     [[nodiscard]] bool finish();
@@ -84,8 +94,9 @@ public:
             s.high = rank(1 - s.axis, s.high);
         }
     }
-    /// Numbers of all stretches, each behind the one that it continues, loop after loop.
-    [[nodiscard]] std::vector<std::uint32_t> loops() const;
+    /// Numbers of all stretches with one facing, each behind the one that it continues, loop after
+    /// loop.
+    [[nodiscard]] std::vector<std::uint32_t> loops(bool faces_up) const;
 
 private:
     // Where the number of polygons on the one side of a line less that on the other changes by one:
@@ -120,6 +131,7 @@ private:
     static constexpr std::size_t kind_of(bool faces_up, std::uint8_t axis) {
         return (faces_up ? 2U : 0U) + axis;
     }
+    void add_lines(const Units& units, bool faces_up);
     [[nodiscard]] bool add_stretches(std::size_t kind);
     [[nodiscard]] std::size_t next_of(const AxisStretch& s, const std::vector<bool>& used) const;
     [[nodiscard]] bool add_stretch(std::size_t kind, const Change& from, std::int64_t to,

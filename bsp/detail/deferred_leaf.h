@@ -4,18 +4,20 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/axis_picture.h>
 #include <trisect/bsp/detail/residual.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect::detail {
 
-/// What a leaf of imported meshes in general position needs to cut its facets when the first
-/// one asks for its polygons: a later operation there, a query. Who writes the result as a mesh
-/// does not ask (traced_facets.h). Immutable.
+/// What a leaf of imported meshes needs to cut its facets when the first one asks for its polygons:
+/// a later operation there, a query. It is one in general position, or one across axes. Who writes
+/// the result as a mesh does not ask (traced_facets.h, axis_faces.h). Immutable.
 class DeferredLeaf {
 public:
     struct Operand {
@@ -30,8 +32,10 @@ public:
     std::vector<Operand> operands;
     Residual::Ref formula;
     EvaluateOptions::Winding rule = EvaluateOptions::Winding::Positive;
-    /// Those of the leaf's polygons that nothing crosses in the cell.
+    /// Of a leaf in general position: those of its polygons that nothing crosses in the cell.
     PolygonList uncrossed;
+    /// Of a leaf across axes; else null.
+    std::unique_ptr<const AxisPicture> picture;
 
     /// The leaf's polygons, as an evaluation that does not defer would have listed them.
     [[nodiscard]] PolygonList arrange() const;

@@ -86,6 +86,7 @@ class Worker {
 public:
     explicit Worker(Shared& shared)
         : shared_(shared), options_(shared.options), values_(shared.slots, -1) {
+        arranger_.make_pictures();
         if (shared.crossings != nullptr) arranger_.collect_crossings(shared.crossings->operands);
     }
 
@@ -120,6 +121,8 @@ private:
     template <class Arrange>
     std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
     CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
+    CellRef defer(const CellTask& task, std::unique_ptr<const AxisPicture> picture, bool inside);
+    [[nodiscard]] std::unique_ptr<DeferredLeaf> problem_of(const CellTask& task);
     CellRef divide(CellTask& task);
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
     Children children_of(const CellTask& task, const Wall& wall);
@@ -294,6 +297,7 @@ std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
     PolygonList list(std::move(kept->polygons));
     incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
     shared_.memory.keep(bytes);
+    if (kept->picture != nullptr) return defer(task, std::move(kept->picture), inside);
     if (kept->deferred != 0) return defer(task, std::move(list), inside, kept->deferred);
     return CellRef{CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
 }
@@ -301,27 +305,43 @@ std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
 // A leaf whose `crossed` facets are cut when someone needs it.
 CellRef Worker::defer(const CellTask& task, PolygonList uncrossed, bool inside,
                       std::size_t crossed) {
+    auto leaf = problem_of(task);
+    const std::uint64_t size = uncrossed.size() + crossed;
+    leaf->uncrossed = std::move(uncrossed);
+    return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
+}
+
+CellRef Worker::defer(const CellTask& task, std::unique_ptr<const AxisPicture> picture,
+                      bool inside) {
+    auto leaf = problem_of(task);
+    shared_.memory.keep(picture->bytes());
+    const std::uint64_t size = picture->facets.size();
+    leaf->picture = std::move(picture);
+    return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
+}
+
+// Operands are imported meshes, refined or not, or look like that here: of one source, no facet
+// turned over.
+std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
     auto leaf = std::make_unique<DeferredLeaf>();
     leaf->cell = task.cell;
     leaf->reference = task.reference;
     leaf->formula = task.formula;
     leaf->rule = options_.winding;
-    const std::uint64_t size = uncrossed.size() + crossed;
-    leaf->uncrossed = std::move(uncrossed);
+    leaf->operands.reserve(task.operands.size());
     for (const CellOperand& o : task.operands) {
         DeferredLeaf::Operand& listed = leaf->operands.emplace_back();
         listed.slot = o.slot;
         listed.flipped = o.complemented;
         listed.winding = o.winding;
         if (o.count == 0) continue;
-        // Of an imported mesh, refined or not: one source, no facet turned over.
         const PolygonRef first = o.polygon(o.list()[0].id);
         facets_.clear();
         for (const PackedBox& e : o.list()) facets_.push_back(o.polygon(e.id).facet);
         listed.polygons = PolygonList::whole_facets(*first.source, first.flipped, facets_, 0);
         shared_.memory.keep(facets_.size() * sizeof(std::uint32_t));
     }
-    return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
+    return leaf;
 }
 
 // --- Step 4: divide.

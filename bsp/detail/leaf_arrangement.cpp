@@ -51,6 +51,7 @@ public:
         collect_ = true;
         crossings_.operands.assign(operands.begin(), operands.end());
     }
+    void make_pictures() { pictures_ = true; }
     void note_doubtful(std::int32_t slot, std::uint32_t facet) {
         crossings_.doubtful.push_back(crossings_.number_of(static_cast<std::size_t>(slot), facet));
     }
@@ -80,6 +81,7 @@ private:
     LeafAnchors anchors_;
     LeafCutting cutting_;
     LeafFormula formula_;
+    bool pictures_ = false;
     bool collect_ = false;
     Crossings crossings_;
     std::vector<std::uint32_t> seen_;
@@ -98,6 +100,8 @@ LeafResult LeafArranger::arrange(const LeafProblem& problem, SlotValues& values,
 void LeafArranger::collect_crossings(std::span<const Crossings::Operand> operands) {
     impl_->collect_crossings(operands);
 }
+
+void LeafArranger::make_pictures() { impl_->make_pictures(); }
 
 void LeafArranger::note_doubtful(std::int32_t slot, std::uint32_t facet) {
     impl_->note_doubtful(slot, facet);
@@ -142,9 +146,14 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
                                                                   EvaluateStats& stats) {
     return or_end_fragments([&]() -> std::optional<LeafResult> {
         std::vector<FacetName> incomplete;
-        if (!axis_.arrange(problem, stats, out_, incomplete)) return std::nullopt;
+        std::unique_ptr<AxisPicture> picture;
+        if (!(pictures_ ? axis_.picture(problem, stats, out_, incomplete, picture)
+                        : axis_.arrange(problem, stats, out_, incomplete)))
+            return std::nullopt;
         note_doubtful(problem);
-        return LeafResult{std::move(out_), std::move(incomplete)};
+        if (picture == nullptr) return LeafResult{std::move(out_), std::move(incomplete)};
+        picture->facets = PolygonList(std::move(out_));
+        return LeafResult{{}, std::move(incomplete), 0, std::move(picture)};
     });
 }
 

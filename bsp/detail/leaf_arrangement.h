@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/bsp/cell_tree.h>
+#include <trisect/bsp/detail/axis_picture.h>
 #include <trisect/bsp/detail/crossings.h>
 #include <trisect/bsp/detail/leaf_problem.h>
 #include <trisect/bsp/detail/polygon_in_cell.h>
@@ -25,6 +26,8 @@ struct LeafResult {
     std::vector<FacetName> incomplete;  ///< facets that lost a part to a coincident facet
     /// So many facets that something crosses were left out.
     std::size_t deferred = 0;
+    /// Of a leaf across axes whose facets are still to be cut: then `polygons` is empty.
+    std::unique_ptr<const AxisPicture> picture = nullptr;
 };
 
 /// Scratch memory that one thread uses for all its leaves. What it returns depends on the problem
@@ -43,6 +46,8 @@ public:
     /// From now on the crossings of leaves are collected, and facets that something crosses are
     /// left out where that is possible. `operands` are those of the formula, by slot.
     void collect_crossings(std::span<const Crossings::Operand> operands);
+    /// From now on leaves across axes that would cut facets of imported meshes are pictured.
+    void make_pictures();
     /// A facet of an operand may cross others where no leaf compares them.
     void note_doubtful(std::int32_t slot, std::uint32_t facet);
     /// By number, the facets that leaves found crossed, in formulas of more than two operands.

@@ -24,6 +24,7 @@ namespace {
 
 using trisect::evaluate;
 using trisect::EvaluateOptions;
+using trisect::EvaluateStats;
 using trisect::Expression;
 using trisect::make_box;
 using trisect::PolygonMesh;
@@ -209,6 +210,42 @@ TEST(PlanesAcrossAxes, FacetsThatMayBeUnchangedAreLeftOut) {
     expect_general_way_agrees(stairs);
 }
 
+// Three layers of bars: every bar cuts through those of the two other directions.
+Expression lattice_of_bars() {
+    std::vector<Expression> along_x;
+    std::vector<Expression> others;
+    for (double i = 0; i < 3; ++i) {
+        along_x.emplace_back(box({0, 10 * i + 2, 12}, {44, 10 * i + 9, 19}));
+        others.emplace_back(box({10 * i + 3, 0, 14}, {10 * i + 8, 45, 17}));
+    }
+    others.emplace_back(box({1, 1, 15}, {43, 41, 16}));
+    return Expression::any_of(along_x) - Expression::any_of(others);
+}
+
+TEST(PlanesAcrossAxes, NothingIsCutBeforeSomebodyAsks) {
+    const Expression formula = lattice_of_bars();
+    std::vector<PolygonMesh> meshes;
+    for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
+        EvaluateOptions options;
+        options.leaf_polygons = leaf;
+        EvaluateStats counts;
+        const Solid solid = evaluate(formula, options, &counts);
+        EXPECT_TRUE(leaf != 100000U || counts.pieces == 0);
+        const PolygonMesh& mesh = meshes.emplace_back(solid.to_mesh());
+        expect_matching_edges(mesh);
+        EXPECT_EQ(mesh, meshes[0]) << leaf;
+        const Solid complement = evaluate(~Expression(solid));
+        const PolygonMesh inside_out = complement.to_mesh();
+        expect_general_way_agrees(complement);
+        // The first use of the facets cuts them.
+        const Solid halved = evaluate(solid - box({5, 5, 5}, {30, 30, 15}));
+        EXPECT_EQ(halved.to_mesh(), evaluate(formula - box({5, 5, 5}, {30, 30, 15})).to_mesh());
+        expect_general_way_agrees(solid);
+        EXPECT_EQ(solid.to_mesh(), mesh);
+        EXPECT_EQ(complement.to_mesh(), inside_out);
+    }
+}
+
 // Faces, edges and corners coincide all the time; or no two operands have a plane in common.
 void random_boxes(int rounds, bool coincident) {
     std::mt19937 random(5);
@@ -245,6 +282,60 @@ void random_boxes(int rounds, bool coincident) {
         }
     }
     EXPECT_GT(outlined, 500U);
+}
+
+void append(PolygonMesh& mesh, const PolygonMesh& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (std::size_t f = 0; f < other.face_count(); ++f) {
+        std::vector<std::uint32_t> loop;
+        for (const std::uint32_t v : other.face(f)) loop.push_back(first + v);
+        mesh.add_face(loop);
+    }
+}
+
+// Bars side by side along one axis, apart from each other, as one mesh.
+Solid random_bars(std::mt19937& random) {
+    const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+    const std::size_t along = random() % 3;
+    PolygonMesh all;
+    for (double at = below(3); at < 12; at += 2 + below(3)) {
+        trisect::Point3d low;
+        trisect::Point3d high;
+        low[along] = -1 - below(2);
+        high[along] = 12 + below(2);
+        low[(along + 1) % 3] = at;
+        high[(along + 1) % 3] = at + 1;
+        low[(along + 2) % 3] = below(6);
+        high[(along + 2) % 3] = 6 + below(6);
+        append(all, make_box(low, high));
+    }
+    return Solid::from_mesh(all);
+}
+
+// Most facets are cut, and planes are outlined from pictures of leaves, parts of facets, or both.
+TEST(PlanesAcrossAxes, RandomBarsMatch) {
+    std::mt19937 random(9);
+    std::uint64_t outlined = 0;
+    for (int round = 0; round < 30; ++round) {
+        const Expression a(random_bars(random));
+        const Expression b(random_bars(random));
+        const Expression c(random_bars(random));
+        for (const Expression& formula : {a | b, (a & b) - c, a ^ b, (a | b | c) - (a & b & c)}) {
+            for (const std::uint32_t leaf : {4U, 30U, 100000U}) {
+                EvaluateOptions options;
+                options.leaf_polygons = leaf;
+                const Solid solid = evaluate(formula, options);
+                const PolygonMesh mesh = solid.to_mesh();
+                expect_matching_edges(mesh);
+                outlined += stats_of(solid).axis_facets;
+                expect_general_way_agrees(solid);
+                EXPECT_EQ(solid.to_mesh(), mesh) << round << ' ' << leaf;
+                expect_general_way_agrees(evaluate(~Expression(solid)));
+            }
+        }
+    }
+    EXPECT_GT(outlined, 10000U);
 }
 
 TEST(CoplanarFacetsOfAMesh, RandomBoxesOfAGridMatch) { random_boxes(40, true); }
