@@ -56,6 +56,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     problem_ = &leaf;
     facets_.clear();
     outlines_.clear();
+    reaches_.clear();
     fragments_ = 0;
     sheets_.clear();
     for (const LeafOperand& o : leaf.operands) {
@@ -77,6 +78,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
         const auto number = static_cast<LeafIndex>(o);
         const Source* source = nullptr;
         LeafIndex sheet = -1;
+        Reach reach;
         for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
             const PolygonRef& ref = operand.polygons[i];
             look_ahead(operand.polygons.subspan(i));
@@ -95,23 +97,30 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             }
             add(ref, operand, number, sheet);
             PlainFacet& f = facets_.back();
-            f.contained = true;
             // What doubles hold of a fragment's facet need not be near the fragment.
             for (std::size_t c = 1; c < 3 && !f.is_whole(); ++c)
                 for (std::size_t k = 0; k < 3; ++k)
                     small = small && std::fabs(f.corners[c][k]) < exact_limit;
+            const Vector3 lo = f.lo;
+            const Vector3 hi = f.hi;
+            const Vector3 inner_lo = inner_lo_;
+            const Vector3 inner_hi = inner_hi_;
+            bool contained = true;
             for (std::size_t k = 0; k < 3; ++k) {
                 // Planes are asked about points from their first corner on.
-                low[k] = std::min({low[k], f.lo[k], f.corners[0][k]});
-                high[k] = std::max({high[k], f.hi[k], f.corners[0][k]});
-                f.contained = f.contained &&
-                              (f.lo[k] >= inner_lo_[k] || (f.walls >> 2 * k & 1U) != 0) &&
-                              (f.hi[k] <= inner_hi_[k] || (f.walls >> (2 * k + 1) & 1U) != 0);
+                low[k] = std::min(low[k], std::min(lo[k], f.corners[0][k]));
+                high[k] = std::max(high[k], std::max(hi[k], f.corners[0][k]));
+                contained &= lo[k] >= inner_lo[k] || (f.walls >> 2 * k & 1U) != 0;
+                contained &= hi[k] <= inner_hi[k] || (f.walls >> (2 * k + 1) & 1U) != 0;
                 // A cell without lattice points still has an inside: keep one unit around it.
-                f.lo[k] = std::max(f.lo[k], inner_lo_[k] - 1);
-                f.hi[k] = std::min(f.hi[k], inner_hi_[k] + 1);
+                f.lo[k] = std::max(lo[k], inner_lo[k] - 1);
+                f.hi[k] = std::min(hi[k], inner_hi[k] + 1);
+                reach.lo[k] = std::min(reach.lo[k], f.lo[k]);
+                reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
             }
+            f.contained = contained;
         }
+        reaches_.push_back(reach);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         small = small && low[k] > -exact_limit && high[k] < exact_limit;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -131,6 +132,13 @@ public:
     [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
     [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
     [[nodiscard]] std::size_t operand_count() const { return problem_->operands.size(); }
+    /// The box of all items of an operand.
+    struct Reach {
+        static constexpr double infinity = std::numeric_limits<double>::infinity();
+        Vector3 lo{infinity, infinity, infinity};
+        Vector3 hi{-infinity, -infinity, -infinity};
+    };
+    [[nodiscard]] const Reach& reach(std::size_t operand) const { return reaches_[operand]; }
     /// Whether a lattice point lies in the cell.
     [[nodiscard]] bool in_cell(const Vector3& p) const {
         for (std::size_t k = 0; k < 3; ++k)
@@ -168,6 +176,7 @@ private:
     const LeafProblem* problem_ = nullptr;
     std::vector<PlainFacet> facets_;
     std::vector<Approximation> outlines_;  // of fragments, one after the other
+    std::vector<Reach> reaches_;           // by operand
     std::size_t fragments_ = 0;
     StampMap sheets_;
     std::array<std::int64_t, 3> origin_{};

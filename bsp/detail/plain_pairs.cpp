@@ -171,15 +171,6 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     is_candidate_.assign(LeafWork::u(facets.size()), 0);
     // With many operands the boxes of the others overlap nearly everything.
     const bool compare = n <= 8;
-    reach_.assign(n, {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}});
-    for (LeafIndex i = 0; i < facets.size(); ++i) {
-        const PlainFacet& f = facets[i];
-        auto& [lo, hi] = reach_[LeafWork::u(f.operand)];
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], f.lo[k]);
-            hi[k] = std::max(hi[k], f.hi[k]);
-        }
-    }
     Vector3 lengths{};
     Vector3 low{infinity, infinity, infinity};
     Vector3 high{-infinity, -infinity, -infinity};
@@ -187,7 +178,8 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
         const PlainFacet& f = facets[i];
         bool candidate = !compare;
         for (std::size_t o = 0; o < n && !candidate; ++o)
-            candidate = o != LeafWork::u(f.operand) && f.meets(reach_[o].first, reach_[o].second);
+            candidate =
+                o != LeafWork::u(f.operand) && f.meets(facets.reach(o).lo, facets.reach(o).hi);
         if (!candidate) continue;
         is_candidate_[LeafWork::u(i)] = 1;
         candidates_.push_back({0, i});

@@ -69,10 +69,6 @@ public:
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
         return is_candidate_[LeafWork::u(item)] != 0;
     }
-    /// The box of an operand's facets, within the cell.
-    [[nodiscard]] const std::pair<Vector3, Vector3>& reach(LeafIndex operand) const {
-        return reach_[LeafWork::u(operand)];
-    }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
         const auto i = LeafWork::u(item);
@@ -97,7 +93,6 @@ private:
     void list_contacts(LeafIndex count);
 
     bool edges_apart_ = false;
-    std::vector<std::pair<Vector3, Vector3>> reach_;  // of operands
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
     BoxRows boxes_;                           // of the candidates, the axis of the sweep first

@@ -117,7 +117,7 @@ int PlainWindings::region_of(LeafIndex item) const {
 }
 
 int PlainWindings::region_beside(LeafIndex operand, const Vector3& low, const Vector3& high) const {
-    const auto& [lo, hi] = pairs_->reach(1 - operand);
+    const auto& [lo, hi] = facets_->reach(LeafWork::u(1 - operand));
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (high[axis] < lo[axis]) return 6 * operand + 2 * k;
@@ -131,7 +131,7 @@ LeafIndex PlainWindings::windings_in(int region) {
     LeafIndex& known = regions_[static_cast<std::size_t>(region)];
     if (known >= 0) return known;
     const auto axis = static_cast<std::size_t>(region % 6 / 2);
-    const auto& [lo, hi] = pairs_->reach(1 - region / 6);
+    const auto& [lo, hi] = facets_->reach(LeafWork::u(1 - region / 6));
     const Approximation& p = facets_->reference();
     const bool is_there =
         region % 2 == 0 ? p.c[axis] + p.error < lo[axis] : p.c[axis] - p.error > hi[axis];
