@@ -17,6 +17,7 @@
 #include <trisect/bsp/detail/index_nearest.h>
 #include <trisect/bsp/detail/index_ray.h>
 #include <trisect/bsp/detail/index_section.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
@@ -38,7 +39,7 @@ Solid resolved(const Solid& solid) {
 
 // All facets of one source in one leaf: then facets keep their numbers.
 const detail::Source* only_source(const Solid& solid) {
-    const detail::CellRef& root = solid.state()->root;
+    const detail::CellRef& root = detail::cut_state(solid)->root;
     if (root.complemented || !root.node->is_leaf()) return nullptr;
     const detail::Source* source = nullptr;
     std::uint32_t next = 0;
@@ -83,7 +84,7 @@ namespace detail {
 IndexBase::IndexBase(const Solid& s) : solid(resolved(s)) {
     const auto start = std::chrono::steady_clock::now();
     if (const Source* source = only_source(solid)) polygons = IndexPolygons(*source);
-    tree = IndexTree(*solid.state(), polygons);
+    tree = IndexTree(*detail::cut_state(solid), polygons);
     std::vector<PolygonId> on;
     tree.set_inside_beyond(locate_polygons(*this, IndexPoint(tree.lo()), on) == Location::Inside);
     build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/detail/evaluator.h>
 #include <trisect/bsp/detail/on_common_lattice.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/translate.h>
 #include <trisect/bsp/expression.h>
@@ -67,10 +68,16 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
 Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
     const detail::Translation t = detail::translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
-    for (const Solid& s : t.slots) states.push_back(s.state());
+    for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
     EvaluateOptions with_flag = options;
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
+    EvaluateStats made;
+    if (auto outlined = detail::outline_prisms(t.formula, states, with_flag, made)) {
+        made.lattice = lattice;
+        if (stats != nullptr) *stats = made;
+        return Solid(std::move(outlined));
+    }
     detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, with_flag);
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice.lattice;

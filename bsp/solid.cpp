@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/detail/refine_leaf.h>
 #include <trisect/bsp/detail/solid_state.h>
 
@@ -27,7 +28,8 @@ std::shared_ptr<const SolidState> constant_state(bool inside) {
 
 bool is_constant(const SolidState& s, bool inside) {
     const CellNode& n = *s.root.node;
-    return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != s.root.complemented) == inside;
+    return s.outlined == nullptr && n.is_leaf() && n.size() == 0 &&
+           ((n.winding() > 0) != s.root.complemented) == inside;
 }
 
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
@@ -104,7 +106,9 @@ Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
     return of_import(std::move(imported), embedding, 1);
 }
 
-void Solid::refine(std::uint32_t threads) const { detail::refine_all(state_->root, threads); }
+void Solid::refine(std::uint32_t threads) const {
+    detail::refine_all(detail::cut_state(*this)->root, threads);
+}
 
 Lattice Solid::lattice() const { return state_->lattice; }
 bool Solid::is_empty() const { return is_constant(*state_, false); }
@@ -112,7 +116,7 @@ bool Solid::is_whole_space() const { return is_constant(*state_, true); }
 std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state_->source); }
 
 Brep Solid::to_brep(const AssembleOptions& options) const {
-    return detail::assemble_brep(*state_, options);
+    return detail::assemble_brep(*detail::cut_state(*this), options);
 }
 
 PolygonMesh Solid::to_mesh(std::uint32_t threads) const {

@@ -25,7 +25,9 @@
 #include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/edge_splitter.h>
 #include <trisect/bsp/detail/fragment_group.h>
+#include <trisect/bsp/detail/named_outlines.h>
 #include <trisect/bsp/detail/near_points.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/detail/traced_facets.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/parallel_parts.h>
@@ -74,7 +76,9 @@ public:
         }
         mark_lists();
         if (solid_.crossings != nullptr) mark_crossed();
+        if (solid_.outlined != nullptr) mark_outlines(solid_.outlined->outlines());
         number_facets();
+        if (solid_.outlined != nullptr) add_outlines(solid_.outlined->outlines(), out_, edges_);
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
         const std::size_t traced = edges_.size();
         if (by_planes_ && traced == 0) choose_axis_faces();
@@ -107,6 +111,7 @@ private:
     [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
     void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
     void mark_lists();
+    void mark_outlines(const NamedOutlines& outlines);
     void number_facets();
     void make_parts(Leaf& leaf);
     void make_list_parts(const Leaf& leaf);
@@ -336,6 +341,16 @@ void Gatherer::mark_lists() {
             }
         }
     });
+}
+
+void Gatherer::mark_outlines(const NamedOutlines& outlines) {
+    for (const NamedOutlines::Face& f : outlines.faces) {
+        FacetMarks& marks = out_.sources[table(f.source)];
+        marks.set_present(f.facet, f.flipped);
+        marks.set_worked(f.facet, f.flipped);
+    }
+    for (const NamedOutlines::Edge& e : outlines.edges)
+        if (e.from.corner >= 0) (void)table(e.from.planes[0].source());
 }
 
 void Gatherer::number_facets() {

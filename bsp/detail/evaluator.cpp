@@ -63,8 +63,6 @@ namespace {
 constexpr std::uint64_t parallel_size = 4096;
 // Leaves may be so many times as large where all polygons are across an axis.
 constexpr std::uint64_t axis_leaf_factor = 8;
-// And where all operands are prisms along one axis.
-constexpr std::uint64_t prism_leaf_factor = 40;
 
 class Worker;
 

@@ -32,6 +32,17 @@ bool PrismFacets::faces_up(const PolygonRef& cover) const {
     return flat_turn(corner(0), corner(1), corner(2)) > 0;
 }
 
+PrismFacets::Upright PrismFacets::upright_edge(const PrismWall& wall, std::size_t end) const {
+    const PolygonRef& ref = wall.facets[end];
+    const auto corner = [&](int i) -> const LatticePoint& {
+        return ref.source->corner(ref.facet, i % 3);
+    };
+    int i = 0;
+    while (flat(corner(i)) != flat(corner(i + 1))) ++i;
+    const bool up = at(corner(i), axis_) < at(corner(i + 1), axis_);
+    return {up ? i : (i + 1) % 3, up ? (i + 1) % 3 : i, i};
+}
+
 // Two of its corners have two coordinates in common, or all three have one.
 bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
     if (polygon.fragment != nullptr || polygon.source->is_half_space()) return false;

@@ -40,6 +40,16 @@ struct PrismWall {
     }
 };
 
+/// Whether the way from p along the first of the two coordinates, upwards, crosses a wall. Its ends
+/// count as above the way.
+[[nodiscard]] inline bool crosses_way(const PrismWall& w, const FlatPoint& p) {
+    if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
+    return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
+}
+
+/// Leaves of prisms may be so many times as large as others.
+inline constexpr std::uint64_t prism_leaf_factor = 40;
+
 /// A facet across the axis.
 struct PrismCover {
     LeafIndex operand = 0;
@@ -69,6 +79,14 @@ public:
     /// Whether a cover's support has its upper side towards greater positions.
     [[nodiscard]] bool faces_up(const PolygonRef& cover) const;
     [[nodiscard]] std::size_t axis() const { return axis_; }
+    /// The edge along the axis of the half of a wall that has one at its `from` (end 0) or `to`
+    /// (end 1): numbers of the facet's corners. `edge` is that of the edge.
+    struct Upright {
+        int low = 0;
+        int high = 0;
+        int edge = 0;
+    };
+    [[nodiscard]] Upright upright_edge(const PrismWall& wall, std::size_t end) const;
     [[nodiscard]] FlatPoint flat(const LatticePoint& p) const;
     /// Winding numbers of the operands far away from all of them.
     [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }

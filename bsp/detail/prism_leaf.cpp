@@ -35,14 +35,7 @@ namespace {
 constexpr std::size_t left = 0;
 constexpr std::size_t right = 1;
 
-// Whether the way from p along the first of the two coordinates, upwards, crosses a wall. Its ends
-// count as above the way.
-bool crosses_way(const PrismWall& w, const FlatPoint& p) {
-    if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
-    return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
-}
-
-// The same from a point in doubles; nothing when they cannot tell.
+// crosses_way() from a point in doubles; nothing when they cannot tell.
 std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
     const double from_v = static_cast<double>(w.from[1]) - p[1];
     const double to_v = static_cast<double>(w.to[1]) - p[1];

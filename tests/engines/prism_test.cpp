@@ -6,7 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
+
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/detail/translate.h>
 
 #include "engines.h"
 
@@ -68,6 +75,43 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
               "");
 }
 
+double volume_of(const trisect::PolygonMesh& mesh) {
+    double six_fold = 0;
+    for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3) {
+        const auto& a = mesh.points[mesh.corners[i]];
+        const auto& b = mesh.points[mesh.corners[i + 1]];
+        const auto& c = mesh.points[mesh.corners[i + 2]];
+        six_fold += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                    a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return six_fold / 6;
+}
+
+// The same for outlines, as large results have them, before anything is cut.
+void expect_same_outlines(const std::vector<Operand>& operands,
+                          const reference::Expression& expression, Leaves& leaves) {
+    std::vector<trisect::Solid> solids;
+    for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+    const auto formula = trisect::detail::translate(engines::formula(expression, solids));
+    std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
+    for (const trisect::Solid& s : formula.slots) states.push_back(s.state());
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 0;
+    trisect::EvaluateStats stats;
+    ++leaves.mixed;
+    const auto outlined = trisect::detail::outline_prisms(formula.formula, states, options, stats);
+    if (outlined == nullptr) return;
+    ++leaves.prisms;
+    const auto expected =
+        reference::canonical_boundary(reference::evaluate(operands, expression).cells);
+    const trisect::Solid result(outlined);
+    EXPECT_EQ(engines::open_edge(result.to_mesh()), "");
+    EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*outlined, {}), expected), "");
+    const double volume =
+        volume_of(trisect::detail::assemble_mesh(*trisect::detail::cut_state(result)));
+    EXPECT_NEAR(volume_of(result.to_mesh()), volume, 1e-9 * std::fabs(volume));
+}
+
 TEST(Prisms, PairsAlongEveryAxis) {
     Leaves leaves;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -80,6 +124,89 @@ TEST(Prisms, PairsAlongEveryAxis) {
         }
     }
     EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
+}
+
+TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        reference::Random random(seed + 450000);
+        std::vector<Operand> operands{random_prism(random), random_prism(random)};
+        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
+        for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor}) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            expect_same_outlines(operands, reference::pair_expression(kind), leaves);
+        }
+    }
+    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
+}
+
+// What is asked of a result that has not been cut, and what is made of it.
+TEST(Prisms, StepsAfterOutlines) {
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 0;
+    const Operand plate = reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
+    std::size_t outlined = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 470000);
+        const Operand first = reference::prism(star(random, 6), 4, 9);
+        const Operand second = reference::prism(star(random, 5), 0, 4);
+        const std::vector<Operand> operands{plate, first, second};
+        std::vector<trisect::Solid> solids;
+        for (const auto& o : operands)
+            solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+        const trisect::Solid engraved = trisect::evaluate(solids[0] - solids[1], options);
+        outlined += engraved.state()->outlined != nullptr ? 1 : 0;
+        EXPECT_FALSE(engraved.is_empty());
+        const trisect::Solid turned = trisect::evaluate(~engraved);
+        const trisect::Solid both = trisect::evaluate(engraved | solids[2]);
+        const auto expected =
+            reference::evaluate({plate, first}, reference::pair_expression(Kind::Difference));
+        EXPECT_EQ(
+            engines::difference(engraved.to_brep(), reference::canonical_boundary(expected.cells)),
+            "");
+        EXPECT_TRUE(trisect::evaluate(turned & engraved).is_empty());
+        EXPECT_TRUE(trisect::evaluate((both - solids[2]) - engraved).is_empty());
+        EXPECT_EQ(engines::open_edge(both.to_mesh()), "");
+    }
+    EXPECT_GT(outlined, 10U);
+}
+
+// A plate, prisms side by side within it that are flush with its sides, go through it or end in the
+// middle, one with a hole, and some that cross what they like.
+TEST(Prisms, OutlinesOfPlatesWithPockets) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 460000);
+        const Operand plate =
+            reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
+        const auto height = [&] {
+            const std::array<std::int64_t, 5> heights{-2, 0, 4, 9, 12};
+            const std::size_t low = random.below(4);
+            return std::array{heights[low], heights[low + 1 + random.below(4 - low)]};
+        };
+        Operand pockets;
+        for (std::int64_t i = 0; i < 2; ++i) {
+            const auto [low, high] = height();
+            const Operand one = reference::prism(star(random, 3 + random.below(4)), low, high);
+            pockets = reference::concatenated(pockets, reference::translated(one, {112 * i, 0, 0}));
+        }
+        std::vector<Operand> operands{plate, pockets};
+        for (std::uint64_t i = random.below(4); i > 0; --i) {
+            const auto [low, high] = height();
+            const reference::LatticePoint by{random.between(-60, 160), random.between(-40, 40), 0};
+            operands.push_back(reference::translated(
+                reference::prism(star(random, 3 + random.below(4)), low, high), by));
+        }
+        if (seed % 3 == 0) std::swap(operands[0], operands.back());
+        auto expression = reference::random_expression(random, operands.size(), operands.size());
+        if (operands.size() == 2)
+            expression = reference::pair_expression(seed % 2 == 0 ? Kind::Difference : Kind::Union);
+        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
+        expect_same_outlines(operands, expression, leaves);
+    }
+    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7);
 }
 
 TEST(Prisms, FormulasOverSeveral) {
