@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Unions of prisms along one axis, any number of them, arranged as a whole.
+// PrismArrangement: a formula over prisms along one axis, any number of them, arranged as a whole.
 #pragma once
 
 #include <array>
