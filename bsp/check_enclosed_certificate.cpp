@@ -115,6 +115,8 @@ private:
         if (answer_.outcome != outcome) return "the outcome is another one";
         const double end = answer_.contact_by.value_or(duration_);
         std::vector<TimeSpan> all = answer_.undecided;
+        if (!std::ranges::all_of(all, [](const TimeSpan& s) { return s.from <= s.to; }))
+            return "an undecided span is none";
         for (const FreeSpan& s : c_.free) all.push_back(s.span);
         std::ranges::sort(all, {}, &TimeSpan::from);
         double known = 0;

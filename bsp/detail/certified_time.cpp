@@ -56,25 +56,24 @@ int RootTime::sign_of(const Polynomial& p) const {
     if (is_root_of(p)) return 0;
     ExactRational low = lower_;
     ExactRational high = upper_;
-    const int above_low = polynomial_.sign_at(low);
     for (int i = 0; i < 2000; ++i) {
-        if (const auto n = roots_between(p, low, high); n && *n == 0) return p.sign_at(low);
+        if (roots_between(p, low, high) == 0) return p.sign_at(low);
         const ExactRational middle = (low + high) / ExactRational(2);
-        const int s = polynomial_.sign_at(middle);
-        if (s == 0) return p.sign_at(middle);
-        (s == above_low ? low : high) = middle;
+        if (polynomial_.sign_at(middle) == 0) return p.sign_at(middle);
+        // By counts: signs are the same on both sides of a double root.
+        (roots_between(polynomial_, low, middle) == 1 ? high : low) = middle;
     }
     return 2;
 }
 
 bool RootTime::is_positive_before(const Polynomial& p, const ExactRational& from) const {
     if (p.is_zero() || p.sign_at(from) <= 0) return false;
-    if (p.degree() == 0) return true;
     // A root right at the end of the bracket is none before the contact.
-    if (p.sign_at(upper_) == 0)
-        return roots_between(p, from, lower_) == 0 && p.sign_at(lower_) > 0 && is_root_of(p);
-    const std::optional<int> n = roots_between(p, from, upper_);
-    return n == 0 || (n == 1 && is_root_of(p));
+    Polynomial rest = p;
+    const Polynomial to_end(std::vector<ExactRational>{upper_, ExactRational(-1)});
+    while (rest.sign_at(upper_) == 0) rest = quotient(std::move(rest), to_end);
+    const std::optional<int> n = roots_between(rest, from, upper_);
+    return n == 0 || (n == 1 && is_root_of(rest));
 }
 
 bool RootTime::is_not_negative_before(const Polynomial& p, const ExactRational& from) const {

@@ -6,10 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/primitives/torus.h>
 
 #include "moving_pair.h"
@@ -181,6 +184,40 @@ TEST(ContactCertificates, CorruptedAreRejected) {
             if (!corrupt(wrong, random)) continue;
             EXPECT_NE(c.check(wrong), "") << "seed " << seed << ", change " << before;
             ++corrupted;
+        }
+    }
+}
+
+// A corner that passes the plane of a plate beside it, and comes over the plate when it is below.
+// Contact is claimed for the first moment, which is a double root of the polynomial.
+TEST(ContactCertificates, ABlockThatPassesUnderAPlateDoesNotTouchItBeside) {
+    const Case c{{box(0, 0, 0.875, 4, 4, 1), Motion(), box(5, 1, 0.25, 6, 2, 1.25), by(-2, 0, -1)}};
+    ContactCertificate claim = c.certificate();
+    ASSERT_TRUE(claim.is_complete);
+    ASSERT_FALSE(claim.is_contact);
+    ASSERT_EQ(c.check(claim), "");
+    const auto corners = trisect::to_polygon_mesh(c.b.brep()).points;
+    const auto at = std::ranges::find(corners, trisect::Point3d{5, 1, 1.25});
+    ASSERT_NE(at, corners.end());
+    const trisect::VertexId corner(static_cast<std::uint32_t>(at - corners.begin()));
+    claim.is_contact = true;
+    claim.lower = ExactRational(1).scaled(-3);
+    claim.upper = ExactRational(9).scaled(-4);
+    // The plane through the lower edge of the plate, parallel to the corner's way.
+    FreedomNode node;
+    node.separator.plane = {{1, 0, -2}, ExactRational(-19).scaled(-3)};
+    claim.freedom = {{node}};
+    claim.common_point.kind = CommonPoint::Kind::VertexOfB;
+    claim.common_point.vertex_b = corner;
+    for (const trisect::CertifiedTriangle& t : claim.triangles_b)
+        if (std::ranges::find(t.vertex, corner) != t.vertex.end())
+            claim.common_point.triangle_b = t;
+    for (const std::vector<ExactRational>& polynomial :
+         {std::vector<ExactRational>{-1, 4}, std::vector<ExactRational>{1, -8, 16}}) {
+        claim.polynomial = polynomial;
+        for (const trisect::CertifiedTriangle& t : claim.triangles_a) {
+            claim.common_point.triangle_a = t;
+            EXPECT_EQ(c.check(claim), "the triangles do not meet at the time of contact");
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,25 @@ TEST(EnclosedCertificates, OfLinkedRings) {
     turn.shift = {2, 0, 0};
     expect_proved({ring, EnclosedMotion(), ring, EnclosedMotion::turning(link, turn), 1e-6},
                   Outcome::Contact);
+}
+
+// Sliding on a wall: only what is ordered, and certainly a number, is a time.
+TEST(EnclosedCertificates, UndecidedTimesAreSpans) {
+    const Case c{box(-9, 4, 0, 9, 6, 1), EnclosedMotion(), box(0, 0, 0, 3, 4, 1),
+                 moving({0, 0, 0}, {1, 0, 0})};
+    EnclosedCertificate certificate = c.certificate();
+    ASSERT_TRUE(certificate.is_complete);
+    ASSERT_EQ(c.check(certificate), "");
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const trisect::TimeSpan& span :
+         {trisect::TimeSpan{none, 1}, {0, none}, {none, none}, {1, 0}}) {
+        certificate.answer.undecided = {span};
+        EXPECT_EQ(c.check(certificate), "an undecided span is none");
+    }
+    certificate.answer.undecided = {{0, 0.5}, {0.25, 1}};
+    EXPECT_EQ(c.check(certificate), "");
+    certificate.answer.undecided = {{0, 0.5}, {0.75, 1}};
+    EXPECT_EQ(c.check(certificate), "times are missing");
 }
 
 double whole(reference::Random& random, int low, int high) {
