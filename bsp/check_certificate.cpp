@@ -100,7 +100,6 @@ private:
         if (c_.only_in_b && (r == Relation::Contains || r == Relation::Equal))
             return "a point of B is outside A";
         if (c_.on_both && r == Relation::Disjoint) return "the boundaries meet";
-        if (!c_.apart.empty() && c_.on_both) return "the boundaries meet and are apart";
         if (!c_.cells.empty() && (r == Relation::Overlapping || r == Relation::Equal))
             return "cells say nothing about such solids";
         return {};
