@@ -119,10 +119,9 @@ private:
     [[nodiscard]] PlainLine line_of(std::size_t contact) const {
         return static_cast<PlainLine>(first_contact_line + line_[contact]);
     }
-    /// -1 or 1: the side of a contact's support on which a corner of the item's outline is.
+    /// -1, 0, 1: the side of a contact's support on which a corner of the item's outline is.
     [[nodiscard]] int side_of_corner(std::size_t contact, std::size_t corner) const {
-        const std::size_t own = contacts_[contact].is_second ? 1 : 0;
-        return (crossing_of(contact).above[own] >> corner & 1U) != 0 ? 1 : -1;
+        return crossing_of(contact).side_of(contacts_[contact].is_second, corner);
     }
     [[nodiscard]] bool join_coplanar();
     enum class Planes : std::uint8_t { Apart, Same, Opposite };

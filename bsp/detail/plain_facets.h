@@ -61,6 +61,9 @@ struct PlainFacet {
     std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
                              ///< ends at that wall of the cell by name
     std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
+    /// Bit i: corner i of the outline lies in the support of some item of another operand whose box
+    /// meets that of this one, so perhaps on that item.
+    std::uint32_t resting = 0;
     // What PlainFacets::list() always sets.
     std::array<std::uint32_t, 3> vertices;  ///< of the whole facet
     std::array<Vector3, 3> corners;         ///< of the whole facet

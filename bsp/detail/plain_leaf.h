@@ -18,10 +18,9 @@
 
 namespace trisect::detail {
 
-/// Arranges leaves of whole facets of embedded operands where nothing of two operands touches
-/// without crossing: no corner on another one's facet, no two edges that meet, no coincident
-/// planes. Most leaves of meshes are of that kind. Keeps its memory from leaf to leaf; what it
-/// returns depends on the problem alone.
+/// Arranges leaves of facets of embedded operands, whole ones or fragments, where no two facets
+/// coincide and no edge runs along another operand's facet. Most leaves of meshes are of that
+/// kind. Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
 class PlainLeaf {
 public:
     /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind

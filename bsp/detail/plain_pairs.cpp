@@ -7,7 +7,14 @@
 // of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
 // triangle-triangle overlap test using orientation predicates", 2003). Four orientations tell
 // whether the intervals overlap and which points are the ends of what they share. No plane in
-// integers is ever made.
+// integers is made for that.
+//
+// Chains of cuts by one tool bring more: where a symmetric tool moves by equal steps along two axes
+// four of its facets have a point in common, so corners of fragments lie on the next tool's facets
+// at every step. With the sides of such corners known exactly the rest is the same: an interval may
+// begin at a corner, or be a single point. Two polygons with no more than a point in common do not
+// change each other's winding numbers; but at a corner on another operand there are none, so such
+// corners are marked (PlainFacet::resting). An edge in another support is left to the long way.
 
 #include <trisect/bsp/detail/plain_pairs.h>
 
@@ -72,6 +79,16 @@ bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation&
                        sides.value[t.corner[i]], 2 * sides.bound, x);
 }
 
+// -1, 0, 1: on which side of a plane a corner of an item's outline is. Exact.
+int exact_side(const PlainFacet& f, std::size_t i, const Plane& plane) {
+    const PolygonRef& ref = f.ref;
+    if (const int corner = f.mesh_corner(i); corner >= 0)
+        return sign_of(side_of(ref.source->corner(ref.facet, corner), plane));
+    return sign_of(side_of(ref.fragment->vertices()[i], ref.source->support(ref.facet),
+                           f.edge(i == 0 ? f.size - 1U : i - 1).plane.plane(),
+                           f.edge(i).plane.plane(), plane));
+}
+
 // A polygon and the side of another one's support on which its corners are.
 class Across {
 public:
@@ -81,44 +98,66 @@ public:
             const Approximation p = facets.corner(f, i);
             value_[i] = plane.value(p.c);
             error_[i] = plane.error(p);
-            if (value_[i] > error_[i]) {
-                above_ |= 1U << i;
-                ++sure_;
-            } else if (value_[i] < -error_[i]) {
-                ++sure_;
-            }
+            above_ |= (value_[i] > error_[i] ? 1U : 0U) << i;
+            below_ |= (value_[i] < -error_[i] ? 1U : 0U) << i;
+        }
+        on_ = ((1U << f.size) - 1) & ~(above_ | below_);
+    }
+    /// Corners of which doubles do not tell count as being on the support until this is called.
+    [[nodiscard]] bool is_sure() const { return on_ == 0; }
+    void make_sure(const PlainFacet& other) {
+        const Plane plane = other.ref.source->support(other.ref.facet);
+        for (std::uint32_t rest = on_; rest != 0; rest &= rest - 1) {
+            const std::uint32_t bit = rest & (~rest + 1);
+            const int side =
+                exact_side(f_, static_cast<std::size_t>(std::countr_zero(rest)), plane);
+            if (side == 0) continue;
+            (side > 0 ? above_ : below_) |= bit;
+            on_ &= ~bit;
         }
     }
-    [[nodiscard]] bool is_sure() const { return sure_ == f_.size; }
-    [[nodiscard]] bool is_off() const {
-        return is_sure() && (above_ == 0 || above_ == (1U << f_.size) - 1);
-    }
+    [[nodiscard]] bool is_off() const { return on_ == 0 && (above_ == 0 || below_ == 0); }
+    [[nodiscard]] bool crosses() const { return above_ != 0 && below_ != 0; }
     [[nodiscard]] std::uint32_t above() const { return above_; }
-    /// The edges that go up and down through the support; false unless there is one of each.
-    /// \pre is_sure() and not is_off()
+    [[nodiscard]] std::uint32_t on() const { return on_; }
+    /// The edges that go up and down through the support, or to a corner on it; false unless there
+    /// is one of each, or an edge lies in it. \pre not is_off()
     [[nodiscard]] bool find_edges() {
-        const std::uint32_t next = above_ >> 1 | (above_ & 1U) << (f_.size - 1U);
-        const std::uint32_t up = next & ~above_;
-        const std::uint32_t down = above_ & ~next;
+        if ((on_ & next_of(on_)) != 0) return false;
+        const std::uint32_t upper = above_ != 0 ? above_ : on_;
+        const std::uint32_t up = next_of(upper) & ~upper;
+        const std::uint32_t down = upper & ~next_of(upper);
         up_ = static_cast<std::size_t>(std::countr_zero(up));
         down_ = static_cast<std::size_t>(std::countr_zero(down));
         return std::has_single_bit(up) && std::has_single_bit(down);
     }
     [[nodiscard]] std::size_t edge(bool up) const { return up ? up_ : down_; }
+    /// Where one of these edges is in the support. False when doubles tell too little.
     [[nodiscard]] bool pierce(bool up, Approximation& x) const {
         const std::size_t i = edge(up);
         const std::size_t next = i + 1U < f_.size ? i + 1 : 0;
+        for (const std::size_t end : {i, next}) {
+            if ((on_ >> end & 1U) == 0) continue;
+            x = facets_.corner(f_, end);
+            return true;
+        }
         return interpolate(facets_.corner(f_, i), value_[i], facets_.corner(f_, next), value_[next],
                            error_[i] + error_[next], x);
     }
 
 private:
+    // What is said of a corner, said of the one before it.
+    [[nodiscard]] std::uint32_t next_of(std::uint32_t corners) const {
+        return corners >> 1 | (corners & 1U) << (f_.size - 1U);
+    }
+
     const PlainFacets& facets_;
     const PlainFacet& f_;
     std::array<double, PlainFacet::max_outline> value_;
     std::array<double, PlainFacet::max_outline> error_;
     std::uint32_t above_ = 0;
-    std::size_t sure_ = 0;
+    std::uint32_t below_ = 0;
+    std::uint32_t on_ = 0;
     std::size_t up_ = 0;
     std::size_t down_ = 0;
 };
@@ -285,7 +324,7 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (of_b.is_off()) return Relation::Apart;
     const Sides of_a(facets.plane(t), a.corners);
     if (of_a.is_off()) return Relation::Apart;
-    if (!of_a.is_sure() || !of_b.is_sure()) return Relation::Doubtful;
+    if (!of_a.is_sure() || !of_b.is_sure()) return relate_outlines(facets, s, t, out);
     const std::size_t lonely_a = of_a.lonely();
     const std::size_t lonely_b = of_b.lonely();
     const bool turned_a = of_b.value[lonely_b] < 0;
@@ -331,8 +370,15 @@ PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex 
     if (b.is_off()) return Relation::Apart;
     Across a(facets, facets[s], plane_t);
     if (a.is_off()) return Relation::Apart;
-    if (!a.is_sure() || !b.is_sure() || !a.find_edges() || !b.find_edges())
-        return Relation::Doubtful;
+    if (!a.is_sure() || !b.is_sure()) {
+        if (edges_apart_) return Relation::Doubtful;
+        a.make_sure(facets[t]);
+        b.make_sure(facets[s]);
+        if (a.is_off() || b.is_off()) return Relation::Apart;
+        facets[s].resting |= a.on();
+        facets[t].resting |= b.on();
+    }
+    if (!a.find_edges() || !b.find_edges()) return Relation::Doubtful;
     const LineDirection direction(plane_s, plane_t);
     if (direction.sign == 0) return Relation::Doubtful;
     // In the direction of the normals' product, what is below a support is to the left of the line
@@ -362,8 +408,14 @@ PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex 
         facets[s].ref.touched = facets[t].ref.touched = true;
     }
     if (apart) return Relation::Apart;
+    if (!a.crosses() || !b.crosses()) {
+        // A corner of one of them lies within the other one.
+        facets[s].ref.touched = facets[t].ref.touched = true;
+        return Relation::Apart;
+    }
     out.items = {s, t};
     out.above = {a.above(), b.above()};
+    out.on = {a.on(), b.on()};
     // The later start and the earlier end.
     const auto end_of = [&](int which, std::size_t i) {
         const bool of_b = which > 0;

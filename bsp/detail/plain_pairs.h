@@ -15,7 +15,8 @@
 
 namespace trisect::detail {
 
-/// An end of the segment that two facets have in common: an edge of one pierces the other.
+/// An end of the segment that two facets have in common: an edge of one pierces the other. Where a
+/// corner lies on the other one it is one of the two edges that meet there.
 struct PlainEnd {
     bool of_second = false;  ///< whose edge it is
     std::int8_t edge = 0;    ///< from that corner of the outline to the next one
@@ -27,12 +28,21 @@ struct PlainEnd {
     [[nodiscard]] int edge_of(bool second) const { return of_second == second ? edge : other_edge; }
 };
 
-/// Two polygons that cross in a segment, each with its corners off the other one's support.
+/// Two polygons that cross in a segment. Each has corners on both sides of the other one's support,
+/// and perhaps some on it, but no edge.
 struct PlainCrossing {
     std::array<LeafIndex, 2> items{};
-    /// Bit i: corner i of the outline is above the other one's support, else it is below.
+    /// Bit i: corner i of the outline is above the other one's support.
     std::array<std::uint32_t, 2> above{};
+    std::array<std::uint32_t, 2> on{};  ///< or on it; all others are below
     std::array<PlainEnd, 2> ends;  ///< in the direction of the normals' product, first × second
+
+    /// -1 below, 0 on, 1 above: a corner of one of them with respect to the other's support.
+    [[nodiscard]] int side_of(bool second, std::size_t corner) const {
+        const std::size_t i = second ? 1 : 0;
+        if ((on[i] >> corner & 1U) != 0) return 0;
+        return (above[i] >> corner & 1U) != 0 ? 1 : -1;
+    }
 };
 
 /// A crossing, seen from one of its polygons.
@@ -45,10 +55,10 @@ struct PlainContact {
 /// Compares all polygons of different operands whose boxes meet; keeps its memory.
 class PlainPairs {
 public:
-    /// False when doubles cannot tell about some pair. Where edges meet edges that is asked
-    /// exactly, unless `edges_apart`: then such a pair is one about which they cannot tell.
-    /// Polygons that meet in no more than a point of their edges do not cross, but are marked as
-    /// touched. Counts pairs.
+    /// False when doubles cannot tell about some pair. Where edges meet edges, or a corner comes
+    /// near a support, that is asked exactly, unless `edges_apart`: then such a pair is one about
+    /// which they cannot tell. Polygons that meet in no more than a point do not cross, but are
+    /// marked as touched. False also when an edge lies in a support. Counts pairs.
     [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
         return relate(facets, {}, edges_apart, stats);
     }

@@ -139,14 +139,15 @@ LeafIndex PlainWindings::windings_in(int region) {
     return known;
 }
 
-// A fragment has a node for each corner of its facet that is left of that.
+// A fragment has a node for each corner of its facet that is left of that. At a corner on another
+// operand there is no winding number; whoever has that corner knows it.
 void PlainWindings::add_corners(LeafIndex item, bool free) {
     const PlainFacet& f = (*facets_)[item];
     auto& vertices = vertices_[LeafWork::u(item)];
     vertices.fill(-1);
     for (std::size_t c = 0; c < f.size; ++c) {
         const int corner = f.mesh_corner(c);
-        if (corner < 0) continue;
+        if (corner < 0 || (f.resting >> c & 1U) != 0) continue;
         const auto m = static_cast<std::size_t>(corner);
         if (!f.contained && !facets_->in_cell(f.corners[m])) continue;
         vertices[m] = node_of({f.vertices[m], static_cast<std::uint32_t>(f.sheet)}, item,

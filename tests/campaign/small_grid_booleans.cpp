@@ -301,8 +301,11 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
     constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 100};
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_sizes[random.below(4)];
+    // Else in general position.
+    const bool on_grid = random.chance(1, 2);
     const auto operand = [&] {
-        return engines::mapped(reference::random_embedded_solid(random), random);
+        reference::Operand solid = reference::random_embedded_solid(random);
+        return on_grid ? solid : engines::mapped(std::move(solid), random);
     };
     std::vector<reference::Operand> operands{operand()};
     auto expression = reference::Expression::leaf(0);
