@@ -86,7 +86,6 @@ public:
     [[nodiscard]] std::uint32_t place_of(std::uint32_t c) const { return corners_[c].place; }
     [[nodiscard]] std::uint32_t prev(std::uint32_t c) const { return corners_[c].prev; }
     [[nodiscard]] std::uint32_t next(std::uint32_t c) const { return corners_[c].next; }
-    [[nodiscard]] std::size_t place_count() const { return point_at_.size(); }
     /// All corners, by place.
     [[nodiscard]] std::span<const std::uint32_t> corners_in_order() const { return order_; }
     /// A corner of each outline, or hole, at its first place; ordered by these places.

@@ -109,7 +109,6 @@ private:
     [[nodiscard]] bool walk_outline();
     [[nodiscard]] bool walk_paths();
     [[nodiscard]] bool walk_path(std::uint32_t start, Covers covers);
-    [[nodiscard]] bool find_covers_at(std::uint32_t segment, Covers& covers);
     [[nodiscard]] bool start_from_meeting(std::uint32_t segment, Covers& covers) const;
     [[nodiscard]] bool start_from_corner(std::uint32_t segment, Covers& covers);
 

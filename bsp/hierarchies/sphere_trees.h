@@ -76,9 +76,6 @@ public:
     /// of spheres that is left last. 0 proves solids apart. \pre has_doubles()
     [[nodiscard]] AnytimeDepth depth_within(std::uint64_t tests, CostCounters& counters);
 
-    [[nodiscard]] const SphereTree& tree_a() const { return a_; }
-    [[nodiscard]] const SphereTree& tree_b() const { return b_; }
-
 private:
     // take(i, j) for the children of the larger of two spheres that can be opened.
     template <class Take>
