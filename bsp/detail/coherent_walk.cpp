@@ -427,13 +427,15 @@ CoherentWalk::Answer CoherentWalk::renew_front() {
     }
     stand();
     unmoved_ = last_from_front_;
-    due_.take(odometer_, [this](std::uint32_t v, double due) {
-        ++counters_.plane_tests;
-        const float gap = planes_[v].gap(plane_pose_);
-        if (gap > 0) return (odometer_ + static_cast<double>(gap)) * (1 - 0x1p-52);
-        begin(v);
-        return due;
-    });
+    due_.take(
+        odometer_,
+        [this](std::uint32_t v) {
+            ++counters_.plane_tests;
+            const auto gap = static_cast<double>(planes_[v].gap(plane_pose_));
+            return gap > 0 ? (odometer_ + gap) * (1 - 0x1p-52) : odometer_;
+        },
+        open_);
+    for (const std::uint32_t v : open_) visits_[v].slack = due_[v] - (odometer_ - step_);
     const std::size_t live = visits_.size() - unused_.size();
     if (8 * open_.size() > 7 * live + 64) return make_front();
     return visit_open();

@@ -101,18 +101,26 @@ TEST(DueList, ReadingsAgainstAPlainArray) {
         for (const double d : plain) due += d <= now ? 1 : 0;
         EXPECT_EQ(list.count_due(now), due);
         // Some get a new reading at once, the others afterwards.
-        std::vector<std::uint32_t> taken;
+        std::vector<std::uint32_t> left{17};
+        std::vector<std::uint32_t> kept_due;
         std::size_t looked_at = 0;
-        list.take(now, [&](std::uint32_t name, double reading) {
-            ++looked_at;
-            EXPECT_EQ(reading, plain[name]);
-            if (random.chance(1, 2)) return plain[name] = now + std::abs(uniform(random)) + 0.001;
-            taken.push_back(name);
-            return reading;
-        });
+        list.take(
+            now,
+            [&](std::uint32_t name) {
+                ++looked_at;
+                EXPECT_LE(plain[name], now);
+                if (random.chance(1, 2))
+                    return plain[name] = now + std::abs(uniform(random)) + 0.001;
+                kept_due.push_back(name);
+                return random.chance(1, 2) ? now : std::nan("");
+            },
+            left);
         EXPECT_EQ(looked_at, due);
-        for (const std::uint32_t name : taken) {
-            EXPECT_LE(plain[name], now);
+        EXPECT_EQ(left.front(), 17U);
+        left.erase(left.begin());
+        EXPECT_EQ(left, kept_due);
+        for (const std::uint32_t name : left) {
+            EXPECT_EQ(list[name], plain[name]);
             plain[name] = now + std::abs(uniform(random)) + 0.001;
             list.set(name, plain[name]);
         }
