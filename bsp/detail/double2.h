@@ -49,4 +49,10 @@ __extension__ typedef std::int64_t Mask2 __attribute__((vector_size(16)));
 #endif
 }
 
+/// Bit i is set where a is at most b.
+[[nodiscard]] inline unsigned where_at_most(Double2 a, Double2 b) {
+    const Mask2 m = a <= b;
+    return bits_of(m);
+}
+
 }  // namespace trisect::detail

@@ -83,7 +83,7 @@ private:
     [[nodiscard]] unsigned due_in(std::size_t b, double now) const {
         unsigned due = 0;
         for (std::size_t i = 0; i < block; i += 2)
-            due |= bits_of(load(&readings_[block * b + i]) <= both(now)) << i;
+            due |= where_at_most(load(&readings_[block * b + i]), both(now)) << i;
         return due;
     }
     // Writes down the numbers that are due, and of the others in their blocks the least.
@@ -92,7 +92,7 @@ private:
         for (std::size_t from = 0; from < least_.size(); from += group) {
             unsigned blocks = 0;
             for (std::size_t i = 0; i < group; i += 2)
-                blocks |= bits_of(load(&least_[from + i]) <= both(now)) << i;
+                blocks |= where_at_most(load(&least_[from + i]), both(now)) << i;
             for (; blocks != 0; blocks &= blocks - 1) {
                 const std::size_t b = from + static_cast<std::size_t>(std::countr_zero(blocks));
                 Double2 later = both(never);
