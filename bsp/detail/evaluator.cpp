@@ -263,25 +263,38 @@ std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
                       [&](const LeafProblem& p) { return arranger_.arrange_prisms(p, stats_); });
 }
 
-// Operands that are lists, with their polygons.
+// Of a list or a leaf.
+template <class Visit>
+void for_each_polygon(const CellOperand& o, const Visit& visit) {
+    if (o.is_list) {
+        for (const PackedBox& e : o.list()) visit(o.polygon(e.id));
+    } else {
+        for (const PolygonRef& r : o.node->polygons()) visit(r);
+    }
+}
+
+// Operands that are lists or leaves, with their polygons.
 std::vector<LeafOperand> Worker::list_operands(const CellTask& task) {
     polygons_.clear();
-    for (const CellOperand& o : task.operands)
-        for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
+    std::vector<std::size_t> ends;
+    ends.reserve(task.operands.size());
+    for (const CellOperand& o : task.operands) {
+        for_each_polygon(o, [&](const PolygonRef& r) { polygons_.push_back(r); });
+        ends.push_back(polygons_.size());
+    }
     std::vector<LeafOperand> operands;
     operands.reserve(task.operands.size());
-    std::size_t first = 0;
-    for (const CellOperand& o : task.operands) {
-        operands.push_back({o.slot, std::span(polygons_).subspan(first, o.count), o.complemented,
-                            o.embedded, o.winding});
-        first += o.count;
+    for (std::size_t i = 0, first = 0; i < ends.size(); first = ends[i++]) {
+        const CellOperand& o = task.operands[i];
+        operands.push_back({o.slot, std::span(polygons_).subspan(first, ends[i] - first),
+                            o.complemented, o.embedded, o.winding});
     }
     return operands;
 }
 
 template <class Arrange>
 std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
-    lists_.make(task, std::nullopt, threads());
+    lists_.make_leaves(task);
     const std::vector<LeafOperand> operands = list_operands(task);
     for (const CellOperand& o : task.operands)
         values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
@@ -332,11 +345,14 @@ std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
         listed.slot = o.slot;
         listed.flipped = o.complemented;
         listed.winding = o.winding;
-        if (o.count == 0) continue;
-        const PolygonRef first = o.polygon(o.list()[0].id);
+        PolygonRef any;
         facets_.clear();
-        for (const PackedBox& e : o.list()) facets_.push_back(o.polygon(e.id).facet);
-        listed.polygons = PolygonList::whole_facets(*first.source, first.flipped, facets_, 0);
+        for_each_polygon(o, [&](const PolygonRef& r) {
+            any = r;
+            facets_.push_back(r.facet);
+        });
+        if (facets_.empty()) continue;
+        listed.polygons = PolygonList::whole_facets(*any.source, any.flipped, facets_, 0);
         shared_.memory.keep(facets_.size() * sizeof(std::uint32_t));
     }
     return leaf;

@@ -16,8 +16,8 @@
 
 namespace trisect::detail {
 
-/// Makes the lists that partition() distributes and leaf arrangements read. Keeps the leaves that
-/// it makes of subtrees, since lists name their polygons.
+/// Makes the lists that partition() distributes, and the leaves that arrangements read. Keeps the
+/// leaves that it makes of subtrees, since lists name their polygons.
 class OperandLists {
 public:
     OperandLists(StackArena& arena, Workbench& bench) : arena_(arena), bench_(bench) {}
@@ -26,6 +26,12 @@ public:
     /// left, the frame is made anew: the one so far may belong to one operand and be narrow.
     /// `threads` as in ParallelParts.
     void make(CellTask& task, const std::optional<Wall>& wall, std::uint32_t threads);
+
+    /// Makes leaves of subtrees, so that every operand is a list or a leaf: all that an arrangement
+    /// needs, which looks at polygons and not at boxes in a frame.
+    void make_leaves(CellTask& task) {
+        for (CellOperand& o : task.operands) make_leaf(o, task.cell);
+    }
 
     /// A finer frame for the task where what still has to be parted is small in its own.
     /// \pre all operands are lists.

@@ -84,15 +84,22 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
     return ends;
 }
 
-// The same for a wall anywhere.
+// The same for a wall anywhere. Where it lies within a rounded position that tells less than all:
+// then polygons that begin or end in that position are looked up.
 template <class AddLong>
 Ends distribute_exactly(const CellOperand& operand, std::span<const PackedBox> list,
-                        std::size_t axis, std::int64_t last_below, int long_facet, Ends ends,
-                        const AddLong& add_long) {
+                        const Frame& frame, std::size_t axis, std::int64_t last_below,
+                        int long_facet, Ends ends, const AddLong& add_long) {
+    const bool covered = frame.covers(axis, last_below);
+    const int at_wall = frame.at(axis, last_below);
     for (const PackedBox& e : list) {
-        const Box b = operand.polygon(e.id).box();
-        const bool below = b.lo[axis] <= last_below;
-        const bool above = b.hi[axis] > last_below;
+        bool below = e.low(axis) < at_wall;
+        bool above = e.high(axis) > at_wall;
+        if (!covered || e.low(axis) == at_wall || e.high(axis) == at_wall) {
+            const Box b = operand.polygon(e.id).box();
+            below = b.lo[axis] <= last_below;
+            above = b.hi[axis] > last_below;
+        }
         if (below && above && e.high(axis) - e.low(axis) > long_facet) {
             ends = add_long(e, ends);
             continue;
@@ -284,7 +291,8 @@ private:
             return to;
         };
         if (!first_above_)
-            return distribute_exactly(o, list, axis_, last_, long_facet_, ends, add_long);
+            return distribute_exactly(o, list, task_.frame, axis_, last_, long_facet_, ends,
+                                      add_long);
         if (small_)
             return distribute<true>(list, axis_, *first_above_, long_facet_, ends, add_long);
         return distribute<false>(list, axis_, *first_above_, unlimited, ends, add_long);
