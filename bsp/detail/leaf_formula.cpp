@@ -9,12 +9,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include <trisect/bsp/detail/deep_recursion.h>
 
 namespace trisect::detail {
 
 using Kind = Residual::Kind;
+
+namespace {
+
+// Formulas of so many operands have a table.
+constexpr std::size_t tabulated = 3;
+
+}  // namespace
 
 void LeafFormula::start(const LeafProblem& problem) {
     operands_ = problem.operands.size();
@@ -36,6 +44,23 @@ void LeafFormula::start(const LeafProblem& problem) {
         root_ = compile(*problem.formula);
     }
     dirty_.assign(nodes_.size() / 64 + 1, 0);
+    table_.clear();
+    if (constant_ < 0 && operands_ <= tabulated) make_table();
+}
+
+void LeafFormula::make_table() {
+    std::size_t size = 1;
+    for (std::size_t o = 0; o < operands_; ++o) size *= 3;
+    row_.resize(counted_size());
+    for (std::size_t entry = 0; entry < size; ++entry) {
+        std::size_t digits = entry;
+        for (std::size_t o = operands_; o-- > 0; digits /= 3) {
+            const int value = static_cast<int>(digits % 3) - 1;
+            row_[o] = value < 0 ? unknown_winding : value;
+        }
+        count(row_);
+        table_.push_back(static_cast<std::int8_t>(counted_value(row_)));
+    }
 }
 
 void LeafFormula::add_parent(std::int32_t& first, std::int32_t node) {
@@ -118,6 +143,10 @@ void LeafFormula::update(std::span<int> row) {
 }
 
 void LeafFormula::fill(std::span<int> row) {
+    if (!has_table()) count(row);
+}
+
+void LeafFormula::count(std::span<int> row) const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         int* c = counts(row, i);
         c[0] = nodes_[i].inside;
@@ -143,9 +172,10 @@ void LeafFormula::fill(std::span<int> row) {
 }
 
 void LeafFormula::set(std::span<int> row, std::size_t operand, int winding) {
-    const int before = value_of(row[operand]);
+    const int replaced = std::exchange(row[operand], winding);
+    if (has_table()) return;
+    const int before = value_of(replaced);
     const int after = value_of(winding);
-    row[operand] = winding;
     if (before == after) return;
     tell_parents(row, first_parent_[operand], before, after);
     update(row);
@@ -153,6 +183,14 @@ void LeafFormula::set(std::span<int> row, std::size_t operand, int winding) {
 
 int LeafFormula::value(std::span<const int> row) const {
     if (constant_ >= 0) return constant_;
+    if (!has_table()) return counted_value(row);
+    std::size_t entry = 0;
+    for (std::size_t o = 0; o < operands_; ++o)
+        entry = 3 * entry + static_cast<std::size_t>(value_of(row[o]) + 1);
+    return table_[entry];
+}
+
+int LeafFormula::counted_value(std::span<const int> row) const {
     if (root_ < 0) return value_of(row[static_cast<std::size_t>(~root_)]);
     return row[operands_ + 3 * static_cast<std::size_t>(root_) + 2];
 }

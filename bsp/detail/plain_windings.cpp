@@ -81,7 +81,15 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     facets_ = &facets;
     pairs_ = &pairs;
     operands_ = facets.operand_count();
-    has_boxes_ = false;
+    boxes_.resize(operands_);
+    LeafIndex first = 0;
+    for (std::size_t o = 0; o < operands_; ++o) {
+        const auto last =
+            first + static_cast<LeafIndex>(facets.problem().operands[o].polygons.size());
+        boxes_[o].first = first;
+        boxes_[o].last = first = last;
+        boxes_[o].made = false;
+    }
     has_ways_ = false;
     ids_.clear();
     nodes_.clear();
@@ -279,13 +287,16 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
         lo[k] = std::min(start.at.c[k] - start.at.error, target.c[k] - target.error) - 1;
         hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
-    if (!has_boxes_) list_boxes();
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
-    for (std::size_t row = 0; row < boxes_.row_count(); ++row)
-        for (unsigned met = boxes_.meeting(row, probe); met != 0; met &= met - 1) {
-            const std::size_t i = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-            if (!add_crossing(static_cast<LeafIndex>(i), start.at, target, lo, hi, w)) return false;
-        }
+    for (std::size_t o = 0; o < operands_; ++o) {
+        if (o == LeafWork::u(own)) continue;
+        const BoxRows& boxes = boxes_of(o);
+        for (std::size_t row = 0; row < boxes.row_count(); ++row)
+            for (unsigned met = boxes.meeting(row, probe); met != 0; met &= met - 1) {
+                const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
+                if (!add_crossing(boxes_[o].first + i, start.at, target, lo, hi, w)) return false;
+            }
+    }
     return true;
 }
 
@@ -342,13 +353,16 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
     return true;
 }
 
-void PlainWindings::list_boxes() {
-    has_boxes_ = true;
-    boxes_.clear();
-    for (LeafIndex i = 0; i < facets_->size(); ++i) {
+const BoxRows& PlainWindings::boxes_of(std::size_t operand) {
+    OperandBoxes& boxes = boxes_[operand];
+    if (boxes.made) return boxes.rows;
+    boxes.made = true;
+    boxes.rows.clear();
+    for (LeafIndex i = boxes.first; i < boxes.last; ++i) {
         const PlainFacet& f = (*facets_)[i];
-        boxes_.add(f.lo, f.hi, f.operand);
+        boxes.rows.add(f.lo, f.hi, f.operand);
     }
+    return boxes.rows;
 }
 
 void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {

@@ -88,7 +88,7 @@ private:
     void join(LeafIndex a, LeafIndex b);
     void find_windings(LeafIndex root, EvaluateStats& stats);
     LeafIndex keep(std::span<const int> windings);
-    void list_boxes();
+    [[nodiscard]] const BoxRows& boxes_of(std::size_t operand);
     [[nodiscard]] bool add_crossing(LeafIndex item, const Approximation& start,
                                     const Approximation& target, const Vector3& lo,
                                     const Vector3& hi, std::vector<int>& w);
@@ -111,8 +111,14 @@ private:
     std::vector<Way> ways_;  // along edges of facets that are crossed, by `from`
     bool has_ways_ = false;
     std::vector<LeafIndex> reached_;
-    BoxRows boxes_;  // of all facets; made for the first trace
-    bool has_boxes_ = false;
+    // Of all facets of an operand, by operand; made for the first trace that asks for them.
+    struct OperandBoxes {
+        LeafIndex first = 0;
+        LeafIndex last = 0;
+        bool made = false;
+        BoxRows rows;
+    };
+    std::vector<OperandBoxes> boxes_;
 };
 
 }  // namespace trisect::detail

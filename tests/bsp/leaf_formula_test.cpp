@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Rows of a leaf's formula against a walk over the formula: after every change of a winding number
-// they must say the same, for trees and for graphs that use a subformula many times.
+// they must say the same, for trees and for graphs that use a subformula many times, of few
+// operands, where there is a table, and of more.
 
 #include <gtest/gtest.h>
 
@@ -18,10 +19,9 @@ using trisect::detail::LeafFormula;
 using trisect::detail::Residual;
 using Kind = Residual::Kind;
 
-constexpr std::int32_t slot_count = 7;
-
 // Operations over all that was made before, so that subformulas occur again and again.
-Residual::Ref random_formula(reference::Random& random, std::size_t operations) {
+Residual::Ref random_formula(reference::Random& random, std::int32_t slot_count,
+                             std::size_t operations) {
     std::vector<Residual::Ref> made;
     for (std::int32_t s = 0; s < slot_count; ++s) made.push_back(Residual::of_slot(s));
     for (std::size_t i = 0; i < operations; ++i) {
@@ -35,11 +35,12 @@ Residual::Ref random_formula(reference::Random& random, std::size_t operations) 
     return made.back();
 }
 
-void expect_rows_follow(const Residual::Ref& formula, reference::Random& random) {
+void expect_rows_follow(const Residual::Ref& formula, std::int32_t slot_count,
+                        reference::Random& random) {
     // Operands in another order than their slots.
-    std::vector<trisect::detail::LeafOperand> operands(slot_count);
+    std::vector<trisect::detail::LeafOperand> operands(static_cast<std::size_t>(slot_count));
     for (std::int32_t o = 0; o < slot_count; ++o)
-        operands[static_cast<std::size_t>(o)].slot = (3 * o + 2) % slot_count;
+        operands[static_cast<std::size_t>(o)].slot = slot_count - 1 - o;
     const trisect::EvaluateOptions options;
     trisect::detail::LeafProblem problem;
     problem.operands = operands;
@@ -56,7 +57,7 @@ void expect_rows_follow(const Residual::Ref& formula, reference::Random& random)
     for (std::size_t o = 0; o < operands.size(); ++o) row[o] = random_winding();
     leaf.fill(row);
     const auto expected = [&] {
-        trisect::detail::SlotValues values(slot_count, -1);
+        trisect::detail::SlotValues values(operands.size(), -1);
         for (std::size_t o = 0; o < operands.size(); ++o)
             if (row[o] != trisect::detail::unknown_winding)
                 values[static_cast<std::size_t>(operands[o].slot)] = row[o] > 0 ? 1 : 0;
@@ -73,7 +74,8 @@ TEST(LeafFormula, RowsFollowEveryChange) {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         reference::Random random(seed + 440000);
-        expect_rows_follow(random_formula(random, 1 + seed % 12), random);
+        const auto slots = static_cast<std::int32_t>(1 + seed % 7);
+        expect_rows_follow(random_formula(random, slots, 1 + seed % 12), slots, random);
     }
 }
 
@@ -82,23 +84,26 @@ TEST(LeafFormula, GraphsWithManyOperations) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         reference::Random random(seed + 450000);
-        Residual::Ref formula = random_formula(random, 3);
+        const std::int32_t slots = seed % 2 == 0 ? 7 : 3;
+        Residual::Ref formula = random_formula(random, slots, 3);
         for (int i = 0; i < 100; ++i) {
-            const auto slot = Residual::of_slot(i % slot_count);
+            const auto slot = Residual::of_slot(i % slots);
             const std::array both{formula, slot};
             const std::array twice{Residual::combination(Kind::Xor, both),
                                    Residual::combination(Kind::And, both)};
             formula = Residual::combination(i % 2 == 0 ? Kind::Or : Kind::Xor, twice);
         }
-        expect_rows_follow(formula, random);
+        expect_rows_follow(formula, slots, random);
     }
 }
 
 TEST(LeafFormula, OfOneOperandAndOfNone) {
     reference::Random random(1);
-    expect_rows_follow(Residual::of_slot(4), random);
-    expect_rows_follow(Residual::negation(Residual::of_slot(4)), random);
-    expect_rows_follow(Residual::constant(true), random);
+    for (const std::int32_t slots : {2, 7}) {
+        expect_rows_follow(Residual::of_slot(slots - 1), slots, random);
+        expect_rows_follow(Residual::negation(Residual::of_slot(slots - 1)), slots, random);
+        expect_rows_follow(Residual::constant(true), slots, random);
+    }
 }
 
 }  // namespace
