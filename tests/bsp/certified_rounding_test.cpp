@@ -131,6 +131,78 @@ TEST(CertifiedRounding, OfRandomResultsOnASmallGrid) {
     RecordProperty("repaired", outcomes[2]);
 }
 
+// A hollow ball, less or more another one, 2^20 from the origin along two axes; along the third one
+// coordinates are so small that only a grid is certified, of which the balls are some hundred
+// units.
+class BallsFarAway {
+public:
+    BallsFarAway(double size, unsigned subdivisions)
+        : size_(size),
+          brep_(evaluate((Expression(ball(3, 0, subdivisions)) -
+                          Expression(ball(2.5, 0.01, subdivisions))) ^
+                         Expression(ball(3, 0.3, subdivisions)))
+                    .to_brep()) {}
+    [[nodiscard]] const Brep& brep() const { return brep_; }
+    [[nodiscard]] Solid ball(double radius, double along, unsigned subdivisions) const {
+        PolygonMesh m = trisect::make_icosphere(radius * size_, subdivisions);
+        for (trisect::Point3d& p : m.points)
+            for (std::size_t i = 0; i < 2; ++i) p[i] += 0x1p20 + along * size_;
+        return Solid::from_mesh(m);
+    }
+    // How many points inside and outside are farther from the boundary than the set may have moved;
+    // these lie in the mesh as in the exact set.
+    [[nodiscard]] std::array<int, 2> expect_same_beyond_radius(const CertifiedRounding& r) const {
+        trisect::SolidOptions any;
+        any.embedding = trisect::Embedding::Resolve;
+        const trisect::BrepIndex exact(Solid::from_brep(brep_));
+        const trisect::BrepIndex rounded(Solid::from_mesh(r.mesh, any));
+        std::array<int, 2> count{};
+        for (int i = 0; i < 729; ++i) {
+            const auto at = [&](int k) { return size_ * (k - 4) * 0.83; };
+            const trisect::Point3d p{0x1p20 + at(i % 9), 0x1p20 + at(i / 9 % 9), at(i / 81)};
+            // Distances in the maximum norm are at least 0.57 times these.
+            if (std::sqrt(exact.nearest(p)->squared_distance.to_double()) * 0.57 <= r.radius)
+                continue;
+            const trisect::Location location = exact.locate(p).location;
+            EXPECT_EQ(location, rounded.locate(p).location);
+            ++count[location == trisect::Location::Inside ? 0 : 1];
+        }
+        return count;
+    }
+
+private:
+    double size_;
+    Brep brep_;
+};
+
+TEST(CertifiedRounding, BallsOfFewUnitsTakeASecondRound) {
+    const BallsFarAway balls(0x1p-19, 1);
+    const CertifiedRounding r = certified_rounding(balls.brep());
+    EXPECT_EQ(r.outcome, Outcome::Repaired);
+    EXPECT_GE(r.rounds, 2U);
+    EXPECT_GT(r.snapped_vertices, 0U);
+    EXPECT_GT(r.first_pairs, 0U);
+    EXPECT_TRUE(r.certificate.holds());
+    EXPECT_TRUE(trisect::validate(r.mesh).is_solid());
+    const auto [inside, outside] = balls.expect_same_beyond_radius(r);
+    EXPECT_GT(inside, 20);
+    EXPECT_GT(outside, 300);
+}
+
+TEST(CertifiedRounding, WhatFailsStaysWithinItsRadius) {
+    RoundingOptions two;
+    two.max_rounds = 2;
+    const BallsFarAway balls(0x1p-18, 2);
+    const CertifiedRounding r = certified_rounding(balls.brep(), two);
+    EXPECT_EQ(r.outcome, Outcome::Failed);
+    EXPECT_EQ(r.rounds, 2U);
+    EXPECT_GT(r.snapped_vertices, 0U);
+    EXPECT_FALSE(r.certificate.holds());
+    const auto [inside, outside] = balls.expect_same_beyond_radius(r);
+    EXPECT_GT(inside, 0);
+    EXPECT_GT(outside, 50);
+}
+
 TEST(CertifiedRounding, RoundsAreBounded) {
     RoundingOptions none = floats();
     none.max_rounds = 0;
