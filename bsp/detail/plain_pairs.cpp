@@ -201,6 +201,42 @@ bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Ap
 
 }  // namespace
 
+// All facets of two operands. They are few, and four boxes are compared at once: to compare those
+// of one operand with all of the other takes less than to sort them. Facets of the first operand
+// come first.
+bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
+    const std::size_t n = LeafWork::u(facets.size());
+    boxes_.clear();
+    for (LeafIndex i = 0; i < facets.size(); ++i)
+        boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
+    const auto reach_of = [&](LeafIndex operand) {
+        const PlainFacets::Reach& r = facets.reach(LeafWork::u(operand));
+        return BoxRows::probe(r.lo, r.hi, operand);
+    };
+    const std::array reaches{reach_of(0), reach_of(1)};
+    is_candidate_.resize(4 * boxes_.row_count());
+    rows_of_first_.clear();
+    for (std::size_t row = 0; row < boxes_.row_count(); ++row) {
+        const unsigned firsts = boxes_.meeting(row, reaches[1]);
+        const unsigned candidates = firsts | boxes_.meeting(row, reaches[0]);
+        for (std::size_t i = 0; i < 4; ++i)
+            is_candidate_[4 * row + i] = static_cast<std::uint8_t>(candidates >> i & 1U);
+        if (firsts != 0) rows_of_first_.push_back(row);
+    }
+    for (std::size_t i = n - facets.problem().operands[1].polygons.size(); i < n; ++i) {
+        if (is_candidate_[i] == 0) continue;
+        check_budget(*facets.problem().options, stats);
+        const BoxRows::Probe probe = boxes_.probe(i);
+        for (const std::size_t row : rows_of_first_)
+            for (unsigned met = boxes_.meeting(row, probe); met != 0; met &= met - 1) {
+                const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
+                if (!compare(facets, static_cast<LeafIndex>(j), static_cast<LeafIndex>(i), stats))
+                    return false;
+            }
+    }
+    return true;
+}
+
 // Facets that may meet one of another operand, sorted along the axis on which the fewest boxes
 // overlap: where their lengths sum up to the smallest part of the whole extent.
 void PlainPairs::list_candidates(const PlainFacets& facets) {
@@ -258,10 +294,8 @@ void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
         next_marked_[row] = marked_[row] != 0 ? row : next_marked_[row + 1];
 }
 
-bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks, bool edges_apart,
-                        EvaluateStats& stats) {
-    edges_apart_ = edges_apart;
-    crossings_.clear();
+bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
+                       EvaluateStats& stats) {
     list_candidates(facets);
     if (!marks.empty()) mark_rows(marks);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -284,6 +318,15 @@ bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks
             }
         }
     }
+    return true;
+}
+
+bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks, bool edges_apart,
+                        EvaluateStats& stats) {
+    edges_apart_ = edges_apart;
+    crossings_.clear();
+    has_all_boxes_ = facets.operand_count() == 2 && marks.empty();
+    if (!(has_all_boxes_ ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
     stats.pairs_touching += crossings_.size();
     stats.pairs_cutting += crossings_.size();
     list_contacts(facets.size());

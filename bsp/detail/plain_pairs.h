@@ -79,6 +79,8 @@ public:
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
         return is_candidate_[LeafWork::u(item)] != 0;
     }
+    /// The boxes of all items, if they are there: of two operands.
+    [[nodiscard]] const BoxRows* all_boxes() const { return has_all_boxes_ ? &boxes_ : nullptr; }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
         const auto i = LeafWork::u(item);
@@ -93,6 +95,9 @@ private:
     };
     [[nodiscard]] bool relate(PlainFacets& facets, std::span<const std::uint8_t> marks,
                               bool edges_apart, EvaluateStats& stats);
+    [[nodiscard]] bool relate_two(PlainFacets& facets, EvaluateStats& stats);
+    [[nodiscard]] bool sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
+                             EvaluateStats& stats);
     void list_candidates(const PlainFacets& facets);
     void mark_rows(std::span<const std::uint8_t> marks);
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
@@ -105,7 +110,10 @@ private:
     bool edges_apart_ = false;
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
-    BoxRows boxes_;                           // of the candidates, the axis of the sweep first
+    // Of the candidates, the axis of the sweep first; of two operands of all items.
+    BoxRows boxes_;
+    bool has_all_boxes_ = false;
+    std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows
     std::vector<PlainCrossing> crossings_;

@@ -288,15 +288,17 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
         hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
-    for (std::size_t o = 0; o < operands_; ++o) {
-        if (o == LeafWork::u(own)) continue;
-        const BoxRows& boxes = boxes_of(o);
+    const auto count_in = [&](const BoxRows& boxes, LeafIndex first) {
         for (std::size_t row = 0; row < boxes.row_count(); ++row)
             for (unsigned met = boxes.meeting(row, probe); met != 0; met &= met - 1) {
                 const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
-                if (!add_crossing(boxes_[o].first + i, start.at, target, lo, hi, w)) return false;
+                if (!add_crossing(first + i, start.at, target, lo, hi, w)) return false;
             }
-    }
+        return true;
+    };
+    if (const BoxRows* all = pairs_->all_boxes()) return count_in(*all, 0);
+    for (std::size_t o = 0; o < operands_; ++o)
+        if (o != LeafWork::u(own) && !count_in(boxes_of(o), boxes_[o].first)) return false;
     return true;
 }
 
