@@ -236,6 +236,18 @@ TEST(QuickNumber, HalfwayBetweenTwoDoublesAndBesideIt) {
     }
 }
 
+// No division normalises zero: shifting it by its 64 leading zeros is undefined.
+TEST(QuickNumber, ZeroWithManyDecimals) {
+    for (int decimals = 1; decimals < 40; ++decimals) {
+        const std::string exponent = "e-" + std::to_string(decimals);
+        for (const std::string sign : {"", "-"}) {
+            EXPECT_EQ(compare_number(sign + "0" + exponent), decimals <= 22);
+            compare_number(sign + "0." + std::string(static_cast<std::size_t>(decimals), '0'));
+            compare_number(sign + "0.0" + exponent);
+        }
+    }
+}
+
 TEST(QuickNumber, AnyCharacters) {
     Random random(14);
     static const std::string common = "0123456789012345678901234567890.-+eE/x";

@@ -223,7 +223,7 @@ private:
             const double power =
                 exact_powers_of_ten[static_cast<std::size_t>(exponent < 0 ? -exponent : exponent)];
             v = exponent < 0 ? static_cast<double>(w) / power : static_cast<double>(w) * power;
-        } else if (exponent <= 0 && exponent > -28) {
+        } else if (w > 0 && exponent <= 0 && exponent > -28) {
             v = quotient_by_power_of_ten(w, static_cast<unsigned>(-exponent));
         } else {
             return false;
