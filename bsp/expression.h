@@ -65,8 +65,8 @@ struct EvaluateOptions {
     std::uint32_t wall_offset = 83;
     /// What counts as inside an operand that covers itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
-    /// Work budget: cells visited plus polygon pairs compared in leaves; 0 means no limit. The same
-    /// input hits the same limit everywhere.
+    /// Work budget: cells visited plus polygon pairs compared in leaves, not counting what operands
+    /// owe from the operation that made them; 0: no limit. The same input always hits the same one.
     std::uint64_t max_work = 0;
     /// Bytes that lists and results may hold at once, operands and scratch memory not counted; 0
     /// means no limit. Several threads hold more at once than one.

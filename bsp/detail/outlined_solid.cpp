@@ -45,6 +45,11 @@ const std::shared_ptr<const SolidState>& OutlinedSolid::cut() const {
     return cut_ = std::move(state);
 }
 
+bool OutlinedSolid::is_cut() const {
+    const std::lock_guard lock(cutting_);
+    return cut_ != nullptr;
+}
+
 namespace {
 
 // Of an operand that is all facets of one mesh: the mesh, else null.

@@ -26,8 +26,11 @@ public:
                   const EvaluateOptions& options);
 
     [[nodiscard]] const NamedOutlines& outlines() const { return outlines_; }
-    /// The same set with a tree as evaluate_formula() makes it, when it is first asked for.
+    /// The same set with a tree as evaluate_formula() makes it, when it is first asked for. Whoever
+    /// asks meanwhile waits. \throw CancelledError by the StopScope of the thread that cuts;
+    /// nothing is kept then
     [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
+    [[nodiscard]] bool is_cut() const;
 
 private:
     NamedOutlines outlines_;

@@ -49,7 +49,7 @@ bool PrismArrangement::arrange(const LeafProblem& problem, EvaluateStats& stats)
     is_changed_.assign(problem.operands.size(), false);
     odd_.assign(sheets_.size(), 0);
     find_chains();
-    walk_chains(problem, stats);
+    if (!walk_chains(problem, stats)) return false;
     finish_covers();
     return true;
 }
@@ -96,7 +96,8 @@ void PrismArrangement::find_chains() {
     chain_begin_.push_back(steps_.size());
 }
 
-void PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
+// False where too many walls lie across the lines of chains, as in PrismCrossings.
+bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
     const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
     const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
     std::vector<std::pair<std::int64_t, LeafIndex>> walls;  // by their lower ends
@@ -112,18 +113,22 @@ void PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& st
     std::vector<std::pair<std::int64_t, LeafIndex>> across;  // the line of the start: upper ends
     std::vector<LeafIndex> crossed;
     auto next = walls.begin();
+    std::size_t looked_at = 0;
     for (const auto& [v, chain] : chains) {
         check_budget(*problem.options, stats);
+        if (looked_at > PrismCrossings::most_per_wall * walls.size()) return false;
         for (; next != walls.end() && next->first <= v; ++next)
             across.emplace_back(high(next->second), next->second);
         std::erase_if(across, [v = v](const auto& w) { return w.first <= v; });
         crossed.clear();
+        looked_at += across.size();
         for (const auto& w : across)
             if (crosses_way(wall(w.second), start(chain))) crossed.push_back(w.second);
         const std::size_t begin = chain_begin_[chain];
         walk_chain(std::span(steps_).subspan(begin, chain_begin_[chain + 1] - begin), crossed);
         ++stats.traces;
     }
+    return true;
 }
 
 // All walls of a chain are in the same layers, and bound the same two sheets.

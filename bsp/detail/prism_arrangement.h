@@ -24,7 +24,7 @@ namespace trisect::detail {
 class PrismArrangement {
 public:
     /// False, and nothing is said, when the operands are of another kind, walls touch or coincide,
-    /// or there are so many layers that cells are the better way.
+    /// or there are so many layers, or walls beside each other, that cells are the better way.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats);
 
     /// Facets that bound the result as they are, without a vertex in their edges.
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[u(i)]; }
     [[nodiscard]] bool has_few_layers() const;
     void find_chains();
-    void walk_chains(const LeafProblem& problem, EvaluateStats& stats);
+    [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);
     void walk_chain(Chain chain, std::span<const LeafIndex> crossed);
     void enter_sheet(std::int32_t sheet);
     void set_row(std::size_t layer, LeafIndex operand, bool in);

@@ -41,13 +41,16 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
     std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
         return wall(a).from[0] != wall(b).from[0] ? wall(a).from[0] < wall(b).from[0] : a < b;
     });
+    std::size_t looked_at = 0;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         check_budget(*problem.options, stats);
+        if (looked_at > most_per_wall * order_.size()) return false;
         const PrismWall& s = wall(order_[i]);
         const auto [low, high] = std::minmax(s.from[1], s.to[1]);
         for (std::size_t j = i + 1; j < order_.size(); ++j) {
             const PrismWall& t = wall(order_[j]);
             if (t.from[0] > s.to[0]) break;
+            ++looked_at;
             if (std::max(t.from[1], t.to[1]) < low || std::min(t.from[1], t.to[1]) > high ||
                 t.lo > s.hi || t.hi < s.lo)
                 continue;

@@ -3,6 +3,7 @@
 // Where walls of prisms cross each other.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,12 @@ struct PrismCrossing {
 
 class PrismCrossings {
 public:
-    /// False when walls touch or overlap without crossing each other.
+    /// How many other walls each one may have beside it, on average. Where they are more, looking
+    /// at all of them once takes longer than cells do.
+    static constexpr std::size_t most_per_wall = 2048;
+
+    /// False when walls touch or overlap without crossing each other, and where too many lie side
+    /// by side. Time O(n log n + n m) for n walls with m others beside each.
     [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismWall> walls,
                             EvaluateStats& stats);
     /// In their order along the wall.

@@ -18,6 +18,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -115,6 +116,35 @@ TEST(Stop, EvaluationTakesTheFlagOfItsThread) {
     trisect::EvaluateOptions options;
     options.cancel = &go_on;
     EXPECT_FALSE(evaluate(a - b, options).is_empty());
+}
+
+Solid slanted_box(const trisect::Point3d& low, const trisect::Point3d& high) {
+    PolygonMesh mesh = trisect::make_box(low, high);
+    for (trisect::Point3d& p : mesh.points) p = {p[0] - p[1] / 4, p[1] + p[0] / 4, p[2]};
+    return Solid::from_mesh(mesh);
+}
+
+// A plate with a pocket is outlined first, and cut when the next operation needs its tree.
+TEST(Stop, CuttingOfAnOutlinedOperand) {
+    const Solid plate = slanted_box({0, 0, 0}, {9, 9, 3});
+    const Solid pocket = slanted_box({2, 2, 1}, {4, 4, 5});
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 0;
+    const Solid part = evaluate(plate - pocket, options);
+    const auto outlined = part.state()->outlined;
+    ASSERT_NE(outlined, nullptr);
+    const std::atomic<bool> cancel = true;
+    options.cancel = &cancel;
+    EXPECT_THROW((void)evaluate(part | pocket, options), trisect::CancelledError);
+    EXPECT_FALSE(outlined->is_cut());
+    {
+        const StopScope scope(&cancel);
+        EXPECT_THROW((void)part.to_brep(), trisect::CancelledError);
+        EXPECT_THROW((void)evaluate(part | pocket), trisect::CancelledError);
+        EXPECT_FALSE(outlined->is_cut());
+    }
+    EXPECT_EQ(part.to_brep().vertices().size(), 16U);
+    EXPECT_TRUE(outlined->is_cut());
 }
 
 TEST(Stop, OuterScopesStopInnerOnes) {
