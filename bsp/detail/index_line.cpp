@@ -386,6 +386,11 @@ IndexLine::IndexLine(const Segment& segment, Lattice lattice)
     }
 }
 
+bool IndexLine::is_moderate() const {
+    const double d = largest(direction_);
+    return direction_error_ < HUGE_VAL && origin_.error() < HUGE_VAL && d > 0x1p-300 && d < 0x1p300;
+}
+
 const IndexPoint::Rational& IndexLine::exact_direction() const {
     if (!exact_direction_) {
         IndexPoint::Rational d;

@@ -26,6 +26,8 @@ public:
     [[nodiscard]] double direction_error() const { return direction_error_; }
     /// Exactly 0.
     [[nodiscard]] bool is_parallel(std::size_t axis) const { return parallel_[axis]; }
+    /// Whether doubles tell where the line is: errors are finite, and nothing is near overflow.
+    [[nodiscard]] bool is_moderate() const;
     /// 1 for segments, infinite for rays.
     [[nodiscard]] double limit() const { return limit_; }
     [[nodiscard]] bool is_segment() const { return segment_.has_value(); }

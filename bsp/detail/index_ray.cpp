@@ -54,8 +54,12 @@ public:
 
     // Every polygon that the line meets, once; for a first hit, those that may be it.
     [[nodiscard]] std::vector<Contact> contacts() {
-        Range whole{0, line_.limit()};
-        if (clipped_to_bounds(whole)) walk(0, whole);
+        if (line_.is_moderate()) {
+            Range whole{0, line_.limit()};
+            if (clipped_to_bounds(whole)) walk(0, whole);
+        } else {
+            visit_all();
+        }
         if (first_only_)
             std::erase_if(found_, [&](const Contact& c) { return c.contact.lo > nearest_; });
         std::sort(found_.begin(), found_.end(),
@@ -71,8 +75,19 @@ private:
         Range range;
     };
 
+    // For lines of which doubles do not tell the cells.
+    void visit_all() {
+        for_leaves(
+            index_.tree, [](const DoubleBox&) { return true; },
+            [this](const IndexTree::Cell& c, const DoubleBox&) {
+                if (c.is_mixed()) visit(index_.tree.leaf(c.leaf));
+            });
+    }
+
+    // Faces without an end may be hit beyond the bounds.
     [[nodiscard]] bool clipped_to_bounds(Range& range) const {
         const IndexTree& tree = index_.tree;
+        if (!tree.is_bounded()) return true;
         for (std::size_t k = 0; k < 3; ++k) {
             if (line_.is_parallel(k)) {
                 const double o = line_.origin()[k];
