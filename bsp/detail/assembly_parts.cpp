@@ -122,6 +122,8 @@ private:
     void choose_axis_faces();
     void make_axis_faces();
     void merge_equal_points();
+    void add_planes_through(PointId value);
+    [[nodiscard]] bool is_same(PointId value, PointId name);
     void conform_edges(std::size_t traced, std::size_t of_leaves);
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
@@ -138,6 +140,7 @@ private:
     AxisFaces axis_faces_;
     std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
     std::vector<PointId> same_;
+    std::vector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
     EdgeSplitter splitter_;
     // Of the group of fragments in the making.
     FragmentGroup fragments_;
@@ -575,19 +578,48 @@ void Gatherer::merge_equal_points() {
     const auto better = [&](PointId a, PointId b) {
         return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
     };
+    std::vector<PointId> values;
     for_each_near_group(bench, [&](std::span<const PointId> group) {
         // Against one of each value: what is equal to it needs no comparison of its own.
-        for (std::size_t i = 1; i < group.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                if (same_[u(group[j])] != group[j] || !bench.same_point(group[i], group[j]))
-                    continue;
-                const bool first = better(group[j], group[i]);
-                same_[u(group[first ? i : j])] = group[first ? j : i];
-                break;
+        values.clear();
+        through_.clear();
+        for (const PointId p : group) {
+            const auto value = std::ranges::find_if(
+                values, [&](PointId v) { return bench.may_be_same(v, p) && is_same(v, p); });
+            if (value == values.end()) {
+                values.push_back(p);
+                add_planes_through(p);
+                continue;
             }
+            const PointId kept = same_[u(*value)];
+            same_[u(p)] = kept;
+            if (better(p, kept)) same_[u(kept)] = same_[u(*value)] = same_[u(p)] = p;
+        }
     });
     for (PointId& p : same_)
         while (same_[u(p)] != p) p = same_[u(p)];
+}
+
+void Gatherer::add_planes_through(PointId value) {
+    const Workbench& bench = out_.bench;
+    if (bench.is_corner(value)) return;
+    for (const PlaneId p : bench.planes_of(value))
+        through_.emplace_back(value, bench.plane_class(p));
+}
+
+// Where several planes have a point in common any three of them name it. Once a plane is found to
+// contain the point other names that it occurs in cost no arithmetic.
+bool Gatherer::is_same(PointId value, PointId name) {
+    const Workbench& bench = out_.bench;
+    if (bench.is_corner(name) || (bench.is_lattice(value) && bench.is_lattice(name)))
+        return bench.same_point(value, name);
+    return std::ranges::all_of(bench.planes_of(name), [&](PlaneId p) {
+        const std::pair known(value, bench.plane_class(p));
+        if (std::ranges::find(through_, known) != through_.end()) return true;
+        if (bench.side(value, p) != 0) return false;
+        through_.push_back(known);
+        return true;
+    });
 }
 
 // Edges of traced facets, which come first, and of planes across axes, which come last, have all

@@ -277,14 +277,19 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
                            plane_at(r.planes[2]), p));
 }
 
+bool Workbench::may_be_same(PointId a, PointId b) const {
+    const Approximation& p = approximation(a);
+    const Approximation& q = approximation(b);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::fabs(p.c[k] - q.c[k]) > 1.0000001 * (p.error + q.error)) return false;
+    return true;
+}
+
 bool Workbench::same_point(PointId a, PointId b) const {
     if (a == b) return true;
+    if (!may_be_same(a, b)) return false;
     const PointRecord& ra = points_[u(a)];
     const PointRecord& rb = points_[u(b)];
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double gap = std::fabs(ra.approximation.c[k] - rb.approximation.c[k]);
-        if (gap > 1.0000001 * (ra.approximation.error + rb.approximation.error)) return false;
-    }
     if (ra.is_lattice && rb.is_lattice) return ra.lattice == rb.lattice;
     const PointRecord& named = ra.planes[0] < 0 ? rb : ra;
     const PointId other = ra.planes[0] < 0 ? a : b;

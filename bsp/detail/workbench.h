@@ -90,6 +90,8 @@ public:
     [[nodiscard]] std::array<double, 3> nearest(PointId id) const;
     /// Exact equality.
     [[nodiscard]] bool same_point(PointId a, PointId b) const;
+    /// Whether doubles leave it open that two points are the same.
+    [[nodiscard]] bool may_be_same(PointId a, PointId b) const;
 
     /// -1 below, 0 on, 1 above: symbolic, filtered, exact.
     [[nodiscard]] int side(PointId point, PlaneId plane) const {
