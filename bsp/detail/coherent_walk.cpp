@@ -56,12 +56,10 @@ float size(const ObbTree& t, ObbId id) {
     return n.half[0][id.lane()] + n.half[1][id.lane()] + n.half[2][id.lane()];
 }
 
-// From the box below the root down to the box itself; of the root nothing.
-std::vector<ObbId> boxes_down_to(const ObbTree& t, ObbId id) {
-    std::vector<ObbId> way;
+// From the box itself up to that below the root; of the root nothing.
+void find_boxes_up_from(const ObbTree& t, ObbId id, std::vector<ObbId>& way) {
+    way.clear();
     for (; id.index != 0; id = ObbId{t.parent[id.node()]}) way.push_back(id);
-    std::reverse(way.begin(), way.end());
-    return way;
 }
 
 }  // namespace
@@ -124,7 +122,8 @@ bool CoherentWalk::leaves_cross(ObbId a, ObbId b) {
     return false;
 }
 
-// Pairs below that may meet, for the search; without one that has been searched.
+// Pairs below that may meet, for the search; without one that has been searched. Which of them
+// is anybody's guess, so all four are written, one over the other where they are apart.
 void CoherentWalk::push_lanes(const ObbWalk::Pair& p, Opens side, ObbWalk::Pair searched) {
     const ObbTree& ta = a_->boxes;
     const ObbTree& tb = b_->boxes;
@@ -132,14 +131,18 @@ void CoherentWalk::push_lanes(const ObbWalk::Pair& p, Opens side, ObbWalk::Pair 
     ++counters_.node_tests;
     const unsigned hits = side == Opens::B ? pose_->overlaps(ta.box(p.a), tb.nodes[node])
                                            : pose_->overlaps(ta.nodes[node], tb.box(p.b));
+    std::size_t end = stack_.size();
+    stack_.resize(end + 4);
     for (std::uint32_t k = 0; k < 4; ++k) {
-        if ((hits >> k & 1U) == 0) continue;
         const ObbId lane = ObbId::of(node, k);
         const ObbWalk::Pair below =
             side == Opens::B ? ObbWalk::Pair{p.a, lane} : ObbWalk::Pair{lane, p.b};
-        if (below.a.index == searched.a.index && below.b.index == searched.b.index) continue;
-        stack_.push_back(below);
+        const bool known =
+            (below.a.index == searched.a.index) & (below.b.index == searched.b.index);
+        stack_[end] = below;
+        end += (hits >> k & 1U) & (known ? 0U : 1U);
     }
+    stack_.resize(end);
 }
 
 bool CoherentWalk::cross_below_stack() {
@@ -156,36 +159,35 @@ bool CoherentWalk::cross_below_stack() {
 }
 
 // The pairs that a walk opens from the roots to a pair of leaves, without that.
-std::vector<ObbWalk::Pair> CoherentWalk::way_to(ObbId a, ObbId b) const {
-    const std::vector<ObbId> below_a = boxes_down_to(a_->boxes, a);
-    const std::vector<ObbId> below_b = boxes_down_to(b_->boxes, b);
-    std::vector<ObbWalk::Pair> way;
+void CoherentWalk::find_way_to(ObbWalk::Pair leaves) {
+    find_boxes_up_from(a_->boxes, leaves.a, up_in_a_);
+    find_boxes_up_from(b_->boxes, leaves.b, up_in_b_);
+    way_.clear();
     ObbWalk::Pair at;
-    for (std::size_t i = 0, j = 0; i < below_a.size() || j < below_b.size();) {
-        way.push_back(at);
+    for (std::size_t i = up_in_a_.size(), j = up_in_b_.size(); i > 0 || j > 0;) {
+        way_.push_back(at);
         if (opens(at.a, at.b) == Opens::B)
-            at.b = below_b[j++];
+            at.b = up_in_b_[--j];
         else
-            at.a = below_a[i++];
+            at.a = up_in_a_[--i];
     }
-    return way;
 }
 
 // The witness itself has been compared.
 CoherentWalk::Answer CoherentWalk::search_from_witness() {
     constexpr std::uint64_t patience = 16;
     ObbWalk::Pair searched = *witness_;
-    const std::vector<ObbWalk::Pair> way = way_to(searched.a, searched.b);
+    find_way_to(searched);
     const std::uint64_t before = counters_.node_tests;
     bool may_resume = front_pose_.has_value();
     stack_.clear();
-    for (std::size_t k = way.size(); k-- > 0;) {
-        push_lanes(way[k], opens(way[k].a, way[k].b), searched);
+    for (std::size_t k = way_.size(); k-- > 0;) {
+        push_lanes(way_[k], opens(way_[k].a, way_[k].b), searched);
         if (cross_below_stack()) return Answer::Crossing;
-        searched = way[k];
+        searched = way_[k];
         if (may_resume && counters_.node_tests - before > patience) {
             const double now = odometer_ + pose_->displacement_from(*front_pose_);
-            if (8 * due_.count_due(now) <= 7 * (visits_.size() - unused_.size())) {
+            if (2 * due_.count_due(now) <= visits_.size() - unused_.size()) {
                 ++resumed_;
                 witness_.reset();
                 return renew_front();
@@ -402,6 +404,11 @@ CoherentWalk::Answer CoherentWalk::make_front() {
     ++fresh_;
     visits_.clear();
     planes_.clear();
+    // Growing step by step would be a good part of the first question.
+    constexpr std::size_t room = 256;
+    visits_.reserve(room);
+    planes_.reserve(room);
+    open_.reserve(room);
     unused_.clear();
     open_.clear();
     odometer_ = 0;
@@ -431,8 +438,8 @@ CoherentWalk::Answer CoherentWalk::renew_front() {
         odometer_,
         [this](std::uint32_t v) {
             ++counters_.plane_tests;
-            const auto gap = static_cast<double>(planes_[v].gap(plane_pose_));
-            return gap > 0 ? (odometer_ + gap) * (1 - 0x1p-52) : odometer_;
+            // No gap is no later reading.
+            return (odometer_ + static_cast<double>(planes_[v].gap(plane_pose_))) * (1 - 0x1p-52);
         },
         open_);
     for (const std::uint32_t v : open_) visits_[v].slack = due_[v] - (odometer_ - step_);

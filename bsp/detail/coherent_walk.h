@@ -81,7 +81,7 @@ private:
     bool leaves_cross(ObbId a, ObbId b);
     void push_lanes(const ObbWalk::Pair& p, Opens side, ObbWalk::Pair searched);
     bool cross_below_stack();
-    [[nodiscard]] std::vector<ObbWalk::Pair> way_to(ObbId a, ObbId b) const;
+    void find_way_to(ObbWalk::Pair leaves);
     Answer search_from_witness();
 
     // The front.
@@ -121,6 +121,10 @@ private:
     std::size_t region_a_ = 0;
     std::size_t region_b_ = 0;
     ObbWalk::Stack stack_;
+    // The way down to the pair of leaves, and the boxes above each of them; scratch memory.
+    std::vector<ObbWalk::Pair> way_;
+    std::vector<ObbId> up_in_a_;
+    std::vector<ObbId> up_in_b_;
 
     std::vector<Visit> visits_;
     // Of visits: planes that part the lanes that are not open, which stay where they are while B

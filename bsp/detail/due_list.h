@@ -47,13 +47,13 @@ public:
         left.resize(end + due);
         for (std::size_t i = 0; i < due; ++i) {
             const std::uint32_t name = due_[i];
-            const double next = look(name);
-            const bool later = next > now;
+            const Double2 next = both(look(name));
+            const Mask2 later = next > both(now);
             left[end] = name;
-            end += later ? 0 : 1;
-            readings_[name] = later ? next : readings_[name];
+            end += 1 - (bits_of(later) & 1U);
+            readings_[name] = choose(later, next, both(readings_[name]))[0];
             double& least = least_[name / block];
-            least = later && next < least ? next : least;
+            least = smaller(choose(later, next, both(never)), both(least))[0];
         }
         left.resize(end);
     }

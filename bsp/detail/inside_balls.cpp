@@ -20,6 +20,7 @@
 #include <trisect/bsp/detail/inside_balls.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -301,7 +302,7 @@ void InsideBalls::find_large_ones(const InterferenceModelData& model) {
 }
 
 void InsideBalls::find_along_boundary(const InterferenceModelData& model) {
-    constexpr std::uint32_t regions = 512;
+    constexpr std::uint32_t regions = 1024;
     constexpr std::uint32_t tries = 3;
     const auto count = static_cast<std::uint32_t>(model.boxes.order.size());
     region_ = (count + regions - 1) / regions;
@@ -405,23 +406,58 @@ std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
     return overlap_if_both_stick_out(a, b, balls_b, to_a, depth, reserve);
 }
 
+namespace {
+
+// Four balls side by side, in floats. What is no ball reaches nothing.
+struct BallQuad {
+    std::array<Float4, 3> center{};
+    Float4 radius = all_lanes(-std::numeric_limits<float>::infinity());
+
+    // At most four.
+    explicit BallQuad(std::span<const InsideBall> balls) {
+        for (std::size_t i = 0; i < balls.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+                center[k][i] = static_cast<float>(balls[i].center[k]);
+            if (balls[i].radius > 0) radius[i] = static_cast<float>(balls[i].radius);
+        }
+    }
+};
+
+}  // namespace
+
+// Floats find pairs that may be deeper than the deepest so far, four at a time and without a root.
 std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(std::span<const InsideBall> of_a,
                                                                 std::span<const InsideBall> of_b,
                                                                 const ApproximateMap& to_a) {
     const double scale = length({to_a.m[0][0], to_a.m[1][0], to_a.m[2][0]});
+    std::vector<BallQuad> quads;
+    quads.reserve((of_a.size() + 3) / 4);
+    for (std::size_t i = 0; i < of_a.size(); i += 4)
+        quads.emplace_back(of_a.subspan(i, std::min<std::size_t>(4, of_a.size() - i)));
     std::optional<std::pair<std::size_t, std::size_t>> deepest;
     double depth = 0;
     for (std::size_t j = 0; j < of_b.size(); ++j) {
         if (!(of_b[j].radius > 0)) continue;
         const Point center = to_a(of_b[j].center);
-        for (std::size_t i = 0; i < of_a.size(); ++i) {
-            if (!(of_a[i].radius > 0)) continue;
-            const Point way = minus(center, of_a[i].center);
-            const double reach = scale * of_b[j].radius + of_a[i].radius;
-            // Deeper than the deepest so far, without a root.
-            if (!(reach > depth) || dot(way, way) >= (reach - depth) * (reach - depth)) continue;
-            depth = reach - length(way);
-            deepest.emplace(i, j);
+        const double radius = scale * of_b[j].radius;
+        const std::array<Float4, 3> c{all_lanes(static_cast<float>(center[0])),
+                                      all_lanes(static_cast<float>(center[1])),
+                                      all_lanes(static_cast<float>(center[2]))};
+        for (std::size_t q = 0; q < quads.size(); ++q) {
+            Float4 squares = all_lanes(0);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Float4 d = c[k] - quads[q].center[k];
+                squares += d * d;
+            }
+            const Float4 reach = larger(
+                quads[q].radius + all_lanes(static_cast<float>(radius - depth)), all_lanes(0));
+            for (unsigned hits = bits_of(squares < reach * reach); hits != 0; hits &= hits - 1) {
+                const std::size_t i = 4 * q + static_cast<std::size_t>(std::countr_zero(hits));
+                const double d = radius + of_a[i].radius - length(minus(center, of_a[i].center));
+                if (!(d > depth)) continue;
+                depth = d;
+                deepest.emplace(i, j);
+            }
         }
     }
     return deepest;

@@ -45,7 +45,8 @@
 // Gaps. Along a vector L, whatever its length up to 1 + 2^-20, the left side minus the right side
 // bounds the distance from below times that length. L = t as computed: t·t differs from |t|² by
 // √3·16 u |t| Λ, products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same
-// margin. The factor 1 - 2^-18 takes the lengths and the last roundings.
+// margin. The factor 1 - 2^-18 takes the lengths and the last roundings. So along a vector shorter
+// than 1, as products are, it says less than the distance, which is right, too.
 //
 // Planes that were found under another pose (parting_planes.h). The distance of the two sets along
 // L, in the frame of box A, is that along U_A^T L in A, whatever U_A is. That direction n, of
@@ -140,9 +141,10 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     const double lambda = length + reach;
     const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach + way;
     scale_ = static_cast<float>(scale);
+    const double per_scale = 1 / scale;
     for (std::size_t i = 0; i < 3; ++i) {
         t_[i] = static_cast<float>(t[i]);
-        for (std::size_t j = 0; j < 3; ++j) m_[i][j] = static_cast<float>(m[i][j] / scale);
+        for (std::size_t j = 0; j < 3; ++j) m_[i][j] = static_cast<float>(m[i][j] * per_scale);
     }
     // Beyond the range of floats nothing is certain.
     const bool in_range = scale < 0x1p100 && lambda < 0x1p100;

@@ -53,8 +53,9 @@ public:
     [[nodiscard]] Float4 best_gaps(const ObbNode& a, const OrientedBox& b) const {
         return gap(lanes_of(a, b), true);
     }
-    /// The same as `gaps`, and for each lane a direction from A to B along which the boxes are
-    /// about so far apart; any direction when they overlap.
+    /// A lower bound for each lane as above, positive wherever `overlaps` finds boxes apart, and a
+    /// direction from A to B along which it holds: one of the fifteen axes. Of boxes that overlap
+    /// any direction. Far from each other they are farther than this says.
     template <class BoxesA, class BoxesB>
     [[nodiscard]] Float4 gaps(const BoxesA& a, const BoxesB& b, Directions& along) const;
     /// Bound on how far any point below a box of B is from where another pose of the same trees
@@ -83,31 +84,35 @@ private:
     [[nodiscard]] Float4 margin_of(const Lanes& l) const;
     // The most of some gaps.
     struct Most {
-        Float4 gap = all_lanes(-std::numeric_limits<float>::infinity());
-        void offer(Float4 g, std::int32_t) { gap = larger(g, gap); }
+        Float4 most = all_lanes(-std::numeric_limits<float>::infinity());
+        void offer(Float4 g, std::int32_t) { most = larger(g, most); }
+        [[nodiscard]] Float4 gap() const { return most; }
     };
-    // And the number of the axis: A's normals 0 to 2, B's 3 to 5, products 6 + 3 i + j, the line of
-    // centres 15.
+    // And the number of the axis in the last four bits, towards 0 from the gap: A's normals 0 to 2,
+    // B's 3 to 5, products 6 + 3 i + j. What is no number is not taken.
     struct MostAndAxis {
-        Float4 gap = all_lanes(-std::numeric_limits<float>::infinity());
-        Mask4 axis{};
+        Float4 most = all_lanes(-std::numeric_limits<float>::infinity());
         void offer(Float4 g, std::int32_t number) {
-            const Mask4 better = g > gap;
-            gap = larger(g, gap);
-            axis = (better & Mask4{number, number, number, number}) | (~better & axis);
+            const Mask4 numbered =
+                (reinterpret_cast<Mask4>(g) & ~last_bits) | Mask4{number, number, number, number};
+            most = larger(reinterpret_cast<Float4>(numbered), most);
         }
+        [[nodiscard]] Float4 gap() const {
+            return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(most) & ~last_bits);
+        }
+        [[nodiscard]] Mask4 axis() const { return reinterpret_cast<Mask4>(most) & last_bits; }
+        static constexpr Mask4 last_bits{15, 15, 15, 15};
     };
     template <bool Rigid, class Gap>
     void offer_normals(const Lanes& l, Float4 margin, Gap& best) const;
     template <class Gap>
     void offer_products(const Lanes& l, Float4 margin, Gap& best) const;
     template <class Gap>
-    void offer_centers(const Lanes& l, Float4 margin, Gap& best) const;
+    void offer_axes(const Lanes& l, Float4 margin, bool all, Gap& best) const;
+    void offer_centers(const Lanes& l, Float4 margin, Most& best) const;
     [[nodiscard]] static Directions directions(const Lanes& l, Mask4 axis);
     template <bool Rigid>
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
-    template <class Gap>
-    void find_gap(const Lanes& l, bool all, Gap& best) const;
     [[nodiscard]] double stretch_from(const ObbPose& other) const;
     [[nodiscard]] Float4 gap(const Lanes& l, bool all) const;
 
@@ -179,8 +184,7 @@ void ObbPose::offer_products(const Lanes& l, Float4 margin, Gap& best) const {
 }
 
 // The same along the line of centres, the best direction for boxes far apart.
-template <class Gap>
-void ObbPose::offer_centers(const Lanes& l, Float4 margin, Gap& best) const {
+inline void ObbPose::offer_centers(const Lanes& l, Float4 margin, Most& best) const {
     const auto& r = l.r;
     const auto& t = l.t;
     const Float4 square = (t[0] * t[0] + t[1] * t[1]) + t[2] * t[2];
@@ -197,28 +201,30 @@ unsigned ObbPose::may_meet(const Lanes& l) const {
     const Float4 margin = margin_of(l);
     Most normals;
     offer_normals<Rigid>(l, margin, normals);
-    const unsigned apart = bits_of(normals.gap > all_lanes(0));
+    const unsigned apart = bits_of(normals.gap() > all_lanes(0));
     if (apart == 15 || !Rigid) return ~apart & 15U;
     Most products;
     offer_products(l, margin, products);
-    return ~(apart | bits_of(products.gap > all_lanes(0))) & 15U;
+    return ~(apart | bits_of(products.gap() > all_lanes(0))) & 15U;
 }
 
+// Products where the normals do not part all lanes, or always.
 template <class Gap>
-void ObbPose::find_gap(const Lanes& l, bool all, Gap& best) const {
-    const Float4 margin = margin_of(l);
+void ObbPose::offer_axes(const Lanes& l, Float4 margin, bool all, Gap& best) const {
     if (rigid_)
         offer_normals<true>(l, margin, best);
     else
         offer_normals<false>(l, margin, best);
-    if (rigid_ && (all || bits_of(best.gap > all_lanes(0)) != 15)) offer_products(l, margin, best);
-    offer_centers(l, margin, best);
+    if (rigid_ && (all || bits_of(best.gap() > all_lanes(0)) != 15))
+        offer_products(l, margin, best);
 }
 
 inline Float4 ObbPose::gap(const Lanes& l, bool all) const {
+    const Float4 margin = margin_of(l);
     Most best;
-    find_gap(l, all, best);
-    return larger(best.gap, all_lanes(0)) * all_lanes(1 - 0x1p-18F);
+    offer_axes(l, margin, all, best);
+    offer_centers(l, margin, best);
+    return larger(best.gap(), all_lanes(0)) * all_lanes(1 - 0x1p-18F);
 }
 
 // In the frame of box A. Without branches: every lane has another axis.
@@ -227,10 +233,9 @@ inline ObbPose::Directions ObbPose::directions(const Lanes& l, Mask4 axis) {
     constexpr std::size_t one = 1;
     constexpr auto r = [](std::size_t i, std::size_t j) { return 2 + 3 * i + j; };
     constexpr auto minus_r = [](std::size_t i, std::size_t j) { return 11 + 3 * i + j; };
-    constexpr auto t = [](std::size_t i) { return 20 + i; };
     // For each axis the places of its components in `all`.
     constexpr auto places = [=] {
-        std::array<std::array<std::uint8_t, 3>, 16> p{};
+        std::array<std::array<std::uint8_t, 3>, 15> p{};
         const auto set = [&p](std::size_t n, std::size_t k, std::size_t place) {
             p[n][k] = static_cast<std::uint8_t>(place);
         };
@@ -242,11 +247,10 @@ inline ObbPose::Directions ObbPose::directions(const Lanes& l, Mask4 axis) {
                 set(6 + 3 * i + j, (i + 1) % 3, minus_r((i + 2) % 3, j));
                 set(6 + 3 * i + j, (i + 2) % 3, r((i + 1) % 3, j));
             }
-            set(15, i, t(i));
         }
         return p;
     }();
-    std::array<Float4, 23> all;
+    std::array<Float4, 20> all;
     all[zero] = all_lanes(0);
     all[one] = all_lanes(1);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -254,13 +258,15 @@ inline ObbPose::Directions ObbPose::directions(const Lanes& l, Mask4 axis) {
             all[r(i, j)] = l.r[i][j];
             all[minus_r(i, j)] = -l.r[i][j];
         }
-        all[t(i)] = l.t[i];
     }
-    Directions d{};
-    for (std::size_t k = 0; k < 4; ++k) {
-        const auto& place = places[static_cast<std::size_t>(axis[k])];
-        for (std::size_t i = 0; i < 3; ++i) d[i][k] = all[place[i]][k];
-    }
+    const auto place = [&](std::size_t k) { return places[static_cast<std::size_t>(axis[k])]; };
+    const std::array<std::uint8_t, 3> p0 = place(0);
+    const std::array<std::uint8_t, 3> p1 = place(1);
+    const std::array<std::uint8_t, 3> p2 = place(2);
+    const std::array<std::uint8_t, 3> p3 = place(3);
+    Directions d;
+    for (std::size_t i = 0; i < 3; ++i)
+        d[i] = Float4{all[p0[i]][0], all[p1[i]][1], all[p2[i]][2], all[p3[i]][3]};
     return d;
 }
 
@@ -278,20 +284,16 @@ template <class BoxesA, class BoxesB>
 Float4 ObbPose::gaps(const BoxesA& a, const BoxesB& b, Directions& along) const {
     const Lanes l = lanes_of(a, b);
     MostAndAxis best;
-    find_gap(l, false, best);
-    Directions d = directions(l, best.axis);
-    // Of unit length, towards B, in A's units.
-    const Float4 length = larger(square_root(obb_lanes::product(d, d)), all_lanes(1e-30F));
-    const Float4 inverse = all_lanes(1) / length;
+    offer_axes(l, margin_of(l), false, best);
+    const Directions d = directions(l, best.axis());
+    // Towards B. Products are shorter than 1, and so are gaps along them.
     const Mask4 back = obb_lanes::product(d, l.t) < all_lanes(0);
-    const Float4 factor = back ? -inverse : inverse;
-    for (Float4& c : d) c *= factor;
-    for (std::size_t k = 0; k < 3; ++k)
-        along[k] = (d[0] * obb_lanes::of(a.axis[0][k]) + d[1] * obb_lanes::of(a.axis[1][k])) +
-                   d[2] * obb_lanes::of(a.axis[2][k]);
-    // Gaps are known along vectors of that length, but along the line of centres.
-    const Float4 unit = best.axis == Mask4{15, 15, 15, 15} ? all_lanes(1) : inverse;
-    return larger(best.gap, all_lanes(0)) * (unit * all_lanes(1 - 0x1p-18F));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Float4 c = (d[0] * obb_lanes::of(a.axis[0][k]) + d[1] * obb_lanes::of(a.axis[1][k])) +
+                         d[2] * obb_lanes::of(a.axis[2][k]);
+        along[k] = back ? -c : c;
+    }
+    return larger(best.gap(), all_lanes(0)) * all_lanes(1 - 0x1p-18F);
 }
 
 inline ObbPose::Lanes ObbPose::lanes_of(const OrientedBox& a, const ObbNode& b) const {

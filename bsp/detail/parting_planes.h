@@ -49,9 +49,10 @@ public:
     /// Where the points are along the directions, up to half the margin.
     [[nodiscard]] Float4 place(const ObbPose::Directions& along,
                                const std::array<Float4, 3>& point) const {
-        Float4 of_b{};
-        for (std::size_t j = 0; j < 3; ++j)
-            of_b += ((along[0] * m_[j][0] + along[1] * m_[j][1]) + along[2] * m_[j][2]) * point[j];
+        const auto turned = [&](std::size_t j) {
+            return (along[0] * m_[j][0] + along[1] * m_[j][1]) + along[2] * m_[j][2];
+        };
+        const Float4 of_b = (turned(0) * point[0] + turned(1) * point[1]) + turned(2) * point[2];
         return scale_ * of_b + ((along[0] * t_[0] + along[1] * t_[1]) + along[2] * t_[2]);
     }
     [[nodiscard]] Float4 margin() const { return margin_; }
