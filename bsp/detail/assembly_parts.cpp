@@ -90,6 +90,7 @@ public:
         const std::size_t of_leaves = edges_.size();
         make_axis_faces();
         merge_equal_points();
+        out_.bench.end_points();
         check_stop(edges_.size());
         conform_edges(traced, of_leaves);
         out_.representatives = std::move(same_);

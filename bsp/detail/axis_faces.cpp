@@ -156,7 +156,7 @@ void AxisFaces::read_leaf(const Leaf& leaf) {
 void AxisFaces::pass(const PolygonRef& facet) {
     const PlaneName name = PlaneName::support(facet.source, facet.facet);
     sheet_at(*axis_plane(name), name).is_general = true;
-    for (int i = 0; i < 3; ++i) passing_.push_back({facet.source, facet.facet, i});
+    passing_.push_back({facet.source, facet.facet});
 }
 
 // Its parts are in the picture's units. One that is not cut has all its area in the cell.
@@ -322,6 +322,7 @@ void AxisFaces::judge() {
         taken_count_ += taken_[i] ? 1 : 0;
     }
     takes_all_ = taken_count_ == facets_.size();
+    if (taken_count_ == 0) passing_ = {};
 }
 
 // Surely: a part of it is missing, or an edge of it has a vertex inside.
@@ -353,6 +354,7 @@ bool AxisFaces::has_changed(std::int32_t number) const {
 // --- Edges.
 
 void AxisFaces::note_vertices(std::span<const BoundaryEdge> edges) {
+    if (taken_count_ == 0) return;
     for (const BoundaryEdge& e : edges) others_.push_back(e.from);
 }
 
@@ -410,7 +412,8 @@ void AxisFaces::list_corners() {
             if ((facets_[i].corners >> c & 1) != 0) corners_.push_back({f.source, f.facet, c});
     }
     first_passing_ = corners_.size();
-    corners_.insert(corners_.end(), passing_.begin(), passing_.end());
+    for (const PolygonName& p : passing_)
+        for (int c = 0; c < 3; ++c) corners_.push_back({p.source, p.facet, c});
     passing_ = {};
 }
 

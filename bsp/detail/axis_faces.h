@@ -101,6 +101,10 @@ private:
         double area = 0;           // of its parts, twice; off by `slack` at most
         double slack = 0;
     };
+    struct PolygonName {
+        const Source* source = nullptr;
+        std::uint32_t facet = 0;
+    };
     struct CornerName {
         const Source* source = nullptr;
         std::uint32_t facet = 0;
@@ -177,8 +181,8 @@ private:
     // Corners that are vertices of parts of facets taken, then those of facets that pass through,
     // in leaves across axes.
     std::vector<CornerName> corners_;
-    std::vector<CornerName> passing_;
-    std::size_t first_passing_ = 0;  // of corners_, once they are there too
+    std::vector<PolygonName> passing_;  // until their corners are listed
+    std::size_t first_passing_ = 0;     // of corners_, once they are there too
     // Vertices of facets that are not taken, where they are on the lattice, and their places.
     std::vector<PointId> others_;
     std::vector<LatticePoint> places_;

@@ -18,6 +18,15 @@ void Workbench::clear() {
     corner_ids_.clear();
     line_ids_.clear();
     point_ids_.clear();
+    names_points_ = true;
+}
+
+void Workbench::end_points() {
+    names_points_ = false;
+    line_ids_ = {};
+    point_ids_ = {};
+    for (PlaneRecord& p : planes_) p.place = -1;
+    made_.free();
 }
 
 void Workbench::reserve(std::size_t planes, std::size_t points) {
@@ -70,9 +79,11 @@ PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
     const auto next = static_cast<PointId>(points_.size());
     const auto [id, inserted] = corner_ids_.insert(key, next);
     if (inserted) {
-        const LatticePoint& p = source->corner(facet, i);
-        points_.push_back(
-            {{-1, -1, -1}, p, approximate(p), source, source->corner_index(facet, i), true});
+        points_.push_back({{-1, -1, -1},
+                           source->corner_index(facet, i),
+                           source,
+                           approximate(source->corner(facet, i)),
+                           true});
     }
     return id;
 }
@@ -168,13 +179,11 @@ bool is_sharp(const Approximation& a) {
 }
 
 // Doubles without an error are the coordinates.
-std::optional<LatticePoint> lattice_point(const Approximation& a) {
-    if (a.error != 0) return std::nullopt;
-    for (const double c : a.c)
-        if (std::fabs(c) > static_cast<double>(coordinate_limit) || std::nearbyint(c) != c)
-            return std::nullopt;
-    return LatticePoint{static_cast<std::int64_t>(a.c[0]), static_cast<std::int64_t>(a.c[1]),
-                        static_cast<std::int64_t>(a.c[2])};
+bool is_lattice_point(const Approximation& a) {
+    return a.error == 0 && std::ranges::all_of(a.c, [](double c) {
+               return std::fabs(c) <= static_cast<double>(coordinate_limit) &&
+                      std::nearbyint(c) == c;
+           });
 }
 
 }  // namespace
@@ -182,28 +191,21 @@ std::optional<LatticePoint> lattice_point(const Approximation& a) {
 PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r,
                                const Approximation* known) {
     const auto next = static_cast<PointId>(points_.size());
+    TRISECT_EXPECTS(names_points_, "a point was named after the last one");
     const auto [id, inserted] = point_ids_.insert(key, next);
     if (!inserted) return id;
     const bool take = known != nullptr && is_sharp(*known);
-    points_.push_back({{p, q, r},
-                       {},
-                       take ? *known : approximate(plane_at(p), plane_at(q), plane_at(r)),
-                       nullptr,
-                       0,
-                       false});
-    PointRecord& made = points_.back();
-    if (const auto at = lattice_point(made.approximation)) {
-        made.lattice = *at;
-        made.is_lattice = true;
-    }
+    const Approximation at = take ? *known : approximate(plane_at(p), plane_at(q), plane_at(r));
+    points_.push_back({{p, q, r}, 0, nullptr, at, is_lattice_point(at)});
     return id;
 }
 
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
     const PointRecord& r = points_[u(id)];
-    if (r.is_lattice)
-        return {{WideInt<7>(r.lattice.x), WideInt<7>(r.lattice.y), WideInt<7>(r.lattice.z)},
-                WideInt<6>(1)};
+    if (r.is_lattice) {
+        const LatticePoint at = r.lattice();
+        return {{WideInt<7>(at.x), WideInt<7>(at.y), WideInt<7>(at.z)}, WideInt<6>(1)};
+    }
     const auto h = intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
     TRISECT_EXPECTS(h.has_value(), "a point of planes that do not meet in one");
     return *h;
@@ -211,7 +213,7 @@ HomogeneousPoint Workbench::homogeneous(PointId id) const {
 
 Point Workbench::point(PointId id) const {
     const PointRecord& r = points_[u(id)];
-    if (r.is_lattice) return Point(r.lattice);
+    if (r.is_lattice) return Point(r.lattice());
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
@@ -261,7 +263,7 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
             ++counters.symbolic;
             return 0;
         }
-        return sign_of(side_of(r.lattice, p));
+        return sign_of(side_of(r.lattice(), p));
     }
     const PlaneId c = plane_class(plane);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -272,7 +274,7 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
             return 0;
         }
     }
-    if (r.is_lattice) return sign_of(side_of(r.lattice, p));
+    if (r.is_lattice) return sign_of(side_of(r.lattice(), p));
     return sign_of(side_of(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]), p));
 }
@@ -290,7 +292,7 @@ bool Workbench::same_point(PointId a, PointId b) const {
     if (!may_be_same(a, b)) return false;
     const PointRecord& ra = points_[u(a)];
     const PointRecord& rb = points_[u(b)];
-    if (ra.is_lattice && rb.is_lattice) return ra.lattice == rb.lattice;
+    if (ra.is_lattice && rb.is_lattice) return ra.approximation.c == rb.approximation.c;
     const PointRecord& named = ra.planes[0] < 0 ? rb : ra;
     const PointId other = ra.planes[0] < 0 ? a : b;
     return std::all_of(named.planes.begin(), named.planes.end(),

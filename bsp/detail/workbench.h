@@ -74,7 +74,7 @@ public:
         return {points_[u(id)].source, points_[u(id)].vertex};
     }
     /// \pre is_lattice(id)
-    [[nodiscard]] const LatticePoint& lattice(PointId id) const { return points_[u(id)].lattice; }
+    [[nodiscard]] LatticePoint lattice(PointId id) const { return points_[u(id)].lattice(); }
     /// Whether its coordinates are known to be integers: of corners, and of points that planes name
     /// but whose doubles came without an error.
     [[nodiscard]] bool is_lattice(PointId id) const { return points_[u(id)].is_lattice; }
@@ -113,6 +113,9 @@ public:
                    const Approximation& at);
     /// Room for so many planes and points without growing on the way.
     void reserve(std::size_t planes, std::size_t points);
+    /// No point will be named by planes any more: gives back what is only needed for that, and the
+    /// planes that were made so far. Nobody holds one of those.
+    void end_points();
 
     /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
     /// empty when that part has no area; moved from where nothing is cut. \pre the plane is not the
@@ -131,11 +134,16 @@ public:
 private:
     struct PointRecord {
         std::array<PlaneId, 3> planes{-1, -1, -1};
-        LatticePoint lattice;
-        Approximation approximation;
+        std::uint32_t vertex = 0;        // of a corner
         const Source* source = nullptr;  // of a corner
-        std::uint32_t vertex = 0;
+        Approximation approximation;
         bool is_lattice = false;
+        // Lattice positions are doubles.
+        [[nodiscard]] LatticePoint lattice() const {
+            return {static_cast<std::int64_t>(approximation.c[0]),
+                    static_cast<std::int64_t>(approximation.c[1]),
+                    static_cast<std::int64_t>(approximation.c[2])};
+        }
     };
     static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
     [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
@@ -167,6 +175,10 @@ private:
             return count_++;
         }
         void clear() { count_ = 0; }
+        void free() {
+            clear();
+            blocks_.clear();
+        }
 
     private:
         static constexpr std::size_t block_size = 32;
@@ -196,6 +208,7 @@ private:
     FlatMap corner_ids_;
     FlatMap line_ids_;
     FlatMap point_ids_;
+    bool names_points_ = true;
     Sides sides_;
 };
 
