@@ -116,6 +116,9 @@ void PoseReserve::set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a
                 size += std::abs((*rows)[4 * i + k]) *
                         (k == 3 ? 1 : std::abs(body->center[k]) + body->radius);
     }
+    // Squares of squares of much smaller numbers are 0, those of larger ones infinite.
+    const auto is_moderate = [](double v) { return v > 0x1p-200 && v < 0x1p200; };
+    if (!is_moderate(stretch_) || !is_moderate(size)) return clear();
     // In the world.
     reserve_ = 0.9999 * unit * reserve / stretch_ - 0x1p-46 * size;
 }
