@@ -372,6 +372,20 @@ TEST(DistanceRefusals, OfBoxesFaceToFace) {
         });
 }
 
+// A box in the middle of a hollow one is as far from all its walls.
+TEST(DistanceRefusals, TooFewNodesAreIncomplete) {
+    const InterferenceModel hollow(
+        evaluate(trisect::Expression(Solid::from_mesh(trisect::make_box({0, 0, 0}, {9, 9, 9}))) -
+                 trisect::Expression(Solid::from_mesh(trisect::make_box({2, 2, 2}, {7, 7, 7})))));
+    const DistanceCase c{{hollow, box(4, 4, 4, 5, 5, 5), Pose(), Pose()}};
+    const Distances right = c.certificate();
+    EXPECT_TRUE(right.is_complete);
+    EXPECT_EQ(right.squared, ExactRational(4));
+    const Distances few = certify_distance(c.a, c.pose_a, c.b, c.pose_b, 3);
+    EXPECT_FALSE(few.is_complete);
+    EXPECT_EQ(c.check(few), "");
+}
+
 TEST(DistanceRefusals, OfNothing) {
     const InterferenceModel nothing{Solid()};
     const DistanceCase cases[]{{{nothing, box(0, 0, 0, 1, 1, 1), Pose(), Pose()}},

@@ -15,6 +15,7 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/bsp/contact_certificate.h>
 #include <trisect/bsp/detail/motion_piece.h>
+#include <trisect/bsp/expression.h>
 
 #include "interference/refusals.h"
 #include "moving_pair.h"
@@ -331,6 +332,25 @@ TEST(ContactRefusals, OfAContactAtTheStartAndOfNone) {
         expect_refused<Case, C>(
             nothing, nothing.certificate(),
             {{"an empty solid touches nothing", [](C& d) { d.is_contact = true; }}});
+}
+
+// A frame that comes down around a post, which no single plane keeps from it.
+TEST(ContactRefusals, TooFewNodesAreIncomplete) {
+    const auto of_box = [](double x0, double y0, double z0, double x1, double y1, double z1) {
+        return trisect::Expression(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
+    };
+    const Case c{
+        {box(-1, -1, 0, 1, 1, 4), Motion(),
+         InterferenceModel(evaluate(of_box(-4, -4, 5, 4, 4, 6) - of_box(-2, -2, 4, 2, 2, 7))),
+         by(0, 0, -4)}};
+    for (const std::size_t most : {std::size_t{1}, std::size_t{3}}) {
+        const ContactCertificate few =
+            certify_first_contact(c.a, c.motion_a, c.b, c.motion_b, most);
+        EXPECT_FALSE(few.is_complete);
+        EXPECT_FALSE(few.is_contact);
+        EXPECT_EQ(c.check(few), "");
+    }
+    EXPECT_TRUE(c.certificate().is_complete);
 }
 
 // Between a pose and its mirror image a solid becomes flat, so nothing is seen from it. Motions

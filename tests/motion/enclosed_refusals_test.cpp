@@ -16,6 +16,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/enclosed_certificate.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
 #include "interference/refusals.h"
@@ -198,6 +199,23 @@ TEST(EnclosedRefusals, OfNothing) {
             {{"an empty solid touches nothing", [](C& d) { d.answer.outcome = Outcome::Contact; }},
              {"an empty solid touches nothing",
               [](C& d) { d.answer.outcome = Outcome::Undecided; }}});
+}
+
+// A frame that comes down around a post, which no single plane keeps from it.
+TEST(EnclosedRefusals, TooFewNodesAreIncomplete) {
+    const auto of_box = [](double x0, double y0, double z0, double x1, double y1, double z1) {
+        return trisect::Expression(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
+    };
+    const Case c{
+        box(-1, -1, 0, 1, 1, 4), EnclosedMotion(),
+        InterferenceModel(evaluate(of_box(-4, -4, 5, 4, 4, 6) - of_box(-2, -2, 4, 2, 2, 7))),
+        through({{0, 0, 0}, {0, 0, -4}})};
+    const EnclosedCertificate few =
+        certify_enclosed_contact(c.a, c.motion_a, c.b, c.motion_b, {}, 3);
+    EXPECT_FALSE(few.is_complete);
+    EXPECT_EQ(few.answer.outcome, Outcome::None);
+    EXPECT_EQ(c.check(few), "");
+    EXPECT_TRUE(c.certificate().is_complete);
 }
 
 // Like another motion, but for what it says of how far it deviates.

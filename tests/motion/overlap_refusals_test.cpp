@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <trisect/bsp/detail/motion_piece.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/overlap_certificate.h>
 
 #include "interference/refusals.h"
@@ -224,6 +225,21 @@ TEST(OverlapRefusals, OfAnOverlapAtTheStartAndOfNone) {
         expect_refused<Case, C>(
             nothing, nothing.certificate(),
             {{"an empty solid overlaps nothing", [](C& d) { d.is_overlap = true; }}});
+}
+
+// A block that falls through a hole that just fits takes many planes.
+TEST(OverlapRefusals, TooFewNodesAreIncompleteAndSayWhy) {
+    const auto of_box = [](double x0, double y0, double z0, double x1, double y1, double z1) {
+        return trisect::Expression(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
+    };
+    const Case c{{InterferenceModel(evaluate(of_box(0, 0, 0, 6, 6, 1) - of_box(2, 2, -1, 4, 4, 2))),
+                  Motion(), box(2, 2, 3, 4, 4, 4), by(0, 0, -9)}};
+    const OverlapCertificate few = certify_first_overlap(c.a, c.motion_a, c.b, c.motion_b, 3);
+    EXPECT_FALSE(few.is_complete);
+    EXPECT_FALSE(few.is_overlap);
+    EXPECT_EQ(few.missing, "the limit of nodes");
+    EXPECT_EQ(c.check(few), "");
+    EXPECT_TRUE(c.certificate().is_complete);
 }
 
 // Between a pose and its mirror image a solid becomes flat, so nothing is seen from it. Motions
