@@ -3,6 +3,8 @@
 #include <trisect/bsp/detail/choose_wall.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace trisect::detail {
 
@@ -86,6 +88,29 @@ std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset) {
         longest = extent;
         wall = below(k, e.contested.low(k) + (extent + 1) / 2);
     }
+    return wall;
+}
+
+std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least, std::int64_t offset) {
+    const PackedBox contested = extents(task).contested;
+    if (contested.is_empty()) return std::nullopt;
+    // Polygons below and above the contested box, by axis.
+    std::array<std::array<std::size_t, 2>, 3> beyond{};
+    for (const CellOperand& o : task.operands)
+        for (const PackedBox& e : o.list())
+            for (std::size_t k = 0; k < 3; ++k) {
+                beyond[k][0] += e.high(k) < contested.low(k) ? 1 : 0;
+                beyond[k][1] += e.low(k) > contested.high(k) ? 1 : 0;
+            }
+    std::optional<Wall> wall;
+    std::size_t most = least - 1;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (beyond[k][side] <= most) continue;
+            most = beyond[k][side];
+            const int q = side == 0 ? contested.low(k) : contested.high(k) + 1;
+            wall = Wall{static_cast<int>(k), task.frame.last_below(k, q) * wall_scale + offset};
+        }
     return wall;
 }
 

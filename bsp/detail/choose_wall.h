@@ -3,6 +3,8 @@
 // Where to cut a cell that no operand has a tree for.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include <trisect/bsp/detail/cell_task.h>
@@ -15,6 +17,12 @@ namespace trisect::detail {
 /// in the task's frame. `offset` is that of walls from lattice positions, in 1/256 units.
 /// \pre all operands are lists.
 [[nodiscard]] std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset);
+
+/// The wall beyond which most polygons lie that are beside the box of what is contested; nothing
+/// where these are fewer than `least`, which is not 0. Looks at all polygons.
+/// \pre all operands are lists.
+[[nodiscard]] std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least,
+                                               std::int64_t offset);
 
 /// The extent of what choose_wall() would halve, in rounded positions.
 [[nodiscard]] int contested_extent(const CellTask& task);

@@ -121,6 +121,7 @@ private:
     CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
     CellRef defer(const CellTask& task, std::unique_ptr<const AxisPicture> picture, bool inside);
     [[nodiscard]] std::unique_ptr<DeferredLeaf> problem_of(const CellTask& task);
+    [[nodiscard]] std::optional<Wall> wall_to_peel(const CellTask& task) const;
     CellRef divide(CellTask& task);
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
     Children children_of(const CellTask& task, const Wall& wall);
@@ -411,6 +412,17 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
     return out;
 }
 
+// A leaf looks at each of its polygons for some hundred instructions more than a list that is
+// shared does. So what one operand has beside the other one is cut off where that is enough to pay
+// for two cells more. Not in chains, where every later step meets those cells again.
+std::optional<Wall> Worker::wall_to_peel(const CellTask& task) const {
+    constexpr std::size_t least = 16;
+    if (shared_.crossings == nullptr) return std::nullopt;
+    if (task.operands.size() != 2 || task.size() < least || task.stalled != 0) return std::nullopt;
+    if (!std::ranges::all_of(task.operands, &CellOperand::is_list)) return std::nullopt;
+    return peeling_wall(task, least, options_.wall_offset);
+}
+
 CellRef Worker::divide(CellTask& task) {
     refine_large(task);
     std::optional<Wall> wall = wall_of_trees(task);
@@ -542,7 +554,13 @@ CellRef Worker::solve(CellTask& task) {
     const std::uint64_t total = task.size();
     for (const CellOperand& o : task.operands)
         if (o.is_list || o.node->is_leaf()) stats_.listed_polygons += o.size();
-    if (total <= options_.leaf_polygons) return resolve(task);
+    if (total <= options_.leaf_polygons) {
+        if (const auto wall = wall_to_peel(task)) {
+            Children children = children_of(task, *wall);
+            return solve_children(task, *wall, children);
+        }
+        return resolve(task);
+    }
     if (total <= axis_leaf_factor * options_.leaf_polygons)
         if (auto leaf = resolve_across_axes(task)) return *std::move(leaf);
     if (total <= prism_leaf_factor * options_.leaf_polygons)

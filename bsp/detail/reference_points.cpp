@@ -61,6 +61,8 @@ std::optional<int> list_winding(const CellTask& task, const CellOperand& o, cons
                                 std::optional<int> axis) {
     if (o.count == 0) return o.winding;
     const PackedReach near(PackedBox::of(task.frame, box_around(task.reference, p)));
+    // The way is in the cell, and what is in the list lies in that box as far as the cell goes.
+    if (!o.unbounded && !near.meets(o.box)) return o.winding;
     if (axis) {
         AxisTrace trace(task.reference, p, *axis);
         for (const PackedBox& e : o.list())
