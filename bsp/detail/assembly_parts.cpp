@@ -89,8 +89,8 @@ public:
         }
         const std::size_t of_leaves = edges_.size();
         make_axis_faces();
-        merge_equal_points();
         out_.bench.end_points();
+        merge_equal_points();
         check_stop(edges_.size());
         conform_edges(traced, of_leaves);
         out_.representatives = std::move(same_);
@@ -572,7 +572,9 @@ void Gatherer::make_axis_faces() {
 // Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
-    const Workbench& bench = out_.bench;
+    // Few groups ask for the same planes as others.
+    constexpr std::size_t many_planes = 8192;
+    Workbench& bench = out_.bench;
     same_.resize(bench.point_count());
     std::iota(same_.begin(), same_.end(), 0);
     if (axis_faces_.takes_all()) return;
@@ -584,6 +586,7 @@ void Gatherer::merge_equal_points() {
         // Against one of each value: what is equal to it needs no comparison of its own.
         values.clear();
         through_.clear();
+        if (bench.made_plane_count() > many_planes) bench.forget_made_planes();
         for (const PointId p : group) {
             const auto value = std::ranges::find_if(
                 values, [&](PointId v) { return bench.may_be_same(v, p) && is_same(v, p); });

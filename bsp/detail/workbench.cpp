@@ -25,6 +25,9 @@ void Workbench::end_points() {
     names_points_ = false;
     line_ids_ = {};
     point_ids_ = {};
+}
+
+void Workbench::forget_made_planes() {
     for (PlaneRecord& p : planes_) p.place = -1;
     made_.free();
 }

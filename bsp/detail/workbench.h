@@ -113,9 +113,12 @@ public:
                    const Approximation& at);
     /// Room for so many planes and points without growing on the way.
     void reserve(std::size_t planes, std::size_t points);
-    /// No point will be named by planes any more: gives back what is only needed for that, and the
-    /// planes that were made so far. Nobody holds one of those.
+    /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
+    /// Gives back the planes that were made so far; they are made again where they are asked for.
+    /// Ends references to them.
+    void forget_made_planes();
+    [[nodiscard]] std::size_t made_plane_count() const { return made_.count(); }
 
     /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
     /// empty when that part has no area; moved from where nothing is cut. \pre the plane is not the
@@ -174,6 +177,7 @@ private:
             (*blocks_[u(count_) / block_size])[u(count_) % block_size] = plane;
             return count_++;
         }
+        [[nodiscard]] std::size_t count() const { return u(count_); }
         void clear() { count_ = 0; }
         void free() {
             clear();
