@@ -187,7 +187,7 @@ CoherentWalk::Answer CoherentWalk::search_from_witness() {
         searched = way_[k];
         if (may_resume && counters_.node_tests - before > patience) {
             const double now = odometer_ + pose_->displacement_from(*front_pose_);
-            if (2 * due_.count_due(now) <= visits_.size() - unused_.size()) {
+            if (8 * due_.count_due(now) <= 7 * (visits_.size() - unused_.size())) {
                 ++resumed_;
                 witness_.reset();
                 return renew_front();
