@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -37,9 +39,18 @@ std::vector<BodyPair> brute(const std::map<std::uint32_t, BodyBox>& boxes) {
     return r;
 }
 
+std::vector<std::uint32_t> brute_meeting(const std::map<std::uint32_t, BodyBox>& boxes,
+                                         const BodyBox& box) {
+    std::vector<std::uint32_t> r;
+    for (const auto& [slot, other] : boxes)
+        if (other.meets(box)) r.push_back(slot);
+    return r;
+}
+
 TEST(DynamicTree, IsSoundAndFindsThePairsOfBruteForceAfterEveryHundredChanges) {
     Random random(3);
     DynamicTree tree;
+    const auto phase = trisect::hierarchies::make_dynamic_tree();
     std::map<std::uint32_t, BodyBox> boxes;
     CostCounters counters;
     std::vector<BodyPair> pairs;
@@ -48,9 +59,11 @@ TEST(DynamicTree, IsSoundAndFindsThePairsOfBruteForceAfterEveryHundredChanges) {
         const BodyBox box = random_box(random, 40);
         if (!boxes.contains(slot)) {
             tree.insert(slot, box);
+            phase->insert(slot, box);
             boxes[slot] = box;
         } else if (random.between(0, 3) == 0) {
             tree.remove(slot);
+            phase->remove(slot);
             boxes.erase(slot);
         } else {
             BodyBox moved = boxes[slot];
@@ -59,12 +72,23 @@ TEST(DynamicTree, IsSoundAndFindsThePairsOfBruteForceAfterEveryHundredChanges) {
             moved.hi[0] += by;
             boxes[slot] = random.between(0, 4) == 0 ? box : moved;
             tree.update(slot, boxes[slot]);
+            phase->update(slot, boxes[slot]);
         }
         if (change % 100 != 0) continue;
         ASSERT_TRUE(tree.is_sound()) << change;
         tree.pairs(pairs, counters);
         ASSERT_EQ(pairs, brute(boxes)) << change;
+        phase->pairs(pairs);
+        ASSERT_EQ(pairs, brute(boxes)) << change;
+        const BodyBox asked = random_box(random, 40);
+        std::vector<std::uint32_t> met;
+        const auto note = [&met](std::uint32_t i) { met.push_back(i); };
+        tree.find(asked, note, counters);
+        std::sort(met.begin(), met.end());
+        ASSERT_EQ(met, brute_meeting(boxes, asked)) << change;
     }
+    EXPECT_GT(phase->work().box_tests, 0U);
+    EXPECT_GT(phase->bytes(), 0U);
     const double changed = tree.quality();
     const unsigned depth = tree.depth();
     tree.rebuild();
@@ -85,6 +109,8 @@ TEST(DynamicTree, IsEmptyWhenEverythingHasLeft) {
     std::vector<BodyPair> pairs;
     tree.pairs(pairs, counters);
     EXPECT_TRUE(pairs.empty());
+    tree.find(
+        {{-9, -9, -9}, {9, 9, 9}}, [](std::uint32_t) { FAIL(); }, counters);
     tree.rebuild();
     tree.insert(3, {});
     EXPECT_TRUE(tree.is_sound());
