@@ -20,15 +20,12 @@
 #include <string>
 #include <utility>
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <trisect/bsp/detail/broad_phase.h>
 #include <trisect/bsp/detail/scene_bodies.h>
 #include <trisect/bsp/hierarchies/broad_phases.h>
 #include <trisect/bsp/hierarchies/chain_boxes.h>
 #include <trisect/bsp/interference_query.h>
+#include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -62,19 +59,10 @@ constexpr std::size_t worth_remembering = 4096;
 
 void for_each_in_parallel(std::size_t n, std::uint32_t threads, std::size_t grain,
                           const auto& work) {
-    if (threads == 1 || n <= grain) {
-        for (std::size_t i = 0; i < n; ++i) work(i);
-        return;
-    }
-    oneapi::tbb::task_arena arena(threads == 0 ? oneapi::tbb::task_arena::automatic
-                                               : static_cast<int>(threads));
-    arena.execute([&] {
-        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n, grain),
-                                  [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                                      for (std::size_t i = range.begin(); i < range.end(); ++i)
-                                          work(i);
-                                  });
-    });
+    detail::ParallelParts(n, threads, grain)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) work(i);
+        });
 }
 
 std::unique_ptr<detail::BroadPhase> make_broad_phase(SceneBroadPhase kind) {
