@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fuzzing of the readers. The first byte of an input chooses the format. Any mesh that is read must
-// be consistent and must come back bit for bit from what is written of it; so must exact boundaries
-// and patches.
+// Fuzzing of the readers. The first byte of an input chooses the format, unless TRISECT_FUZZ_FORMAT
+// says its number. Any mesh that is read must be consistent and must come back bit for bit from
+// what is written of it; so must exact boundaries and patches.
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/io/read_patches.h>
@@ -35,6 +35,12 @@ void check(const trisect::PolygonMesh& mesh) {
     }
 }
 
+// Which of `count` formats an input that begins with this byte is read as.
+std::size_t format_of(std::uint8_t first, std::size_t count) {
+    static const char* const only = std::getenv("TRISECT_FUZZ_FORMAT");
+    return (only != nullptr ? std::strtoul(only, nullptr, 10) : first) % count;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -42,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                  MeshFormat::StlAscii, MeshFormat::StlBinary, MeshFormat::Stl};
     if (size == 0) return 0;
     const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-    const std::size_t choice = data[0] % (formats.size() + 2);
+    const std::size_t choice = format_of(data[0], formats.size() + 2);
     try {
         if (choice == formats.size()) {
             const std::string text = trisect::exact_text(trisect::read_exact(bytes, "fuzz"));
