@@ -15,14 +15,13 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/primitives/torus.h>
 
+#include "certified_pair.h"
 #include "moving_pair.h"
 
 namespace {
 
 using moving::box;
 using moving::by;
-using trisect::certify_first_contact;
-using trisect::check_contact_certificate;
 using trisect::CommonPoint;
 using trisect::ContactCertificate;
 using trisect::ExactRational;
@@ -34,14 +33,7 @@ using trisect::Pose;
 using trisect::Screw;
 using trisect::Solid;
 
-struct Case : moving::Pair {
-    [[nodiscard]] ContactCertificate certificate() const {
-        return certify_first_contact(a, motion_a, b, motion_b);
-    }
-    [[nodiscard]] std::string check(const ContactCertificate& c) const {
-        return check_contact_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
-    }
-};
+using Case = moving::ContactPair;
 
 void expect_proved(const Case& c, bool is_contact) {
     const ContactCertificate certificate = c.certificate();

@@ -17,6 +17,7 @@
 #include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/expression.h>
 
+#include "certified_pair.h"
 #include "interference/refusals.h"
 #include "moving_pair.h"
 
@@ -39,14 +40,7 @@ using trisect::Solid;
 using trisect::VertexId;
 using Changes = std::vector<refusals::Change<ContactCertificate>>;
 
-struct Case : moving::Pair {
-    [[nodiscard]] ContactCertificate certificate() const {
-        return certify_first_contact(a, motion_a, b, motion_b);
-    }
-    [[nodiscard]] std::string check(const ContactCertificate& c) const {
-        return check_contact_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
-    }
-};
+using Case = moving::ContactPair;
 
 constexpr const char* no_meeting = "the triangles do not meet at the time of contact";
 constexpr const char* not_separate = "a plane does not separate";

@@ -17,6 +17,7 @@
 #include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
 
+#include "certified_pair.h"
 #include "interference/brute_force.h"
 #include "moving_pair.h"
 
@@ -24,8 +25,6 @@ namespace {
 
 using moving::box;
 using moving::by;
-using trisect::certify_first_overlap;
-using trisect::check_overlap_certificate;
 using trisect::ClearanceNode;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
@@ -37,14 +36,7 @@ using trisect::Screw;
 using trisect::Solid;
 using trisect::SupportingPlane;
 
-struct Case : moving::Pair {
-    [[nodiscard]] OverlapCertificate certificate() const {
-        return certify_first_overlap(a, motion_a, b, motion_b);
-    }
-    [[nodiscard]] std::string check(const OverlapCertificate& c) const {
-        return check_overlap_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
-    }
-};
+using Case = moving::OverlapPair;
 
 // Clang 14 has no std::source_location.
 void expect_proved(const Case& c, bool is_overlap, int line = __builtin_LINE()) {

@@ -14,6 +14,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/overlap_certificate.h>
 
+#include "certified_pair.h"
 #include "interference/refusals.h"
 #include "moving_pair.h"
 
@@ -35,14 +36,7 @@ using trisect::Solid;
 using trisect::SupportingPlane;
 using Changes = std::vector<refusals::Change<OverlapCertificate>>;
 
-struct Case : moving::Pair {
-    [[nodiscard]] OverlapCertificate certificate() const {
-        return certify_first_overlap(a, motion_a, b, motion_b);
-    }
-    [[nodiscard]] std::string check(const OverlapCertificate& c) const {
-        return check_overlap_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
-    }
-};
+using Case = moving::OverlapPair;
 
 constexpr const char* not_separate = "a plane does not separate";
 constexpr const char* not_within = "a tetrahedron is not within its solid";
