@@ -583,8 +583,11 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
             return {};
         if (!make_shape() || !clip_to_cell()) return {Remains::Doubtful, false};
         if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
-        if (!trace_start()) return {Remains::Doubtful, false};
-        windings = windings_->remember(item, start_windings_);
+        windings = windings_->from_clear_boxes(item, *stats_);
+        if (windings < 0) {
+            if (!trace_start()) return {Remains::Doubtful, false};
+            windings = windings_->remember(item, start_windings_);
+        }
         if (is_known(windings)) return answer_for(windings).result;
     }
     PlainPart& part = add_part();

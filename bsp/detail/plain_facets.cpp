@@ -59,8 +59,10 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     reaches_.clear();
     fragments_ = 0;
     sheets_.clear();
+    std::size_t count = 0;
     for (const LeafOperand& o : leaf.operands) {
         if (!o.embedded) return false;
+        count += o.polygons.size();
         for (const PolygonRef& r : o.polygons) {
             if (r.source->is_half_space()) return false;
             if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
@@ -68,6 +70,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
         }
     }
+    facets_.reserve(count);
     bool has_origin = false;
     // Of all points that a plane is asked about.
     Vector3 low{};

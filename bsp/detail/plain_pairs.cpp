@@ -325,6 +325,7 @@ bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks
                         EvaluateStats& stats) {
     edges_apart_ = edges_apart;
     crossings_.clear();
+    has_partner_.assign(LeafWork::u(facets.size()), 0);
     has_all_boxes_ = facets.operand_count() == 2 && marks.empty();
     if (!(has_all_boxes_ ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
     stats.pairs_touching += crossings_.size();
@@ -349,6 +350,7 @@ void PlainPairs::add_to(Crossings& crossings, const PlainFacets& facets) const {
 bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats) {
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
+    has_partner_[LeafWork::u(s)] = has_partner_[LeafWork::u(t)] = 1;
     PlainCrossing crossing;
     const Relation r = relate(facets, std::min(s, t), std::max(s, t), crossing);
     // Outside the cell is as good as nowhere.

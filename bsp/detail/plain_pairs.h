@@ -79,7 +79,11 @@ public:
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
         return is_candidate_[LeafWork::u(item)] != 0;
     }
-    /// The boxes of all items, if they are there: of two operands.
+    /// Whether an item's box meets that of some facet of the other operand. \pre two operands
+    [[nodiscard]] bool has_partner(LeafIndex item) const {
+        return has_partner_[LeafWork::u(item)] != 0;
+    }
+    /// The boxes of all items in their order, if they are there: of two operands.
     [[nodiscard]] const BoxRows* all_boxes() const { return has_all_boxes_ ? &boxes_ : nullptr; }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
@@ -110,6 +114,7 @@ private:
     bool edges_apart_ = false;
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
+    std::vector<std::uint8_t> has_partner_;   // by item
     // Of the candidates, the axis of the sweep first; of two operands of all items.
     BoxRows boxes_;
     bool has_all_boxes_ = false;

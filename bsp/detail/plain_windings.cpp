@@ -91,6 +91,7 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
         boxes_[o].made = false;
     }
     has_ways_ = false;
+    clear_boxes_.clear();
     ids_.clear();
     nodes_.clear();
     known_.clear();
@@ -288,17 +289,24 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
         hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
-    const auto count_in = [&](const BoxRows& boxes, LeafIndex first) {
-        for (std::size_t row = 0; row < boxes.row_count(); ++row)
+    const auto count_in = [&](const BoxRows& boxes, LeafIndex first, std::size_t begin,
+                              std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row)
             for (unsigned met = boxes.meeting(row, probe); met != 0; met &= met - 1) {
                 const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
                 if (!add_crossing(first + i, start.at, target, lo, hi, w)) return false;
             }
         return true;
     };
-    if (const BoxRows* all = pairs_->all_boxes()) return count_in(*all, 0);
-    for (std::size_t o = 0; o < operands_; ++o)
-        if (o != LeafWork::u(own) && !count_in(boxes_of(o), boxes_[o].first)) return false;
+    if (const BoxRows* all = pairs_->all_boxes()) {
+        const OperandBoxes& other = boxes_[1 - LeafWork::u(own)];
+        return count_in(*all, 0, LeafWork::u(other.first) / 4, (LeafWork::u(other.last) + 3) / 4);
+    }
+    for (std::size_t o = 0; o < operands_; ++o) {
+        if (o == LeafWork::u(own)) continue;
+        const BoxRows& boxes = boxes_of(o);
+        if (!count_in(boxes, boxes_[o].first, 0, boxes.row_count())) return false;
+    }
     return true;
 }
 
@@ -456,10 +464,40 @@ bool PlainWindings::follow(const Way& way, std::span<int> w) const {
     return true;
 }
 
+PlainWindings::ClearBox PlainWindings::clear_box(LeafIndex item, LeafIndex windings) const {
+    const PlainFacet& f = (*facets_)[item];
+    ClearBox box{f.lo, f.hi, windings};
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.lo[k] = std::max(box.lo[k], facets_->inner_lo()[k]);
+        box.hi[k] = std::min(box.hi[k], facets_->inner_hi()[k]);
+    }
+    return box;
+}
+
+// Within a box without facets of the other operand its winding number is the same everywhere, and
+// so it is in two that meet in the cell. Fragments mostly have no corner in common by name.
+LeafIndex PlainWindings::from_clear_boxes(LeafIndex item, EvaluateStats& stats) {
+    if (!is_clear(item)) return -1;
+    ClearBox box = clear_box(item, -1);
+    for (std::size_t i = clear_boxes_.size(); i-- > 0;) {
+        const ClearBox& b = clear_boxes_[i];
+        bool meet = true;
+        for (std::size_t k = 0; k < 3 && meet; ++k)
+            meet = std::max(b.lo[k], box.lo[k]) <= std::min(b.hi[k], box.hi[k]);
+        if (!meet) continue;
+        ++stats.linked;
+        box.windings = b.windings;
+        clear_boxes_.push_back(box);
+        return box.windings;
+    }
+    return -1;
+}
+
 LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {
     const LeafIndex kept = keep(windings);
     if (const int region = regions_of_[LeafWork::u(item)]; region >= 0)
         regions_[static_cast<std::size_t>(region)] = kept;
+    if (is_clear(item)) clear_boxes_.push_back(clear_box(item, kept));
     const LeafIndex first = first_[LeafWork::u(item)];
     if (first < 0) return kept;
     Node& r = nodes_[LeafWork::u(root(first))];
@@ -481,6 +519,9 @@ PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& st
         return {nodes_[LeafWork::u(r)].windings, 0};
     }
     const PlainFacet& f = (*facets_)[item];
+    if (f.contained) {
+        if (const LeafIndex known = from_clear_boxes(item, stats); known >= 0) return {known, 0};
+    }
     const auto& vertices = vertices_[LeafWork::u(item)];
     // First a vertex of which the windings are known.
     for (const bool ask : {false, true}) {

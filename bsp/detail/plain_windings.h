@@ -19,8 +19,8 @@ namespace trisect::detail {
 /// to any vertex serves all that hang together with it; also the facets that are crossed. Along an
 /// edge of these they change where it pierces others, which is known by then: so one trace serves
 /// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles. Facets
-/// beside the box of the only other operand are not even looked at: EvaluateStats::linked counts
-/// them.
+/// beside the box of the only other operand are not even looked at, and where boxes of facets meet
+/// in which it has none, one of them tells the others: EvaluateStats::linked counts both.
 class PlainWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
@@ -31,6 +31,9 @@ public:
 
     void start(PlainFacets& facets, const PlainPairs& pairs);
     [[nodiscard]] Anchor anchor_of(LeafIndex item, EvaluateStats& stats);
+    /// The windings() of a facet with a part in the cell whose box has no facet of the only other
+    /// operand and meets another such box; -1 when there is none.
+    [[nodiscard]] LeafIndex from_clear_boxes(LeafIndex item, EvaluateStats& stats);
     /// What was found out about a facet that nothing crosses and that had no anchor, for its
     /// neighbours.
     LeafIndex remember(LeafIndex item, std::span<const int> windings);
@@ -70,6 +73,12 @@ private:
         LeafIndex own = -1;       ///< on a facet of this operand; -1: on none
         LeafIndex windings = -1;  ///< of the others
     };
+    /// What the box of an item without facets of the only other operand has within the cell.
+    struct ClearBox {
+        Vector3 lo;
+        Vector3 hi;
+        LeafIndex windings = -1;
+    };
     [[nodiscard]] const Start& nearest_start(const Approximation& target, LeafIndex own) const;
     [[nodiscard]] bool trace(const Start& start, const Approximation& target, LeafIndex own,
                              std::vector<int>& w);
@@ -77,6 +86,10 @@ private:
     [[nodiscard]] int region_beside(LeafIndex operand, const Vector3& low,
                                     const Vector3& high) const;
     [[nodiscard]] LeafIndex windings_in(int region);
+    [[nodiscard]] bool is_clear(LeafIndex item) const {
+        return pairs_->all_boxes() != nullptr && !pairs_->has_partner(item);
+    }
+    [[nodiscard]] ClearBox clear_box(LeafIndex item, LeafIndex windings) const;
     void list_ways();
     void spread(LeafIndex root);
     [[nodiscard]] bool follow(const Way& way, std::span<int> w) const;
@@ -106,7 +119,8 @@ private:
     // above it; -1 elsewhere.
     std::vector<std::int8_t> regions_of_;
     std::array<LeafIndex, 12> regions_{};  // windings there, -1 unknown
-    std::vector<int> known_;               // a row of `operands_` for each
+    std::vector<ClearBox> clear_boxes_;
+    std::vector<int> known_;  // a row of `operands_` for each
     std::vector<int> traced_;
     std::vector<Way> ways_;  // along edges of facets that are crossed, by `from`
     bool has_ways_ = false;

@@ -95,7 +95,7 @@ Counts random_chains(std::uint64_t first_seed, std::uint64_t count, const MakeOp
 }
 
 TEST(Chain, StepsInGeneralPosition) {
-    const Counts counts = random_chains(370000, 120, [](reference::Random& random) {
+    const Counts counts = random_chains(370000, 160, [](reference::Random& random) {
         return engines::mapped(reference::random_embedded_solid(random), random);
     });
     EXPECT_GT(counts.plain * 10, counts.mixed * 7);
