@@ -27,6 +27,14 @@ constexpr std::size_t tabulated = 3;
 void LeafFormula::start(const LeafProblem& problem) {
     operands_ = problem.operands.size();
     rule_ = problem.options->winding;
+    constant_ = -1;
+    table_.clear();
+    if (problem.formula->kind == Kind::Constant) {
+        constant_ = problem.formula->value ? 1 : 0;
+    } else if (operands_ <= tabulated && !problem.formula->is_large()) {
+        tabulate(problem);
+        return;
+    }
     nodes_.clear();
     parents_.clear();
     known_.clear();
@@ -37,29 +45,24 @@ void LeafFormula::start(const LeafProblem& problem) {
         operand_of_slot_[slot] = static_cast<std::int32_t>(o);
     }
     remembers_ = problem.formula->is_large();
-    constant_ = -1;
-    if (problem.formula->kind == Kind::Constant) {
-        constant_ = problem.formula->value ? 1 : 0;
-    } else {
-        root_ = compile(*problem.formula);
-    }
+    if (constant_ < 0) root_ = compile(*problem.formula);
     dirty_.assign(nodes_.size() / 64 + 1, 0);
-    table_.clear();
-    if (constant_ < 0 && operands_ <= tabulated) make_table();
 }
 
-void LeafFormula::make_table() {
+void LeafFormula::tabulate(const LeafProblem& problem) {
     std::size_t size = 1;
-    for (std::size_t o = 0; o < operands_; ++o) size *= 3;
-    row_.resize(counted_size());
+    std::int32_t last_slot = 0;
+    for (const LeafOperand& o : problem.operands) {
+        size *= 3;
+        last_slot = std::max(last_slot, o.slot);
+    }
+    values_.assign(static_cast<std::size_t>(last_slot) + 1, -1);
     for (std::size_t entry = 0; entry < size; ++entry) {
         std::size_t digits = entry;
-        for (std::size_t o = operands_; o-- > 0; digits /= 3) {
-            const int value = static_cast<int>(digits % 3) - 1;
-            row_[o] = value < 0 ? unknown_winding : value;
-        }
-        count(row_);
-        table_.push_back(static_cast<std::int8_t>(counted_value(row_)));
+        for (std::size_t o = operands_; o-- > 0; digits /= 3)
+            values_[static_cast<std::size_t>(problem.operands[o].slot)] =
+                static_cast<std::int8_t>(static_cast<int>(digits % 3) - 1);
+        table_.push_back(static_cast<std::int8_t>(bounded_value_of(*problem.formula, values_)));
     }
 }
 

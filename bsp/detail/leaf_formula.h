@@ -20,7 +20,7 @@ inline constexpr int unknown_winding = std::numeric_limits<int>::min();
 /// every operation are inside or unknown. A row follows the change of one winding number in the
 /// time of the operations above that operand whose values change, usually one or two; walking the
 /// formula would take the time of all operands, for every part and every operand that cuts it. Of
-/// two or three operands, as nearly all leaves have, there is a table instead, and rows are winding
+/// up to three operands, as nearly all leaves have, there is a table instead, and rows are winding
 /// numbers only. Keeps its memory from leaf to leaf.
 class LeafFormula {
 public:
@@ -52,7 +52,7 @@ private:
     void add_parent(std::int32_t& first, std::int32_t node);
     [[nodiscard]] bool has_table() const { return !table_.empty(); }
     [[nodiscard]] std::size_t counted_size() const { return operands_ + 3 * nodes_.size(); }
-    void make_table();
+    void tabulate(const LeafProblem& problem);
     void count(std::span<int> row) const;
     [[nodiscard]] int counted_value(std::span<const int> row) const;
     [[nodiscard]] int value_of(int winding) const {
@@ -76,7 +76,7 @@ private:
     std::unordered_map<const Residual*, std::int32_t> known_;
     bool remembers_ = false;
     std::vector<std::int8_t> table_;    // by -1, 0, 1 of all operands as digits
-    std::vector<int> row_;              // of which an entry of the table is made
+    SlotValues values_;                 // of which an entry of the table is made
     std::vector<std::uint64_t> dirty_;  // a bit for every node
     std::size_t first_dirty_ = 0;
 };
