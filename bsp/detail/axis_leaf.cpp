@@ -94,7 +94,17 @@ bool AxisLeaf::run(const LeafProblem& problem, EvaluateStats& stats, std::vector
     return true;
 }
 
+// One look at both ends of a list: facets of one plane often stand together, so the first one says
+// little about the last.
+bool AxisLeaf::seems_across_axes() const {
+    AxisPolygon p;
+    return std::ranges::all_of(problem_->operands, [&](const LeafOperand& o) {
+        return o.polygons.empty() || (p.read(o.polygons.front()) && p.read(o.polygons.back()));
+    });
+}
+
 bool AxisLeaf::list() {
+    if (!seems_across_axes()) return false;
     polygons_.clear();
     parts_.clear();
     any_cut_ = needs_parts_ = false;

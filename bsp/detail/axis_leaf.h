@@ -53,6 +53,7 @@ private:
 
     [[nodiscard]] bool run(const LeafProblem& problem, EvaluateStats& stats,
                            std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
+    [[nodiscard]] bool seems_across_axes() const;
     [[nodiscard]] bool list();
     [[nodiscard]] bool make_grid();
     [[nodiscard]] std::size_t rows() const { return grid_.units(1).count(); }

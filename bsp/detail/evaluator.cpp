@@ -237,12 +237,23 @@ CellRef Worker::resolve(CellTask& task) {
     });
 }
 
+// Whether the first and the last polygon of a list or a leaf pass a test: facets of one plane often
+// stand together, so the first one alone says little about the others.
+template <class Test>
+bool ends_pass(const CellOperand& o, const Test& test) {
+    if (o.is_list) {
+        const auto list = o.list();
+        return test(o.polygon(list.front().id)) && test(o.polygon(list.back().id));
+    }
+    if (!o.node->is_leaf() || o.node->polygons().empty()) return false;
+    const PolygonList& polygons = o.node->polygons();
+    return test(polygons[0]) && test(polygons[polygons.size() - 1]);
+}
+
 // Where everything is across an axis, leaves may be larger.
 std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
     const auto is_across_axis = [](const CellOperand& o) {
-        if (!o.is_list && (!o.node->is_leaf() || o.node->polygons().empty())) return false;
-        AxisPolygon first;
-        return first.read(o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0]);
+        return ends_pass(o, [](const PolygonRef& r) { return AxisPolygon().read(r); });
     };
     if (!std::ranges::all_of(task.operands, is_across_axis)) return std::nullopt;
     return resolve_by(
@@ -254,10 +265,9 @@ std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
 std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
     if (task.operands.size() < 2) return std::nullopt;
     const auto may_be_prism = [&](const CellOperand& o) {
-        if (!o.embedded || (!o.is_list && (!o.node->is_leaf() || o.node->polygons().empty())))
-            return false;
-        const PolygonRef first = o.is_list ? o.polygon(o.list()[0].id) : o.node->polygons()[0];
-        return PrismFacets::may_be_of_prism(first) && task.cell.contains(first.box());
+        return o.embedded && ends_pass(o, [&](const PolygonRef& r) {
+                   return PrismFacets::may_be_of_prism(r) && task.cell.contains(r.box());
+               });
     };
     if (!std::ranges::all_of(task.operands, may_be_prism)) return std::nullopt;
     return resolve_by(task,

@@ -63,7 +63,9 @@ bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
 
 bool PrismFacets::list(const LeafProblem& problem) {
     for (const LeafOperand& o : problem.operands)
-        if (!o.embedded) return false;
+        if (!o.embedded || (!o.polygons.empty() && !(may_be_of_prism(o.polygons.front()) &&
+                                                     may_be_of_prism(o.polygons.back()))))
+            return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (list_along(problem, axis)) return true;
     return false;
