@@ -211,7 +211,7 @@ void PrismArrangement::walk_wall(const Step& step) {
             turn_over(wall(other), w);
             for (const std::int32_t sheet : sheets_.of_wall(other)) enter_sheet(sheet);
             ++i;
-        } while (i < all.size() && compare_places(place(first), place(i)) == 0);
+        } while (i < all.size() && crossings_.compare(place(first), place(i)) == 0);
         look(w, name);
     }
     if (step.backwards) turn_stretches();

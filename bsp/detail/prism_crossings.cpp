@@ -23,17 +23,39 @@ bool are_neighbours(const PrismWall& s, const PrismWall& t, bool in_line) {
     return !in_line && (s.from == t.from || s.to == t.to);
 }
 
+// The part of the way along a wall at which another one crosses it.
+struct Fraction {
+    Int128 part;
+    Int128 whole;
+
+    /// From the sides of the other wall on which its ends lie.
+    Fraction(Int128 from, Int128 to)
+        : part(magnitude(from)), whole(magnitude(from) + magnitude(to)) {}
+    Fraction(const PrismWall& on, const PrismWall& other)
+        : Fraction(flat_turn(other.from, other.to, on.from),
+                   flat_turn(other.from, other.to, on.to)) {}
+    [[nodiscard]] double rounded() const {
+        return static_cast<double>(part) / static_cast<double>(whole);
+    }
+};
+
 }  // namespace
 
-int compare_places(const PrismCrossing& a, const PrismCrossing& b) {
+int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) const {
     if (const double gap = a.at - b.at; std::fabs(gap) > 0x1p-50) return gap < 0 ? -1 : 1;
-    const WideInt<4> s = multiply<4>(WideInt<2>(a.part), WideInt<2>(b.whole));
-    const WideInt<4> t = multiply<4>(WideInt<2>(b.part), WideInt<2>(a.whole));
+    const auto place = [&](const PrismCrossing& c) {
+        return Fraction(walls_[LeafWork::u(c.on)], walls_[LeafWork::u(c.wall)]);
+    };
+    const Fraction f = place(a);
+    const Fraction g = place(b);
+    const WideInt<4> s = multiply<4>(WideInt<2>(f.part), WideInt<2>(g.whole));
+    const WideInt<4> t = multiply<4>(WideInt<2>(g.part), WideInt<2>(f.whole));
     return s < t ? -1 : (t < s ? 1 : 0);
 }
 
 bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall> walls,
                           EvaluateStats& stats) {
+    walls_ = walls;
     found_.clear();
     order_.resize(walls.size());
     std::iota(order_.begin(), order_.end(), 0);
@@ -55,29 +77,26 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
                 t.lo > s.hi || t.hi < s.lo)
                 continue;
             ++stats.pairs_boxes;
-            if (!compare(walls, order_[i], order_[j])) return false;
+            if (!cross(order_[i], order_[j])) return false;
         }
     }
     stats.pairs_touching += found_.size() / 2;
     stats.pairs_cutting += found_.size() / 2;
-    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+    std::sort(found_.begin(), found_.end(), [&](const PrismCrossing& a, const PrismCrossing& b) {
         if (a.on != b.on) return a.on < b.on;
-        const int order = compare_places(a.crossing, b.crossing);
-        return order != 0 ? order < 0 : a.crossing.wall < b.crossing.wall;
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : a.wall < b.wall;
     });
-    sorted_.clear();
     first_.assign(walls.size() + 1, 0);
-    for (const Found& f : found_) {
-        sorted_.push_back(f.crossing);
-        ++first_[LeafWork::u(f.on) + 1];
-    }
+    for (const PrismCrossing& c : found_) ++first_[LeafWork::u(c.on) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     return true;
 }
 
-bool PrismCrossings::compare(std::span<const PrismWall> walls, LeafIndex s, LeafIndex t) {
-    const PrismWall& a = walls[LeafWork::u(s)];
-    const PrismWall& b = walls[LeafWork::u(t)];
+// Notes where two walls cross, if they do; false when they touch otherwise than as neighbours.
+bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
+    const PrismWall& a = walls_[LeafWork::u(s)];
+    const PrismWall& b = walls_[LeafWork::u(t)];
     const Int128 b_from = flat_turn(a.from, a.to, b.from);
     const Int128 b_to = flat_turn(a.from, a.to, b.to);
     if (sign(b_from) * sign(b_to) > 0) return true;
@@ -87,14 +106,8 @@ bool PrismCrossings::compare(std::span<const PrismWall> walls, LeafIndex s, Leaf
     if (b_from == 0 || b_to == 0 || a_from == 0 || a_to == 0)
         return are_neighbours(a, b, b_from == 0 && b_to == 0);
     if (a.operand == b.operand) return false;
-    const auto add = [&](LeafIndex on, LeafIndex other, Int128 from, Int128 to) {
-        const Int128 whole = magnitude(from) + magnitude(to);
-        found_.push_back({on,
-                          {other, static_cast<double>(magnitude(from)) / static_cast<double>(whole),
-                           magnitude(from), whole}});
-    };
-    add(s, t, a_from, a_to);
-    add(t, s, b_from, b_to);
+    found_.push_back({s, t, Fraction(a_from, a_to).rounded()});
+    found_.push_back({t, s, Fraction(b_from, b_to).rounded()});
     return true;
 }
 

@@ -12,18 +12,15 @@
 
 namespace trisect::detail {
 
-/// A place on a wall where another one crosses it: the part of the way from its `from` to its `to`,
-/// as a fraction.
+/// A place on a wall where another one crosses it.
 struct PrismCrossing {
-    LeafIndex wall = 0;
-    double at = 0;  ///< relative error below 2^-51
-    Int128 part = 0;
-    Int128 whole = 0;
+    LeafIndex on = 0;    ///< that wall
+    LeafIndex wall = 0;  ///< the other one
+    double at = 0;  ///< part of the way from its `from` to its `to`; relative error below 2^-51
 };
 
-/// Exact order of two places on one wall.
-[[nodiscard]] int compare_places(const PrismCrossing& a, const PrismCrossing& b);
-
+/// Crossings are many, up to the square of the number of walls: what is exact about their places is
+/// computed when two of them are so near to each other that doubles cannot tell.
 class PrismCrossings {
 public:
     /// How many other walls each one may have beside it, on average. Where they are more, looking
@@ -31,26 +28,25 @@ public:
     static constexpr std::size_t most_per_wall = 2048;
 
     /// False when walls touch or overlap without crossing each other, and where too many lie side
-    /// by side. Time O(n log n + n m) for n walls with m others beside each.
+    /// by side. `walls` must outlive what is asked later. Time O(n log n + n m) for n walls with m
+    /// others beside each.
     [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismWall> walls,
                             EvaluateStats& stats);
     /// In their order along the wall.
     [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex wall) const {
         const std::size_t i = LeafWork::u(wall);
-        return std::span(sorted_).subspan(first_[i], first_[i + 1] - first_[i]);
+        return std::span(found_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
+    /// Exact order of two places on one wall.
+    [[nodiscard]] int compare(const PrismCrossing& a, const PrismCrossing& b) const;
 
 private:
-    [[nodiscard]] bool compare(std::span<const PrismWall> walls, LeafIndex s, LeafIndex t);
+    [[nodiscard]] bool cross(LeafIndex s, LeafIndex t);
 
-    struct Found {
-        LeafIndex on = 0;
-        PrismCrossing crossing;
-    };
+    std::span<const PrismWall> walls_;
     std::vector<LeafIndex> order_;
-    std::vector<Found> found_;
-    std::vector<PrismCrossing> sorted_;
-    std::vector<std::size_t> first_;  // by wall
+    std::vector<PrismCrossing> found_;  // by wall, and in their order there
+    std::vector<std::size_t> first_;    // by wall
 };
 
 }  // namespace trisect::detail

@@ -128,7 +128,7 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
                 changed = true;
             }
             ++c;
-        } while (c < crossings.size() && compare_places(crossings[first], crossings[c]) == 0);
+        } while (c < crossings.size() && crossings_.compare(crossings[first], crossings[c]) == 0);
         if (!changed) continue;
         const Sides next = sides();
         if (next == now) continue;
