@@ -30,11 +30,29 @@ public:
     void add(const Corner& lo, const Corner& hi, std::int32_t group) {
         if (size_ % 4 == 0) rows_.emplace_back();
         Row& r = rows_.back();
+        const std::size_t i = size_ % 4;
+#if defined(__SSE2__)
+        const __m128d sign = _mm_set1_pd(-0.0);
+        const auto outside = [&](__m128d x, __m128d toward) {
+            return _mm_cvtpd_ps(_mm_add_pd(x, _mm_mul_pd(_mm_andnot_pd(sign, x), toward)));
+        };
+        const auto set = [&](__m128 two, float& first, float& second) {
+            _mm_store_ss(&first, two);
+            _mm_store_ss(&second, _mm_shuffle_ps(two, two, 1));
+        };
+        const __m128d down = _mm_set1_pd(-relative);
+        const __m128d up = _mm_set1_pd(relative);
+        set(outside(_mm_loadu_pd(lo.data()), down), r.lo[0][i], r.lo[1][i]);
+        set(outside(_mm_set_pd(hi[0], lo[2]), _mm_set_pd(relative, -relative)), r.lo[2][i],
+            r.hi[0][i]);
+        set(outside(_mm_loadu_pd(hi.data() + 1), up), r.hi[1][i], r.hi[2][i]);
+#else
         for (std::size_t k = 0; k < 3; ++k) {
-            r.lo[k][size_ % 4] = below(lo[k]);
-            r.hi[k][size_ % 4] = -below(-hi[k]);
+            r.lo[k][i] = below(lo[k]);
+            r.hi[k][i] = -below(-hi[k]);
         }
-        r.group[size_ % 4] = group;
+#endif
+        r.group[i] = group;
         ++size_;
     }
     [[nodiscard]] std::size_t row_count() const { return rows_.size(); }
@@ -94,8 +112,9 @@ private:
         std::array<std::int32_t, 4> group{-1, -1, -1, -1};
     };
     // Rounding to single precision errs by less than 2^-24 of the number.
+    static constexpr double relative = 0x1p-23;
     [[nodiscard]] static float below(double x) {
-        return static_cast<float>(x - std::fabs(x) * 0x1p-23);
+        return static_cast<float>(x - std::fabs(x) * relative);
     }
 
     std::vector<Row> rows_;

@@ -49,6 +49,8 @@ void PlainFacets::set_origin(const LatticePoint& origin) {
         };
         inner_lo_[k] = inner((cell.lo[k] >> wall_bits) + 1);
         inner_hi_[k] = inner(cell.hi[k] >> wall_bits);
+        outer_lo_[k] = inner_lo_[k] - 1;
+        outer_hi_[k] = inner_hi_[k] + 1;
     }
 }
 
@@ -56,7 +58,6 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     problem_ = &leaf;
     facets_.clear();
     outlines_.clear();
-    reaches_.clear();
     fragments_ = 0;
     sheets_.clear();
     std::size_t count = 0;
@@ -71,25 +72,28 @@ bool PlainFacets::list(const LeafProblem& leaf) {
         }
     }
     facets_.reserve(count);
-    bool has_origin = false;
+    const auto first = std::ranges::find_if(
+        leaf.operands, [](const LeafOperand& o) { return !o.polygons.empty(); });
+    reaches_.assign(leaf.operands.size(), {});
+    if (first == leaf.operands.end()) return true;
+    set_origin(first->polygons[0].source->corner(first->polygons[0].facet, 0));
     // Of all points that a plane is asked about.
-    Vector3 low{};
-    Vector3 high{};
+    Vector3 low = reference_.c;
+    Vector3 high = reference_.c;
     bool small = true;
+    const Vector3 inner_lo = inner_lo_;
+    const Vector3 inner_hi = inner_hi_;
+    const Vector3 outer_lo = outer_lo_;
+    const Vector3 outer_hi = outer_hi_;
     for (std::size_t o = 0; o < leaf.operands.size(); ++o) {
         const LeafOperand& operand = leaf.operands[o];
         const auto number = static_cast<LeafIndex>(o);
         const Source* source = nullptr;
         LeafIndex sheet = -1;
-        Reach reach;
+        Reach& reach = reaches_[o];
         for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
             const PolygonRef& ref = operand.polygons[i];
             look_ahead(operand.polygons.subspan(i));
-            if (!has_origin) {
-                set_origin(ref.source->corner(ref.facet, 0));
-                low = high = reference_.c;
-                has_origin = true;
-            }
             if (ref.source != source) {
                 source = ref.source;
                 sheet = sheets_
@@ -100,30 +104,31 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             }
             add(ref, operand, number, sheet);
             PlainFacet& f = facets_.back();
-            // What doubles hold of a fragment's facet need not be near the fragment.
-            for (std::size_t c = 1; c < 3 && !f.is_whole(); ++c)
-                for (std::size_t k = 0; k < 3; ++k)
-                    small = small && std::fabs(f.corners[c][k]) < exact_limit;
             const Vector3 lo = f.lo;
             const Vector3 hi = f.hi;
-            const Vector3 inner_lo = inner_lo_;
-            const Vector3 inner_hi = inner_hi_;
             bool contained = true;
             for (std::size_t k = 0; k < 3; ++k) {
-                // Planes are asked about points from their first corner on.
-                low[k] = std::min(low[k], std::min(lo[k], f.corners[0][k]));
-                high[k] = std::max(high[k], std::max(hi[k], f.corners[0][k]));
-                contained &= lo[k] >= inner_lo[k] || (f.walls >> 2 * k & 1U) != 0;
-                contained &= hi[k] <= inner_hi[k] || (f.walls >> (2 * k + 1) & 1U) != 0;
-                // A cell without lattice points still has an inside: keep one unit around it.
-                f.lo[k] = std::max(lo[k], inner_lo[k] - 1);
-                f.hi[k] = std::min(hi[k], inner_hi[k] + 1);
+                low[k] = std::min(low[k], lo[k]);
+                high[k] = std::max(high[k], hi[k]);
+                contained &= lo[k] >= inner_lo[k];
+                contained &= hi[k] <= inner_hi[k];
+                f.lo[k] = std::max(lo[k], outer_lo[k]);
+                f.hi[k] = std::min(hi[k], outer_hi[k]);
                 reach.lo[k] = std::min(reach.lo[k], f.lo[k]);
                 reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
             }
             f.contained = contained;
+            if (f.is_whole()) continue;
+            if (!contained) f.contained = is_contained_but_for_walls(f.walls, lo, hi);
+            // Planes are asked about points from their first corner on. What doubles hold of a
+            // fragment's facet need not be near the fragment.
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], f.corners[0][k]);
+                high[k] = std::max(high[k], f.corners[0][k]);
+                for (std::size_t c = 1; c < 3; ++c)
+                    small = small && std::fabs(f.corners[c][k]) < exact_limit;
+            }
         }
-        reaches_.push_back(reach);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         small = small && low[k] > -exact_limit && high[k] < exact_limit;
@@ -167,6 +172,16 @@ void PlainFacets::add_box(PlainFacet& f) {
         f.lo[k] = static_cast<double>(fragment.box().lo[k] - origin_[k]);
         f.hi[k] = static_cast<double>(fragment.box().hi[k] - origin_[k]);
     }
+}
+
+// Whether a box reaches beyond those walls of the cell only at which its fragment ends.
+bool PlainFacets::is_contained_but_for_walls(unsigned walls, const Vector3& lo,
+                                             const Vector3& hi) const {
+    for (std::size_t k = 0; k < 3; ++k, walls >>= 2)
+        if ((lo[k] < inner_lo_[k] && (walls & 1U) == 0) ||
+            (hi[k] > inner_hi_[k] && (walls & 2U) == 0))
+            return false;
+    return true;
 }
 
 // Of a fragment: its corners from the leaf's origin, with the rounding that this takes.

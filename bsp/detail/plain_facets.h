@@ -173,6 +173,8 @@ private:
     void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);
     void add_box(PlainFacet& f);
     void add_outline(PlainFacet& f);
+    [[nodiscard]] bool is_contained_but_for_walls(unsigned walls, const Vector3& lo,
+                                                  const Vector3& hi) const;
     [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
     void make_plane(PlainFacet& f) const;
 
@@ -186,6 +188,9 @@ private:
     Approximation reference_;
     Vector3 inner_lo_{};
     Vector3 inner_hi_{};
+    // A cell without lattice points still has an inside: boxes keep one unit around it.
+    Vector3 outer_lo_{};
+    Vector3 outer_hi_{};
     Vector3 wall_lo_{};
     Vector3 wall_hi_{};
     Vector3 extent_{};  // of all facets, unclipped, and the reference point

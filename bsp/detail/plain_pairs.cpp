@@ -89,6 +89,9 @@ int exact_side(const PlainFacet& f, std::size_t i, const Plane& plane) {
                            f.edge(i).plane.plane(), plane));
 }
 
+// Without a call, which std::has_single_bit is on the oldest processors of the family.
+bool is_single(std::uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
+
 // A polygon and the side of another one's support on which its corners are.
 class Across {
 public:
@@ -129,7 +132,7 @@ public:
         const std::uint32_t down = upper & ~next_of(upper);
         up_ = static_cast<std::size_t>(std::countr_zero(up));
         down_ = static_cast<std::size_t>(std::countr_zero(down));
-        return std::has_single_bit(up) && std::has_single_bit(down);
+        return is_single(up) && is_single(down);
     }
     [[nodiscard]] std::size_t edge(bool up) const { return up ? up_ : down_; }
     /// Where one of these edges is in the support. False when doubles tell too little.
@@ -351,12 +354,10 @@ bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, Evaluate
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
     has_partner_[LeafWork::u(s)] = has_partner_[LeafWork::u(t)] = 1;
-    PlainCrossing crossing;
-    const Relation r = relate(facets, std::min(s, t), std::max(s, t), crossing);
+    const Relation r = relate(facets, std::min(s, t), std::max(s, t), found_);
     // Outside the cell is as good as nowhere.
-    if (r == Relation::Crossing &&
-        !is_outside_cell(facets, crossing.ends[0].at, crossing.ends[1].at))
-        crossings_.push_back(crossing);
+    if (r == Relation::Crossing && !is_outside_cell(facets, found_.ends[0].at, found_.ends[1].at))
+        crossings_.push_back(found_);
     return r != Relation::Doubtful;
 }
 
@@ -391,6 +392,7 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0)
         return relate_outlines(facets, s, t, out);
     out.items = {s, t};
+    out.above = out.on = {};
     for (std::size_t i = 0; i < 3; ++i) {
         out.above[0] |= (of_a.value[i] > 0 ? 1U : 0U) << i;
         out.above[1] |= (of_b.value[i] > 0 ? 1U : 0U) << i;
@@ -398,6 +400,7 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     const auto set_end = [&](PlainEnd& end, bool of_second, std::size_t corner) {
         end.of_second = of_second;
         end.edge = (of_second ? q : p).edge_to(corner);
+        end.other_edge = -1;
         return of_second ? pierce(q, of_b, corner, end.at) : pierce(p, of_a, corner, end.at);
     };
     // The later start and the earlier end.

@@ -104,6 +104,7 @@ private:
                              EvaluateStats& stats);
     void list_candidates(const PlainFacets& facets);
     void mark_rows(std::span<const std::uint8_t> marks);
+    /// Sets all of `out` when they cross.
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                   PlainCrossing& out) const;
     [[nodiscard]] Relation relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
@@ -121,6 +122,7 @@ private:
     std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows
+    PlainCrossing found_;                     // between the pair that is looked at
     std::vector<PlainCrossing> crossings_;
     std::vector<PlainContact> contacts_;
     std::vector<std::size_t> first_contact_;
