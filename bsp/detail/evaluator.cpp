@@ -63,6 +63,9 @@ namespace {
 constexpr std::uint64_t parallel_size = 4096;
 // Leaves may be so many times as large where all polygons are across an axis.
 constexpr std::uint64_t axis_leaf_factor = 8;
+// Or where operands are small: where at least such a part of all their facets is in the cell.
+constexpr std::uint64_t small_operands_factor = 5;
+constexpr std::uint64_t small_operands_part = 8;
 
 class Worker;
 
@@ -116,6 +119,7 @@ private:
     CellRef resolve(CellTask& task);
     std::optional<CellRef> resolve_across_axes(CellTask& task);
     std::optional<CellRef> resolve_prisms(CellTask& task);
+    std::optional<CellRef> resolve_small_operands(CellTask& task);
     template <class Arrange>
     std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
     CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
@@ -272,6 +276,21 @@ std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
     if (!std::ranges::all_of(task.operands, may_be_prism)) return std::nullopt;
     return resolve_by(task,
                       [&](const LeafProblem& p) { return arranger_.arrange_prisms(p, stats_); });
+}
+
+// A wall pays where an operand is all on one side of it, and most where it covers the other side.
+// Small operands do not cover much, and walls cut most of their facets, so that these are listed
+// and compared again and again.
+std::optional<CellRef> Worker::resolve_small_operands(CellTask& task) {
+    if (shared_.crossings == nullptr || task.operands.size() < 3) return std::nullopt;
+    std::uint64_t all = 0;
+    for (const CellOperand& o : task.operands) {
+        if (!o.is_list && !o.node->is_leaf()) return std::nullopt;
+        all += o.node->size();
+    }
+    if (small_operands_part * task.size() < all) return std::nullopt;
+    return resolve_by(task,
+                      [&](const LeafProblem& p) { return arranger_.arrange_plain(p, stats_); });
 }
 
 // Of a list or a leaf.
@@ -575,6 +594,8 @@ CellRef Worker::solve(CellTask& task) {
         if (auto leaf = resolve_across_axes(task)) return *std::move(leaf);
     if (total <= prism_leaf_factor * options_.leaf_polygons)
         if (auto leaf = resolve_prisms(task)) return *std::move(leaf);
+    if (total <= small_operands_factor * options_.leaf_polygons)
+        if (auto leaf = resolve_small_operands(task)) return *std::move(leaf);
     return divide(task);
 }
 

@@ -47,6 +47,7 @@ public:
     LeafResult arrange(const LeafProblem& problem, SlotValues& values, EvaluateStats& stats);
     std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem, EvaluateStats& stats);
     std::optional<LeafResult> arrange_prisms(const LeafProblem& problem, EvaluateStats& stats);
+    std::optional<LeafResult> arrange_plain(const LeafProblem& problem, EvaluateStats& stats);
     void collect_crossings(std::span<const Crossings::Operand> operands) {
         collect_ = true;
         crossings_.operands.assign(operands.begin(), operands.end());
@@ -61,7 +62,6 @@ public:
 private:
     template <class Work>
     auto or_end_fragments(const Work& work);
-    std::optional<LeafResult> arrange_plain(const LeafProblem& problem, EvaluateStats& stats);
     void note_doubtful(const LeafProblem& problem);
     void arrange_embedded();
     void arrange_any(SlotValues& values);
@@ -119,6 +119,11 @@ std::optional<LeafResult> LeafArranger::arrange_across_axes(const LeafProblem& p
 std::optional<LeafResult> LeafArranger::arrange_prisms(const LeafProblem& problem,
                                                        EvaluateStats& stats) {
     return impl_->arrange_prisms(problem, stats);
+}
+
+std::optional<LeafResult> LeafArranger::arrange_plain(const LeafProblem& problem,
+                                                      EvaluateStats& stats) {
+    return impl_->arrange_plain(problem, stats);
 }
 
 // Calls `work`, which fills out_; when memory ends on the way, the fragments made so far are freed.

@@ -61,6 +61,9 @@ public:
     /// The same when all operands are prisms along one axis, whole within the cell; else nothing.
     [[nodiscard]] std::optional<LeafResult> arrange_prisms(const LeafProblem& problem,
                                                            EvaluateStats& stats);
+    /// The same in general position, where doubles tell all; else nothing.
+    [[nodiscard]] std::optional<LeafResult> arrange_plain(const LeafProblem& problem,
+                                                          EvaluateStats& stats);
 
 private:
     class Impl;

@@ -155,6 +155,9 @@ public:
     [[nodiscard]] const Vector3& wall_lo() const { return wall_lo_; }
     [[nodiscard]] const Vector3& wall_hi() const { return wall_hi_; }
     [[nodiscard]] const Approximation& reference() const { return reference_; }
+    /// How far apart whole facets' corners, the origin and the reference point are along each axis,
+    /// and at least 1.
+    [[nodiscard]] const Vector3& extent() const { return extent_; }
     /// From where coordinates of this leaf count, in lattice units.
     [[nodiscard]] const std::array<std::int64_t, 3>& origin() const { return origin_; }
 

@@ -209,6 +209,8 @@ bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Ap
 // come first.
 bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
     const std::size_t n = LeafWork::u(facets.size());
+    has_all_boxes_ = true;
+    has_planes_ = false;
     boxes_.clear();
     for (LeafIndex i = 0; i < facets.size(); ++i)
         boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
@@ -240,27 +242,49 @@ bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
     return true;
 }
 
-// Facets that may meet one of another operand, sorted along the axis on which the fewest boxes
-// overlap: where their lengths sum up to the smallest part of the whole extent.
-void PlainPairs::list_candidates(const PlainFacets& facets) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+// Facets that may meet one of another operand. Those of small leaves are compared all with all, as
+// they are: rows of one operand after the other, four neighbours in each, are mostly kept or left
+// out as one.
+void PlainPairs::list_candidates(PlainFacets& facets) {
+    constexpr LeafIndex few = 512;
     const std::size_t n = facets.operand_count();
     candidates_.clear();
-    is_candidate_.assign(LeafWork::u(facets.size()), 0);
+    boxes_.clear();
+    planes_.clear();
+    has_all_boxes_ = facets.size() <= few;
+    has_planes_ = facets.fragment_count() == 0;
     // With many operands the boxes of the others overlap nearly everything.
-    const bool compare = n <= 8;
-    Vector3 lengths{};
-    Vector3 low{infinity, infinity, infinity};
-    Vector3 high{-infinity, -infinity, -infinity};
+    const bool all = has_all_boxes_ || n > 8;
     for (LeafIndex i = 0; i < facets.size(); ++i) {
         const PlainFacet& f = facets[i];
-        bool candidate = !compare;
+        bool candidate = all;
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate =
                 o != LeafWork::u(f.operand) && f.meets(facets.reach(o).lo, facets.reach(o).hi);
-        if (!candidate) continue;
-        is_candidate_[LeafWork::u(i)] = 1;
-        candidates_.push_back({0, i});
+        if (candidate) candidates_.push_back({0, i});
+    }
+    if (has_all_boxes_) {
+        for (LeafIndex i = 0; i < facets.size(); ++i)
+            boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
+    } else {
+        sort_candidates(facets);
+    }
+    if (!has_planes_) return;
+    for (const Candidate& c : candidates_) {
+        static_cast<void>(facets.plane(c.item));
+        planes_.add(facets[c.item], facets.extent());
+    }
+}
+
+// Along the axis on which the fewest boxes overlap: where their lengths sum up to the smallest part
+// of the whole extent.
+void PlainPairs::sort_candidates(const PlainFacets& facets) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vector3 lengths{};
+    Vector3 low{infinity, infinity, infinity};
+    Vector3 high{-infinity, -infinity, -infinity};
+    for (const Candidate& c : candidates_) {
+        const PlainFacet& f = facets[c.item];
         for (std::size_t k = 0; k < 3; ++k) {
             lengths[k] += f.hi[k] - f.lo[k];
             low[k] = std::min(low[k], f.lo[k]);
@@ -275,7 +299,6 @@ void PlainPairs::list_candidates(const PlainFacets& facets) {
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
         return a.lo != b.lo ? a.lo < b.lo : a.item < b.item;
     });
-    boxes_.clear();
     const auto turned = [&](const Vector3& v) {
         return Vector3{v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3]};
     };
@@ -304,20 +327,24 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         check_budget(*facets.problem().options, stats);
         const BoxRows::Probe probe = boxes_.probe(i);
+        const FacetRows::Probe facet = has_planes_ ? planes_.probe(i) : FacetRows::Probe{};
         const bool all = marks.empty() || (marked_[i / 4] >> i % 4 & 1U) != 0;
         const std::size_t first = (i + 1) / 4;
         const auto next = [&](std::size_t row) {
             return all || row >= boxes_.row_count() ? row : next_marked_[row];
         };
         for (std::size_t row = next(first);
-             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0];
+             row < boxes_.row_count() && (has_all_boxes_ || boxes_.first_low(row) <= probe.hi[0]);
              row = next(row + 1)) {
             unsigned met = boxes_.meeting(row, probe);
             if (row == first) met &= ~0U << (i + 1) % 4;
             if (!all) met &= marked_[row];
+            if (met == 0) continue;
+            stats.pairs_boxes += static_cast<std::uint64_t>(std::popcount(met));
+            if (has_planes_) met &= ~planes_.parted(row, facet);
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-                if (!compare(facets, candidates_[i].item, candidates_[j].item, stats)) return false;
+                if (!add_pair(facets, candidates_[i].item, candidates_[j].item)) return false;
             }
         }
     }
@@ -329,8 +356,8 @@ bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks
     edges_apart_ = edges_apart;
     crossings_.clear();
     has_partner_.assign(LeafWork::u(facets.size()), 0);
-    has_all_boxes_ = facets.operand_count() == 2 && marks.empty();
-    if (!(has_all_boxes_ ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
+    const bool two = facets.operand_count() == 2 && marks.empty();
+    if (!(two ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
     stats.pairs_touching += crossings_.size();
     stats.pairs_cutting += crossings_.size();
     list_contacts(facets.size());
@@ -354,6 +381,10 @@ bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, Evaluate
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
     has_partner_[LeafWork::u(s)] = has_partner_[LeafWork::u(t)] = 1;
+    return add_pair(facets, s, t);
+}
+
+bool PlainPairs::add_pair(PlainFacets& facets, LeafIndex s, LeafIndex t) {
     const Relation r = relate(facets, std::min(s, t), std::max(s, t), found_);
     // Outside the cell is as good as nowhere.
     if (r == Relation::Crossing && !is_outside_cell(facets, found_.ends[0].at, found_.ends[1].at))

@@ -11,6 +11,7 @@
 
 #include <trisect/bsp/detail/box_rows.h>
 #include <trisect/bsp/detail/crossings.h>
+#include <trisect/bsp/detail/facet_rows.h>
 #include <trisect/bsp/detail/plain_facets.h>
 
 namespace trisect::detail {
@@ -83,8 +84,12 @@ public:
     [[nodiscard]] bool has_partner(LeafIndex item) const {
         return has_partner_[LeafWork::u(item)] != 0;
     }
-    /// The boxes of all items in their order, if they are there: of two operands.
+    /// The boxes of all items in their order, if they are there: in all but large leaves.
     [[nodiscard]] const BoxRows* all_boxes() const { return has_all_boxes_ ? &boxes_ : nullptr; }
+    /// Their planes in the same rows, if they are there: of more than two operands.
+    [[nodiscard]] const FacetRows* all_planes() const {
+        return has_all_boxes_ && has_planes_ ? &planes_ : nullptr;
+    }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
         const auto i = LeafWork::u(item);
@@ -102,7 +107,8 @@ private:
     [[nodiscard]] bool relate_two(PlainFacets& facets, EvaluateStats& stats);
     [[nodiscard]] bool sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                              EvaluateStats& stats);
-    void list_candidates(const PlainFacets& facets);
+    void list_candidates(PlainFacets& facets);
+    void sort_candidates(const PlainFacets& facets);
     void mark_rows(std::span<const std::uint8_t> marks);
     /// Sets all of `out` when they cross.
     [[nodiscard]] Relation relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
@@ -110,15 +116,18 @@ private:
     [[nodiscard]] Relation relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
                                            PlainCrossing& out) const;
     [[nodiscard]] bool compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats);
+    [[nodiscard]] bool add_pair(PlainFacets& facets, LeafIndex s, LeafIndex t);
     void list_contacts(LeafIndex count);
 
     bool edges_apart_ = false;
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
     std::vector<std::uint8_t> has_partner_;   // by item
-    // Of the candidates, the axis of the sweep first; of two operands of all items.
+    // Of the candidates, the axis of the sweep first; where nothing is sorted, of all items.
     BoxRows boxes_;
     bool has_all_boxes_ = false;
+    FacetRows planes_;  // of the same items, if no fragments are among them
+    bool has_planes_ = false;
     std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows

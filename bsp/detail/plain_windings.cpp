@@ -289,16 +289,23 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
         hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
+    const FacetRows* const planes = pairs_->all_planes();
+    const FacetRows::Segment segment = FacetRows::segment(start.at, target);
     const auto count_in = [&](const BoxRows& boxes, LeafIndex first, std::size_t begin,
                               std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row)
-            for (unsigned met = boxes.meeting(row, probe); met != 0; met &= met - 1) {
+        for (std::size_t row = begin; row < end; ++row) {
+            unsigned met = boxes.meeting(row, probe);
+            if (met != 0 && planes != nullptr) met &= ~planes->parted(row, segment);
+            for (; met != 0; met &= met - 1) {
                 const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
                 if (!add_crossing(first + i, start.at, target, lo, hi, w)) return false;
             }
+        }
         return true;
     };
-    if (const BoxRows* all = pairs_->all_boxes()) {
+    const BoxRows* const all = pairs_->all_boxes();
+    if (all != nullptr && operands_ > 2) return count_in(*all, 0, 0, all->row_count());
+    if (all != nullptr) {
         const OperandBoxes& other = boxes_[1 - LeafWork::u(own)];
         return count_in(*all, 0, LeafWork::u(other.first) / 4, (LeafWork::u(other.last) + 3) / 4);
     }

@@ -87,7 +87,7 @@ private:
                                     const Vector3& high) const;
     [[nodiscard]] LeafIndex windings_in(int region);
     [[nodiscard]] bool is_clear(LeafIndex item) const {
-        return pairs_->all_boxes() != nullptr && !pairs_->has_partner(item);
+        return operands_ == 2 && !pairs_->has_partner(item);
     }
     [[nodiscard]] ClearBox clear_box(LeafIndex item, LeafIndex windings) const;
     void list_ways();
