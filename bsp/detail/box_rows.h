@@ -4,7 +4,9 @@
 // keeps few.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +28,7 @@ public:
     void clear() {
         size_ = 0;
         rows_.clear();
+        hulls_.clear();
     }
     void add(const Corner& lo, const Corner& hi, std::int32_t group) {
         if (size_ % 4 == 0) rows_.emplace_back();
@@ -59,51 +62,62 @@ public:
     /// Of the first box in a row.
     [[nodiscard]] float first_low(std::size_t row) const { return rows_[row].lo[0][0]; }
 
-    /// A box to be compared with the others.
-    struct Probe {
-        std::array<float, 3> lo;
-        std::array<float, 3> hi;
-        std::int32_t group;
+    /// A box to be compared with the others: every number four times.
+    struct alignas(16) Probe {
+        std::array<std::array<float, 4>, 3> lo;
+        std::array<std::array<float, 4>, 3> hi;
+        std::array<std::int32_t, 4> group;
     };
     [[nodiscard]] Probe probe(std::size_t box) const {
         const Row& r = rows_[box / 4];
         const std::size_t i = box % 4;
-        return {
-            {r.lo[0][i], r.lo[1][i], r.lo[2][i]}, {r.hi[0][i], r.hi[1][i], r.hi[2][i]}, r.group[i]};
+        return probe_of({r.lo[0][i], r.lo[1][i], r.lo[2][i]}, {r.hi[0][i], r.hi[1][i], r.hi[2][i]},
+                        r.group[i]);
     }
     [[nodiscard]] static Probe probe(const Corner& lo, const Corner& hi, std::int32_t group) {
-        return {{below(lo[0]), below(lo[1]), below(lo[2])},
-                {-below(-hi[0]), -below(-hi[1]), -below(-hi[2])},
-                group};
+        return probe_of({below(lo[0]), below(lo[1]), below(lo[2])},
+                        {-below(-hi[0]), -below(-hi[1]), -below(-hi[2])}, group);
     }
     /// Which boxes of a row meet the probe and are of another group, a bit for each.
     [[nodiscard]] unsigned meeting(std::size_t row, const Probe& p) const {
-        const Row& r = rows_[row];
-#if defined(__SSE2__)
-        __m128 met = _mm_castsi128_ps(
-            _mm_cmpeq_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(r.group.data())),
-                            _mm_set1_epi32(p.group)));
-        for (std::size_t k = 0; k < 3; ++k) {
-            met = _mm_or_ps(met, _mm_cmpgt_ps(_mm_load_ps(r.lo[k].data()), _mm_set1_ps(p.hi[k])));
-            met = _mm_or_ps(met, _mm_cmplt_ps(_mm_load_ps(r.hi[k].data()), _mm_set1_ps(p.lo[k])));
+        return meeting(rows_[row], p);
+    }
+
+    /// Call it when all boxes are there: then visit_meeting() looks at four rows at once.
+    void add_hulls() {
+        for (std::size_t row = 0; row < rows_.size(); ++row) {
+            if (row % 4 == 0) hulls_.emplace_back();
+            const Row& r = rows_[row];
+            Row& hull = hulls_.back();
+            for (std::size_t k = 0; k < 3; ++k) {
+                hull.lo[k][row % 4] = *std::min_element(r.lo[k].begin(), r.lo[k].end());
+                hull.hi[k][row % 4] = *std::max_element(r.hi[k].begin(), r.hi[k].end());
+            }
+            const bool one = std::equal(r.group.begin() + 1, r.group.end(), r.group.begin());
+            hull.group[row % 4] = one ? r.group[0] : Row::mixed;
         }
-        return ~static_cast<unsigned>(_mm_movemask_ps(met)) & 15U;
-#else
-        unsigned met = 0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            bool meets = r.group[i] != p.group;
-            for (std::size_t k = 0; k < 3; ++k)
-                meets = meets && r.lo[k][i] <= p.hi[k] && r.hi[k][i] >= p.lo[k];
-            met |= static_cast<unsigned>(meets ? 1 : 0) << i;
+    }
+    /// Calls visit(row, boxes that meet the probe as above) for rows from `first` on that have
+    /// some, until that is false; returns whether it never was. \pre add_hulls()
+    template <class Visit>
+    [[nodiscard]] bool visit_meeting(std::size_t first, const Probe& p, const Visit& visit) const {
+        for (std::size_t h = first / 4; h < hulls_.size(); ++h) {
+            unsigned rows = meeting(hulls_[h], p);
+            if (h == first / 4) rows &= ~0U << first % 4;
+            for (; rows != 0; rows &= rows - 1) {
+                const std::size_t row = 4 * h + static_cast<std::size_t>(std::countr_zero(rows));
+                const unsigned met = meeting(rows_[row], p);
+                if (met != 0 && !visit(row, met)) return false;
+            }
         }
-        return met;
-#endif
+        return true;
     }
 
 private:
     // Places without a box meet nothing.
     struct alignas(16) Row {
         static constexpr float none = std::numeric_limits<float>::infinity();
+        static constexpr std::int32_t mixed = -2;  // no group
         using Four = std::array<float, 4>;
         std::array<Four, 3> lo{Four{none, none, none, none}, Four{none, none, none, none},
                                Four{none, none, none, none}};
@@ -111,6 +125,39 @@ private:
                                Four{-none, -none, -none, -none}};
         std::array<std::int32_t, 4> group{-1, -1, -1, -1};
     };
+    [[nodiscard]] static Probe probe_of(const std::array<float, 3>& lo,
+                                        const std::array<float, 3>& hi, std::int32_t group) {
+        Probe p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p.lo[k].fill(lo[k]);
+            p.hi[k].fill(hi[k]);
+        }
+        p.group.fill(group);
+        return p;
+    }
+    [[nodiscard]] static unsigned meeting(const Row& r, const Probe& p) {
+#if defined(__SSE2__)
+        const auto load = [](const std::array<float, 4>& v) { return _mm_load_ps(v.data()); };
+        const auto groups = [](const std::array<std::int32_t, 4>& v) {
+            return _mm_load_si128(reinterpret_cast<const __m128i*>(v.data()));
+        };
+        __m128 met = _mm_castsi128_ps(_mm_cmpeq_epi32(groups(r.group), groups(p.group)));
+        for (std::size_t k = 0; k < 3; ++k) {
+            met = _mm_or_ps(met, _mm_cmpgt_ps(load(r.lo[k]), load(p.hi[k])));
+            met = _mm_or_ps(met, _mm_cmplt_ps(load(r.hi[k]), load(p.lo[k])));
+        }
+        return ~static_cast<unsigned>(_mm_movemask_ps(met)) & 15U;
+#else
+        unsigned met = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            bool meets = r.group[i] != p.group[i];
+            for (std::size_t k = 0; k < 3; ++k)
+                meets = meets && r.lo[k][i] <= p.hi[k][i] && r.hi[k][i] >= p.lo[k][i];
+            met |= static_cast<unsigned>(meets ? 1 : 0) << i;
+        }
+        return met;
+#endif
+    }
     // Rounding to single precision errs by less than 2^-24 of the number.
     static constexpr double relative = 0x1p-23;
     [[nodiscard]] static float below(double x) {
@@ -118,6 +165,7 @@ private:
     }
 
     std::vector<Row> rows_;
+    std::vector<Row> hulls_;  // a box for each row
     std::size_t size_ = 0;
 };
 

@@ -12,16 +12,13 @@
 
 namespace trisect::detail {
 
-/// Facets in the order in which they are added, in the coordinates of their leaf. All answers are
-/// on the safe side; what they leave open is for doubles.
+/// Facets of a leaf in the order in which they are added. All answers are on the safe side; what
+/// they leave open is for doubles.
 class FacetRows {
 public:
-    void clear() {
-        size_ = 0;
-        rows_.clear();
-    }
-    /// \pre a whole facet, of which the plane is made; `extent` is that of PlainFacets
-    void add(const PlainFacet& f, const Vector3& extent);
+    /// For a leaf whose points differ by no more than this, see PlainFacets::extent().
+    void start(const Vector3& extent);
+    void add(const std::array<Vector3, 3>& corners, const PlainPlane& plane);
 
     /// A facet to be compared with the others.
     struct Probe {
@@ -40,14 +37,16 @@ public:
         std::array<std::array<float, 3>, 2> ends;
         float error;
     };
-    [[nodiscard]] static Segment segment(const Approximation& a, const Approximation& b);
-    /// Which facets of a row have both ends surely on one side of their plane.
+    [[nodiscard]] Segment segment(const Approximation& a, const Approximation& b) const;
+    /// Which facets of a row have both ends surely on one side of their plane, or the whole line
+    /// surely beside them.
     [[nodiscard]] unsigned parted(std::size_t row, const Segment& segment) const;
 
 private:
     using Four = std::array<float, 4>;
-    // The plane of a facet has `normal` · p - `offset` = 0, the largest component of the normal is
-    // 1 or -1, and at the points of the leaf values are off by less than `bound`.
+    // Coordinates are scaled so that no two points of the leaf differ by more than 1. The plane of
+    // a facet has `normal` · p - `offset` = 0, the largest component of the normal is 1 or -1, and
+    // values at points of the leaf are off by less than `bound`.
     struct alignas(16) Row {
         std::array<std::array<Four, 3>, 3> corners{};
         std::array<Four, 3> normal{};
@@ -56,6 +55,8 @@ private:
     };
     std::vector<Row> rows_;
     std::size_t size_ = 0;
+    double scale_ = 1;  // a power of 2
+    Vector3 extent_{};
 };
 
 }  // namespace trisect::detail

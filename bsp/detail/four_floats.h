@@ -26,11 +26,9 @@ public:
     friend FourFloats operator*(FourFloats a, FourFloats b) { return _mm_mul_ps(a.v_, b.v_); }
     friend FourFloats smaller(FourFloats a, FourFloats b) { return _mm_min_ps(a.v_, b.v_); }
     friend FourFloats larger(FourFloats a, FourFloats b) { return _mm_max_ps(a.v_, b.v_); }
-    /// Where a > bound or b < -bound, a bit for each of the four.
-    friend unsigned beyond(FourFloats a, FourFloats b, FourFloats bound) {
-        const __m128 above = _mm_cmpgt_ps(a.v_, bound.v_);
-        const __m128 below = _mm_cmplt_ps(b.v_, _mm_sub_ps(_mm_setzero_ps(), bound.v_));
-        return static_cast<unsigned>(_mm_movemask_ps(_mm_or_ps(above, below)));
+    /// Where a > b, a bit for each of the four.
+    friend unsigned greater(FourFloats a, FourFloats b) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_cmpgt_ps(a.v_, b.v_)));
     }
 
 private:
@@ -55,10 +53,9 @@ private:
     friend FourFloats larger(const FourFloats& a, const FourFloats& b) {
         return each(a, b, [](float x, float y) { return std::max(x, y); });
     }
-    friend unsigned beyond(const FourFloats& a, const FourFloats& b, const FourFloats& bound) {
+    friend unsigned greater(const FourFloats& a, const FourFloats& b) {
         unsigned bits = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            bits |= (a.v_[i] > bound.v_[i] || b.v_[i] < -bound.v_[i] ? 1U : 0U) << i;
+        for (std::size_t i = 0; i < 4; ++i) bits |= (a.v_[i] > b.v_[i] ? 1U : 0U) << i;
         return bits;
     }
 

@@ -217,15 +217,15 @@ std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
     return static_cast<std::uint8_t>(walls);
 }
 
-void PlainFacets::make_plane(PlainFacet& f) const {
+PlainPlane PlainFacets::plane_of(const std::array<Vector3, 3>& corners, const Vector3& extent) {
     Vector3 u;
     Vector3 v;
     for (std::size_t k = 0; k < 3; ++k) {
-        u[k] = f.corners[1][k] - f.corners[0][k];
-        v[k] = f.corners[2][k] - f.corners[0][k];
+        u[k] = corners[1][k] - corners[0][k];
+        v[k] = corners[2][k] - corners[0][k];
     }
-    PlainPlane& p = f.plane;
-    p.origin = f.corners[0];
+    PlainPlane p;
+    p.origin = corners[0];
     double permanent = 0;
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -235,11 +235,12 @@ void PlainFacets::make_plane(PlainFacet& f) const {
         const double t = u[j] * v[i];
         p.normal[k] = s - t;
         const double minor = std::fabs(s) + std::fabs(t);
-        permanent += minor * extent_[k];
+        permanent += minor * extent[k];
         sum += minor;
     }
     p.bound = 0x1p-50 * permanent;
     p.slope = 1.0001 * sum;
+    return p;
 }
 
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {

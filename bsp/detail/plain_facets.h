@@ -117,11 +117,14 @@ public:
     [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
         PlainFacet& f = facets_[LeafWork::u(i)];
         if (f.plane.bound < 0) {
-            make_plane(f);
+            f.plane = plane_of(f.corners, extent_);
             make_outline(i);
         }
         return f.plane;
     }
+    /// The plane of three points of a leaf of that extent.
+    [[nodiscard]] static PlainPlane plane_of(const std::array<Vector3, 3>& corners,
+                                             const Vector3& extent);
     /// Most fragments are never asked for their corners.
     void make_outline(LeafIndex i) {
         PlainFacet& f = facets_[LeafWork::u(i)];
@@ -179,7 +182,6 @@ private:
     [[nodiscard]] bool is_contained_but_for_walls(unsigned walls, const Vector3& lo,
                                                   const Vector3& hi) const;
     [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
-    void make_plane(PlainFacet& f) const;
 
     const LeafProblem* problem_ = nullptr;
     std::vector<PlainFacet> facets_;

@@ -71,6 +71,9 @@ struct Numbered {
     }
 };
 
+// Of the boxes of a row. Without a call, which std::popcount is on the oldest processors.
+constexpr std::array<std::uint8_t, 16> count_of{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+
 Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
 
 // Where the edge from the lonely corner to corner i pierces the other support.
@@ -250,7 +253,6 @@ void PlainPairs::list_candidates(PlainFacets& facets) {
     const std::size_t n = facets.operand_count();
     candidates_.clear();
     boxes_.clear();
-    planes_.clear();
     has_all_boxes_ = facets.size() <= few;
     has_planes_ = facets.fragment_count() == 0;
     // With many operands the boxes of the others overlap nearly everything.
@@ -266,14 +268,14 @@ void PlainPairs::list_candidates(PlainFacets& facets) {
     if (has_all_boxes_) {
         for (LeafIndex i = 0; i < facets.size(); ++i)
             boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
+        boxes_.add_hulls();
     } else {
         sort_candidates(facets);
     }
     if (!has_planes_) return;
-    for (const Candidate& c : candidates_) {
-        static_cast<void>(facets.plane(c.item));
-        planes_.add(facets[c.item], facets.extent());
-    }
+    planes_.start(facets.extent());
+    for (const Candidate& c : candidates_)
+        planes_.add(facets[c.item].corners, facets.plane(c.item));
 }
 
 // Along the axis on which the fewest boxes overlap: where their lengths sum up to the smallest part
@@ -330,23 +332,29 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
         const FacetRows::Probe facet = has_planes_ ? planes_.probe(i) : FacetRows::Probe{};
         const bool all = marks.empty() || (marked_[i / 4] >> i % 4 & 1U) != 0;
         const std::size_t first = (i + 1) / 4;
-        const auto next = [&](std::size_t row) {
-            return all || row >= boxes_.row_count() ? row : next_marked_[row];
-        };
-        for (std::size_t row = next(first);
-             row < boxes_.row_count() && (has_all_boxes_ || boxes_.first_low(row) <= probe.hi[0]);
-             row = next(row + 1)) {
-            unsigned met = boxes_.meeting(row, probe);
+        const auto look_at = [&](std::size_t row, unsigned met) {
             if (row == first) met &= ~0U << (i + 1) % 4;
             if (!all) met &= marked_[row];
-            if (met == 0) continue;
-            stats.pairs_boxes += static_cast<std::uint64_t>(std::popcount(met));
+            if (met == 0) return true;
+            stats.pairs_boxes += count_of[met];
             if (has_planes_) met &= ~planes_.parted(row, facet);
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
                 if (!add_pair(facets, candidates_[i].item, candidates_[j].item)) return false;
             }
+            return true;
+        };
+        if (has_all_boxes_) {
+            if (!boxes_.visit_meeting(first, probe, look_at)) return false;
+            continue;
         }
+        const auto next = [&](std::size_t row) {
+            return all || row >= boxes_.row_count() ? row : next_marked_[row];
+        };
+        for (std::size_t row = next(first);
+             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0][0];
+             row = next(row + 1))
+            if (!look_at(row, boxes_.meeting(row, probe))) return false;
     }
     return true;
 }

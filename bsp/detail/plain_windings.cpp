@@ -289,21 +289,26 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
         hi[k] = std::max(start.at.c[k] + start.at.error, target.c[k] + target.error) + 1;
     }
     const BoxRows::Probe probe = BoxRows::probe(lo, hi, own);
-    const FacetRows* const planes = pairs_->all_planes();
-    const FacetRows::Segment segment = FacetRows::segment(start.at, target);
-    const auto count_in = [&](const BoxRows& boxes, LeafIndex first, std::size_t begin,
-                              std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-            unsigned met = boxes.meeting(row, probe);
-            if (met != 0 && planes != nullptr) met &= ~planes->parted(row, segment);
-            for (; met != 0; met &= met - 1) {
-                const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
-                if (!add_crossing(first + i, start.at, target, lo, hi, w)) return false;
-            }
+    const auto count = [&](LeafIndex first, std::size_t row, unsigned met) {
+        for (; met != 0; met &= met - 1) {
+            const auto i = static_cast<LeafIndex>(4 * row) + std::countr_zero(met);
+            if (!add_crossing(first + i, start.at, target, lo, hi, w)) return false;
         }
         return true;
     };
     const BoxRows* const all = pairs_->all_boxes();
+    if (const FacetRows* const planes = pairs_->all_planes()) {
+        const FacetRows::Segment segment = planes->segment(start.at, target);
+        return all->visit_meeting(0, probe, [&](std::size_t row, unsigned met) {
+            return count(0, row, met & ~planes->parted(row, segment));
+        });
+    }
+    const auto count_in = [&](const BoxRows& boxes, LeafIndex first, std::size_t begin,
+                              std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row)
+            if (!count(first, row, boxes.meeting(row, probe))) return false;
+        return true;
+    };
     if (all != nullptr && operands_ > 2) return count_in(*all, 0, 0, all->row_count());
     if (all != nullptr) {
         const OperandBoxes& other = boxes_[1 - LeafWork::u(own)];
