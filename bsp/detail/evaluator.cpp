@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -31,6 +32,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <trisect/bsp/detail/arranger_pool.h>
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
@@ -87,8 +89,8 @@ class Worker {
 public:
     explicit Worker(Shared& shared)
         : shared_(shared), options_(shared.options), values_(shared.slots, -1) {
-        arranger_.make_pictures();
-        if (shared.crossings != nullptr) arranger_.collect_crossings(shared.crossings->operands);
+        arranger_->make_pictures();
+        if (shared.crossings != nullptr) arranger_->collect_crossings(shared.crossings->operands);
     }
 
     CellRef solve(CellTask& task);
@@ -97,10 +99,12 @@ public:
     }
     [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
     [[nodiscard]] const std::vector<FacetName>& incomplete() const { return incomplete_; }
-    [[nodiscard]] const Crossings& crossings() const { return arranger_.crossings(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return arranger_.seen(); }
+    [[nodiscard]] const Crossings& crossings() const { return arranger_->crossings(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return arranger_->seen(); }
     [[nodiscard]] const CoveredCells& covered() const { return covered_; }
     [[nodiscard]] StackArena& arena() { return arena_; }
+    /// Last, and only when nothing was thrown.
+    void give_back_arranger() noexcept { ArrangerPool::give_back(std::move(arranger_)); }
 
 private:
     using Children = CellChildren;
@@ -135,7 +139,7 @@ private:
     EvaluateStats stats_;
     SlotValues values_;
     std::vector<std::uint8_t> used_;
-    LeafArranger arranger_;
+    std::unique_ptr<LeafArranger> arranger_ = ArrangerPool::take();
     CoveredCells covered_;
     std::vector<FacetName> incomplete_;
     Workbench bench_;
@@ -200,7 +204,7 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
     for (const CellOperand& o : task.operands) {
         if (o.is_list) {
             for (const PackedBox& e : o.list())
-                arranger_.note_doubtful(o.slot, o.polygon(e.id).facet);
+                arranger_->note_doubtful(o.slot, o.polygon(e.id).facet);
         } else {
             note_all(o.slot, *o.node);
         }
@@ -210,7 +214,7 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
 // All facets that the leaves below a node list.
 void Worker::note_all(std::int32_t slot, const CellNode& node) {
     if (node.is_leaf()) {
-        for (const PolygonRef& r : node.polygons()) arranger_.note_doubtful(slot, r.facet);
+        for (const PolygonRef& r : node.polygons()) arranger_->note_doubtful(slot, r.facet);
         return;
     }
     for (int i = 0; i < 2; ++i) with_enough_stack([&] { note_all(slot, *node.child(i).node); });
@@ -237,7 +241,7 @@ CellRef Worker::share(CellTask& task, bool negated) {
 
 CellRef Worker::resolve(CellTask& task) {
     return *resolve_by(task, [&](const LeafProblem& p) -> std::optional<LeafResult> {
-        return arranger_.arrange(p, values_, stats_);
+        return arranger_->arrange(p, values_, stats_);
     });
 }
 
@@ -261,7 +265,7 @@ std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
     };
     if (!std::ranges::all_of(task.operands, is_across_axis)) return std::nullopt;
     return resolve_by(
-        task, [&](const LeafProblem& p) { return arranger_.arrange_across_axes(p, stats_); });
+        task, [&](const LeafProblem& p) { return arranger_->arrange_across_axes(p, stats_); });
 }
 
 // Where operands are prisms along one axis: then a facet is across that axis or a right triangle
@@ -275,7 +279,7 @@ std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
     };
     if (!std::ranges::all_of(task.operands, may_be_prism)) return std::nullopt;
     return resolve_by(task,
-                      [&](const LeafProblem& p) { return arranger_.arrange_prisms(p, stats_); });
+                      [&](const LeafProblem& p) { return arranger_->arrange_prisms(p, stats_); });
 }
 
 // A wall pays where an operand is all on one side of it, and most where it covers the other side.
@@ -290,7 +294,7 @@ std::optional<CellRef> Worker::resolve_small_operands(CellTask& task) {
     }
     if (small_operands_part * task.size() < all) return std::nullopt;
     return resolve_by(task,
-                      [&](const LeafProblem& p) { return arranger_.arrange_plain(p, stats_); });
+                      [&](const LeafProblem& p) { return arranger_->arrange_plain(p, stats_); });
 }
 
 // Of a list or a leaf.
@@ -652,6 +656,7 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         const auto& incomplete = worker->incomplete();
         result.incomplete.insert(result.incomplete.end(), incomplete.begin(), incomplete.end());
     }
+    for (auto& worker : shared.workers) worker->give_back_arranger();
     result.stats.memory = shared.memory.peak();
     return result;
 }

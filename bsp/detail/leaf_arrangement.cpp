@@ -53,6 +53,12 @@ public:
         crossings_.operands.assign(operands.begin(), operands.end());
     }
     void make_pictures() { pictures_ = true; }
+    [[nodiscard]] std::size_t largest_leaf() const { return largest_leaf_; }
+    void forget() {
+        pictures_ = collect_ = false;
+        crossings_ = {};
+        seen_ = {};
+    }
     void note_doubtful(std::int32_t slot, std::uint32_t facet) {
         crossings_.doubtful.push_back(crossings_.number_of(static_cast<std::size_t>(slot), facet));
     }
@@ -61,7 +67,7 @@ public:
 
 private:
     template <class Work>
-    auto or_end_fragments(const Work& work);
+    auto or_end_fragments(const LeafProblem& problem, const Work& work);
     void note_doubtful(const LeafProblem& problem);
     void arrange_embedded();
     void arrange_any(SlotValues& values);
@@ -81,6 +87,7 @@ private:
     LeafAnchors anchors_;
     LeafCutting cutting_;
     LeafFormula formula_;
+    std::size_t largest_leaf_ = 0;
     bool pictures_ = false;
     bool collect_ = false;
     Crossings crossings_;
@@ -107,6 +114,10 @@ void LeafArranger::note_doubtful(std::int32_t slot, std::uint32_t facet) {
     impl_->note_doubtful(slot, facet);
 }
 
+std::size_t LeafArranger::largest_leaf() const { return impl_->largest_leaf(); }
+
+void LeafArranger::forget() { impl_->forget(); }
+
 const Crossings& LeafArranger::crossings() const { return impl_->crossings(); }
 
 const std::vector<std::uint32_t>& LeafArranger::seen() const { return impl_->seen(); }
@@ -128,7 +139,10 @@ std::optional<LeafResult> LeafArranger::arrange_plain(const LeafProblem& problem
 
 // Calls `work`, which fills out_; when memory ends on the way, the fragments made so far are freed.
 template <class Work>
-auto LeafArranger::Impl::or_end_fragments(const Work& work) {
+auto LeafArranger::Impl::or_end_fragments(const LeafProblem& problem, const Work& work) {
+    std::size_t size = 0;
+    for (const LeafOperand& o : problem.operands) size += o.polygons.size();
+    largest_leaf_ = std::max(largest_leaf_, size);
     out_.clear();
     try {
         return work();
@@ -140,7 +154,7 @@ auto LeafArranger::Impl::or_end_fragments(const Work& work) {
 
 std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& problem,
                                                              EvaluateStats& stats) {
-    return or_end_fragments([&]() -> std::optional<LeafResult> {
+    return or_end_fragments(problem, [&]() -> std::optional<LeafResult> {
         if (!prisms_.arrange(problem, stats, out_)) return std::nullopt;
         note_doubtful(problem);
         return LeafResult{std::move(out_), {}};
@@ -149,7 +163,7 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& 
 
 std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProblem& problem,
                                                                   EvaluateStats& stats) {
-    return or_end_fragments([&]() -> std::optional<LeafResult> {
+    return or_end_fragments(problem, [&]() -> std::optional<LeafResult> {
         std::vector<FacetName> incomplete;
         std::unique_ptr<AxisPicture> picture;
         if (!(pictures_ ? axis_.picture(problem, stats, out_, incomplete, picture)
@@ -165,7 +179,7 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
 // General position, in doubles.
 std::optional<LeafResult> LeafArranger::Impl::arrange_plain(const LeafProblem& problem,
                                                             EvaluateStats& stats) {
-    return or_end_fragments([&]() -> std::optional<LeafResult> {
+    return or_end_fragments(problem, [&]() -> std::optional<LeafResult> {
         if (!collect_ || problem.operands.size() < 2) {
             if (!plain_.arrange(problem, stats, out_)) return std::nullopt;
             return LeafResult{std::move(out_), {}};
@@ -187,7 +201,7 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
     if (auto result = arrange_across_axes(problem, stats)) return *std::move(result);
     if (auto result = arrange_plain(problem, stats)) return *std::move(result);
     if (auto result = arrange_prisms(problem, stats)) return *std::move(result);
-    return or_end_fragments([&] {
+    return or_end_fragments(problem, [&] {
         note_doubtful(problem);
         work_.start(problem, stats);
         pairs_.relate_all(work_);

@@ -3,6 +3,7 @@
 // Leaf arrangement: which polygons bound the result in one cell.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,6 +53,10 @@ public:
     void note_doubtful(std::int32_t slot, std::uint32_t facet);
     /// By number, the facets that leaves found crossed, in formulas of more than two operands.
     [[nodiscard]] const std::vector<std::uint32_t>& seen() const;
+    /// Polygons of the largest leaf so far.
+    [[nodiscard]] std::size_t largest_leaf() const;
+    /// Then it is like new, but keeps its scratch memory.
+    void forget();
     /// What was collected so far; unordered, and pairs may be there several times.
     [[nodiscard]] const Crossings& crossings() const;
     /// The same when all polygons are across an axis and the leaf is not too large for that; else
