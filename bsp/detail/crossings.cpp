@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/radix_sort.h>
 #include <trisect/bsp/detail/solid_state.h>
 
 namespace trisect::detail {
@@ -118,8 +118,9 @@ void Crossings::arrange() {
         list.erase(std::unique(list.begin(), list.end()), list.end());
     };
     make_unique(doubtful);
-    make_unique(covers);
     make_unique(hidden);
+    radix_sort(covers, [](const Cover& c) { return std::uint64_t{c.facet} << 32 | c.operand; });
+    covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
     sort_pairs();
     list_shown();
     covers = {};
@@ -134,7 +135,7 @@ void Crossings::sort_pairs() {
     for (const FacetCrossing& c : pairs)
         keys.emplace_back(std::uint64_t{c.facets[0]} << 32 | c.facets[1],
                           static_cast<std::uint32_t>(keys.size()));
-    std::ranges::sort(keys);
+    radix_sort(keys, [](const Key& k) { return k.first; });
     keys.erase(std::unique(keys.begin(), keys.end(),
                            [](const Key& a, const Key& b) { return a.first == b.first; }),
                keys.end());
@@ -142,9 +143,8 @@ void Crossings::sort_pairs() {
     sorted.reserve(keys.size());
     for (const auto& [facets, at] : keys) sorted.push_back(pairs[at]);
     pairs = std::move(sorted);
-    for (std::uint32_t i = 0; i < keys.size(); ++i)
-        keys[i] = {std::uint64_t{pairs[i].facets[1]} << 32 | i, i};
-    std::ranges::sort(keys);
+    for (std::uint32_t i = 0; i < keys.size(); ++i) keys[i] = {pairs[i].facets[1], i};
+    radix_sort(keys, [](const Key& k) { return k.first; });
     by_second.clear();
     by_second.reserve(keys.size());
     for (const auto& [second, at] : keys) by_second.push_back(at);

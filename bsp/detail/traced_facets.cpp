@@ -15,8 +15,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/detail/facet_outline.h>
 
@@ -26,10 +28,39 @@ namespace {
 
 std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+// Which operand a facet belongs to, of many: by a table of about twice as many equal ranges of
+// facets as there are operands, most of which are in one or two.
+class OperandTable {
+public:
+    explicit OperandTable(const std::vector<Crossings::Operand>& operands) : operands_(operands) {
+        const std::uint64_t end = operands.back().first;
+        while (end >> shift_ > 2 * operands.size()) ++shift_;
+        std::uint32_t at = 0;
+        for (std::uint64_t number = 0; number <= end; number += std::uint64_t{1} << shift_) {
+            while (at + 1 < operands.size() && operands[at + 1].first <= number) ++at;
+            ranges_.push_back(at);
+        }
+        ranges_.push_back(static_cast<std::uint32_t>(operands.size() - 1));
+    }
+    [[nodiscard]] std::size_t operator()(std::uint32_t number) const {
+        const std::size_t range = std::min(std::size_t{number >> shift_}, ranges_.size() - 2);
+        const auto first = operands_.begin() + ranges_[range];
+        const auto last = operands_.begin() + ranges_[range + 1] + 1;
+        const auto next =
+            std::ranges::upper_bound(first, last, number, {}, &Crossings::Operand::first);
+        return static_cast<std::size_t>(next - operands_.begin()) - 1;
+    }
+
+private:
+    const std::vector<Crossings::Operand>& operands_;
+    std::vector<std::uint32_t> ranges_;  // the operand of the first facet of each; then the last
+    unsigned shift_ = 0;
+};
+
 class Tracer {
 public:
     Tracer(const Crossings& crossings, BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
-        : crossings_(crossings), parts_(parts), edges_(edges) {}
+        : crossings_(crossings), operand_of_(crossings.operands), parts_(parts), edges_(edges) {}
 
     void run() {
         find_marks();
@@ -70,7 +101,7 @@ private:
     }
 
     void look_at(std::uint32_t number) {
-        const std::size_t operand = crossings_.operand_of(number);
+        const std::size_t operand = operand_of_(number);
         const Crossings::Operand& o = crossings_.operands[operand];
         FacetMarks* const marks = marks_[operand];
         const std::uint32_t facet = number - o.first;
@@ -96,7 +127,7 @@ private:
         for (const Side& s : sides_) {
             const FacetCrossing& c = crossings_.pairs[s.pair];
             const std::uint32_t number = c.facets[1 - s.side];
-            const std::size_t operand = crossings_.operand_of(number);
+            const std::size_t operand = operand_of_(number);
             if (marks_[operand] == nullptr) return false;
             const Crossings::Operand& o = crossings_.operands[operand];
             const Source& cutter = *marks_[operand]->source();
@@ -184,7 +215,7 @@ private:
         if (point >= 0) return point;
         const FacetCrossing& c = crossings_.pairs[pair];
         const std::size_t side = c.ends[k].of_second ? 1 : 0;
-        const std::size_t operand = crossings_.operand_of(c.facets[side]);
+        const std::size_t operand = operand_of_(c.facets[side]);
         const PolygonRef ref{marks_[operand]->source(), nullptr,
                              c.facets[side] - crossings_.operands[operand].first, false, false};
         Workbench& bench = parts_.bench;
@@ -198,12 +229,13 @@ private:
         PlaneId& plane = edges_of_[pair][side];
         if (plane >= 0) return plane;
         const std::uint32_t number = crossings_.pairs[pair].facets[side];
-        const std::size_t operand = crossings_.operand_of(number);
+        const std::size_t operand = operand_of_(number);
         return plane = parts_.bench.plane(PlaneName::edge(
                    marks_[operand]->source(), number - crossings_.operands[operand].first, 0));
     }
 
     const Crossings& crossings_;
+    const OperandTable operand_of_;
     BoundaryParts& parts_;
     std::vector<BoundaryEdge>& edges_;
     std::vector<FacetMarks*> marks_;                // by operand
