@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/bsp/detail/pool_allocator.h>
+
 namespace trisect::detail {
 
 struct Key128 {
@@ -68,6 +70,7 @@ private:
         Key128 key;
         std::int32_t value = -1;
     };
+    using Slots = std::vector<Slot, PoolAllocator<Slot>>;
     [[nodiscard]] std::size_t find_slot(const Key128& key) const {
         const std::size_t mask = slots_.size() - 1;
         std::size_t i =
@@ -77,12 +80,12 @@ private:
         return i;
     }
     void rehash(std::size_t n) {
-        std::vector<Slot> old(n);
+        Slots old(n);
         old.swap(slots_);
         for (const Slot& s : old)
             if (s.value >= 0) slots_[find_slot(s.key)] = s;
     }
-    std::vector<Slot> slots_;
+    Slots slots_;
     std::size_t size_ = 0;
 };
 

@@ -36,7 +36,7 @@ public:
         const MemoryBlock out = *best;
         *best = blocks_.back();
         blocks_.pop_back();
-        bytes_ -= out.size;
+        kept_like(out) -= out.size;
         return out;
     }
 
@@ -48,20 +48,29 @@ public:
             largest_ = block.size;
             return false;
         }
-        if (bytes_ + block.size > BlockPool::kept_bytes) return false;
+        std::size_t& kept = kept_like(block);
+        if (kept + block.size >
+            (is_small(block) ? BlockPool::kept_small_bytes : BlockPool::kept_bytes))
+            return false;
         try {
             blocks_.push_back(block);
         } catch (const std::bad_alloc&) {
             return false;
         }
-        bytes_ += block.size;
+        kept += block.size;
         return true;
     }
 
 private:
+    static bool is_small(const MemoryBlock& block) { return block.size < BlockPool::small_block; }
+    std::size_t& kept_like(const MemoryBlock& block) {
+        return is_small(block) ? small_bytes_ : bytes_;
+    }
+
     std::mutex mutex_;
     std::vector<MemoryBlock> blocks_;
     std::size_t bytes_ = 0;
+    std::size_t small_bytes_ = 0;
     std::size_t largest_ = 0;  // that was given back
 };
 

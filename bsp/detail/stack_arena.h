@@ -19,11 +19,14 @@ struct MemoryBlock {
 
 /// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
 /// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes`, no block that
-/// is larger than all before, and tells the system that it may have them when it needs memory. Safe
-/// to use from many threads.
+/// is larger than all before, and tells the system that it may have them when it needs memory. Of
+/// small blocks it keeps no more than a small result needs. Safe to use from many threads.
 class BlockPool {
 public:
     static constexpr std::size_t kept_bytes = std::size_t{1} << 28;
+    /// Arenas take no smaller ones.
+    static constexpr std::size_t small_block = std::size_t{1} << 18;
+    static constexpr std::size_t kept_small_bytes = std::size_t{1} << 19;
 
     /// A block of at least that size. \throw std::bad_alloc
     [[nodiscard]] static MemoryBlock take(std::size_t bytes);
@@ -83,7 +86,8 @@ private:
         // A block above that is too small holds nothing now: replace it and those above.
         if (next < blocks_.size() && blocks_[next].size < bytes) keep_blocks(next);
         if (next >= blocks_.size()) {
-            const std::size_t least = blocks_.empty() ? std::size_t{1} << 18 : blocks_.back().size;
+            const std::size_t least =
+                blocks_.empty() ? BlockPool::small_block : blocks_.back().size;
             blocks_.reserve(next + 1);
             blocks_.push_back(BlockPool::take(std::max(bytes, least)));
         }

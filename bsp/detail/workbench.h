@@ -18,6 +18,7 @@
 #include <trisect/bsp/cell_tree.h>
 #include <trisect/bsp/detail/few.h>
 #include <trisect/bsp/detail/flat_map.h>
+#include <trisect/bsp/detail/pool_allocator.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
@@ -205,9 +206,9 @@ private:
                                      bool above) const;
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
-    std::vector<PlaneRecord> planes_;
+    std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
     mutable MadePlanes made_;
-    std::vector<PointRecord> points_;
+    std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
     FlatMap plane_ids_;
     FlatMap corner_ids_;
     FlatMap line_ids_;
