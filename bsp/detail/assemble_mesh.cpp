@@ -51,15 +51,21 @@ using CornerTables = std::vector<std::vector<std::uint32_t>>;
 CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
     CornerTables tables;
     for (const FacetMarks& marks : parts.sources) {
-        const LatticeMesh& mesh = marks.source()->mesh();
-        std::uint32_t* const table = tables.emplace_back(mesh.points.size(), none).data();
+        const Triangle* const triangles = marks.source()->mesh().triangles.data();
+        const std::size_t count = marks.source()->mesh().points.size();
+        std::uint32_t* const table = tables.emplace_back(count, none).data();
         const ParallelParts of_groups(marks.group_count(), threads, least_groups);
-        const bool alone = of_groups.count() == 1;
+        if (of_groups.count() == 1) {
+            marks.for_each_whole([=](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
+            });
+            continue;
+        }
         of_groups.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool) {
-                for (const std::uint32_t v : mesh.triangles[facet]) {
+            marks.for_each_whole(begin, end, [=](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : triangles[facet]) {
                     const std::atomic_ref corner(table[v]);
-                    if (alone || corner.load(std::memory_order_relaxed) == none)
+                    if (corner.load(std::memory_order_relaxed) == none)
                         corner.store(in_use, std::memory_order_relaxed);
                 }
             });
@@ -100,7 +106,8 @@ private:
         std::size_t begin;
     };
 
-    // The order of the facets of a source.
+    // The order of the facets of a source; none is as late as `no_place`.
+    static constexpr std::uint64_t no_place = static_cast<std::uint64_t>(-1);
     static std::uint64_t place_of(std::uint32_t facet, bool flipped) {
         return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
     }
@@ -217,11 +224,14 @@ private:
         }
     }
 
-    [[nodiscard]] Triangle whole_facet(std::size_t t, std::uint32_t facet, bool flipped) const {
-        const auto& corners = parts_.sources[t].source()->mesh().triangles[facet];
-        const std::uint32_t* const numbers = tables_[t].data();
+    static Triangle numbered(const Triangle& corners, bool flipped, const std::uint32_t* numbers) {
         return {numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
                 numbers[corners[flipped ? 1 : 2]]};
+    }
+
+    [[nodiscard]] Triangle whole_facet(std::size_t t, std::uint32_t facet, bool flipped) const {
+        return numbered(parts_.sources[t].source()->mesh().triangles[facet], flipped,
+                        tables_[t].data());
     }
 
     // The first facet that was cut, from one of a source on.
@@ -242,22 +252,34 @@ private:
         const std::size_t count = std::accumulate(whole.begin(), whole.end(), std::size_t{0});
         std::exclusive_scan(whole.begin(), whole.end(), whole.begin(), whole_written_);
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            auto next = worked_from(t, 8 * begin);
-            const auto last = worked_from(t, 8 * end);
-            std::uint32_t* out = mesh_.corners.data() + 3 * whole[part] + next->begin;
-            const auto write_worked = [&] {
-                out = std::copy(worked_.data() + next->begin, worked_.data() + (next + 1)->begin,
-                                out);
-                ++next;
-            };
-            marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool flipped) {
-                while (next != last && next->place.second < place_of(facet, flipped))
-                    write_worked();
-                out = std::ranges::copy(whole_facet(t, facet, flipped), out).out;
-            });
-            while (next != last) write_worked();
+            write_part(t, begin, end, whole[part]);
         });
         whole_written_ += count;
+    }
+
+    // Groups [begin, end) of a source, before which so many facets that pass through are written.
+    // What the loop needs is kept by value: numbers that it writes may be anybody's.
+    void write_part(std::size_t t, std::size_t begin, std::size_t end, std::size_t whole_before) {
+        auto next = worked_from(t, 8 * begin);
+        const auto last = worked_from(t, 8 * end);
+        std::uint32_t* out = mesh_.corners.data() + 3 * whole_before + next->begin;
+        const auto place_of_next = [&] { return next != last ? next->place.second : no_place; };
+        std::uint64_t next_place = place_of_next();
+        const auto write_worked_before = [&](std::uint64_t place) {
+            for (; next_place < place; ++next, next_place = place_of_next())
+                out = std::copy(worked_.data() + next->begin, worked_.data() + (next + 1)->begin,
+                                out);
+        };
+        const FacetMarks& marks = parts_.sources[t];
+        const Triangle* const triangles = marks.source()->mesh().triangles.data();
+        const std::uint32_t* const numbers = tables_[t].data();
+        marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool flipped) {
+            if (next_place < place_of(facet, flipped)) [[unlikely]]
+                write_worked_before(place_of(facet, flipped));
+            const Triangle corners = numbered(triangles[facet], flipped, numbers);
+            out = std::copy(corners.begin(), corners.end(), out);
+        });
+        write_worked_before(no_place);
     }
 
     void number_faces() {
