@@ -160,25 +160,37 @@ Box exact_box(const CellOperand& operand, const Cell& cell) {
 
 namespace {
 
+// What loops over all points or facets need is passed by value: for all that the compiler knows,
+// boxes that are written may be anything that is read through a pointer.
+void pack_points(Frame frame, std::span<const LatticePoint> points, PackedBox* out) {
+    for (const LatticePoint& p : points) *out++ = packed_point(frame, p);
+}
+
+void pack_facets(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t number,
+                 const PackedBox* points, PackedBox* out) {
+    for (const auto& t : triangles) {
+        PackedBox box = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+        box.id = number++;
+        copy(box, out++);
+    }
+}
+
 // All facets of a mesh: every corner is rounded once.
 void pack_all(const Source& source, const Frame& frame, StackArena& arena, std::uint32_t threads,
               PackedBox* entries) {
     constexpr std::size_t least_part = 16384;
-    const auto& mesh = source.mesh();
+    const std::span points(source.mesh().points);
+    const std::span triangles(source.mesh().triangles);
     const auto mark = arena.mark();
-    auto* points = arena.take<PackedBox>(mesh.points.size());
-    ParallelParts(mesh.points.size(), threads, least_part)
+    auto* const packed = arena.take<PackedBox>(points.size());
+    ParallelParts(points.size(), threads, least_part)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                points[i] = packed_point(frame, mesh.points[i]);
+            pack_points(frame, points.subspan(begin, end - begin), packed + begin);
         });
-    ParallelParts(source.facet_count(), threads, least_part)
+    ParallelParts(triangles.size(), threads, least_part)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t f = begin; f < end; ++f) {
-                const auto& t = mesh.triangles[f];
-                entries[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
-                entries[f].id = static_cast<std::uint32_t>(f);
-            }
+            pack_facets(triangles.subspan(begin, end - begin), static_cast<std::uint32_t>(begin),
+                        packed, entries + begin);
         });
     arena.release(mark);
 }
