@@ -169,9 +169,9 @@ void pack_points(Frame frame, std::span<const LatticePoint> points, PackedBox* o
 void pack_facets(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t number,
                  const PackedBox* points, PackedBox* out) {
     for (const auto& t : triangles) {
-        PackedBox box = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
-        box.id = number++;
-        copy(box, out++);
+        // No copy of both: to read what was just written in two parts waits for it.
+        *out = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+        out++->id = number++;
     }
 }
 
