@@ -65,12 +65,13 @@ Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t thread
 }  // namespace
 
 Solid::Solid() {
-    static const auto empty = constant_state(false);
+    // Never destroyed, nor is whole space: solids may be made after main().
+    static const auto& empty = *new auto(constant_state(false));
     state_ = empty;
 }
 
 Solid Solid::whole_space() {
-    static const auto whole = constant_state(true);
+    static const auto& whole = *new auto(constant_state(true));
     return Solid(whole);
 }
 

@@ -19,8 +19,9 @@ struct Pool {
     std::array<std::unique_ptr<LeafArranger>, 8> kept;
 };
 
+// Never destroyed: a solid may be evaluated, or end, after main().
 Pool& pool() {
-    static Pool the_pool;
+    static Pool& the_pool = *new Pool;
     return the_pool;
 }
 

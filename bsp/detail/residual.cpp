@@ -45,8 +45,9 @@ Residual::Ref Residual::constant(bool value) {
         r->value = v;
         return r;
     };
-    static const Ref no = make(false);
-    static const Ref yes = make(true);
+    // Never destroyed: evaluations may come after main().
+    static const Ref& no = *new Ref(make(false));
+    static const Ref& yes = *new Ref(make(true));
     return value ? yes : no;
 }
 

@@ -19,10 +19,6 @@ constexpr std::size_t huge_page = std::size_t{1} << 21;
 
 class Pool {
 public:
-    ~Pool() {
-        for (const MemoryBlock& b : blocks_) std::free(b.memory);
-    }
-
     /// The smallest one that is large enough and no more than four times that; empty if there is
     /// none.
     MemoryBlock take(std::size_t bytes) {
@@ -74,8 +70,9 @@ private:
     std::size_t largest_ = 0;  // that was given back
 };
 
+// Never destroyed: what ends after main() may still take blocks and give them back.
 Pool& pool() {
-    static Pool the_pool;
+    static Pool& the_pool = *new Pool;
     return the_pool;
 }
 
