@@ -10,6 +10,7 @@
 #include <trisect/bsp/detail/plain_facets.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 namespace trisect::detail {
@@ -27,6 +28,22 @@ void look_ahead(std::span<const PolygonRef> polygons) {
     const LatticeMesh& mesh = polygons[near].source->mesh();
     for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
         __builtin_prefetch(&mesh.points[v]);
+}
+
+// How many polygons a leaf has, if all can be held in doubles; asks for their triangles ahead.
+std::optional<std::size_t> plain_polygons(const LeafProblem& leaf) {
+    std::size_t count = 0;
+    for (const LeafOperand& o : leaf.operands) {
+        if (!o.embedded) return std::nullopt;
+        count += o.polygons.size();
+        for (const PolygonRef& r : o.polygons) {
+            if (r.source->is_half_space()) return std::nullopt;
+            if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
+                return std::nullopt;
+            __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
+        }
+    }
+    return count;
 }
 
 }  // namespace
@@ -60,18 +77,9 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     outlines_.clear();
     fragments_ = 0;
     sheets_.clear();
-    std::size_t count = 0;
-    for (const LeafOperand& o : leaf.operands) {
-        if (!o.embedded) return false;
-        count += o.polygons.size();
-        for (const PolygonRef& r : o.polygons) {
-            if (r.source->is_half_space()) return false;
-            if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
-                return false;
-            __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
-        }
-    }
-    facets_.reserve(count);
+    const std::optional<std::size_t> count = plain_polygons(leaf);
+    if (!count) return false;
+    facets_.reserve(*count);
     const auto first = std::ranges::find_if(
         leaf.operands, [](const LeafOperand& o) { return !o.polygons.empty(); });
     reaches_.assign(leaf.operands.size(), {});

@@ -80,7 +80,8 @@ public:
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
         return is_candidate_[LeafWork::u(item)] != 0;
     }
-    /// Whether an item's box meets that of some facet of the other operand. \pre two operands
+    /// Whether an item's box meets that of some facet of the other operand. \pre relate_all(), two
+    /// operands
     [[nodiscard]] bool has_partner(LeafIndex item) const {
         return has_partner_[LeafWork::u(item)] != 0;
     }
