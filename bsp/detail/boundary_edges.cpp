@@ -20,6 +20,7 @@
 #include <trisect/bsp/detail/axis_polygon.h>
 #include <trisect/bsp/detail/edge_chains.h>
 #include <trisect/bsp/detail/edge_splitter.h>
+#include <trisect/bsp/detail/vertex_turn.h>
 #include <trisect/bsp/detail/whole_facets.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
@@ -297,32 +298,62 @@ void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdg
 
 namespace {
 
-// Finds the vertices at which a region only runs straight on.
+// Finds the vertices at which a region only runs straight on. The names of most vertices say that
+// some region turns there: of one where an edge pierces a facet, in the facets of that edge. Only
+// where no region's name says so turns are computed.
 class StraightRuns {
 public:
     StraightRuns(const BoundaryParts& parts, bool keep_corners, std::span<const PointId> keep,
                  const std::vector<BoundaryEdge>& edges)
-        : bench_(parts.bench),
+        : parts_(parts),
+          bench_(parts.bench),
           keep_corners_(keep_corners),
           edges_(edges),
-          keep_(bench_.point_count(), false),
-          next_(edges.size(), none) {
-        for (const PointId p : keep) keep_[u(p)] = true;
+          keep_(bench_.point_count(), 0) {
+        for (const PointId p : keep) keep_[u(p)] = 1;
     }
 
     void look_at(std::size_t first, std::size_t end) {
         const auto region = std::span(edges_).subspan(first, end - first);
         if (!chains_.are_simple(region)) return look_at_any(first, end);
+        const PlaneId support = parts_.facets[u(region[0].facet)].support;
         for_each_turn(region, [&](std::size_t in, std::size_t out) {
             const PointId p = region[out].from;
-            if (keep_[u(p)]) return;
-            if ((keep_corners_ && bench_.is_corner(p)) || !runs_straight(region[in], region[out])) {
-                keep_[u(p)] = true;
+            if (keep_[u(p)] != 0) return;
+            if ((keep_corners_ && bench_.is_corner(p)) ||
+                name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
+                keep_[u(p)] = 1;
             } else {
-                next_[first + in] = first + out;
+                doubtful_.push_back({first + in, first + out});
             }
         });
     }
+
+    // Loops that were in order stay so.
+    [[nodiscard]] std::vector<BoundaryEdge> joined() {
+        decide();
+        std::vector<BoundaryEdge> out;
+        out.reserve(edges_.size());
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            if (keep_[u(edges_[i].from)] == 0) continue;
+            BoundaryEdge run = edges_[i];
+            for (std::size_t at = i; keep_[u(run.to)] == 0;) {
+                at = next_[at];
+                run.to = edges_[at].to;
+            }
+            out.push_back(run);
+        }
+        return out;
+    }
+
+private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    using Ends = std::vector<std::pair<PointId, std::size_t>>;
+    // Edges that follow each other.
+    struct Passage {
+        std::size_t in = 0;
+        std::size_t out = 0;
+    };
 
     void look_at_any(std::size_t first, std::size_t end) {
         by_from_.clear();
@@ -340,44 +371,39 @@ public:
             TRISECT_EXPECTS(p == q, "boundary of a face is not closed");
             const bool single = (k == 0 || by_from_[k - 1].first != p) &&
                                 (k + 1 == n || by_from_[k + 1].first != p);
-            if (single && runs_straight(edges_[in], edges_[out])) {
-                next_[in] = out;
+            if (!single || (keep_corners_ && bench_.is_corner(p))) {
+                keep_[u(p)] = 1;
+            } else if (keep_[u(p)] == 0) {
+                doubtful_.push_back({in, out});
+            }
+        }
+    }
+
+    void decide() {
+        if (!doubtful_.empty()) next_.assign(edges_.size(), none);
+        for (const Passage& d : doubtful_) {
+            char& keep = keep_[u(edges_[d.out].from)];
+            if (keep != 0) continue;
+            if (runs_straight(edges_[d.in], edges_[d.out])) {
+                next_[d.in] = d.out;
             } else {
-                keep_[u(p)] = true;
+                keep = 1;
             }
-            if (keep_corners_ && bench_.is_corner(p)) keep_[u(p)] = true;
         }
     }
-
-    // Loops that were in order stay so.
-    [[nodiscard]] std::vector<BoundaryEdge> joined() const {
-        std::vector<BoundaryEdge> out;
-        out.reserve(edges_.size());
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            if (!keep_[u(edges_[i].from)]) continue;
-            BoundaryEdge run = edges_[i];
-            for (std::size_t at = i; !keep_[u(run.to)];) {
-                at = next_[at];
-                run.to = edges_[at].to;
-            }
-            out.push_back(run);
-        }
-        return out;
-    }
-
-private:
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
-    using Ends = std::vector<std::pair<PointId, std::size_t>>;
 
     [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
-        return in.line.plane == out.line.plane || bench_.side(out.to, in.line.plane) == 0;
+        const BoundaryFacet& f = parts_.facets[u(in.facet)];
+        return turn_at_vertex(bench_, f.support, f.flipped, in.line, out.line) == 0;
     }
 
+    const BoundaryParts& parts_;
     const Workbench& bench_;
     bool keep_corners_;
     const std::vector<BoundaryEdge>& edges_;
-    std::vector<bool> keep_;
-    std::vector<std::size_t> next_;
+    std::vector<char> keep_;  // by point
+    std::vector<Passage> doubtful_;
+    std::vector<std::size_t> next_;  // of edges, where they run straight on
     EdgeChains chains_;
     Ends by_from_;
     Ends by_to_;
