@@ -17,13 +17,13 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/detail/rounded_polygon.h>
 #include <trisect/brep/detail/small_polygon.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/detail/assembly.h>
 #include <trisect/bsp/detail/assembly_parts.h>
 #include <trisect/bsp/detail/boundary_edges.h>
 #include <trisect/bsp/detail/face_loops.h>
-#include <trisect/bsp/detail/point_order.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/stop_scope.h>
@@ -81,6 +81,7 @@ public:
                std::uint32_t threads)
         : lattice_(solid.lattice),
           unit_(lattice_.to_double(1)),
+          inverse_unit_(1 / unit_),
           threads_(threads),
           parts_(parts),
           bench_(parts.bench),
@@ -316,32 +317,46 @@ private:
         return true;
     }
 
+    // Vertices are rounded correctly when they get their numbers, and all corners of a loop are
+    // used; so turns are those of rounded corners, and few are left for integers.
     void cut_small(const BoundaryFacet& f, std::span<const PointId> loop) {
         const auto axes = PlaneProjection::axes_of(bench_.plane_at(f.support), f.flipped);
+        std::array<std::uint32_t, small_polygon_limit> vertices;
+        rounded_.clear();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            vertices[i] = vertex(loop[i]);
+            add_rounded(loop[i], vertices[i], axes);
+        }
         const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            const int s = PlaneProjection::filtered_orientation(
-                bench_.approximation(loop[a]), bench_.approximation(loop[b]),
-                bench_.approximation(loop[c]), axes);
-            if (s != 0) return s;
-            return PlaneProjection::exact_orientation(bench_.homogeneous(loop[a]),
-                                                      bench_.homogeneous(loop[b]),
-                                                      bench_.homogeneous(loop[c]), axes);
+            const int s = rounded_.turn(a, b, c);
+            return s != 0 ? s : exact_turn(loop[a], loop[b], loop[c], axes);
         };
-        const auto first_corner = [&] {
-            std::uint32_t first = 0;
-            for (std::uint32_t i = 1; i < loop.size(); ++i) {
-                const int c = compare_along(bench_, loop[i], loop[first], axes.u);
-                if (c < 0 || (c == 0 && compare_along(bench_, loop[i], loop[first], axes.v) < 0))
-                    first = i;
-            }
-            return first;
-        };
-        const bool done =
-            cut_small_polygon(loop.size(), orientation, first_corner,
-                              [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                                  add_worked(vertex(loop[a]), vertex(loop[b]), vertex(loop[c]));
-                              });
+        // A loop starts at its smallest vertex.
+        const auto first_corner = [] { return std::uint32_t{0}; };
+        const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
+                                            [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                                add_worked(vertices[a], vertices[b], vertices[c]);
+                                            });
         TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
+    }
+
+    // In units of the lattice. Multiples of at least 2^-330 of these units do not underflow in
+    // those of the mesh, which differ by a power of two, unless that is extreme.
+    void add_rounded(PointId p, std::uint32_t vertex, PlaneProjection::Axes axes) {
+        const auto u = static_cast<std::size_t>(axes.u);
+        const auto v = static_cast<std::size_t>(axes.v);
+        if (unit_ < 0x1p-600 || bench_.is_lattice(p)) {
+            const Approximation& at = bench_.approximation(p);
+            return rounded_.add(at.c[u], at.c[v], at.error);
+        }
+        const Point3d& at = mesh_.points[vertex];
+        rounded_.add_nearest(at[u] * inverse_unit_, at[v] * inverse_unit_);
+    }
+
+    [[nodiscard]] int exact_turn(PointId a, PointId b, PointId c,
+                                 PlaneProjection::Axes axes) const {
+        return PlaneProjection::exact_orientation(bench_.homogeneous(a), bench_.homogeneous(b),
+                                                  bench_.homogeneous(c), axes);
     }
 
     // Loops [first, end) as one region.
@@ -370,6 +385,7 @@ private:
 
     Lattice lattice_;
     double unit_;
+    double inverse_unit_;
     std::uint32_t threads_;
     const BoundaryParts& parts_;
     const Workbench& bench_;
@@ -381,6 +397,7 @@ private:
     std::size_t whole_written_ = 0;
     std::vector<std::uint32_t> number_;  // by PointId
     FaceLoops loops_;
+    RoundedPolygon rounded_;
     std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
     std::vector<PointId> ids_;
     std::vector<Point> points_;
