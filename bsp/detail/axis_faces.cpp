@@ -44,6 +44,13 @@ bool is_across_an_axis(const PolygonRef& r) {
     return (a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z);
 }
 
+bool lies_in(const PolygonRef& r, const AxisPlane& plane) {
+    const auto axis = static_cast<int>(plane.axis);
+    for (int i = 0; i < 3; ++i)
+        if (r.source->corner(r.facet, i)[axis] * wall_scale != plane.position) return false;
+    return true;
+}
+
 bool all_across_axes(const PolygonList& polygons) {
     return std::all_of(polygons.begin(), polygons.end(), is_across_an_axis);
 }
@@ -153,10 +160,13 @@ void AxisFaces::read_leaf(const Leaf& leaf) {
     if (leaf.picture != nullptr) read_units(*leaf.picture, leaf.complemented);
 }
 
+// Its plane is not taken. Facets of one plane mostly come one after the other.
 void AxisFaces::pass(const PolygonRef& facet) {
-    const PlaneName name = PlaneName::support(facet.source, facet.facet);
-    sheet_at(*axis_plane(name), name).is_general = true;
     passing_.push_back({facet.source, facet.facet});
+    if (last_passed_ && lies_in(facet, *last_passed_)) return;
+    const PlaneName name = PlaneName::support(facet.source, facet.facet);
+    last_passed_ = axis_plane(name);
+    sheet_at(*last_passed_, name).is_general = true;
 }
 
 // Its parts are in the picture's units. One that is not cut has all its area in the cell.

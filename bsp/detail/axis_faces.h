@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -169,6 +170,7 @@ private:
     BoundaryParts& parts_;
     const Source* last_source_ = nullptr;
     std::size_t last_table_ = 0;
+    std::optional<AxisPlane> last_passed_;
     std::vector<bool> across_;  // by leaf
     std::vector<Facet> facets_;
     std::vector<Sheet> sheets_;
