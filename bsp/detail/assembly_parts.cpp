@@ -25,6 +25,7 @@
 #include <trisect/bsp/detail/deferred_leaf.h>
 #include <trisect/bsp/detail/edge_splitter.h>
 #include <trisect/bsp/detail/fragment_group.h>
+#include <trisect/bsp/detail/named_edges.h>
 #include <trisect/bsp/detail/named_outlines.h>
 #include <trisect/bsp/detail/near_points.h>
 #include <trisect/bsp/detail/outlined_solid.h>
@@ -620,7 +621,11 @@ bool Gatherer::is_same(PointId value, PointId name) {
     return std::ranges::all_of(bench.planes_of(name), [&](PlaneId p) {
         const std::pair known(value, bench.plane_class(p));
         if (std::ranges::find(through_, known) != through_.end()) return true;
-        if (bench.side(value, p) != 0) return false;
+        if (!bench.is_corner(value) && passes_by_edges(bench, value, p)) {
+            ++out_.stats.named_by_edges;
+        } else if (bench.side(value, p) != 0) {
+            return false;
+        }
         through_.push_back(known);
         return true;
     });

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -72,6 +73,19 @@ TEST(AssemblyWork, ASmallCutLeavesNearlyAllOfASphereAlone) {
     const AssemblyStats stats = stats_of(evaluate(sphere - tool));
     EXPECT_GT(stats.whole_facets, 20000U);
     EXPECT_LT(stats.worked_facets, 600U);
+}
+
+TEST(AssemblyWork, EdgesOfEqualToolsCrossInTheirPlaneOfSymmetry) {
+    PolygonMesh tool = trisect::make_icosphere(1, 2);
+    for (auto& p : tool.points)
+        for (double& c : p) c = std::nearbyint(0x1p20 * c) * 0x1p-20;
+    const auto at = [&](double x) {
+        return Solid::from_mesh(
+            trisect::transformed(tool, trisect::AffineMap::translation({x, 0, 4})));
+    };
+    const Solid block = Solid::from_mesh(make_box({-4, -4, -4}, {4, 4, 4}));
+    const AssemblyStats stats = stats_of(evaluate(evaluate(block - at(-0.25)) - at(0.25)));
+    EXPECT_GT(stats.named_by_edges, 30U);
 }
 
 TEST(AssemblyWork, OnlyCoplanarNeighboursAreJoined) {
