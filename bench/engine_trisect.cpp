@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
 #include <oneapi/tbb/global_control.h>
 
 #include <trisect/brep/brep.h>
@@ -17,9 +21,11 @@ using trisect::Solid;
 
 class TrisectEngine final : public Engine {
 public:
-    explicit TrisectEngine(const EngineOptions& options)
-        : threads_(oneapi::tbb::global_control::max_allowed_parallelism,
-                   static_cast<std::size_t>(options.threads)) {
+    explicit TrisectEngine(const EngineOptions& options) {
+        // One thread is what the options below say, so the scheduler is not even loaded.
+        if (options.threads > 1)
+            threads_.emplace(oneapi::tbb::global_control::max_allowed_parallelism,
+                             static_cast<std::size_t>(options.threads));
         if (options.leaf_polygons > 0)
             options_.leaf_polygons = static_cast<std::uint32_t>(options.leaf_polygons);
         options_.threads = static_cast<std::uint32_t>(options.threads);
@@ -87,7 +93,7 @@ private:
         return a - b;
     }
 
-    oneapi::tbb::global_control threads_;
+    std::optional<oneapi::tbb::global_control> threads_;
     trisect::SolidOptions import_;
     trisect::EvaluateOptions options_;
     trisect::EvaluateStats stats_;

@@ -28,7 +28,6 @@
 #include <optional>
 #include <utility>
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -55,6 +54,7 @@
 #include <trisect/bsp/detail/work_budget.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/handover.h>
+#include <trisect/kernel/detail/per_thread.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -78,7 +78,7 @@ struct Shared {
     MemoryBudget memory;
     bool parallel = false;
     const Crossings* crossings = nullptr;  // their operands, if they are collected
-    tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
+    PerThread<Worker> workers = {};
 
     Worker& worker();
 };
@@ -150,9 +150,7 @@ private:
 };
 
 Worker& Shared::worker() {
-    auto& w = workers.local();
-    if (!w) w = std::make_unique<Worker>(*this);
-    return *w;
+    return workers.local([&] { return std::make_unique<Worker>(*this); });
 }
 
 // --- Steps 1 and 2: prune, share.
@@ -619,12 +617,8 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
                             std::span<const std::shared_ptr<const SolidState>> solids,
                             const EvaluateOptions& options) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
-    Shared shared{options,
-                  solids.size(),
-                  MemoryBudget(options.max_memory),
-                  false,
-                  crossings ? &*crossings : nullptr,
-                  {}};
+    Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
+                  crossings ? &*crossings : nullptr};
     std::uint64_t polygons = 0;
     for (const auto& s : solids) polygons += s->root.node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
@@ -639,24 +633,23 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         result.root = solve_root(shared, formula, solids);
     }
     if (crossings) {
-        for (const auto& worker : shared.workers) crossings->append(worker->crossings());
         CoveredCells covered;
         std::vector<std::uint32_t> seen;
-        for (const auto& worker : shared.workers) {
-            covered.append(worker->covered());
-            seen.insert(seen.end(), worker->seen().begin(), worker->seen().end());
-        }
+        shared.workers.for_each([&](const Worker& worker) {
+            crossings->append(worker.crossings());
+            covered.append(worker.covered());
+            seen.insert(seen.end(), worker.seen().begin(), worker.seen().end());
+        });
         covered.compare(seen, options, result.stats, *crossings);
         crossings->arrange();
         result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }
-    for (const auto& worker : shared.workers) {
-        const EvaluateStats& s = worker->stats();
-        result.stats += s;
-        const auto& incomplete = worker->incomplete();
+    shared.workers.for_each([&](const Worker& worker) {
+        result.stats += worker.stats();
+        const auto& incomplete = worker.incomplete();
         result.incomplete.insert(result.incomplete.end(), incomplete.begin(), incomplete.end());
-    }
-    for (auto& worker : shared.workers) worker->give_back_arranger();
+    });
+    shared.workers.for_each([](Worker& worker) { worker.give_back_arranger(); });
     result.stats.memory = shared.memory.peak();
     return result;
 }
