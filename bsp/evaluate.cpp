@@ -11,6 +11,7 @@
 #include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/detail/solid_state.h>
 #include <trisect/bsp/detail/translate.h>
+#include <trisect/bsp/detail/undivided_meshes.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -76,7 +77,10 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     EvaluateOptions with_flag = options;
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
     EvaluateStats made;
-    if (auto outlined = detail::outline_prisms(t.formula, states, with_flag, made)) {
+    auto outlined = detail::outline_prisms(t.formula, states, with_flag, made);
+    if (outlined == nullptr)
+        outlined = detail::evaluate_undivided(t.formula, states, with_flag, made);
+    if (outlined != nullptr) {
         made.lattice = lattice;
         if (stats != nullptr) *stats = made;
         return Solid(std::move(outlined));

@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include <trisect/bsp/detail/axis_faces.h>
 #include <trisect/bsp/detail/deep_recursion.h>
@@ -69,18 +70,23 @@ public:
           axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
-    void run() {
+    /// False when pieces are needed that nobody has made: of OutlinedSolid::cut().
+    [[nodiscard]] bool run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
             check_stop(1 + leaf.node->size());
             mark_facets(leaf);
         }
         mark_lists();
+        if (solid_.outlined != nullptr) mark_uncrossed(solid_.outlined->uncrossed());
         if (solid_.crossings != nullptr) mark_crossed();
         if (solid_.outlined != nullptr) mark_outlines(solid_.outlined->outlines());
         number_facets();
         if (solid_.outlined != nullptr) add_outlines(solid_.outlined->outlines(), out_, edges_);
         if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
+        if (solid_.crossings != nullptr && solid_.outlined != nullptr &&
+            out_.stats.traced_facets != out_.facets.size())
+            return false;
         const std::size_t traced = edges_.size();
         if (by_planes_ && traced == 0) choose_axis_faces();
         for (Leaf& leaf : leaves_) {
@@ -101,6 +107,7 @@ public:
         out_.stats.parts += axis_faces_.part_count();
         out_.stats.worked_facets = out_.facets.size();
         out_.stats.edges = out_.edges.size();
+        return true;
     }
 
 private:
@@ -113,6 +120,7 @@ private:
     [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
     void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
     void mark_lists();
+    void mark_uncrossed(std::span<const UncrossedFacets> lists);
     void mark_outlines(const NamedOutlines& outlines);
     void number_facets();
     void make_parts(Leaf& leaf);
@@ -346,6 +354,13 @@ void Gatherer::mark_lists() {
             }
         }
     });
+}
+
+void Gatherer::mark_uncrossed(std::span<const UncrossedFacets> lists) {
+    for (const UncrossedFacets& list : lists) {
+        FacetMarks& marks = out_.sources[table(list.source)];
+        for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+    }
 }
 
 void Gatherer::mark_outlines(const NamedOutlines& outlines) {
@@ -666,7 +681,10 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
 
 void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
                   std::uint32_t threads) {
-    Gatherer(solid, parts, by_planes, threads).run();
+    if (Gatherer(solid, parts, by_planes, threads).run()) return;
+    parts = BoundaryParts();
+    const bool made = Gatherer(*solid.outlined->cut(), parts, by_planes, threads).run();
+    TRISECT_EXPECTS(made, "a tree has all pieces");
 }
 
 }  // namespace trisect::detail

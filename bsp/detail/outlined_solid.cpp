@@ -28,6 +28,13 @@ OutlinedSolid::OutlinedSolid(NamedOutlines outlines, Residual::Ref formula,
     options_.cancel = nullptr;
 }
 
+OutlinedSolid::OutlinedSolid(std::vector<UncrossedFacets> uncrossed, Residual::Ref formula,
+                             std::vector<std::shared_ptr<const SolidState>> solids,
+                             const EvaluateOptions& options)
+    : OutlinedSolid(NamedOutlines(), std::move(formula), std::move(solids), options) {
+    uncrossed_ = std::move(uncrossed);
+}
+
 const std::shared_ptr<const SolidState>& OutlinedSolid::cut() const {
     const std::lock_guard lock(cutting_);
     if (cut_ != nullptr) return cut_;

@@ -3,8 +3,10 @@
 // OutlinedSolid: a result of which the boundary is known, and nothing has been cut.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/detail/named_outlines.h>
@@ -15,17 +17,29 @@
 
 namespace trisect::detail {
 
+/// Facets of a mesh that bound a result as they are.
+struct UncrossedFacets {
+    const Source* source = nullptr;
+    bool flipped = false;
+    std::vector<std::uint32_t> facets;  ///< ascending
+};
+
 /// What belongs to a SolidState whose tree is one leaf that lists whole facets only: the rest of
-/// the boundary. Enough for to_mesh(); everybody else asks for cut(). Immutable, safe to use from
-/// any thread.
+/// the boundary. With `crossings` in that state, these are of all facets that are not whole. Enough
+/// for to_mesh(); everybody else asks for cut(). Immutable, safe to use from any thread.
 class OutlinedSolid {
 public:
     /// `solids` are the slots of the formula, on one lattice.
     OutlinedSolid(NamedOutlines outlines, Residual::Ref formula,
                   std::vector<std::shared_ptr<const SolidState>> solids,
                   const EvaluateOptions& options);
+    OutlinedSolid(std::vector<UncrossedFacets> uncrossed, Residual::Ref formula,
+                  std::vector<std::shared_ptr<const SolidState>> solids,
+                  const EvaluateOptions& options);
 
     [[nodiscard]] const NamedOutlines& outlines() const { return outlines_; }
+    /// Of each operand; the tree has none of them.
+    [[nodiscard]] std::span<const UncrossedFacets> uncrossed() const { return uncrossed_; }
     /// The same set with a tree as evaluate_formula() makes it, when it is first asked for. Whoever
     /// asks meanwhile waits. \throw CancelledError by the StopScope of the thread that cuts;
     /// nothing is kept then
@@ -34,6 +48,7 @@ public:
 
 private:
     NamedOutlines outlines_;
+    std::vector<UncrossedFacets> uncrossed_;
     Residual::Ref formula_;
     std::vector<std::shared_ptr<const SolidState>> solids_;
     EvaluateOptions options_;

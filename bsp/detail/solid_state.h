@@ -34,8 +34,9 @@ struct SolidState {
     /// Of the result of two imported meshes; else null. It says nothing about what is made of the
     /// result in turn.
     std::shared_ptr<const Crossings> crossings;
-    /// Of a result that has not been cut; else null. Then the tree lists only the facets that are
-    /// whole, and who wants more than to_mesh() takes OutlinedSolid::cut() instead of this.
+    /// Of a result that has not been cut; else null. Then the tree lists only facets that are
+    /// whole, or nothing, and who wants more than to_mesh() takes OutlinedSolid::cut() instead of
+    /// this.
     std::shared_ptr<const OutlinedSolid> outlined;
     bool lattice_matters = true;  ///< false for the empty set and whole space
 };

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Most facets of two large meshes do not come near the other mesh. To send them all down a tree
+// takes half of an evaluation, and only who asks about points, or goes on with the result, needs
+// that tree. For a mesh of the result it is enough to know which facets cross, and on which side of
+// the other mesh the others are.
+//
+// 1. A grid of a few thousand cubes tells which facets share a cube with the other mesh
+//    (cube_grid.h): some of ten.
+// 2. These alone are divided, down to cells with few of them, and compared there. Nobody asks for
+//    winding numbers, so what does not meet the box of the other mesh's facets is left out.
+// 3. Sides of facets follow from the crossings (facet_sides.cpp).
+//
+// Any doubt ends the attempt: then the whole is evaluated as all else.
+
+#include <trisect/bsp/detail/undivided_meshes.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <trisect/bsp/detail/cell_task.h>
+#include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/detail/crossings.h>
+#include <trisect/bsp/detail/cube_grid.h>
+#include <trisect/bsp/detail/deep_recursion.h>
+#include <trisect/bsp/detail/facet_sides.h>
+#include <trisect/bsp/detail/leaf_problem.h>
+#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/detail/partition.h>
+#include <trisect/bsp/detail/plain_facets.h>
+#include <trisect/bsp/detail/plain_pairs.h>
+#include <trisect/bsp/detail/stack_arena.h>
+#include <trisect/bsp/detail/work_budget.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using TwoLists = std::array<std::vector<std::uint32_t>, 2>;
+
+// Compares facets of two meshes, some of each.
+class PairFinder {
+public:
+    PairFinder(const EvaluateOptions& options, EvaluateStats& stats, Crossings& crossings)
+        : options_(options), stats_(stats), crossings_(crossings) {}
+
+    /// False when doubles cannot tell about some pair.
+    [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
+        CellTask task;
+        Box all;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Source& source = *meshes[i]->polygons().whole_source();
+            for (const std::uint32_t f : facets[i]) all.add(source.facet_box(f));
+        }
+        task.frame = Frame::covering(all);
+        task.has_frame = true;
+        std::array<CellOperand, 2> operands;
+        for (std::size_t i = 0; i < 2; ++i) {
+            CellOperand& o = operands[i];
+            o.slot = static_cast<std::int32_t>(i);
+            o.embedded = o.is_list = true;
+            o.node = meshes[i];
+            const Source& source = *meshes[i]->polygons().whole_source();
+            o.count = static_cast<std::uint32_t>(facets[i].size());
+            auto* const entries = arena_.take<PackedBox>(o.count);
+            for (std::uint32_t n = 0; n < o.count; ++n)
+                entries[n] =
+                    PackedBox::of(task.frame, source.facet_box(facets[i][n]), facets[i][n]);
+            o.entries = entries;
+            o.box = box_of(entries, o.count);
+        }
+        task.operands = operands;
+        return solve(task);
+    }
+
+private:
+    [[nodiscard]] bool solve(CellTask& task);
+    [[nodiscard]] bool divide(const CellTask& task, const Wall& wall);
+    [[nodiscard]] bool compare(const CellTask& task);
+    [[nodiscard]] bool leave_out(CellTask& task);
+
+    const EvaluateOptions& options_;
+    EvaluateStats& stats_;
+    Crossings& crossings_;
+    StackArena arena_;
+    PlainFacets facets_;
+    PlainPairs pairs_;
+    std::vector<PolygonRef> polygons_;
+};
+
+// Takes out what does not meet the box of the other mesh's facets; false when nothing is left.
+bool PairFinder::leave_out(CellTask& task) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        CellOperand& o = task.operands[i];
+        const PackedBox& other = task.operands[1 - i].box;
+        if (o.count == 0 || other.is_empty() || o.box.intersected(other).is_empty()) return false;
+        if (other.contains(o.box)) continue;
+        const PackedReach reach(other);
+        auto* const entries = arena_.take<PackedBox>(o.count + 1);
+        PackedBox* end = entries;
+        for (const PackedBox& e : o.list()) {
+            copy(e, end);
+            end += reach.meets(e) ? 1 : 0;
+        }
+        o.entries = entries;
+        o.count = static_cast<std::uint32_t>(end - entries);
+        o.box = box_of(entries, o.count).intersected(packed_cell(task.frame, task.cell));
+    }
+    return std::ranges::none_of(task.operands, [](const CellOperand& o) { return o.count == 0; });
+}
+
+bool PairFinder::solve(CellTask& task) {
+    const auto mark = arena_.mark();
+    ++stats_.cells;
+    check_budget(options_, stats_);
+    stats_.depth = std::max(stats_.depth, task.depth);
+    bool known = true;
+    if (leave_out(task)) {
+        stats_.listed_polygons += task.size();
+        const bool large = task.size() > options_.leaf_polygons && task.stalled < 4;
+        const auto wall = large ? choose_wall(task, options_.wall_offset) : std::nullopt;
+        known = wall ? divide(task, *wall) : compare(task);
+    }
+    arena_.release(mark);
+    return known;
+}
+
+bool PairFinder::divide(const CellTask& task, const Wall& wall) {
+    std::array<CellTask, 2> children;
+    for (std::size_t i = 0; i < 2; ++i) {
+        CellTask& c = children[i];
+        c.cell = i == 0 ? task.cell.below(wall.axis, wall.position)
+                        : task.cell.above(wall.axis, wall.position);
+        c.frame = task.frame;
+        c.has_frame = true;
+        c.depth = task.depth + 1;
+        c.operands = {arena_.take<CellOperand>(2), 2};
+        for (std::size_t n = 0; n < 2; ++n) ::new (&c.operands[n]) CellOperand(task.operands[n]);
+    }
+    partition(task, wall, {children[0].cell, children[1].cell}, arena_, 1,
+              {children[0].operands, children[1].operands});
+    const std::uint64_t largest = std::max(children[0].size(), children[1].size());
+    for (CellTask& c : children) {
+        c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
+        if (!with_enough_stack([&] { return solve(c); })) return false;
+    }
+    return true;
+}
+
+bool PairFinder::compare(const CellTask& task) {
+    polygons_.clear();
+    for (const CellOperand& o : task.operands)
+        for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
+    std::array<LeafOperand, 2> operands;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const CellOperand& o = task.operands[i];
+        operands[i] = {o.slot, std::span(polygons_).subspan(first, o.count), false, true, 0};
+        first += o.count;
+    }
+    FinePoint near;
+    const PolygonRef& any = polygons_.front();
+    const LatticePoint& corner = any.source->corner(any.facet, 0);
+    for (std::size_t k = 0; k < 3; ++k) near.c[k] = corner[static_cast<int>(k)] * wall_scale;
+    ++stats_.mixed_leaves;
+    ++stats_.plain_leaves;
+    if (!facets_.list({task.cell, near, operands, nullptr, &options_}) ||
+        !pairs_.relate_all(facets_, true, stats_))
+        return false;
+    pairs_.add_to(crossings_, facets_);
+    return true;
+}
+
+// About a facet in each cube that the surface meets.
+int slabs_for(std::size_t facets) {
+    return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(facets) / 8)), 4, 62);
+}
+
+bool lies_outside(const FinePoint& p, const Box& box) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
+    return false;
+}
+
+// Of an imported mesh.
+int winding_far_out(const SolidState& solid) {
+    return complemented_winding(solid.root.node->winding(), solid.root.complemented);
+}
+
+bool is_below_far_out(const SolidState& solid, const Crossings::Operand& operand) {
+    return (winding_far_out(solid) == operand.open) == operand.is_open_below();
+}
+
+}  // namespace
+
+std::shared_ptr<const SolidState> evaluate_undivided(
+    const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
+    const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets) {
+    if (solids.size() != 2 || options.threads != 1 || options.max_work != 0 ||
+        options.max_memory != 0)
+        return nullptr;
+    std::optional<Crossings> crossings = crossings_of(*formula, solids);
+    if (!crossings) return nullptr;
+    const std::array<const CellNode*, 2> meshes{solids[0]->root.node.get(),
+                                                solids[1]->root.node.get()};
+    Box common = meshes[0]->polygons().whole_source()->box();
+    for (const CellNode* m : meshes) {
+        const Box& box = m->polygons().whole_source()->box();
+        if (m->size() < least_facets || !lies_outside(m->reference(), box)) return nullptr;
+        common = common.intersected(box);
+    }
+    if (common.is_empty()) return nullptr;
+    const CubeGrid grid(common, slabs_for(std::max(meshes[0]->size(), meshes[1]->size())));
+    const std::array<const LatticeMesh*, 2> mesh{&meshes[0]->polygons().whole_source()->mesh(),
+                                                 &meshes[1]->polygons().whole_source()->mesh()};
+    const std::array<OccupiedCubes, 2> cubes{OccupiedCubes(grid, *mesh[0]),
+                                             OccupiedCubes(grid, *mesh[1])};
+    if (!cubes[0].is_useful() || !cubes[1].is_useful()) return nullptr;
+    const TwoLists near{cubes[0].facets_in(cubes[1].cubes()), cubes[1].facets_in(cubes[0].cubes())};
+    if (near[0].empty() || near[1].empty()) return nullptr;
+    EvaluateStats made;
+    if (!PairFinder(options, made, *crossings).run(meshes, near)) return nullptr;
+    if (crossings->pairs.empty()) return nullptr;
+    crossings->arrange();
+    std::vector<UncrossedFacets> uncrossed;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Crossings::Operand& other = crossings->operands[1 - i];
+        FacetSides sides(grid, *mesh[i], cubes[i], cubes[1 - i].cubes(), near[i]);
+        auto facets = sides.uncrossed(*crossings, i, is_below_far_out(*solids[1 - i], other),
+                                      other.is_open_below());
+        if (!facets) return nullptr;
+        made.untouched_polygons += facets->size();
+        uncrossed.push_back({meshes[i]->polygons().whole_source(),
+                             crossings->operands[i].inside_above, *std::move(facets)});
+    }
+    stats = made;
+    auto state = std::make_shared<SolidState>();
+    state->lattice = solids[0]->lattice;
+    SlotValues values;
+    Box all;
+    for (const auto& solid : solids) {
+        values.push_back(is_inside(winding_far_out(*solid), options.winding) ? 1 : 0);
+        all.add(solid->root.node->polygons().whole_source()->box());
+    }
+    state->root = {
+        CellNode::leaf(PolygonList(), point_beyond(all), value_of(*formula, values) ? 1 : 0, true),
+        false};
+    state->crossings = std::make_shared<const Crossings>(*std::move(crossings));
+    state->outlined =
+        std::make_shared<const OutlinedSolid>(std::move(uncrossed), formula, solids, options);
+    return state;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two meshes of which only the facets that come near the other one are divided
+// (undivided_meshes.h), against a tree of cells: the same mesh, corner by corner.
+
+#include <gtest/gtest.h>
+
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/detail/translate.h>
+#include <trisect/bsp/detail/undivided_meshes.h>
+#include <trisect/kernel/error.h>
+
+#include "engines.h"
+
+namespace {
+
+using reference::Operand;
+
+struct Count {
+    int tried = 0;
+    int undivided = 0;
+};
+
+void expect_same_as_divided(const trisect::Expression& expression, std::uint32_t leaf_polygons,
+                            Count& count) {
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = leaf_polygons;
+    options.threads = 2;  // divides
+    const trisect::Solid divided = trisect::evaluate(expression, options);
+    const trisect::detail::Translation t = trisect::detail::translate(expression);
+    std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
+    for (const trisect::Solid& s : t.slots) states.push_back(s.state());
+    options.threads = 1;
+    trisect::EvaluateStats stats;
+    const auto state = trisect::detail::evaluate_undivided(t.formula, states, options, stats, 1);
+    ++count.tried;
+    if (state == nullptr) return;
+    ++count.undivided;
+    trisect::PolygonMesh expected;
+    try {
+        expected = divided.to_mesh();
+    } catch (const trisect::UnsupportedError&) {
+        EXPECT_THROW((void)trisect::detail::assemble_mesh(*state), trisect::UnsupportedError);
+        return;
+    }
+    const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*state);
+    EXPECT_EQ(mesh.corners, expected.corners);
+    EXPECT_TRUE(mesh.points == expected.points);
+    EXPECT_FALSE(state->outlined->is_cut());
+    // Where an outline is in doubt a tree is made after all.
+    trisect::detail::SolidState doubtful = *state;
+    auto crossings = std::make_shared<trisect::detail::Crossings>(*state->crossings);
+    crossings->doubtful.push_back(crossings->shown.front());
+    doubtful.crossings = crossings;
+    const trisect::PolygonMesh pieces = trisect::detail::assemble_mesh(doubtful);
+    EXPECT_EQ(pieces.corners, expected.corners);
+    EXPECT_TRUE(pieces.points == expected.points);
+    EXPECT_TRUE(state->outlined->is_cut());
+}
+
+void expect_all_same(const trisect::Solid& a, const trisect::Solid& b, std::uint32_t leaf,
+                     Count& count) {
+    const trisect::Expression p = a;
+    const trisect::Expression q = b;
+    for (const trisect::Expression& e :
+         {p | q, p & q, p - q, q - p, ~p | q, ~(p | q), ~p & ~q, ~(p - q)})
+        expect_same_as_divided(e, leaf, count);
+}
+
+trisect::Solid solid(const Operand& operand) {
+    return engines::solid(operand, trisect::Embedding::Assume);
+}
+
+TEST(Undivided, PairsInGeneralPosition) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 510000);
+        expect_all_same(solid(engines::mapped(reference::random_embedded_solid(random), random)),
+                        solid(engines::mapped(reference::random_embedded_solid(random), random)),
+                        seed % 2 == 0 ? 4 : 30, count);
+    }
+    EXPECT_GT(count.undivided, 200);
+}
+
+// A body of several parts, some of which lie within the other body, or where it does not come.
+TEST(Undivided, PartsThatNothingCrosses) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 530000);
+        Operand parts = reference::random_embedded_solid(random);
+        for (const std::int64_t x : {-3000, 3000})
+            for (auto triangle : reference::random_embedded_solid(random)) {
+                for (auto& p : triangle) p[0] += x;
+                parts.push_back(triangle);
+            }
+        Operand other = reference::box({-100, -100, -100}, {101, 103, 2});
+        for (auto& triangle : other)
+            for (auto& p : triangle) p[0] += p[1] / 7;
+        expect_all_same(solid(parts), solid(engines::mapped(other, random)), 10, count);
+    }
+    EXPECT_LT(count.undivided, count.tried);
+}
+
+TEST(Undivided, LargeMeshesByOneThread) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        trisect::PolygonMesh moved = trisect::make_icosphere(1, 5);
+        for (auto& p : moved.points) {
+            p[k] += 0.73;
+            p[(k + 1) % 3] *= 0.81;
+            p[(k + 2) % 3] += 0.11 * p[k] + 0.03;
+        }
+        trisect::SolidOptions import;
+        import.import.lattice = trisect::Lattice{-40};
+        const trisect::Solid a = trisect::Solid::from_mesh(trisect::make_icosphere(1, 5), import);
+        const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
+        trisect::EvaluateOptions options;
+        options.threads = 1;
+        const trisect::Solid result = trisect::evaluate(a - b, options);
+        ASSERT_NE(result.state()->outlined, nullptr);
+        const trisect::PolygonMesh mesh = result.to_mesh();
+        EXPECT_EQ(engines::open_edge(mesh), "");
+        EXPECT_FALSE(result.state()->outlined->is_cut());
+        options.threads = 2;
+        const trisect::Solid divided = trisect::evaluate(a - b, options);
+        const trisect::PolygonMesh expected = divided.to_mesh();
+        EXPECT_EQ(mesh.corners, expected.corners);
+        EXPECT_TRUE(mesh.points == expected.points);
+        EXPECT_EQ(trisect::evaluate(result | b).to_mesh().corners,
+                  trisect::evaluate(divided | b).to_mesh().corners);
+        EXPECT_EQ(result.to_brep().counts().faces, divided.to_brep().counts().faces);
+    }
+}
+
+// Faces, edges and corners coincide.
+TEST(Undivided, PairsOnASmallGrid) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 520000);
+        expect_all_same(solid(reference::random_embedded_solid(random)),
+                        solid(reference::random_embedded_solid(random)), 10, count);
+    }
+    EXPECT_LT(count.undivided, count.tried);
+}
+
+}  // namespace
