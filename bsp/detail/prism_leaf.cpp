@@ -69,8 +69,9 @@ bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
         emit_wall(i, j, out);
         i = j;
     }
-    for (const CoverPart& p : cover_parts_) emit_cover(p, out);
-    stats.pieces += wall_parts_.size() + cover_parts_.size();
+    out.insert(out.end(), covers_.begin(), covers_.end());
+    stats.pieces += wall_parts_.size() + covers_.size();
+    covers_.clear();
     ++stats.mixed_leaves;
     ++stats.prism_leaves;
     return true;
@@ -86,7 +87,7 @@ bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats)
     rows_.assign(4 * row_size_, 0);
     insides_.assign(4 * operands_, 0);
     wall_parts_.clear();
-    cover_parts_.clear();
+    covers_.clear();
     outlines_.resize(operands_);
     const auto walls = static_cast<LeafIndex>(facets_.walls().size());
     auto cover = facets_.covers().begin();
@@ -253,6 +254,8 @@ bool PrismLeaf::is_left(LeafIndex wall, const FlatPoint& p) const {
 
 bool PrismLeaf::cut_cover(const PrismCover& cover) {
     parts_.clear();
+    cover_parts_.clear();
+    keep_bench_small();
     WorkPolygon whole = bench_.polygon(cover.ref);
     bench_.with_edges(whole, cover.ref);
     parts_.push_back(whole);
@@ -265,23 +268,28 @@ bool PrismLeaf::cut_cover(const PrismCover& cover) {
                 parts_.push_back(std::move(above));
         }
     }
-    const std::size_t first = cover_parts_.size();
     bool all = true;
     for (WorkPolygon& p : parts_) {
         const auto side = side_of_middle(p, cover.position);
         if (!side) return false;
         const bool kept = side->bounds() && side->speaker == cover.operand;
         all = all && kept;
-        if (kept) cover_parts_.push_back({&cover, std::move(p), false, side->below == 1});
+        if (kept) cover_parts_.push_back({std::move(p), side->below == 1});
     }
-    const auto made = std::span(cover_parts_).subspan(first);
-    if (all && std::ranges::all_of(made, [&](const CoverPart& p) {
-            return p.inside_below == made[0].inside_below;
-        })) {
-        cover_parts_.resize(first + 1);
-        cover_parts_[first].whole = true;
-    }
+    const bool whole_cover = all && std::ranges::all_of(cover_parts_, [&](const CoverPart& p) {
+                                 return p.inside_below == cover_parts_[0].inside_below;
+                             });
+    if (whole_cover) cover_parts_.resize(1);
+    for (const CoverPart& p : cover_parts_) emit_cover(cover, p, whole_cover);
     return true;
+}
+
+// Most points of a cut cover are of parts that were cut further or dropped: what thousands of
+// covers leave would be most of the memory of a leaf. \pre nothing holds numbers of points or
+// planes.
+void PrismLeaf::keep_bench_small() {
+    constexpr std::size_t most_points = 1024;
+    if (bench_.point_count() > most_points) bench_.clear();
 }
 
 // A part is on one side of whatever divides its cover's shares, so any point of it will do.
@@ -335,6 +343,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
 
 // The parts of one wall.
 void PrismLeaf::emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out) {
+    keep_bench_small();
     const auto parts = std::span(wall_parts_).subspan(first, last - first);
     const PrismWall& wall = facets_.walls()[LeafWork::u(parts[0].stretch.wall)];
     const bool whole = parts.size() == wall.end_layer - wall.first_layer &&
@@ -388,12 +397,11 @@ void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& ou
     }
 }
 
-void PrismLeaf::emit_cover(const CoverPart& part, std::vector<PolygonRef>& out) {
-    const PolygonRef& ref = part.cover->ref;
-    make_room(out);
-    out.push_back(part.whole ? ref : make_fragment(bench_, ref, part.shape));
-    out.back().touched = out.back().touched || part.whole;
-    out.back().flipped = part.inside_below != facets_.faces_up(ref);
+void PrismLeaf::emit_cover(const PrismCover& cover, const CoverPart& part, bool whole) {
+    make_room(covers_);
+    covers_.push_back(whole ? cover.ref : make_fragment(bench_, cover.ref, part.shape));
+    covers_.back().touched = covers_.back().touched || whole;
+    covers_.back().flipped = part.inside_below != facets_.faces_up(cover.ref);
 }
 
 }  // namespace trisect::detail

@@ -51,9 +51,7 @@ private:
     };
     using Sides = std::array<Side, 2>;  // left and right of a wall
     struct CoverPart {
-        const PrismCover* cover = nullptr;
         WorkPolygon shape;
-        bool whole = false;
         bool inside_below = false;
     };
     [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats);
@@ -64,13 +62,14 @@ private:
     [[nodiscard]] Sides sides() const;
     void add_stretch(const Stretch& stretch, const Sides& sides, std::size_t position);
     [[nodiscard]] bool cut_cover(const PrismCover& cover);
+    void keep_bench_small();
     [[nodiscard]] std::optional<Side> side_of_middle(const WorkPolygon& part, std::size_t position);
     [[nodiscard]] WorkPolygon cutter_of(const Stretch& stretch);
     [[nodiscard]] bool is_left(LeafIndex wall, const FlatPoint& p) const;
 
     void emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out);
     void emit_wall_part(const WallPart& part, std::vector<PolygonRef>& out);
-    void emit_cover(const CoverPart& part, std::vector<PolygonRef>& out);
+    void emit_cover(const PrismCover& cover, const CoverPart& part, bool whole);
 
     [[nodiscard]] std::span<int> row(std::size_t layer, std::size_t side) {
         return std::span(rows_).subspan((2 * layer + side) * row_size_, row_size_);
@@ -92,7 +91,8 @@ private:
     std::array<std::vector<std::uint64_t>, 2> covered_;  // by side: a bit for each operand
     std::vector<WallPart> wall_parts_;
     std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it speaks for
-    std::vector<CoverPart> cover_parts_;
+    std::vector<CoverPart> cover_parts_;          // of one cover
+    std::vector<PolygonRef> covers_;              // what of all of them bounds the result
     std::vector<WorkPolygon> parts_;
 };
 
