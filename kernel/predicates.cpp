@@ -19,9 +19,7 @@
 #include <trisect/kernel/predicates.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdlib>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
@@ -178,11 +176,10 @@ bool all_narrow(const Plane& p, const Plane& q, const Plane& r) {
     return p.is_narrow() && q.is_narrow() && r.is_narrow();
 }
 
-// Forward error of Cramer's rule in doubles. u = 2^-53. Coefficients carry one rounding each, or
-// two where `offsets` are residuals; an entry of a cross product is then within 5u of the sum of
-// the magnitudes of its two products, a term of w or x (one more product, two more sums) within 11u
-// of the sum of magnitudes of all products. 16u covers the second-order terms and the rounding of
-// the magnitudes.
+// Forward error of Cramer's rule in doubles. u = 2^-53. Coefficients carry one rounding each; an
+// entry of a cross product is then within 5u of the sum of the magnitudes of its two products, a
+// term of w or x (one more product, two more sums) within 11u of the sum of magnitudes of all
+// products. 16u covers the second-order terms and the rounding of the magnitudes.
 struct DoubleCramer {
     std::array<double, 3> x{};
     std::array<double, 3> magnitude{};
@@ -190,8 +187,7 @@ struct DoubleCramer {
     double w_magnitude = 0;
 };
 
-DoubleCramer double_cramer(const Plane& p, const Plane& q, const Plane& r,
-                           const std::array<double, 3>& offsets) {
+DoubleCramer double_cramer(const Plane& p, const Plane& q, const Plane& r) {
     DoubleCramer out;
     const std::array<const Plane*, 3> planes{&p, &q, &r};
     for (int k = 0; k < 3; ++k) {
@@ -206,8 +202,8 @@ DoubleCramer double_cramer(const Plane& p, const Plane& q, const Plane& r,
             const double minor = s - t;
             const double minor_magnitude = std::fabs(s) + std::fabs(t);
             const auto ii = static_cast<std::size_t>(i);
-            out.x[ii] -= offsets[static_cast<std::size_t>(k)] * minor;
-            out.magnitude[ii] += std::fabs(offsets[static_cast<std::size_t>(k)]) * minor_magnitude;
+            out.x[ii] -= c.approx_offset() * minor;
+            out.magnitude[ii] += std::fabs(c.approx_offset()) * minor_magnitude;
             if (k == 0) {
                 out.w += c.approx_normal(i) * minor;
                 out.w_magnitude += std::fabs(c.approx_normal(i)) * minor_magnitude;
@@ -239,52 +235,6 @@ std::optional<Quotients> quotients(const DoubleCramer& d) {
             (relative_bound * d.magnitude[i] + c * w_error) / w_safe * 1.0001 + c * 0x1p-52;
     }
     return out;
-}
-
-// n·c + d 2^k for integers c below 2^61: exact, then rounded. Near the plane, |d| 2^k is at most
-// about 3 max|n| 2^61, so 120 bits hold all terms of a narrow plane, 174 those of any.
-double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k) {
-    if (plane.is_narrow()) {
-        const Plane::Offset& offset = plane.offset();
-        const auto d = static_cast<Int128>(Uint128{offset.limb(1)} << 64 | offset.limb(0));
-        Int128 sum = d * (Int128{1} << k);
-        for (int i = 0; i < 3; ++i)
-            sum +=
-                Int128{static_cast<std::int64_t>(plane.normal(i))} * c[static_cast<std::size_t>(i)];
-        return static_cast<double>(sum);
-    }
-    WideInt<3> sum = plane.offset().shifted_left(k);
-    for (int i = 0; i < 3; ++i)
-        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(c[static_cast<std::size_t>(i)]));
-    return sum.to_double();
-}
-
-// One step of iterative refinement: the residuals of the approximate point are exact, so what is
-// missing, a tiny vector, is known to nearly all digits of a double, and the sum to twice as many
-// as a double has. If both ends of the enclosure round to the same double, that is it.
-std::optional<std::array<double, 3>> filtered_nearest(const Approximation& a, const Plane& p,
-                                                      const Plane& q, const Plane& r) {
-    const double largest =
-        std::max(std::fabs(a.c[0]), std::max(std::fabs(a.c[1]), std::fabs(a.c[2])));
-    // In units of 2^-k the largest coordinate has 61 bits. A double has 53, so all are exact.
-    const int k = 60 - std::ilogb(std::max(largest, 0x1p-40));
-    if (k < 0) return std::nullopt;
-    const double unit = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - k) << 52);
-    std::array<std::int64_t, 3> c{};
-    for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::int64_t>(a.c[i] * (1 / unit));
-    const auto step = quotients(
-        double_cramer(p, q, r, {residual(p, c, k), residual(q, c, k), residual(r, c, k)}));
-    if (!step) return std::nullopt;
-    std::array<double, 3> nearest{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double at = static_cast<double>(c[i]);
-        // The last term pays for the rounding of step - error and step + error.
-        const double error = 1.0001 * step->error[i] + 0x1p-51 * std::fabs(step->c[i]);
-        const double low = at + (step->c[i] - error);
-        if (low != at + (step->c[i] + error)) return std::nullopt;
-        nearest[i] = low * unit;
-    }
-    return nearest;
 }
 
 }  // namespace
@@ -336,8 +286,7 @@ Approximation approximate(const HomogeneousPoint& p) {
 }
 
 Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
-    const auto x = quotients(
-        double_cramer(p, q, r, {p.approx_offset(), q.approx_offset(), r.approx_offset()}));
+    const auto x = quotients(double_cramer(p, q, r));
     if (x) {
         Approximation a;
         a.c = x->c;
@@ -351,58 +300,6 @@ Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
     const auto exact = intersect(p, q, r);
     TRISECT_EXPECTS(exact.has_value(), "approximating a point of planes that do not meet in one");
     return approximate(*exact);
-}
-
-double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator) {
-    if (numerator.is_zero()) return 0;
-    // Scale so that the integer quotient q has 55 or 56 bits: n = |numerator| 2^k, or the divisor
-    // takes 2^-k. The scaled numbers have at most 385 bits.
-    WideInt<7> n = numerator.abs();
-    WideInt<7> d(denominator);
-    const int k = 55 - (n.bit_length() - d.bit_length());
-    (k >= 0 ? n : d) = (k >= 0 ? n : d).shifted_left(std::abs(k));
-    // Two quotients of doubles leave an error of a few units; the exact remainder corrects it and
-    // proves q: 0 <= rest < d.
-    const double divisor = d.to_double();
-    std::int64_t q = 0;
-    WideInt<7> rest = n;
-    for (int step = 0; step < 2; ++step) {
-        const auto t = static_cast<std::int64_t>(rest.to_double() / divisor);
-        q += t;
-        rest -= multiply<7>(d, WideInt<1>(t));
-    }
-    for (; rest.is_negative(); rest += d) --q;
-    for (; rest >= d; rest -= d) ++q;
-    // Round to 53 bits, to nearest, ties to even.
-    const int dropped = 11 - std::countl_zero(static_cast<std::uint64_t>(q));
-    const std::int64_t half = std::int64_t{1} << (dropped - 1);
-    const std::int64_t low = q & (2 * half - 1);
-    std::int64_t m = q >> dropped;
-    if (low > half || (low == half && (!rest.is_zero() || (m & 1) != 0))) ++m;
-    const double r = std::ldexp(static_cast<double>(m), dropped - k);
-    return numerator.is_negative() ? -r : r;
-}
-
-std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
-    return {nearest_double(p.xyz[0], p.w), nearest_double(p.xyz[1], p.w),
-            nearest_double(p.xyz[2], p.w)};
-}
-
-std::array<double, 3> nearest_doubles(const Approximation& approximation, const Plane& p,
-                                      const Plane& q, const Plane& r) {
-    auto& counters = predicate_counters();
-    if (const auto nearest = filtered_nearest(approximation, p, q, r)) {
-        ++counters.filtered;
-        return *nearest;
-    }
-    if (all_narrow(p, q, r)) {
-        ++counters.exact_narrow;
-    } else {
-        ++counters.exact_wide;
-    }
-    const auto exact = intersect(p, q, r);
-    TRISECT_EXPECTS(exact.has_value(), "rounding a point of planes that do not meet in one");
-    return nearest_doubles(*exact);
 }
 
 Side side_of(const LatticePoint& point, const Plane& plane) {

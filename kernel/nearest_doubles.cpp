@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Rounding points of planes correctly: a function of the exact point alone. A mesh that is written
+// rounds every vertex that a cut has made, so nearly all go without wide integers.
+//
+// One step of iterative refinement: the residuals of the approximate point are exact, so what is
+// missing, a tiny vector, is known to many digits, and the sum to more digits than a double has. If
+// both ends of the enclosure round to the same double, that is it.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double power_of_two(int k) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + k) << 52);
+}
+
+// 0 <= v < 2^126, within two roundings.
+double to_double(Uint128 v) {
+    constexpr std::uint64_t low = (std::uint64_t{1} << 63) - 1;
+    return static_cast<double>(static_cast<std::int64_t>(v >> 63)) * 0x1p63 +
+           static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(v) & low));
+}
+
+// n·c + d 2^k at integers c below 2^61, 0 <= k <= 100, that are within `reach` of a point of the
+// plane: exact, then rounded at most twice. It is at most reach Σ|n_i|, so it mostly has fewer than
+// 127 bits, and then its terms need no more either: all is modulo 2^128. Else |d| 2^k is at most
+// about 3 max|n| 2^61, so 174 bits hold all terms.
+double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k, double reach) {
+    const double normals = std::fabs(plane.approx_normal(0)) + std::fabs(plane.approx_normal(1)) +
+                           std::fabs(plane.approx_normal(2));
+    if (normals * reach < 0x1p125) [[likely]] {
+        const Plane::Offset& d = plane.offset();
+        Uint128 sum = (Uint128{d.limb(1)} << 64 | d.limb(0)) << k;
+        for (int i = 0; i < 3; ++i)
+            sum += static_cast<Uint128>(plane.normal(i)) *
+                   static_cast<Uint128>(Int128{c[static_cast<std::size_t>(i)]});
+        const bool negative = (sum >> 127) != 0;
+        const double size = to_double(negative ? -sum : sum);
+        return negative ? -size : size;
+    }
+    WideInt<3> sum = plane.offset().shifted_left(k);
+    for (int i = 0; i < 3; ++i)
+        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(c[static_cast<std::size_t>(i)]));
+    return sum.to_double();
+}
+
+Vector normal_of(const Plane& p) {
+    return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
+}
+
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double largest_of(const Vector& v) {
+    return std::max(std::fabs(v[0]), std::max(std::fabs(v[1]), std::fabs(v[2])));
+}
+
+// A vector with a bound of the error of each component.
+struct Enclosed {
+    Vector c{};
+    Vector error{};
+};
+
+// The solution of n·x + d = 0 for three planes, Cramer's rule in doubles. u = 2^-53. Coefficients
+// carry one rounding each, offsets two; an entry of a cross product is then within 5u of the sum of
+// the magnitudes of its two products, a term of w or x (one more product, two more sums) within 11u
+// of the sum of magnitudes of all products, and 16u covers second-order terms and roundings of the
+// bounds. With the largest entries N of the normals, w sums up six products of at most
+// N_p N_q N_r, and a component of x two of |d| N N for each plane. Offsets are tiny where
+// this is used, so bounds need not be sharp.
+std::optional<Enclosed> solve(const Plane& p, const Plane& q, const Plane& r, const Vector& d) {
+    const Vector np = normal_of(p);
+    const Vector nq = normal_of(q);
+    const Vector nr = normal_of(r);
+    const Vector qr = cross(nq, nr);
+    const Vector rp = cross(nr, np);
+    const Vector pq = cross(np, nq);
+    const double lp = largest_of(np);
+    const double lq = largest_of(nq);
+    const double lr = largest_of(nr);
+    const double w = np[0] * qr[0] + np[1] * qr[1] + np[2] * qr[2];
+    const double w_error = 96 * 0x1p-53 * (lp * lq * lr);
+    // |w| - w_error is at least 3/4 |w|: beyond that the quotient's error is not linear any more.
+    if (!(w_error < 0.25 * std::fabs(w))) return std::nullopt;
+    const double x_error =
+        32 * 0x1p-53 *
+        (std::fabs(d[0]) * (lq * lr) + std::fabs(d[1]) * (lr * lp) + std::fabs(d[2]) * (lp * lq));
+    const double inverse = -1 / w;
+    const double scale = 1.3334 * std::fabs(inverse);
+    Enclosed out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.c[i] = (d[0] * qr[i] + d[1] * rp[i] + d[2] * pq[i]) * inverse;
+        // |X/W - x/w| <= (δx + |x/w| δw) / (|w| - δw), plus two roundings.
+        const double c = std::fabs(out.c[i]);
+        out.error[i] = (x_error + c * w_error) * scale + c * 0x1p-51;
+    }
+    return out;
+}
+
+std::optional<Vector> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
+                                       const Plane& r) {
+    const double largest = std::max(largest_of(a.c), 0x1p-40);
+    // In units of 2^-k the largest coordinate has 61 bits. A double has 53, so it is exact; what
+    // others have below that is cut off.
+    const int k = 60 - (static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023);
+    if (k < 0) return std::nullopt;
+    const double scale = power_of_two(k);
+    std::array<std::int64_t, 3> c{};
+    for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::int64_t>(a.c[i] * scale);
+    const double reach = a.error * scale + 1;
+    const auto step = solve(
+        p, q, r, {residual(p, c, k, reach), residual(q, c, k, reach), residual(r, c, k, reach)});
+    if (!step) return std::nullopt;
+    const double unit = power_of_two(-k);
+    Vector nearest{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto at = static_cast<double>(c[i]);
+        // The last term pays for the rounding of step - error and step + error.
+        const double error = 1.0001 * step->error[i] + 0x1p-51 * std::fabs(step->c[i]);
+        const double low = at + (step->c[i] - error);
+        if (low != at + (step->c[i] + error)) return std::nullopt;
+        nearest[i] = low * unit;
+    }
+    return nearest;
+}
+
+}  // namespace
+
+double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator) {
+    if (numerator.is_zero()) return 0;
+    // Scale so that the integer quotient q has 55 or 56 bits: n = |numerator| 2^k, or the divisor
+    // takes 2^-k. The scaled numbers have at most 385 bits.
+    WideInt<7> n = numerator.abs();
+    WideInt<7> d(denominator);
+    const int k = 55 - (n.bit_length() - d.bit_length());
+    (k >= 0 ? n : d) = (k >= 0 ? n : d).shifted_left(std::abs(k));
+    // Two quotients of doubles leave an error of a few units; the exact remainder corrects it and
+    // proves q: 0 <= rest < d.
+    const double divisor = d.to_double();
+    std::int64_t q = 0;
+    WideInt<7> rest = n;
+    for (int step = 0; step < 2; ++step) {
+        const auto t = static_cast<std::int64_t>(rest.to_double() / divisor);
+        q += t;
+        rest -= multiply<7>(d, WideInt<1>(t));
+    }
+    for (; rest.is_negative(); rest += d) --q;
+    for (; rest >= d; rest -= d) ++q;
+    // Round to 53 bits, to nearest, ties to even.
+    const int dropped = 11 - std::countl_zero(static_cast<std::uint64_t>(q));
+    const std::int64_t half = std::int64_t{1} << (dropped - 1);
+    const std::int64_t low = q & (2 * half - 1);
+    std::int64_t m = q >> dropped;
+    if (low > half || (low == half && (!rest.is_zero() || (m & 1) != 0))) ++m;
+    const double r = std::ldexp(static_cast<double>(m), dropped - k);
+    return numerator.is_negative() ? -r : r;
+}
+
+std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
+    return {nearest_double(p.xyz[0], p.w), nearest_double(p.xyz[1], p.w),
+            nearest_double(p.xyz[2], p.w)};
+}
+
+std::array<double, 3> nearest_doubles(const Approximation& approximation, const Plane& p,
+                                      const Plane& q, const Plane& r) {
+    auto& counters = predicate_counters();
+    if (const auto nearest = filtered_nearest(approximation, p, q, r)) {
+        ++counters.filtered;
+        return *nearest;
+    }
+    if (p.is_narrow() && q.is_narrow() && r.is_narrow()) {
+        ++counters.exact_narrow;
+    } else {
+        ++counters.exact_wide;
+    }
+    const auto exact = intersect(p, q, r);
+    TRISECT_EXPECTS(exact.has_value(), "rounding a point of planes that do not meet in one");
+    return nearest_doubles(*exact);
+}
+
+}  // namespace trisect
