@@ -218,10 +218,10 @@ private:
 
     void cut_loop(const BoundaryFacet& f, std::size_t l) {
         const auto loop = loops_.loop(l);
-        if (loop.size() > small_polygon_limit || !is_simple(loop)) {
+        if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
             cut_large(f, l, l + 1);
         } else {
-            cut_small(f, loop);
+            cut_small(loop);
         }
     }
 
@@ -319,8 +319,8 @@ private:
 
     // Vertices are rounded correctly when they get their numbers, and all corners of a loop are
     // used; so turns are those of rounded corners, and few are left for integers.
-    void cut_small(const BoundaryFacet& f, std::span<const PointId> loop) {
-        const auto axes = PlaneProjection::axes_of(bench_.plane_at(f.support), f.flipped);
+    void cut_small(std::span<const PointId> loop) {
+        const PlaneProjection::Axes axes = loops_.axes();
         std::array<std::uint32_t, small_polygon_limit> vertices;
         rounded_.clear();
         for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -96,11 +96,14 @@ void FaceLoops::add_loop() {
     }
     loops_.push_back({points_.size(), n, true});
     if (n < edges_.size()) loops_.back().outer = is_outer(smallest);
-    for (std::size_t i = 0; i < n; ++i) {
-        const std::uint32_t e = chain_[(smallest + i) % n];
-        points_.push_back(edges_[e].from);
-        edge_at_.push_back(e);
-    }
+    const auto add = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            points_.push_back(edges_[chain_[i]].from);
+            edge_at_.push_back(chain_[i]);
+        }
+    };
+    add(smallest, n);
+    add(0, smallest);
 }
 
 // By their smallest vertices; of two that share it the right one first.
@@ -117,13 +120,14 @@ void FaceLoops::set_region(PlaneId support, bool flipped, std::span<const Bounda
     edges_ = edges;
     const Plane& p = bench_.plane_at(support);
     const int k = p.dominant_axis();
-    u_ = (k + 1) % 3;
-    v_ = (k + 2) % 3;
+    u_ = k == 2 ? 0 : k + 1;
+    v_ = k == 0 ? 2 : k - 1;
     right_handed_ = (p.normal(k) > 0) != flipped;
     points_.clear();
     edge_at_.clear();
     loops_.clear();
-    if (chains_.are_simple(edges)) {
+    are_simple_ = chains_.are_simple(edges);
+    if (are_simple_) {
         chain_.clear();
         for_each_turn(edges, [&](std::size_t in, std::size_t out) {
             chain_.push_back(static_cast<std::uint32_t>(in));

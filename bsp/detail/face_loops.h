@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/planar_loops.h>
 #include <trisect/bsp/detail/assembly_parts.h>
 #include <trisect/bsp/detail/edge_chains.h>
 
@@ -31,6 +32,12 @@ public:
     void set_region(PlaneId support, bool flipped, std::span<const BoundaryEdge> edges);
 
     [[nodiscard]] std::size_t loop_count() const { return loops_.size(); }
+    /// Whether no loop passes a vertex twice, nor two loops the same one.
+    [[nodiscard]] bool are_simple() const { return are_simple_; }
+    /// The axes that the region is seen along from outside.
+    [[nodiscard]] PlaneProjection::Axes axes() const {
+        return right_handed_ ? PlaneProjection::Axes{u_, v_} : PlaneProjection::Axes{v_, u_};
+    }
     /// Points in order, the region to the left seen from outside.
     [[nodiscard]] std::span<const PointId> loop(std::size_t i) const {
         return std::span(points_).subspan(loops_[i].begin, loops_[i].size);
@@ -65,6 +72,7 @@ private:
     int u_ = 0;
     int v_ = 1;
     bool right_handed_ = true;
+    bool are_simple_ = true;
     EdgeChains chains_;
     std::vector<std::pair<PointId, std::uint32_t>> by_start_;
     std::vector<bool> used_;

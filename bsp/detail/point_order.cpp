@@ -5,8 +5,6 @@
 
 #include <trisect/bsp/detail/point_order.h>
 
-#include <cmath>
-#include <cstddef>
 #include <optional>
 
 #include <trisect/kernel/plane.h>
@@ -33,11 +31,7 @@ std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b
 
 }  // namespace
 
-int compare_along(const Workbench& bench, PointId a, PointId b, int axis) {
-    const Approximation& pa = bench.approximation(a);
-    const Approximation& pb = bench.approximation(b);
-    const double gap = pa.c[static_cast<std::size_t>(axis)] - pb.c[static_cast<std::size_t>(axis)];
-    if (std::fabs(gap) > 1.0000001 * (pa.error + pb.error)) return gap < 0 ? -1 : 1;
+int compare_closely_along(const Workbench& bench, PointId a, PointId b, int axis) {
     if (a == b) return 0;
     if (const auto order = compare_by_plane(bench, a, b, axis)) return *order;
     if (const auto order = compare_by_plane(bench, b, a, axis)) return -*order;
