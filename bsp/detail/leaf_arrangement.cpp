@@ -69,6 +69,12 @@ private:
     template <class Work>
     auto or_end_fragments(const LeafProblem& problem, const Work& work);
     void note_doubtful(const LeafProblem& problem);
+    // What a leaf keeps is as large as it need be; what it was collected in is used again.
+    [[nodiscard]] std::vector<PolygonRef> listed() {
+        std::vector<PolygonRef> list(out_.begin(), out_.end());
+        out_.clear();
+        return list;
+    }
     void arrange_embedded();
     void arrange_any(SlotValues& values);
     void emit_remains(LeafIndex i, const LeafRemains& remains);
@@ -157,7 +163,7 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_prisms(const LeafProblem& 
     return or_end_fragments(problem, [&]() -> std::optional<LeafResult> {
         if (!prisms_.arrange(problem, stats, out_)) return std::nullopt;
         note_doubtful(problem);
-        return LeafResult{std::move(out_), {}};
+        return LeafResult{listed(), {}};
     });
 }
 
@@ -170,8 +176,8 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_across_axes(const LeafProb
                         : axis_.arrange(problem, stats, out_, incomplete)))
             return std::nullopt;
         note_doubtful(problem);
-        if (picture == nullptr) return LeafResult{std::move(out_), std::move(incomplete)};
-        picture->facets = PolygonList(std::move(out_));
+        if (picture == nullptr) return LeafResult{listed(), std::move(incomplete)};
+        picture->facets = PolygonList(listed());
         return LeafResult{{}, std::move(incomplete), 0, std::move(picture)};
     });
 }
@@ -182,11 +188,11 @@ std::optional<LeafResult> LeafArranger::Impl::arrange_plain(const LeafProblem& p
     return or_end_fragments(problem, [&]() -> std::optional<LeafResult> {
         if (!collect_ || problem.operands.size() < 2) {
             if (!plain_.arrange(problem, stats, out_)) return std::nullopt;
-            return LeafResult{std::move(out_), {}};
+            return LeafResult{listed(), {}};
         }
         const auto crossed = plain_.arrange_uncrossed(problem, stats, out_, crossings_, seen_);
         if (!crossed) return std::nullopt;
-        return LeafResult{std::move(out_), {}, *crossed};
+        return LeafResult{listed(), {}, *crossed};
     });
 }
 
@@ -212,7 +218,7 @@ LeafResult LeafArranger::Impl::arrange(const LeafProblem& problem, SlotValues& v
             arrange_any(values);
         }
         ++stats.mixed_leaves;
-        return LeafResult{std::move(out_), std::move(work_.incomplete)};
+        return LeafResult{listed(), std::move(work_.incomplete)};
     });
 }
 

@@ -740,14 +740,12 @@ Approximation PlainCutting::in_lattice(std::int16_t vertex, double extent) const
                        plane_of(v.lines[1]).plane());
 }
 
-PolygonRef PlainCutting::fragment(const PlainPart& part) const {
+PolygonRef PlainCutting::fragment(const PlainPart& part) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    std::array<EdgeName, PlainPart::max_size> edges;
-    std::array<Approximation, PlainPart::max_size> vertices;
     Vector3 lo{infinity, infinity, infinity};
     Vector3 hi{-infinity, -infinity, -infinity};
     for (std::size_t i = 0; i < part.size; ++i) {
-        edges[i] = {plane_of(part.lines[i]), (part.above >> i & 1U) != 0};
+        edges_[i] = {plane_of(part.lines[i]), (part.above >> i & 1U) != 0};
         const Approximation& a = vertices_[static_cast<std::size_t>(part.vertices[i])].at;
         for (std::size_t k = 0; k < 3; ++k) {
             lo[k] = std::min(lo[k], a.c[k] - a.error);
@@ -761,10 +759,10 @@ PolygonRef PlainCutting::fragment(const PlainPart& part) const {
         box.hi[k] = facets_->origin()[k] - floor_of(-hi[k]);
         extent = std::max(extent, hi[k] - lo[k]);
     }
-    for (std::size_t i = 0; i < part.size; ++i) vertices[i] = in_lattice(part.vertices[i], extent);
+    for (std::size_t i = 0; i < part.size; ++i) corners_[i] = in_lattice(part.vertices[i], extent);
     PolygonRef out = (*facets_)[item_].ref;
-    out.fragment = Fragment::make(std::span(edges).first(part.size),
-                                  std::span(vertices).first(part.size), box);
+    out.fragment = Fragment::make(std::span(edges_).first(part.size),
+                                  std::span(corners_).first(part.size), box);
     return out;
 }
 

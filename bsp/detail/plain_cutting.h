@@ -81,7 +81,7 @@ public:
     [[nodiscard]] std::span<const PlainPart> parts() const { return {parts_.data(), count_}; }
     /// The polygon of the last item with its part in the cell, or with one of its parts, as its
     /// fragment.
-    [[nodiscard]] PolygonRef fragment(const PlainPart& part) const;
+    [[nodiscard]] PolygonRef fragment(const PlainPart& part);
     /// The part of the last item in the cell.
     [[nodiscard]] const PlainPart& clipped() const { return clipped_; }
     /// Whether the cell's walls cut anything off the last item.
@@ -176,6 +176,9 @@ private:
     std::vector<int> known_windings_;
     Approximation start_;
     std::vector<std::int8_t> start_sides_;
+    // Of a fragment in the making: local ones would be filled with zeros first.
+    std::array<EdgeName, PlainPart::max_size> edges_;
+    std::array<Approximation, PlainPart::max_size> corners_;
     // Answers of whole(): most items have windings that were looked at before.
     struct Answer {
         LeafIndex windings = -1;

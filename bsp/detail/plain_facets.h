@@ -134,6 +134,10 @@ public:
     [[nodiscard]] Approximation corner(const PlainFacet& f, std::size_t i) const {
         return f.is_whole() ? Approximation{f.corners[i], 0.0} : outlines_[f.outline + i];
     }
+    /// All of them, of a fragment.
+    [[nodiscard]] const Approximation* outline(const PlainFacet& f) const {
+        return &outlines_[f.outline];
+    }
     /// How many fragments are listed.
     [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
     [[nodiscard]] const LeafProblem& problem() const { return *problem_; }

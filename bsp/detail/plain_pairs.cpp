@@ -100,12 +100,18 @@ class Across {
 public:
     Across(const PlainFacets& facets, const PlainFacet& f, const PlainPlane& plane)
         : facets_(facets), f_(f) {
-        for (std::size_t i = 0; i < f.size; ++i) {
-            const Approximation p = facets.corner(f, i);
-            value_[i] = plane.value(p.c);
-            error_[i] = plane.error(p);
-            above_ |= (value_[i] > error_[i] ? 1U : 0U) << i;
-            below_ |= (value_[i] < -error_[i] ? 1U : 0U) << i;
+        const auto add = [&](std::size_t i, double value, double error) {
+            value_[i] = value;
+            error_[i] = error;
+            above_ |= (value > error ? 1U : 0U) << i;
+            below_ |= (value < -error ? 1U : 0U) << i;
+        };
+        if (f.is_whole()) {
+            for (std::size_t i = 0; i < 3; ++i) add(i, plane.value(f.corners[i]), plane.bound);
+        } else {
+            const Approximation* const corners = facets.outline(f);
+            for (std::size_t i = 0; i < f.size; ++i)
+                add(i, plane.value(corners[i].c), plane.error(corners[i]));
         }
         on_ = ((1U << f.size) - 1) & ~(above_ | below_);
     }
