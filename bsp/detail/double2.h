@@ -34,6 +34,16 @@ __extension__ typedef std::int64_t Mask2 __attribute__((vector_size(16)));
 #endif
 }
 
+/// The second one where one of them is not a number.
+[[nodiscard]] inline Double2 larger(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+    return reinterpret_cast<Double2>(
+        _mm_max_pd(reinterpret_cast<__m128d>(a), reinterpret_cast<__m128d>(b)));
+#else
+    return Double2{a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]};
+#endif
+}
+
 /// `a` where the mask is set.
 [[nodiscard]] inline Double2 choose(Mask2 m, Double2 a, Double2 b) {
     return reinterpret_cast<Double2>((m & reinterpret_cast<Mask2>(a)) |

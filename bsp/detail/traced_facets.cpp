@@ -70,6 +70,7 @@ public:
         const auto& by_second = crossings_.by_second;
         std::size_t first = 0;
         std::size_t second = 0;
+        auto doubtful = crossings_.doubtful.begin();
         for (const std::uint32_t facet : crossings_.shown) {
             while (first < pairs.size() && pairs[first].facets[0] < facet) ++first;
             while (second < pairs.size() && pairs[by_second[second]].facets[1] < facet) ++second;
@@ -78,7 +79,8 @@ public:
                 sides_.push_back({static_cast<std::uint32_t>(first), 0});
             for (; second < pairs.size() && pairs[by_second[second]].facets[1] == facet; ++second)
                 sides_.push_back({by_second[second], 1});
-            if (!std::ranges::binary_search(crossings_.doubtful, facet)) look_at(facet);
+            while (doubtful != crossings_.doubtful.end() && *doubtful < facet) ++doubtful;
+            if (doubtful == crossings_.doubtful.end() || *doubtful != facet) look_at(facet);
         }
     }
 
@@ -120,52 +122,63 @@ private:
         return {&source.corner(facet, 0), &source.corner(facet, 1), &source.corner(facet, 2)};
     }
 
-    // False when nothing is left of an operand that crosses the facet.
+    // False when nothing is left of an operand that crosses the facet. Those that come first in
+    // pairs are in the order of their numbers, and so are those that come second; the facet's own
+    // operand is between them, so each operand comes once.
     bool list_segments() {
         segments_.clear();
-        cutters_.clear();
+        std::uint32_t cutters = 0;
+        std::uint32_t begin = 0;  // of the facets of the last one
+        std::uint32_t end = 0;
+        const Crossings::Operand* operand = nullptr;
+        const Source* source = nullptr;
         for (const Side& s : sides_) {
             const FacetCrossing& c = crossings_.pairs[s.pair];
             const std::uint32_t number = c.facets[1 - s.side];
-            const std::size_t operand = operand_of_(number);
-            if (marks_[operand] == nullptr) return false;
-            const Crossings::Operand& o = crossings_.operands[operand];
-            const Source& cutter = *marks_[operand]->source();
-            const std::uint32_t facet = number - o.first;
-            OutlineSegment& segment = segments_.emplace_back();
-            segment.cutter = small_number_of(operand);
-            segment.corners = corners_of(cutter, facet);
-            segment.open_below = o.is_open_below();
-            // Within the facet, to the left of the product of the normals, is what lies below the
-            // other facet for the first one, and above it for the second one.
-            const bool along = segment.open_below == (s.side == 0);
-            for (std::size_t k = 0; k < 2; ++k) {
-                const FacetCrossing::End& end = c.ends[along ? k : 1 - k];
-                segment.at[k] = end.at;
-                const bool is_own = end.of_second == (s.side == 1);
-                segment.edge[k] = static_cast<std::int8_t>(is_own ? end.edge : -1);
-                if (is_own) continue;
-                const std::uint64_t v = cutter.corner_index(facet, end.edge);
-                const std::uint64_t w = cutter.corner_index(facet, (end.edge + 1) % 3);
-                segment.through[k] = std::min(v, w) << 32 | std::max(v, w);
+            if (number < begin || number >= end) {
+                const std::size_t i = operand_of_(number);
+                if (marks_[i] == nullptr) return false;
+                operand = &crossings_.operands[i];
+                source = marks_[i]->source();
+                begin = operand->first;
+                end = begin + source->facet_count();
+                ++cutters;
             }
+            segments_.push_back(segment_of(c, s.side, cutters - 1, operand->is_open_below(),
+                                           *source, number - begin));
         }
         return true;
     }
 
-    std::uint32_t small_number_of(std::size_t operand) {
-        const auto at = std::ranges::find(cutters_, operand);
-        if (at == cutters_.end()) {
-            cutters_.push_back(operand);
-            return static_cast<std::uint32_t>(cutters_.size()) - 1;
+    static OutlineSegment segment_of(const FacetCrossing& c, std::uint32_t side,
+                                     std::uint32_t cutter, bool open_below, const Source& source,
+                                     std::uint32_t facet) {
+        OutlineSegment segment;
+        segment.cutter = cutter;
+        segment.corners = corners_of(source, facet);
+        segment.open_below = open_below;
+        // Within the facet, to the left of the product of the normals, is what lies below the
+        // other facet for the first one, and above it for the second one.
+        const bool along = open_below == (side == 0);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const FacetCrossing::End& end = c.ends[along ? k : 1 - k];
+            segment.at[k] = &end.at;
+            const bool is_own = end.of_second == (side == 1);
+            segment.edge[k] = static_cast<std::int8_t>(is_own ? end.edge : -1);
+            if (is_own) continue;
+            const std::uint64_t v = source.corner_index(facet, end.edge);
+            const std::uint64_t w = source.corner_index(facet, end.edge == 2 ? 0 : end.edge + 1);
+            segment.through[k] = std::min(v, w) << 32 | std::max(v, w);
         }
-        return static_cast<std::uint32_t>(at - cutters_.begin());
+        return segment;
     }
 
     void add_edges(FacetMarks& marks, std::uint32_t facet, bool flipped) {
         if (outline_.edges().empty()) return;
         ref_ = {marks.source(), nullptr, facet, false, false};
         own_ = edge_of(sides_[0].pair, sides_[0].side);
+        corners_ = {-1, -1, -1};
+        meetings_.assign(outline_.meetings().size(), -1);
         const std::int32_t number = marks.number_of_worked(facet, flipped);
         for (const TracedEdge& e : outline_.edges()) {
             PointId from = point_of(e.from);
@@ -188,21 +201,30 @@ private:
     }
 
     PointId point_of(const OutlinePoint& p) {
-        Workbench& bench = parts_.bench;
         switch (p.kind) {
-            case OutlinePoint::Kind::Corner:
-                return bench.corner(ref_.source, ref_.facet, p.which);
+            case OutlinePoint::Kind::Corner: {
+                PointId& point = corners_[static_cast<std::size_t>(p.which)];
+                if (point < 0) point = parts_.bench.corner(ref_.source, ref_.facet, p.which);
+                return point;
+            }
             case OutlinePoint::Kind::End: {
                 // Ends of segments come in the order of their direction.
-                const Side& s = sides_[p.segment];
-                const bool along = segments_[p.segment].open_below == (s.side == 0);
+                const Side& s = sides_[p.place];
+                const bool along = segments_[p.place].open_below == (s.side == 0);
                 return end_of(s.pair, along ? u(p.which) : 1 - u(p.which));
             }
             case OutlinePoint::Kind::Meeting:
                 break;
         }
-        const PlaneId a = support_of_cutter(p.segment);
-        return bench.vertex(ref_, bench.support_of(own_), a, support_of_cutter(p.other), p.at);
+        PointId& point = meetings_[p.place];
+        if (point < 0) point = meeting(outline_.meetings()[p.place]);
+        return point;
+    }
+
+    PointId meeting(const OutlineMeetings::Point& p) {
+        return parts_.bench.vertex(ref_, parts_.bench.support_of(own_),
+                                   support_of_cutter(p.segments[0]),
+                                   support_of_cutter(p.segments[1]), p.at);
     }
 
     PlaneId support_of_cutter(std::uint32_t segment) {
@@ -244,8 +266,9 @@ private:
     // Of one facet:
     std::vector<Side> sides_;
     std::vector<OutlineSegment> segments_;
-    std::vector<std::size_t> cutters_;
     FacetOutline outline_;
+    std::array<PointId, 3> corners_{};  // where they were asked for
+    std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
     PlaneId own_ = -1;
 };

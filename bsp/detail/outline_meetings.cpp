@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Of ten segments on a facet, far most pairs lie apart, and nearly all of these have boxes that do
+// not meet in the facet's projection. Single precision finds that for four pairs at once, without a
+// bound: what a box reaches to is rounded, and rounding keeps the order. If the rounded least of
+// one is larger than the rounded most of the other, so are the exact ones.
+//
+// Those that are left cross where each has its ends on both sides of the other one's plane. These
+// signs come from doubles with a bound, and what has no sure answer ends the attempt. The point is
+// then taken on the one of the two segments that tells it better.
+
+#include <trisect/bsp/detail/outline_meetings.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <trisect/bsp/detail/double2.h>
+#include <trisect/bsp/detail/plain_facets.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr double slack = 1.0001;
+
+}  // namespace
+
+OutlinePlane::OutlinePlane(const std::array<const LatticePoint*, 3>& corners) {
+    std::array<double, 3> v{};
+    std::array<double, 3> w{};
+    for (int k = 0; k < 3; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        origin[i] = static_cast<double>((*corners[0])[k]);
+        v[i] = static_cast<double>((*corners[1])[k] - (*corners[0])[k]);
+        w[i] = static_cast<double>((*corners[2])[k] - (*corners[0])[k]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double s = v[(k + 1) % 3] * w[(k + 2) % 3];
+        const double t = v[(k + 2) % 3] * w[(k + 1) % 3];
+        normal[k] = s - t;
+        minor[k] = std::fabs(s) + std::fabs(t);
+    }
+}
+
+std::size_t OutlinePlane::dominant_axis() const {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
+    return axis;
+}
+
+bool OutlineMeetings::find(const OutlinePlane& facet, std::span<const OutlineSegment> segments,
+                           std::size_t cutters) {
+    segments_ = segments;
+    points_.clear();
+    meetings_.clear();
+    compared_ = 0;
+    first_.assign(segments.size() + 1, 0);
+    if (cutters < 2) return true;
+    make_boxes(facet);
+    has_plane_.assign(segments.size(), 0);
+    if (planes_.size() < segments.size()) planes_.resize(segments.size());
+    for (std::uint32_t a = 0; a < segments.size(); ++a)
+        if (!compare_with_all(a)) return false;
+    return points_.empty() || sort_meetings();
+}
+
+void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    const std::size_t dropped = facet.dominant_axis();
+    const std::array<std::size_t, 2> axes{(dropped + 1) % 3, (dropped + 2) % 3};
+    boxes_.assign((segments_.size() + 3) / 4,
+                  {{all_lanes(far), all_lanes(far)}, {all_lanes(-far), all_lanes(-far)}});
+    ways_.clear();
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+        const Approximation& from = *segments_[s].at[0];
+        const Approximation& to = *segments_[s].at[1];
+        BoxRow& row = boxes_[s / 4];
+        Way way;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const std::size_t axis = axes[k];
+            const double a = from.c[axis];
+            const double b = to.c[axis];
+            // From the facet, where single precision goes farthest.
+            const double low = std::min(a - from.error, b - to.error) - facet.origin[axis];
+            const double high = std::max(a + from.error, b + to.error) - facet.origin[axis];
+            row.low[k][s % 4] = static_cast<float>(low);
+            row.high[k][s % 4] = static_cast<float>(high);
+            if (k == 0 || std::fabs(b - a) > std::fabs(way.length)) way = {axis, b - a};
+        }
+        ways_.push_back(way);
+    }
+}
+
+// With those that come after it.
+bool OutlineMeetings::compare_with_all(std::uint32_t a) {
+    const BoxRow& own = boxes_[a / 4];
+    const std::size_t lane = a % 4;
+    const std::array<Float4, 2> low{all_lanes(own.low[0][lane]), all_lanes(own.low[1][lane])};
+    const std::array<Float4, 2> high{all_lanes(own.high[0][lane]), all_lanes(own.high[1][lane])};
+    const std::uint32_t cutter = segments_[a].cutter;
+    unsigned after = 14U << lane & 15U;
+    for (std::uint32_t r = a / 4; r < boxes_.size(); ++r, after = 15U) {
+        const BoxRow& row = boxes_[r];
+        const Mask4 apart = (row.low[0] > high[0]) | (low[0] > row.high[0]) |
+                            (row.low[1] > high[1]) | (low[1] > row.high[1]);
+        for (unsigned left = ~bits_of(apart) & after; left != 0; left &= left - 1) {
+            const std::uint32_t b = 4 * r + static_cast<std::uint32_t>(std::countr_zero(left));
+            if (segments_[b].cutter != cutter && !compare(a, b)) return false;
+        }
+    }
+    return true;
+}
+
+// False when it is doubtful whether two segments cross.
+bool OutlineMeetings::compare(std::uint32_t a, std::uint32_t b) {
+    ++compared_;
+    const std::array<std::uint32_t, 2> pair{a, b};
+    std::array<Values, 2> values;
+    for (std::size_t i = 0; i < 2; ++i) {
+        values[i] = values_of(plane_of(pair[1 - i]), segments_[pair[i]]);
+        if (values[i].known && (values[i].at[0] > 0) == (values[i].at[1] > 0)) return true;
+    }
+    return values[0].known && values[1].known && add_point(pair, values);
+}
+
+const OutlinePlane& OutlineMeetings::plane_of(std::uint32_t segment) {
+    OutlinePlane& plane = planes_[segment];
+    if (has_plane_[segment] == 0) {
+        plane = OutlinePlane(segments_[segment].corners);
+        has_plane_[segment] = 1;
+    }
+    return plane;
+}
+
+// Of both ends.
+OutlineMeetings::Values OutlineMeetings::values_of(const OutlinePlane& plane,
+                                                   const OutlineSegment& s) {
+    const Approximation& from = *s.at[0];
+    const Approximation& to = *s.at[1];
+    Double2 sum{};
+    Double2 permanent{};
+    double slope = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Double2 d = Double2{from.c[k], to.c[k]} - both(plane.origin[k]);
+        const Double2 size = larger(d, -d);
+        sum += both(plane.normal[k]) * d;
+        permanent += both(plane.minor[k]) * size;
+        slope += plane.minor[k];
+    }
+    const Double2 error =
+        both(0x1p-50) * permanent + both(slack * slope) * Double2{from.error, to.error};
+    Values out;
+    out.at = {sum[0], sum[1]};
+    out.error = error[0] + error[1];
+    out.known = where_at_most(larger(sum, -sum), error) == 0;
+    return out;
+}
+
+bool OutlineMeetings::add_point(const std::array<std::uint32_t, 2>& segments,
+                                const std::array<Values, 2>& values) {
+    const auto spread = [&](std::size_t i) {
+        return std::fabs(values[i].at[0]) + std::fabs(values[i].at[1]);
+    };
+    const auto length = [&](std::size_t i) { return std::fabs(ways_[segments[i]].length); };
+    const std::size_t better =
+        values[1].error * length(1) * spread(0) < values[0].error * length(0) * spread(1) ? 1 : 0;
+    const Values& v = values[better];
+    const OutlineSegment& s = segments_[segments[better]];
+    Point& point = points_.emplace_back();
+    point.segments = segments;
+    for (std::size_t i = 0; i < 2; ++i) {
+        point.opens[i] = (values[i].at[1] < 0) == segments_[segments[1 - i]].open_below;
+        ++first_[segments[i] + 1];
+    }
+    return interpolate(*s.at[0], v.at[0], *s.at[1], v.at[1], v.error, point.at);
+}
+
+// Those of one segment in their order along it; false when it is doubtful.
+bool OutlineMeetings::sort_meetings() {
+    for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
+    next_.assign(first_.begin(), first_.end() - 1);
+    meetings_.resize(2 * points_.size());
+    for (std::uint32_t p = 0; p < points_.size(); ++p) {
+        const Point& point = points_[p];
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::uint32_t s = point.segments[i];
+            const Way& way = ways_[s];
+            const double c = point.at.c[way.axis];
+            meetings_[next_[s]++] = {point.segments[1 - i],   p,
+                                     point.opens[i],          0,
+                                     way.length > 0 ? c : -c, point.at.error};
+        }
+    }
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+        const std::span<Meeting> run = of(s);
+        if (run.size() < 2) continue;
+        std::ranges::sort(run, {}, &Meeting::along);
+        for (std::size_t i = 1; i < run.size(); ++i)
+            if (!(run[i].along - run[i - 1].along > slack * (run[i - 1].error + run[i].error)))
+                return false;
+    }
+    return true;
+}
+
+}  // namespace trisect::detail
