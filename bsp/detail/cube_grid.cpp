@@ -19,29 +19,100 @@ CubeGrid::CubeGrid(const Box& box, int slabs) {
         const auto inner = static_cast<std::int32_t>(extent[k] * scale_);
         last_[k] = std::min(inner, slabs - 1) + 2;
     }
+    row_stride_ = last(1) + 2;
 }
 
+namespace {
+
+// Nearly all facets go over at most two slabs along each axis. A bit at the least cube, in a set
+// for each of the eight shapes, is then all that has to be written or read of one, without a
+// branch.
+constexpr std::size_t shapes = CubeRange::large;
+
+// The rows of a grid for each shape, with some more so that the next one along z is always there.
+struct ShapeRows {
+    std::size_t count;
+    std::size_t padded;
+    std::array<std::size_t, 3> next;  // along each axis
+    std::vector<std::uint64_t> rows;
+
+    explicit ShapeRows(const CubeGrid& grid)
+        : count(grid.row_count()),
+          padded(count + grid.row_stride()),
+          next{0, 1, grid.row_stride()},
+          rows(shapes * padded) {}
+    [[nodiscard]] std::uint64_t* of(std::size_t shape) { return &rows[shape * padded]; }
+};
+
+// The cubes that boxes of all shapes meet, from those where they begin.
+CubeSet all_met(ShapeRows begins) {
+    for (std::size_t k = 3; k-- > 0;)
+        for (std::size_t shape = 0; shape < std::size_t{1} << k; ++shape) {
+            const std::uint64_t* const two = begins.of(shape | std::size_t{1} << k);
+            std::uint64_t* const one = begins.of(shape);
+            for (std::size_t row = 0; row < begins.count; ++row) {
+                one[row] |= two[row];
+                if (k == 0) {
+                    one[row] |= two[row] << 1;
+                } else {
+                    one[row + begins.next[k]] |= two[row];
+                }
+            }
+        }
+    begins.rows.resize(begins.count);
+    return CubeSet(std::move(begins.rows));
+}
+
+// The cubes where boxes begin that meet a set.
+ShapeRows all_that_meet(const CubeGrid& grid, const CubeSet& cubes) {
+    ShapeRows begins(grid);
+    std::copy_n(&cubes.row(0), begins.count, begins.of(0));
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t shape = 0; shape < std::size_t{1} << k; ++shape) {
+            const std::uint64_t* const one = begins.of(shape);
+            std::uint64_t* const two = begins.of(shape | std::size_t{1} << k);
+            for (std::size_t row = 0; row < begins.count; ++row)
+                two[row] = one[row] | (k == 0 ? one[row] >> 1 : one[row + begins.next[k]]);
+        }
+    return begins;
+}
+
+}  // namespace
+
 OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
-    : triangles_(mesh.triangles), of_points_(mesh.points.size()) {
+    : grid_(grid),
+      triangles_(mesh.triangles),
+      of_points_(mesh.points.size()),
+      places_(mesh.triangles.size()) {
     const CubeGrid by_value = grid;  // nothing that is written may be a part of it
     CubeGrid::Cube* out = of_points_.data();
     for (const LatticePoint& p : mesh.points) *out++ = by_value.cube_of(p);
     is_useful_ = mark_facets();
 }
 
-// Most facets lie in one cube, or in the one of the facet before.
 bool OccupiedCubes::mark_facets() {
-    std::size_t rows_left = 16 * triangles_.size() + CubeGrid::side * CubeGrid::side;
+    ShapeRows begins(grid_);
+    std::vector<std::uint32_t> large;
     const CubeGrid::Cube* const of_points = of_points_.data();
-    std::uint64_t* const rows = &occupied_.row(0);
+    std::uint64_t* const rows = begins.of(0);
+    const CubeGrid grid = grid_;
+    const std::size_t of_shape = begins.padded;
+    std::uint32_t* place = places_.data();
     for (const auto& t : triangles_) {
         const CubeRange range(of_points[t[0]], of_points[t[1]], of_points[t[2]]);
-        if (range.lo == range.hi) {
-            rows[CubeGrid::row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
+        const unsigned shape = range.shape();
+        *place++ = range.lo | shape << 24;
+        if (shape == CubeRange::large) [[unlikely]] {
+            large.push_back(static_cast<std::uint32_t>(place - places_.data() - 1));
             continue;
         }
-        const bool few = range.for_each_row([&](std::size_t row, std::uint64_t bits) {
-            rows[row] |= bits;
+        rows[shape * of_shape + grid.row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
+    }
+    occupied_ = all_met(std::move(begins));
+    std::size_t rows_left = 16 * triangles_.size() + 4096;
+    for (const std::uint32_t f : large) {
+        const bool few = range_of(f).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
+            occupied_.row(row) |= bits;
             return --rows_left != 0;
         });
         if (!few) return false;
@@ -50,19 +121,23 @@ bool OccupiedCubes::mark_facets() {
 }
 
 std::vector<std::uint32_t> OccupiedCubes::facets_in(const CubeSet& cubes) const {
-    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(triangles_.size() + 1);
+    ShapeRows begins = all_that_meet(grid_, cubes);
+    const CubeGrid grid = grid_;
+    const std::size_t of_shape = begins.padded;
+    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(places_.size() + 1);
     std::uint32_t* end = found.get();
-    const CubeGrid::Cube* const of_points = of_points_.data();
-    const std::uint64_t* const rows = &cubes.row(0);
+    const std::uint64_t* const rows = begins.of(0);
     std::uint32_t number = 0;
-    for (const auto& t : triangles_) {
-        const CubeRange range(of_points[t[0]], of_points[t[1]], of_points[t[2]]);
+    for (const std::uint32_t place : places_) {
+        const std::size_t shape = place >> 24;
+        const CubeGrid::Cube lo = place & 0xffffff;
         bool meets = false;
-        if (range.lo == range.hi) {
-            meets = (rows[CubeGrid::row(range.lo)] >> CubeGrid::x(range.lo) & 1U) != 0;
+        if (shape == CubeRange::large) [[unlikely]] {
+            meets = !range_of(number).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
+                return (cubes.row(row) & bits) == 0;
+            });
         } else {
-            meets = !range.for_each_row(
-                [&](std::size_t row, std::uint64_t bits) { return (rows[row] & bits) == 0; });
+            meets = (rows[shape * of_shape + grid.row(lo)] >> CubeGrid::x(lo) & 1U) != 0;
         }
         *end = number++;
         end += meets ? 1 : 0;

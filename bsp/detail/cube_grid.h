@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #if defined(__SSE2__)
@@ -49,25 +50,32 @@ public:
     [[nodiscard]] static std::size_t x(Cube c) { return c & 0xff; }
     [[nodiscard]] static std::size_t y(Cube c) { return c >> 8 & 0xff; }
     [[nodiscard]] static std::size_t z(Cube c) { return c >> 16; }
-    /// The row along x in which a cube lies.
-    [[nodiscard]] static std::size_t row(Cube c) { return side * z(c) + y(c); }
+    /// Rows along x, from one slab along z to the next, and in all. The one behind the last slab
+    /// along y is never used.
+    [[nodiscard]] std::size_t row_stride() const { return row_stride_; }
+    [[nodiscard]] std::size_t row_count() const { return row_stride_ * (last(2) + 1); }
+    /// The row in which a cube lies.
+    [[nodiscard]] std::size_t row(Cube c) const { return row_stride_ * z(c) + y(c); }
 
 private:
     std::array<std::int64_t, 3> origin_{};
     std::array<double, 3> last_{};
     double scale_ = 0;
+    std::size_t row_stride_ = 0;
 };
 
 /// A bit for each cube, a word for each row along x.
 class CubeSet {
 public:
-    CubeSet() : rows_(CubeGrid::side * CubeGrid::side) {}
+    CubeSet() = default;
+    /// One for each row of a grid.
+    explicit CubeSet(std::vector<std::uint64_t> rows) : rows_(std::move(rows)) {}
+    [[nodiscard]] std::size_t size() const { return rows_.size(); }
     [[nodiscard]] const std::uint64_t& row(std::size_t i) const { return rows_[i]; }
     [[nodiscard]] std::uint64_t& row(std::size_t i) { return rows_[i]; }
-    [[nodiscard]] bool has(CubeGrid::Cube c) const {
-        return (rows_[CubeGrid::row(c)] >> CubeGrid::x(c) & 1U) != 0;
+    [[nodiscard]] bool has(const CubeGrid& grid, CubeGrid::Cube c) const {
+        return (rows_[grid.row(c)] >> CubeGrid::x(c) & 1U) != 0;
     }
-    void add(CubeGrid::Cube c) { rows_[CubeGrid::row(c)] |= std::uint64_t{1} << CubeGrid::x(c); }
 
 private:
     std::vector<std::uint64_t> rows_;
@@ -95,15 +103,21 @@ struct CubeRange {
         }
 #endif
     }
+    /// Bit k: it goes over two slabs along axis k. `large` where it goes over more along some axis.
+    static constexpr unsigned large = 8;
+    [[nodiscard]] unsigned shape() const {
+        const CubeGrid::Cube d = hi - lo;  // no byte borrows
+        return (d & 0xfefefe) != 0 ? large : (d & 1) | (d >> 7 & 2) | (d >> 14 & 4);
+    }
     /// Calls visit(row, bits) for the rows of the range until that is false; returns whether it
     /// never was.
     template <class Visit>
-    bool for_each_row(const Visit& visit) const {
+    bool for_each_row(const CubeGrid& grid, const Visit& visit) const {
         const std::size_t x = CubeGrid::x(lo);
         const std::uint64_t bits = ~std::uint64_t{0} >> (63 - (CubeGrid::x(hi) - x)) << x;
         for (std::size_t z = CubeGrid::z(lo); z <= CubeGrid::z(hi); ++z)
             for (std::size_t y = CubeGrid::y(lo); y <= CubeGrid::y(hi); ++y)
-                if (!visit(CubeGrid::side * z + y, bits)) return false;
+                if (!visit(grid.row_stride() * z + y, bits)) return false;
         return true;
     }
 };
@@ -118,14 +132,25 @@ public:
     [[nodiscard]] const CubeSet& cubes() const { return occupied_; }
     /// Where a point of the mesh is.
     [[nodiscard]] CubeGrid::Cube cube_of(std::uint32_t point) const { return of_points_[point]; }
+    /// A cube that meets the box of a facet.
+    [[nodiscard]] CubeGrid::Cube cube_of_facet(std::uint32_t facet) const {
+        return places_[facet] & 0xffffff;
+    }
     /// The facets whose boxes meet some cube of a set, in order.
     [[nodiscard]] std::vector<std::uint32_t> facets_in(const CubeSet& cubes) const;
 
 private:
     [[nodiscard]] bool mark_facets();
+    [[nodiscard]] CubeRange range_of(std::uint32_t facet) const {
+        const auto& t = triangles_[facet];
+        return {of_points_[t[0]], of_points_[t[1]], of_points_[t[2]]};
+    }
 
+    CubeGrid grid_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
     std::vector<CubeGrid::Cube> of_points_;
+    /// By facet: the least cube of its range, and in byte 3 its shape.
+    std::vector<std::uint32_t> places_;
     CubeSet occupied_;
     bool is_useful_ = false;
 };

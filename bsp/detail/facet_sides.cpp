@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <numeric>
 
 namespace trisect::detail {
 
@@ -24,17 +24,16 @@ FacetSides::FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const Occu
       near_(near),
       is_crossed_(near.size()),
       nodes_(mesh.points.size()) {
-    list_runs(grid);
+    list_runs();
 }
 
-void FacetSides::list_runs(const CubeGrid& grid) {
-    const std::uint64_t all = ~std::uint64_t{0} >> (CubeGrid::side - 1 - grid.last(0));
-    first_run_.assign(CubeGrid::side * CubeGrid::side + 1, 0);
-    for (std::size_t row = 0; row < CubeGrid::side * CubeGrid::side; ++row) {
+void FacetSides::list_runs() {
+    const std::uint64_t all = ~std::uint64_t{0} >> (CubeGrid::side - 1 - grid_.last(0));
+    const std::size_t stride = grid_.row_stride();
+    first_run_.assign(grid_.row_count() + 1, 0);
+    for (std::size_t row = 0; row < grid_.row_count(); ++row) {
         first_run_[row] = static_cast<std::uint32_t>(runs_.size());
-        const std::size_t y = row % CubeGrid::side;
-        const std::size_t z = row / CubeGrid::side;
-        if (y > grid.last(1) || z > grid.last(2)) continue;
+        if (row % stride > grid_.last(1)) continue;
         for (std::uint64_t rest = all & ~other_.row(row); rest != 0;) {
             // The lowest ones in a sequence: what adding the lowest bit carries away.
             const std::uint64_t above = rest + (rest & (~rest + 1));
@@ -43,10 +42,11 @@ void FacetSides::list_runs(const CubeGrid& grid) {
         }
     }
     first_run_.back() = static_cast<std::uint32_t>(runs_.size());
-    for (std::uint32_t i = 0; i < runs_.size(); ++i) parents_.push_back(i);
-    for (std::size_t row = 0; row < CubeGrid::side * CubeGrid::side; ++row) {
-        if (row % CubeGrid::side != 0) join_runs(row, row - 1);
-        if (row >= CubeGrid::side) join_runs(row, row - CubeGrid::side);
+    parents_.resize(runs_.size());
+    std::iota(parents_.begin(), parents_.end(), 0U);
+    for (std::size_t row = 0; row < grid_.row_count(); ++row) {
+        if (row != 0) join_runs(row, row - 1);  // the one before the first slab has no runs
+        if (row >= stride) join_runs(row, row - stride);
     }
 }
 
@@ -60,12 +60,12 @@ std::uint32_t FacetSides::node_of(std::uint32_t point) {
     std::uint32_t& node = nodes_[point];
     if (node != 0) return node - 1;
     const CubeGrid::Cube cube = cubes_.cube_of(point);
-    if (other_.has(cube)) {
+    if (other_.has(grid_, cube)) {
         parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
         node = static_cast<std::uint32_t>(parents_.size());
         return node - 1;
     }
-    std::uint32_t run = first_run_[CubeGrid::row(cube)];
+    std::uint32_t run = first_run_[grid_.row(cube)];
     while ((runs_[run].bits >> CubeGrid::x(cube) & 1U) == 0) ++run;
     node = run + 1;
     return run;
@@ -116,12 +116,12 @@ void FacetSides::join_uncrossed() {
 }
 
 // Such a run ends nowhere, and the other mesh does.
-bool FacetSides::look_at_outer_runs(const CubeGrid& grid, Side side) {
-    const std::uint64_t ends = std::uint64_t{1} | std::uint64_t{1} << grid.last(0);
+bool FacetSides::look_at_outer_runs(Side side) {
+    const std::uint64_t ends = std::uint64_t{1} | std::uint64_t{1} << grid_.last(0);
     for (std::uint32_t i = 0; i < runs_.size(); ++i) {
-        const std::size_t y = runs_[i].row % CubeGrid::side;
-        const std::size_t z = runs_[i].row / CubeGrid::side;
-        const bool is_outer = y == 0 || y == grid.last(1) || z == 0 || z == grid.last(2) ||
+        const std::size_t y = runs_[i].row % grid_.row_stride();
+        const std::size_t z = runs_[i].row / grid_.row_stride();
+        const bool is_outer = y == 0 || y == grid_.last(1) || z == 0 || z == grid_.last(2) ||
                               (runs_[i].bits & ends) != 0;
         if (is_outer && !set_side(i, side)) return false;
     }
@@ -178,11 +178,11 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     mark_crossed(crossings, operand);
     join_uncrossed();
     sides_.assign(parents_.size(), Side::Unknown);
-    if (!look_at_outer_runs(grid_, outer_below ? Side::Below : Side::Above) ||
+    if (!look_at_outer_runs(outer_below ? Side::Below : Side::Above) ||
         !look_at_pierced_edges(crossings, operand))
         return std::nullopt;
-    CubeSet wanted;
-    CubeSet unknown;
+    CubeSet wanted(std::vector<std::uint64_t>(grid_.row_count()));
+    CubeSet unknown(std::vector<std::uint64_t>(grid_.row_count()));
     bool any_unknown = false;
     const Side side = below ? Side::Below : Side::Above;
     for (std::uint32_t i = 0; i < runs_.size(); ++i) {
@@ -197,10 +197,10 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     bool is_known = true;
     const auto add_far = [&](std::uint32_t begin, std::uint32_t last) {
         for (std::uint32_t f = begin; f < last; ++f) {
-            const CubeGrid::Cube cube = cubes_.cube_of(mesh_.triangles[f][0]);
+            const CubeGrid::Cube cube = cubes_.cube_of_facet(f);
             *end = f;
-            end += wanted.has(cube) ? 1 : 0;
-            if (any_unknown && unknown.has(cube)) is_known = false;
+            end += wanted.has(grid_, cube) ? 1 : 0;
+            if (any_unknown && unknown.has(grid_, cube)) is_known = false;
         }
     };
     std::uint32_t next = 0;

@@ -40,7 +40,7 @@ private:
         std::size_t row;
     };
 
-    void list_runs(const CubeGrid& grid);
+    void list_runs();
     void join_runs(std::size_t row, std::size_t other_row);
     [[nodiscard]] std::uint32_t node_of(std::uint32_t point);
     [[nodiscard]] std::uint32_t root(std::uint32_t node);
@@ -48,7 +48,7 @@ private:
     [[nodiscard]] bool set_side(std::uint32_t node, Side side);
     void mark_crossed(const Crossings& crossings, std::size_t operand);
     void join_uncrossed();
-    [[nodiscard]] bool look_at_outer_runs(const CubeGrid& grid, Side side);
+    [[nodiscard]] bool look_at_outer_runs(Side side);
     [[nodiscard]] bool look_at_pierced_edges(const Crossings& crossings, std::size_t operand);
 
     const CubeGrid& grid_;

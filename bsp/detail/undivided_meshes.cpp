@@ -52,10 +52,7 @@ public:
     [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
         CellTask task;
         Box all;
-        for (std::size_t i = 0; i < 2; ++i) {
-            const Source& source = *meshes[i]->polygons().whole_source();
-            for (const std::uint32_t f : facets[i]) all.add(source.facet_box(f));
-        }
+        for (const CellNode* m : meshes) all.add(m->polygons().whole_source()->box());
         task.frame = Frame::covering(all);
         task.has_frame = true;
         std::array<CellOperand, 2> operands;
@@ -64,20 +61,18 @@ public:
             o.slot = static_cast<std::int32_t>(i);
             o.embedded = o.is_list = true;
             o.node = meshes[i];
-            const Source& source = *meshes[i]->polygons().whole_source();
             o.count = static_cast<std::uint32_t>(facets[i].size());
-            auto* const entries = arena_.take<PackedBox>(o.count);
-            for (std::uint32_t n = 0; n < o.count; ++n)
-                entries[n] =
-                    PackedBox::of(task.frame, source.facet_box(facets[i][n]), facets[i][n]);
-            o.entries = entries;
-            o.box = box_of(entries, o.count);
+            o.entries =
+                boxes_of(meshes[i]->polygons().whole_source()->mesh(), facets[i], task.frame);
+            o.box = box_of(o.entries, o.count);
         }
         task.operands = operands;
         return solve(task);
     }
 
 private:
+    [[nodiscard]] PackedBox* boxes_of(const LatticeMesh& mesh,
+                                      std::span<const std::uint32_t> facets, Frame frame);
     [[nodiscard]] bool solve(CellTask& task);
     [[nodiscard]] bool divide(const CellTask& task, const Wall& wall);
     [[nodiscard]] bool compare(const CellTask& task);
@@ -91,6 +86,20 @@ private:
     PlainPairs pairs_;
     std::vector<PolygonRef> polygons_;
 };
+
+PackedBox* PairFinder::boxes_of(const LatticeMesh& mesh, std::span<const std::uint32_t> facets,
+                                Frame frame) {
+    auto* const entries = arena_.take<PackedBox>(facets.size());
+    PackedBox* out = entries;
+    for (const std::uint32_t f : facets) {
+        const auto& t = mesh.triangles[f];
+        *out = box_of_three(packed_point(frame, mesh.points[t[0]]),
+                            packed_point(frame, mesh.points[t[1]]),
+                            packed_point(frame, mesh.points[t[2]]));
+        out++->id = f;
+    }
+    return entries;
+}
 
 // Takes out what does not meet the box of the other mesh's facets; false when nothing is left.
 bool PairFinder::leave_out(CellTask& task) {
