@@ -34,14 +34,20 @@ double to_double(Uint128 v) {
            static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(v) & low));
 }
 
+Vector normal_of(const Plane& p) {
+    return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
+}
+
+double sum_of_magnitudes(const Vector& v) {
+    return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+}
+
 // n·c + d 2^k at integers c below 2^61, 0 <= k <= 100, that are within `reach` of a point of the
 // plane: exact, then rounded at most twice. It is at most reach Σ|n_i|, so it mostly has fewer than
 // 127 bits, and then its terms need no more either: all is modulo 2^128. Else |d| 2^k is at most
 // about 3 max|n| 2^61, so 174 bits hold all terms.
 double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k, double reach) {
-    const double normals = std::fabs(plane.approx_normal(0)) + std::fabs(plane.approx_normal(1)) +
-                           std::fabs(plane.approx_normal(2));
-    if (normals * reach < 0x1p125) [[likely]] {
+    if (sum_of_magnitudes(normal_of(plane)) * reach < 0x1p125) [[likely]] {
         const Plane::Offset& d = plane.offset();
         Uint128 sum = (Uint128{d.limb(1)} << 64 | d.limb(0)) << k;
         for (int i = 0; i < 3; ++i)
@@ -57,10 +63,6 @@ double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k,
     return sum.to_double();
 }
 
-Vector normal_of(const Plane& p) {
-    return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
-}
-
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -69,44 +71,85 @@ double largest_of(const Vector& v) {
     return std::max(std::fabs(v[0]), std::max(std::fabs(v[1]), std::fabs(v[2])));
 }
 
+// Three planes n·x + d = 0, in doubles.
+struct System {
+    std::array<Vector, 3> n;
+    Vector d;
+};
+
+// How far the determinants of Cramer's rule may be off. u = 2^-53. Coefficients carry one rounding
+// each, offsets two; an entry of a cross product is then within 5u of the sum of the magnitudes of
+// its two products, a term of w or x (one more product, two more sums) within 11u of the sum of
+// magnitudes of all products, and 16u covers second-order terms and roundings of the bounds.
+struct Bounds {
+    double w = 0;
+    Vector x{};
+};
+
+constexpr double relative_bound = 0x1p-49;  // 16 u
+
+// The products are some of those that the product of the normals' sums of magnitudes has.
+Bounds rough_bounds(const System& s) {
+    const double p = sum_of_magnitudes(s.n[0]);
+    const double q = sum_of_magnitudes(s.n[1]);
+    const double r = sum_of_magnitudes(s.n[2]);
+    const double x = relative_bound * (std::fabs(s.d[0]) * (q * r) + std::fabs(s.d[1]) * (r * p) +
+                                       std::fabs(s.d[2]) * (p * q));
+    return {relative_bound * (p * q * r), {x, x, x}};
+}
+
+// Product by product. On planes across an axis most are 0, and a coordinate that is 0 must be known
+// exactly to be rounded.
+Bounds sharp_bounds(const System& s) {
+    Bounds out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector& a = s.n[(k + 1) % 3];
+        const Vector& b = s.n[(k + 2) % 3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t l = (i + 2) % 3;
+            const double minor = relative_bound * (std::fabs(a[j] * b[l]) + std::fabs(a[l] * b[j]));
+            out.x[i] += std::fabs(s.d[k]) * minor;
+            if (k == 0) out.w += std::fabs(s.n[0][i]) * minor;
+        }
+    }
+    return out;
+}
+
 // A vector with a bound of the error of each component.
 struct Enclosed {
     Vector c{};
     Vector error{};
 };
 
-// The solution of n·x + d = 0 for three planes, Cramer's rule in doubles. u = 2^-53. Coefficients
-// carry one rounding each, offsets two; an entry of a cross product is then within 5u of the sum of
-// the magnitudes of its two products, a term of w or x (one more product, two more sums) within 11u
-// of the sum of magnitudes of all products, and 16u covers second-order terms and roundings of the
-// bounds. With the largest entries N of the normals, w sums up six products of at most
-// N_p N_q N_r, and a component of x two of |d| N N for each plane. Offsets are tiny where
-// this is used, so bounds need not be sharp.
-std::optional<Enclosed> solve(const Plane& p, const Plane& q, const Plane& r, const Vector& d) {
-    const Vector np = normal_of(p);
-    const Vector nq = normal_of(q);
-    const Vector nr = normal_of(r);
-    const Vector qr = cross(nq, nr);
-    const Vector rp = cross(nr, np);
-    const Vector pq = cross(np, nq);
-    const double lp = largest_of(np);
-    const double lq = largest_of(nq);
-    const double lr = largest_of(nr);
-    const double w = np[0] * qr[0] + np[1] * qr[1] + np[2] * qr[2];
-    const double w_error = 96 * 0x1p-53 * (lp * lq * lr);
-    // |w| - w_error is at least 3/4 |w|: beyond that the quotient's error is not linear any more.
-    if (!(w_error < 0.25 * std::fabs(w))) return std::nullopt;
-    const double x_error =
-        32 * 0x1p-53 *
-        (std::fabs(d[0]) * (lq * lr) + std::fabs(d[1]) * (lr * lp) + std::fabs(d[2]) * (lp * lq));
+std::optional<Enclosed> solve(const System& s, const Bounds& bounds) {
+    const Vector qr = cross(s.n[1], s.n[2]);
+    const Vector rp = cross(s.n[2], s.n[0]);
+    const Vector pq = cross(s.n[0], s.n[1]);
+    const double w = s.n[0][0] * qr[0] + s.n[0][1] * qr[1] + s.n[0][2] * qr[2];
+    // Then |w| - δw is at least 3/4 |w|; beyond, the quotient's error is not linear any more.
+    if (!(bounds.w < 0.25 * std::fabs(w))) return std::nullopt;
     const double inverse = -1 / w;
     const double scale = 1.3334 * std::fabs(inverse);
     Enclosed out;
     for (std::size_t i = 0; i < 3; ++i) {
-        out.c[i] = (d[0] * qr[i] + d[1] * rp[i] + d[2] * pq[i]) * inverse;
+        out.c[i] = (s.d[0] * qr[i] + s.d[1] * rp[i] + s.d[2] * pq[i]) * inverse;
         // |X/W - x/w| <= (δx + |x/w| δw) / (|w| - δw), plus two roundings.
         const double c = std::fabs(out.c[i]);
-        out.error[i] = (x_error + c * w_error) * scale + c * 0x1p-51;
+        out.error[i] = (bounds.x[i] + c * bounds.w) * scale + c * 0x1p-51;
+    }
+    return out;
+}
+
+// The double that both ends of an enclosure about an integer round to.
+std::optional<Vector> rounded(const std::array<std::int64_t, 3>& c, const Enclosed& step) {
+    Vector out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto at = static_cast<double>(c[i]);
+        // The last term pays for the rounding of step - error and step + error.
+        const double error = 1.0001 * step.error[i] + 0x1p-51 * std::fabs(step.c[i]);
+        out[i] = at + (step.c[i] - error);
+        if (out[i] != at + (step.c[i] + error)) return std::nullopt;
     }
     return out;
 }
@@ -122,19 +165,18 @@ std::optional<Vector> filtered_nearest(const Approximation& a, const Plane& p, c
     std::array<std::int64_t, 3> c{};
     for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::int64_t>(a.c[i] * scale);
     const double reach = a.error * scale + 1;
-    const auto step = solve(
-        p, q, r, {residual(p, c, k, reach), residual(q, c, k, reach), residual(r, c, k, reach)});
-    if (!step) return std::nullopt;
+    const System system{
+        {normal_of(p), normal_of(q), normal_of(r)},
+        {residual(p, c, k, reach), residual(q, c, k, reach), residual(r, c, k, reach)}};
+    const auto rounded_with = [&](const Bounds& bounds) -> std::optional<Vector> {
+        const auto step = solve(system, bounds);
+        return step ? rounded(c, *step) : std::nullopt;
+    };
+    auto nearest = rounded_with(rough_bounds(system));
+    if (!nearest) nearest = rounded_with(sharp_bounds(system));
+    if (!nearest) return std::nullopt;
     const double unit = power_of_two(-k);
-    Vector nearest{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto at = static_cast<double>(c[i]);
-        // The last term pays for the rounding of step - error and step + error.
-        const double error = 1.0001 * step->error[i] + 0x1p-51 * std::fabs(step->c[i]);
-        const double low = at + (step->c[i] - error);
-        if (low != at + (step->c[i] + error)) return std::nullopt;
-        nearest[i] = low * unit;
-    }
+    for (double& v : *nearest) v *= unit;
     return nearest;
 }
 
