@@ -79,6 +79,7 @@ FourFloats dot(const Fours& a, const Fours& b) { return (a[0] * b[0] + a[1] * b[
 void FacetRows::start(const Vector3& extent) {
     size_ = 0;
     rows_.clear();
+    singles_.clear();
     int exponent = 0;
     std::frexp(std::max({extent[0], extent[1], extent[2]}), &exponent);
     scale_ = std::ldexp(1.0, -exponent);
@@ -96,6 +97,7 @@ void FacetRows::add(const std::array<Vector3, 3>& corners, const PlainPlane& pla
     const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
     if (!(largest > 0)) {
         r.bound[i] = std::numeric_limits<float>::infinity();
+        add_single(r, i, 0);
         return;
     }
     double offset = 0;
@@ -108,6 +110,14 @@ void FacetRows::add(const std::array<Vector3, 3>& corners, const PlainPlane& pla
     }
     r.offset[i] = static_cast<float>(offset);
     r.bound[i] = above(0x1p-20 * sum + plane.bound / largest * scale_);
+    add_single(r, i, above(0x1p-22 + 0x1p-50 * plane.slope / largest));
+}
+
+void FacetRows::add_single(const Row& r, std::size_t i, float tilt) {
+    Single& s = singles_.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c)
+        s.numbers[c] = {r.corners[c][0][i], r.corners[c][1][i], r.corners[c][2][i], r.normal[c][i]};
+    s.numbers[3] = {r.offset[i], r.bound[i], tilt, 0};
 }
 
 FacetRows::Probe FacetRows::probe(std::size_t facet) const {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <trisect/bsp/detail/plain_facets.h>
@@ -32,6 +33,21 @@ public:
     /// for each. Such a facet and the probe have no point in common.
     [[nodiscard]] unsigned parted(std::size_t row, const Probe& probe) const;
 
+    /// How four pairs of facets lie to each other: a bit for each pair.
+    struct Relation {
+        unsigned apart = 0;    ///< have no point in common
+        unsigned crosses = 0;  ///< cross in a segment; only for these is the rest set:
+        /// By facet of the pair and by corner: above the other one's plane, else below.
+        std::array<std::array<unsigned, 3>, 2> above{};
+        /// In the direction of the normals' product, first × second, the segment starts, or ends,
+        /// at an edge of the second one and not of the first one.
+        unsigned starts = 0;
+        unsigned ends = 0;
+    };
+    using Pair = std::array<std::uint32_t, 2>;
+    /// What is neither apart nor crosses is for doubles.
+    [[nodiscard]] Relation relate(const std::array<Pair, 4>& pairs) const;
+
     /// A segment between two points of the leaf.
     struct Segment {
         std::array<std::array<float, 3>, 2> ends;
@@ -53,7 +69,16 @@ private:
         Four offset{};
         Four bound{};
     };
+    // The same of one facet, for those that are picked out of their rows: three corners with a
+    // component of the normal behind each; then the offset, the bound and what the normal's
+    // components are off by at most.
+    struct alignas(64) Single {
+        std::array<Four, 4> numbers;
+    };
+    void add_single(const Row& r, std::size_t i, float tilt);
+
     std::vector<Row> rows_;
+    std::vector<Single> singles_;
     std::size_t size_ = 0;
     double scale_ = 1;  // a power of 2
     Vector3 extent_{};

@@ -7,7 +7,8 @@
 // of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
 // triangle-triangle overlap test using orientation predicates", 2003). Four orientations tell
 // whether the intervals overlap and which points are the ends of what they share. No plane in
-// integers is made for that.
+// integers is made for that. Of whole facets of more than two operands, single precision decides
+// as much for four pairs at once (facet_row_relation.cpp), and what it leaves open comes here.
 //
 // Chains of cuts by one tool bring more: where a symmetric tool moves by equal steps along two axes
 // four of its facets have a point in common, so corners of fragments lie on the next tool's facets
@@ -80,6 +81,43 @@ Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
 bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation& x) {
     return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
                        sides.value[t.corner[i]], 2 * sides.bound, x);
+}
+
+// The corner of a triangle that is alone on its side of a plane, and the edges that go through that
+// upwards and downwards.
+class Lonely {
+public:
+    /// \pre bit i: corner i is above; one or two are
+    explicit Lonely(unsigned above) : is_above_(above == 1 || above == 2 || above == 4) {
+        constexpr std::array<std::uint8_t, 8> corner{0, 0, 1, 2, 2, 1, 0, 0};
+        corner_ = corner[above];
+    }
+    [[nodiscard]] std::size_t corner() const { return corner_; }
+    /// The other end of that edge.
+    [[nodiscard]] std::size_t other(bool up) const {
+        constexpr std::array<std::uint8_t, 3> next{1, 2, 0};
+        return up == is_above_ ? next[next[corner_]] : next[corner_];
+    }
+    [[nodiscard]] std::int8_t edge(bool up) const {
+        return static_cast<std::int8_t>(up == is_above_ ? other(up) : corner_);
+    }
+
+private:
+    std::size_t corner_;
+    bool is_above_;
+};
+
+unsigned bits_at(const std::array<unsigned, 3>& bits, unsigned i) {
+    return (bits[0] >> i & 1U) | (bits[1] >> i & 1U) << 1 | (bits[2] >> i & 1U) << 2;
+}
+
+// Where one of those edges pierces the plane. False when doubles say too little.
+bool pierce(const std::array<Vector3, 3>& corners, const PlainPlane& plane, const Lonely& lonely,
+            bool up, Approximation& x) {
+    const Vector3& from = corners[lonely.corner()];
+    const Vector3& to = corners[lonely.other(up)];
+    return interpolate({from, 0.0}, plane.value(from), {to, 0.0}, plane.value(to), 2 * plane.bound,
+                       x);
 }
 
 // -1, 0, 1: on which side of a plane a corner of an item's outline is. Exact.
@@ -331,6 +369,7 @@ void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
 bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                        EvaluateStats& stats) {
     list_candidates(facets);
+    pairs_.clear();
     if (!marks.empty()) mark_rows(marks);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         check_budget(*facets.problem().options, stats);
@@ -346,7 +385,12 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
             if (has_planes_) met &= ~planes_.parted(row, facet);
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-                if (!add_pair(facets, candidates_[i].item, candidates_[j].item)) return false;
+                if (has_planes_) {
+                    pairs_.push_back(
+                        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+                } else if (!add_pair(facets, candidates_[i].item, candidates_[j].item)) {
+                    return false;
+                }
             }
             return true;
         };
@@ -362,6 +406,54 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
              row = next(row + 1))
             if (!look_at(row, boxes_.meeting(row, probe))) return false;
     }
+    return !has_planes_ || add_pairs(facets);
+}
+
+// The pairs that were listed, four at once: single precision is enough for nearly all of them.
+bool PlainPairs::add_pairs(PlainFacets& facets) {
+    for (std::size_t first = 0; first < pairs_.size(); first += 4) {
+        const std::size_t count = std::min<std::size_t>(4, pairs_.size() - first);
+        std::array<FacetRows::Pair, 4> four;
+        for (std::size_t i = 0; i < 4; ++i) four[i] = pairs_[first + (i < count ? i : 0)];
+        const FacetRows::Relation relation = planes_.relate(four);
+        for (unsigned i = 0; i < count; ++i) {
+            if ((relation.apart >> i & 1U) != 0) continue;
+            const LeafIndex s = candidates_[four[i][0]].item;
+            const LeafIndex t = candidates_[four[i][1]].item;
+            const bool crosses = (relation.crosses >> i & 1U) != 0;
+            if (!(crosses ? add_crossing(facets, s, t, relation, i) : add_pair(facets, s, t)))
+                return false;
+        }
+    }
+    return true;
+}
+
+// A pair of which the crossing is known but for where its ends are; `i`: its place among four.
+bool PlainPairs::add_crossing(const PlainFacets& facets, LeafIndex s, LeafIndex t,
+                              const FacetRows::Relation& relation, unsigned i) {
+    PlainCrossing& out = found_;
+    const std::size_t first = s < t ? 0 : 1;
+    out.items[first] = s;
+    out.items[1 - first] = t;
+    out.above[first] = bits_at(relation.above[0], i);
+    out.above[1 - first] = bits_at(relation.above[1], i);
+    out.on = {};
+    const auto set_end = [&](PlainEnd& end, bool second, bool up) {
+        end.of_second = (first == 0) == second;
+        const std::size_t side = end.of_second ? 1 : 0;
+        const Lonely lonely(out.above[side]);
+        end.edge = lonely.edge(up);
+        end.other_edge = -1;
+        return pierce(facets[out.items[side]].corners, facets[out.items[1 - side]].plane, lonely,
+                      up, end.at);
+    };
+    const bool starts = (relation.starts >> i & 1U) != 0;
+    const bool ends = (relation.ends >> i & 1U) != 0;
+    if (!set_end(out.ends[first], starts, !starts) || !set_end(out.ends[1 - first], ends, ends))
+        return false;
+    if (facets[s].contained || facets[t].contained ||
+        !is_outside_cell(facets, out.ends[0].at, out.ends[1].at))
+        crossings_.push_back(out);
     return true;
 }
 

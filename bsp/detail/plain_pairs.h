@@ -118,6 +118,9 @@ private:
                                            PlainCrossing& out) const;
     [[nodiscard]] bool compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats);
     [[nodiscard]] bool add_pair(PlainFacets& facets, LeafIndex s, LeafIndex t);
+    [[nodiscard]] bool add_pairs(PlainFacets& facets);
+    [[nodiscard]] bool add_crossing(const PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                    const FacetRows::Relation& relation, unsigned i);
     void list_contacts(LeafIndex count);
 
     bool edges_apart_ = false;
@@ -129,6 +132,7 @@ private:
     bool has_all_boxes_ = false;
     FacetRows planes_;  // of the same items, if no fragments are among them
     bool has_planes_ = false;
+    std::vector<FacetRows::Pair> pairs_;      // of candidates that planes do not part
     std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows

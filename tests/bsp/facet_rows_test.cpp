@@ -4,6 +4,7 @@
 
 #include <trisect/bsp/detail/facet_rows.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,44 @@ bool is_line_beside(const Triangle& t, const std::array<Vector3, 2>& line) {
         right = right || s < 0;
     }
     return left && right;
+}
+
+// Where an edge of one of two triangles goes through the other.
+struct Piercing {
+    bool of_second;
+    bool up;
+};
+enum class Contact : std::uint8_t { Apart, Crossing, Special };
+
+// Edges of `t` through `o`. False where one meets an edge or a corner.
+bool add_piercings(const Triangle& t, const Triangle& o, bool of_second,
+                   std::vector<Piercing>& out) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Vector3& p = t[c];
+        const Vector3& q = t[(c + 1) % 3];
+        const int from = sign(o[0], o[1], o[2], p);
+        const int to = sign(o[0], o[1], o[2], q);
+        if (from == to) continue;
+        std::array<int, 3> turns;
+        for (std::size_t k = 0; k < 3; ++k) turns[k] = sign(p, q, o[k], o[(k + 1) % 3]);
+        const auto [least, most] = std::ranges::minmax(turns);
+        if (least * most < 0) continue;
+        if (least * most == 0) return false;
+        // det(a - d, b - d, c - d) is negative where d is above the plane of a, b and c.
+        out.push_back({of_second, from > to});
+    }
+    return true;
+}
+
+Contact contact_of(const Triangle& t, const Triangle& o, std::vector<Piercing>& piercings) {
+    piercings.clear();
+    if (is_beside(t, o) || is_beside(o, t)) return Contact::Apart;
+    for (std::size_t c = 0; c < 3; ++c)
+        if (sign(t[0], t[1], t[2], o[c]) == 0 || sign(o[0], o[1], o[2], t[c]) == 0)
+            return Contact::Special;
+    if (!add_piercings(t, o, false, piercings) || !add_piercings(o, t, true, piercings))
+        return Contact::Special;
+    return piercings.empty() ? Contact::Apart : Contact::Crossing;
 }
 
 // Triangles with small coordinates often touch, lie in one plane or have common corners.
@@ -118,6 +157,46 @@ TEST_P(FacetRowsOf, PartSegmentsWithinTheErrorsOfTheirEnds) {
                 [&](const Triangle& t) { return is_beside(t, line) || is_line_beside(t, line); });
     }
     EXPECT_GT(found_, 0U);
+}
+
+TEST_P(FacetRowsOf, KnowWhichFacetsCrossAndAtWhoseEdgesTheSegmentEnds) {
+    std::size_t crossing = 0;
+    std::size_t found_crossing = 0;
+    std::vector<Piercing> piercings;
+    const auto count = static_cast<std::uint32_t>(triangles_.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t j = 0; j < count; j += 4) {
+            const FacetRows::Relation r =
+                rows_.relate({{{i, j}, {j + 1, i}, {i, j + 2}, {i, j + 3}}});
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                const bool turned = k == 1;
+                const Triangle& a = triangles_[turned ? j + k : i];
+                const Triangle& b = triangles_[turned ? i : j + k];
+                const bool apart = (r.apart >> k & 1U) != 0;
+                const bool crosses = (r.crosses >> k & 1U) != 0;
+                const Contact contact = contact_of(a, b, piercings);
+                ASSERT_FALSE(apart && crosses);
+                ASSERT_TRUE(!apart || contact == Contact::Apart) << i << ' ' << j + k;
+                ASSERT_TRUE(!crosses || contact == Contact::Crossing) << i << ' ' << j + k;
+                apart_ += contact == Contact::Apart ? 1 : 0;
+                found_ += apart ? 1 : 0;
+                crossing += contact == Contact::Crossing ? 1 : 0;
+                if (!crosses) continue;
+                ++found_crossing;
+                ASSERT_EQ(piercings.size(), 2U);
+                for (const Piercing& p : piercings) {
+                    const bool starts = p.up != p.of_second;
+                    ASSERT_EQ(((starts ? r.starts : r.ends) >> k & 1U) != 0, p.of_second);
+                }
+                for (std::size_t c = 0; c < 3; ++c) {
+                    ASSERT_EQ((r.above[0][c] >> k & 1U) != 0, sign(b[0], b[1], b[2], a[c]) < 0);
+                    ASSERT_EQ((r.above[1][c] >> k & 1U) != 0, sign(a[0], a[1], a[2], b[c]) < 0);
+                }
+            }
+        }
+    }
+    EXPECT_GT(found_, apart_ * 98 / 100);
+    EXPECT_GT(found_crossing, crossing * 95 / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bits, FacetRowsOf, testing::Values(2, 4, 10, 20, 40));
