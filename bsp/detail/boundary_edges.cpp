@@ -208,11 +208,13 @@ public:
 
 private:
     [[nodiscard]] bool are_pair(const BoundaryEdge& e, const BoundaryEdge& f) const {
-        return e.from == f.to && e.to == f.from && belong_together(e.facet, f.facet);
+        return e.from == f.to && e.to == f.from && belong_together(e, f);
     }
-    [[nodiscard]] bool belong_together(std::int32_t f, std::int32_t g) const {
-        const BoundaryFacet& a = parts_.facets[u(f)];
-        const BoundaryFacet& b = parts_.facets[u(g)];
+    [[nodiscard]] bool belong_together(const BoundaryEdge& e, const BoundaryEdge& f) const {
+        const BoundaryFacet& a = parts_.facets[u(e.facet)];
+        const BoundaryFacet& b = parts_.facets[u(f.facet)];
+        // Where one's support cuts out the other's edge they cross.
+        if (e.line.plane == b.support || f.line.plane == a.support) return false;
         if (!may_join(a, b, within_faces_)) return false;
         const Plane& p = parts_.bench.plane_at(a.support);
         const Plane& q = parts_.bench.plane_at(b.support);
@@ -329,9 +331,25 @@ public:
         });
     }
 
+    /// Whether there are any.
+    [[nodiscard]] bool find() {
+        bool found = false;
+        for (const Passage& d : doubtful_) {
+            char& keep = keep_[u(edges_[d.out].from)];
+            if (keep != 0) continue;
+            if (!runs_straight(edges_[d.in], edges_[d.out])) {
+                keep = 1;
+                continue;
+            }
+            if (next_.empty()) next_.assign(edges_.size(), none);
+            next_[d.in] = d.out;
+        }
+        for (const Passage& d : doubtful_) found = found || keep_[u(edges_[d.out].from)] == 0;
+        return found;
+    }
+
     // Loops that were in order stay so.
-    [[nodiscard]] std::vector<BoundaryEdge> joined() {
-        decide();
+    [[nodiscard]] std::vector<BoundaryEdge> joined() const {
         std::vector<BoundaryEdge> out;
         out.reserve(edges_.size());
         for (std::size_t i = 0; i < edges_.size(); ++i) {
@@ -379,19 +397,6 @@ private:
         }
     }
 
-    void decide() {
-        if (!doubtful_.empty()) next_.assign(edges_.size(), none);
-        for (const Passage& d : doubtful_) {
-            char& keep = keep_[u(edges_[d.out].from)];
-            if (keep != 0) continue;
-            if (runs_straight(edges_[d.in], edges_[d.out])) {
-                next_[d.in] = d.out;
-            } else {
-                keep = 1;
-            }
-        }
-    }
-
     [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
         const BoundaryFacet& f = parts_.facets[u(in.facet)];
         return turn_at_vertex(bench_, f.support, f.flipped, in.line, out.line) == 0;
@@ -420,7 +425,7 @@ void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
         runs.look_at(i, j);
         i = j;
     }
-    edges = runs.joined();
+    if (runs.find()) edges = runs.joined();
 }
 
 }  // namespace trisect::detail

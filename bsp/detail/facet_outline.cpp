@@ -58,26 +58,42 @@ bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
 
 // Every end inside the facet is one segment's last and another one's first.
 bool FacetOutline::link_segments() {
+    constexpr std::size_t few = 12;
     next_.assign(segments_.size(), none);
-    links_.clear();
-    for (std::uint32_t s = 0; s < segments_.size(); ++s)
-        for (std::uint32_t end = 0; end < 2; ++end)
-            if (segments_[s].edge[end] < 0)
-                links_.push_back({segments_[s].through[end], segments_[s].cutter, 2 * s + end});
-    if (links_.size() % 2 != 0) return false;
-    std::ranges::sort(links_);
-    const auto is_same = [](const Link& a, const Link& b) {
-        return a.through == b.through && a.cutter == b.cutter;
-    };
-    for (std::size_t i = 0; i < links_.size(); i += 2) {
-        const Link& a = links_[i];
-        const Link& b = links_[i + 1];
-        if (!is_same(a, b) || a.place % 2 == b.place % 2) return false;
-        if (i + 2 < links_.size() && is_same(b, links_[i + 2])) return false;
-        const auto [last, first] = a.place % 2 == 0 ? std::pair(b, a) : std::pair(a, b);
-        next_[last.place / 2] = first.place / 2;
+    starts_.clear();
+    std::size_t ends = 0;
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+        const OutlineSegment& segment = segments_[s];
+        if (segment.edge[0] < 0) starts_.push_back({segment.through[0], segment.cutter, s, false});
+        if (segment.edge[1] < 0) ++ends;
+    }
+    if (starts_.size() != ends) return false;
+    if (sorted_starts_ = ends > few; sorted_starts_)
+        std::ranges::sort(starts_, [](const Start& a, const Start& b) {
+            return a.is_before(b.through, b.cutter);
+        });
+    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
+        const OutlineSegment& segment = segments_[s];
+        if (segment.edge[1] >= 0) continue;
+        Start* const start = start_at(segment.through[1], segment.cutter);
+        if (start == nullptr || start->taken) return false;
+        start->taken = true;
+        next_[s] = start->segment;
     }
     return true;
+}
+
+// Of equal ones always the same, so that it is taken twice.
+FacetOutline::Start* FacetOutline::start_at(std::uint64_t through, std::uint32_t cutter) {
+    auto at = starts_.begin();
+    if (sorted_starts_) {
+        at = std::partition_point(starts_.begin(), starts_.end(),
+                                  [&](const Start& s) { return s.is_before(through, cutter); });
+    } else {
+        while (at != starts_.end() && (at->through != through || at->cutter != cutter)) ++at;
+    }
+    const bool found = at != starts_.end() && at->through == through && at->cutter == cutter;
+    return found ? &*at : nullptr;
 }
 
 // --- The facet's outline.

@@ -61,14 +61,18 @@ private:
         std::uint32_t segment = 0;
         std::int8_t end = 0;  // of the segment; at its last one the cutter leaves open what follows
     };
-    /// An end inside the facet.
-    struct Link {
+    /// A start inside the facet.
+    struct Start {
         std::uint64_t through = 0;
         std::uint32_t cutter = 0;
-        std::uint32_t place = 0;  // 2 * segment + end
-        friend auto operator<=>(const Link&, const Link&) = default;
+        std::uint32_t segment = 0;
+        bool taken = false;
+        [[nodiscard]] bool is_before(std::uint64_t other, std::uint32_t of) const {
+            return through != other ? through < other : cutter < of;
+        }
     };
 
+    [[nodiscard]] Start* start_at(std::uint64_t through, std::uint32_t cutter);
     [[nodiscard]] bool link_segments();
     [[nodiscard]] bool sort_stops();
     [[nodiscard]] bool sort_stops_on(std::size_t edge);
@@ -91,7 +95,8 @@ private:
     std::span<const OutlineSegment> segments_;
     std::size_t cutters_ = 0;
     std::vector<TracedEdge> edges_;
-    std::vector<Link> links_;
+    std::vector<Start> starts_;
+    bool sorted_starts_ = false;
     std::vector<std::uint32_t> next_;  // of segments: the one that goes on
     OutlinePlane plane_;
     OutlineMeetings meetings_;

@@ -126,7 +126,8 @@ private:
     // pairs are in the order of their numbers, and so are those that come second; the facet's own
     // operand is between them, so each operand comes once.
     bool list_segments() {
-        segments_.clear();
+        segments_.resize(sides_.size());
+        std::size_t n = 0;
         std::uint32_t cutters = 0;
         std::uint32_t begin = 0;  // of the facets of the last one
         std::uint32_t end = 0;
@@ -144,22 +145,20 @@ private:
                 end = begin + source->facet_count();
                 ++cutters;
             }
-            segments_.push_back(segment_of(c, s.side, cutters - 1, operand->is_open_below(),
-                                           *source, number - begin));
+            OutlineSegment& segment = segments_[n++];
+            segment.cutter = cutters - 1;
+            segment.open_below = operand->is_open_below();
+            set_ends(c, s.side, *source, number - begin, segment);
         }
         return true;
     }
 
-    static OutlineSegment segment_of(const FacetCrossing& c, std::uint32_t side,
-                                     std::uint32_t cutter, bool open_below, const Source& source,
-                                     std::uint32_t facet) {
-        OutlineSegment segment;
-        segment.cutter = cutter;
+    static void set_ends(const FacetCrossing& c, std::uint32_t side, const Source& source,
+                         std::uint32_t facet, OutlineSegment& segment) {
         segment.corners = corners_of(source, facet);
-        segment.open_below = open_below;
         // Within the facet, to the left of the product of the normals, is what lies below the
         // other facet for the first one, and above it for the second one.
-        const bool along = open_below == (side == 0);
+        const bool along = segment.open_below == (side == 0);
         for (std::size_t k = 0; k < 2; ++k) {
             const FacetCrossing::End& end = c.ends[along ? k : 1 - k];
             segment.at[k] = &end.at;
@@ -170,7 +169,6 @@ private:
             const std::uint64_t w = source.corner_index(facet, end.edge == 2 ? 0 : end.edge + 1);
             segment.through[k] = std::min(v, w) << 32 | std::max(v, w);
         }
-        return segment;
     }
 
     void add_edges(FacetMarks& marks, std::uint32_t facet, bool flipped) {

@@ -4,6 +4,8 @@
 // pierces a facet three vertices are all but in line, and points would have to be evaluated.
 #pragma once
 
+#include <array>
+
 #include <trisect/bsp/detail/boundary_facet.h>
 #include <trisect/bsp/detail/workbench.h>
 
@@ -21,8 +23,10 @@ namespace trisect::detail {
 /// in one line. False says nothing.
 [[nodiscard]] inline bool name_tells_turn(const Workbench& bench, PointId vertex, PlaneId support,
                                           const WorkEdge& in, const WorkEdge& out) {
-    const auto& [p, q, r] = bench.planes_of(vertex);
-    const auto is_one = [&](PlaneId plane) { return plane == p || plane == q || plane == r; };
+    const std::array<PlaneId, 3>& planes = bench.planes_of(vertex);
+    const auto is_one = [&](PlaneId plane) {
+        return plane == planes[0] || plane == planes[1] || plane == planes[2];
+    };
     return in.plane != out.plane && is_one(support) && is_one(in.plane) && is_one(out.plane);
 }
 
