@@ -17,7 +17,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -35,6 +38,8 @@
 #include <trisect/bsp/detail/plain_pairs.h>
 #include <trisect/bsp/detail/stack_arena.h>
 #include <trisect/bsp/detail/work_budget.h>
+#include <trisect/kernel/detail/parallel_parts.h>
+#include <trisect/kernel/detail/per_thread.h>
 
 namespace trisect::detail {
 
@@ -42,11 +47,28 @@ namespace {
 
 using TwoLists = std::array<std::vector<std::uint32_t>, 2>;
 
+// Cells with fewer facets are not worth a task of their own.
+constexpr std::uint64_t parallel_size = 4096;
+
+class PairFinder;
+
+// What the threads of one search share.
+struct Search {
+    const EvaluateOptions& options;
+    const Crossings& operands;  // without pairs
+    bool parallel = false;
+    std::atomic<bool> in_doubt{false};  // nobody needs to go on
+    PerThread<PairFinder> finders = {};
+
+    PairFinder& finder();
+};
+
 // Compares facets of two meshes, some of each.
 class PairFinder {
 public:
-    PairFinder(const EvaluateOptions& options, EvaluateStats& stats, Crossings& crossings)
-        : options_(options), stats_(stats), crossings_(crossings) {}
+    explicit PairFinder(Search& search) : search_(search) {
+        crossings_.operands = search.operands.operands;
+    }
 
     /// False when doubles cannot tell about some pair.
     [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
@@ -69,6 +91,8 @@ public:
         task.operands = operands;
         return solve(task);
     }
+    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
+    [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
 
 private:
     [[nodiscard]] PackedBox* boxes_of(const LatticeMesh& mesh,
@@ -78,14 +102,20 @@ private:
     [[nodiscard]] bool compare(const CellTask& task);
     [[nodiscard]] bool leave_out(CellTask& task);
 
-    const EvaluateOptions& options_;
-    EvaluateStats& stats_;
-    Crossings& crossings_;
+    [[nodiscard]] bool solve_both(std::array<CellTask, 2>& children);
+
+    Search& search_;
+    EvaluateStats stats_;
+    Crossings crossings_;
     StackArena arena_;
     PlainFacets facets_;
     PlainPairs pairs_;
     std::vector<PolygonRef> polygons_;
 };
+
+PairFinder& Search::finder() {
+    return finders.local([&] { return std::make_unique<PairFinder>(*this); });
+}
 
 PackedBox* PairFinder::boxes_of(const LatticeMesh& mesh, std::span<const std::uint32_t> facets,
                                 Frame frame) {
@@ -123,15 +153,16 @@ bool PairFinder::leave_out(CellTask& task) {
 }
 
 bool PairFinder::solve(CellTask& task) {
+    if (search_.in_doubt.load(std::memory_order_relaxed)) return false;
     const auto mark = arena_.mark();
     ++stats_.cells;
-    check_budget(options_, stats_);
+    check_budget(search_.options, stats_);
     stats_.depth = std::max(stats_.depth, task.depth);
     bool known = true;
     if (leave_out(task)) {
         stats_.listed_polygons += task.size();
-        const bool large = task.size() > options_.leaf_polygons && task.stalled < 4;
-        const auto wall = large ? choose_wall(task, options_.wall_offset) : std::nullopt;
+        const bool large = task.size() > search_.options.leaf_polygons && task.stalled < 4;
+        const auto wall = large ? choose_wall(task, search_.options.wall_offset) : std::nullopt;
         known = wall ? divide(task, *wall) : compare(task);
     }
     arena_.release(mark);
@@ -153,11 +184,21 @@ bool PairFinder::divide(const CellTask& task, const Wall& wall) {
     partition(task, wall, {children[0].cell, children[1].cell}, arena_, 1,
               {children[0].operands, children[1].operands});
     const std::uint64_t largest = std::max(children[0].size(), children[1].size());
-    for (CellTask& c : children) {
-        c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
-        if (!with_enough_stack([&] { return solve(c); })) return false;
+    for (CellTask& c : children) c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
+    return solve_both(children);
+}
+
+// The lists of both lie in the arena of this thread, which waits for the other one.
+bool PairFinder::solve_both(std::array<CellTask, 2>& children) {
+    std::array<bool, 2> known{};
+    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+        both_at_once([&] { known[1] = search_.finder().solve(children[1]); },
+                     [&] { known[0] = with_enough_stack([&] { return solve(children[0]); }); });
+    } else {
+        for (std::size_t i = 0; i < 2; ++i)
+            known[i] = with_enough_stack([&] { return solve(children[i]); });
     }
-    return true;
+    return known[0] && known[1];
 }
 
 bool PairFinder::compare(const CellTask& task) {
@@ -177,9 +218,11 @@ bool PairFinder::compare(const CellTask& task) {
     for (std::size_t k = 0; k < 3; ++k) near.c[k] = corner[static_cast<int>(k)] * wall_scale;
     ++stats_.mixed_leaves;
     ++stats_.plain_leaves;
-    if (!facets_.list({task.cell, near, operands, nullptr, &options_}) ||
-        !pairs_.relate_all(facets_, true, stats_))
+    if (!facets_.list({task.cell, near, operands, nullptr, &search_.options}) ||
+        !pairs_.relate_all(facets_, true, stats_)) {
+        search_.in_doubt.store(true, std::memory_order_relaxed);
         return false;
+    }
     pairs_.add_to(crossings_, facets_);
     return true;
 }
@@ -204,63 +247,133 @@ bool is_below_far_out(const SolidState& solid, const Crossings::Operand& operand
     return (winding_far_out(solid) == operand.open) == operand.is_open_below();
 }
 
+// Both, at the same time where the search is done by several threads.
+template <class First, class Second>
+void do_both(bool parallel, const First& first, const Second& second) {
+    if (parallel) {
+        both_at_once(first, second);
+    } else {
+        first();
+        second();
+    }
+}
+
+// The meshes, and whether they are worth it.
+struct TwoMeshes {
+    std::array<const CellNode*, 2> nodes;
+    std::array<const LatticeMesh*, 2> meshes{};
+    Box common;
+
+    explicit TwoMeshes(const std::vector<std::shared_ptr<const SolidState>>& solids)
+        : nodes{solids[0]->root.node.get(), solids[1]->root.node.get()} {
+        common = source(0).box();
+        for (std::size_t i = 0; i < 2; ++i) {
+            meshes[i] = &source(i).mesh();
+            common = common.intersected(source(i).box());
+        }
+    }
+    [[nodiscard]] const Source& source(std::size_t i) const {
+        return *nodes[i]->polygons().whole_source();
+    }
+    [[nodiscard]] std::size_t larger() const {
+        return std::max(nodes[0]->size(), nodes[1]->size());
+    }
+    [[nodiscard]] std::size_t smaller() const {
+        return std::min(nodes[0]->size(), nodes[1]->size());
+    }
+    // A mesh with an index is not looked at as a whole again, and neither is one that outnumbers
+    // the other one and hence gets an index now (evaluator.cpp).
+    [[nodiscard]] bool are_of_a_size() const {
+        return nodes[0]->refinement() == nullptr && nodes[1]->refinement() == nullptr &&
+               larger() < 4 * smaller();
+    }
+    [[nodiscard]] bool have_outer_references() const {
+        return lies_outside(nodes[0]->reference(), source(0).box()) &&
+               lies_outside(nodes[1]->reference(), source(1).box());
+    }
+};
+
+// All pairs of facets that cross, arranged; false when doubles cannot tell about one.
+bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
+                bool parallel, Crossings& crossings, EvaluateStats& stats) {
+    Search search{options, crossings, parallel};
+    if (!search.finder().run(two.nodes, near)) return false;
+    search.finders.for_each([&](const PairFinder& f) {
+        crossings.append(f.crossings());
+        stats += f.stats();
+    });
+    crossings.arrange();
+    return true;
+}
+
+// What bounds the result and is not crossed, of either mesh; nothing when that is not known.
+std::optional<std::vector<UncrossedFacets>> find_uncrossed(
+    const TwoMeshes& two, const std::vector<std::shared_ptr<const SolidState>>& solids,
+    const EvaluateOptions& options, bool parallel, Crossings& crossings, EvaluateStats& stats) {
+    const CubeGrid grid(two.common, slabs_for(two.larger()));
+    std::array<std::optional<OccupiedCubes>, 2> cubes;
+    do_both(
+        parallel, [&] { cubes[0].emplace(grid, *two.meshes[0]); },
+        [&] { cubes[1].emplace(grid, *two.meshes[1]); });
+    if (!cubes[0]->is_useful() || !cubes[1]->is_useful()) return std::nullopt;
+    TwoLists near;
+    do_both(
+        parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes()); },
+        [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes()); });
+    if (near[0].empty() || near[1].empty()) return std::nullopt;
+    if (!find_pairs(two, near, options, parallel, crossings, stats) || crossings.pairs.empty())
+        return std::nullopt;
+    std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
+    const auto find = [&](std::size_t i) {
+        const Crossings::Operand& other = crossings.operands[1 - i];
+        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i]);
+        facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
+                                    other.is_open_below());
+    };
+    do_both(
+        parallel, [&] { find(0); }, [&] { find(1); });
+    if (!facets[0] || !facets[1]) return std::nullopt;
+    std::vector<UncrossedFacets> out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        stats.untouched_polygons += facets[i]->size();
+        out.push_back({&two.source(i), crossings.operands[i].inside_above, *std::move(facets[i])});
+    }
+    return out;
+}
+
 }  // namespace
 
 std::shared_ptr<const SolidState> evaluate_undivided(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets) {
-    if (solids.size() != 2 || options.threads != 1 || options.max_work != 0 ||
-        options.max_memory != 0)
-        return nullptr;
+    if (solids.size() != 2 || options.max_work != 0 || options.max_memory != 0) return nullptr;
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     if (!crossings) return nullptr;
-    const std::array<const CellNode*, 2> meshes{solids[0]->root.node.get(),
-                                                solids[1]->root.node.get()};
-    Box common = meshes[0]->polygons().whole_source()->box();
-    for (const CellNode* m : meshes) {
-        const Box& box = m->polygons().whole_source()->box();
-        if (m->size() < least_facets || !lies_outside(m->reference(), box)) return nullptr;
-        common = common.intersected(box);
-    }
-    if (common.is_empty()) return nullptr;
-    const CubeGrid grid(common, slabs_for(std::max(meshes[0]->size(), meshes[1]->size())));
-    const std::array<const LatticeMesh*, 2> mesh{&meshes[0]->polygons().whole_source()->mesh(),
-                                                 &meshes[1]->polygons().whole_source()->mesh()};
-    const std::array<OccupiedCubes, 2> cubes{OccupiedCubes(grid, *mesh[0]),
-                                             OccupiedCubes(grid, *mesh[1])};
-    if (!cubes[0].is_useful() || !cubes[1].is_useful()) return nullptr;
-    const TwoLists near{cubes[0].facets_in(cubes[1].cubes()), cubes[1].facets_in(cubes[0].cubes())};
-    if (near[0].empty() || near[1].empty()) return nullptr;
+    const TwoMeshes two(solids);
+    if (two.smaller() < least_facets || !two.are_of_a_size() || !two.have_outer_references() ||
+        two.common.is_empty())
+        return nullptr;
+    const bool parallel = options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_size;
     EvaluateStats made;
-    if (!PairFinder(options, made, *crossings).run(meshes, near)) return nullptr;
-    if (crossings->pairs.empty()) return nullptr;
-    crossings->arrange();
-    std::vector<UncrossedFacets> uncrossed;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Crossings::Operand& other = crossings->operands[1 - i];
-        FacetSides sides(grid, *mesh[i], cubes[i], cubes[1 - i].cubes(), near[i]);
-        auto facets = sides.uncrossed(*crossings, i, is_below_far_out(*solids[1 - i], other),
-                                      other.is_open_below());
-        if (!facets) return nullptr;
-        made.untouched_polygons += facets->size();
-        uncrossed.push_back({meshes[i]->polygons().whole_source(),
-                             crossings->operands[i].inside_above, *std::move(facets)});
-    }
+    auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
+        return find_uncrossed(two, solids, options, parallel, *crossings, made);
+    });
+    if (!uncrossed) return nullptr;
     stats = made;
     auto state = std::make_shared<SolidState>();
     state->lattice = solids[0]->lattice;
     SlotValues values;
     Box all;
-    for (const auto& solid : solids) {
-        values.push_back(is_inside(winding_far_out(*solid), options.winding) ? 1 : 0);
-        all.add(solid->root.node->polygons().whole_source()->box());
+    for (std::size_t i = 0; i < 2; ++i) {
+        values.push_back(is_inside(winding_far_out(*solids[i]), options.winding) ? 1 : 0);
+        all.add(two.source(i).box());
     }
     state->root = {
         CellNode::leaf(PolygonList(), point_beyond(all), value_of(*formula, values) ? 1 : 0, true),
         false};
     state->crossings = std::make_shared<const Crossings>(*std::move(crossings));
     state->outlined =
-        std::make_shared<const OutlinedSolid>(std::move(uncrossed), formula, solids, options);
+        std::make_shared<const OutlinedSolid>(*std::move(uncrossed), formula, solids, options);
     return state;
 }
 

@@ -23,12 +23,17 @@ struct Count {
     int undivided = 0;
 };
 
+// A limit of memory has to be kept by cells.
+trisect::EvaluateOptions dividing(trisect::EvaluateOptions options) {
+    options.max_memory = std::uint64_t{1} << 40;
+    return options;
+}
+
 void expect_same_as_divided(const trisect::Expression& expression, std::uint32_t leaf_polygons,
                             Count& count) {
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_polygons;
-    options.threads = 2;  // divides
-    const trisect::Solid divided = trisect::evaluate(expression, options);
+    const trisect::Solid divided = trisect::evaluate(expression, dividing(options));
     const trisect::detail::Translation t = trisect::detail::translate(expression);
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(s.state());
@@ -105,7 +110,7 @@ TEST(Undivided, PartsThatNothingCrosses) {
     EXPECT_LT(count.undivided, count.tried);
 }
 
-TEST(Undivided, LargeMeshesByOneThread) {
+TEST(Undivided, LargeMeshesByAnyNumberOfThreads) {
     for (std::size_t k = 0; k < 3; ++k) {
         trisect::PolygonMesh moved = trisect::make_icosphere(1, 5);
         for (auto& p : moved.points) {
@@ -118,21 +123,44 @@ TEST(Undivided, LargeMeshesByOneThread) {
         const trisect::Solid a = trisect::Solid::from_mesh(trisect::make_icosphere(1, 5), import);
         const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
         trisect::EvaluateOptions options;
-        options.threads = 1;
-        const trisect::Solid result = trisect::evaluate(a - b, options);
-        ASSERT_NE(result.state()->outlined, nullptr);
-        const trisect::PolygonMesh mesh = result.to_mesh();
-        EXPECT_EQ(engines::open_edge(mesh), "");
-        EXPECT_FALSE(result.state()->outlined->is_cut());
-        options.threads = 2;
-        const trisect::Solid divided = trisect::evaluate(a - b, options);
+        const trisect::Solid divided = trisect::evaluate(a - b, dividing(options));
+        ASSERT_EQ(divided.state()->outlined, nullptr);
         const trisect::PolygonMesh expected = divided.to_mesh();
-        EXPECT_EQ(mesh.corners, expected.corners);
-        EXPECT_TRUE(mesh.points == expected.points);
+        for (const std::uint32_t threads : {1U, 2U, 8U}) {
+            options.threads = threads;
+            const trisect::Solid result = trisect::evaluate(a - b, options);
+            ASSERT_NE(result.state()->outlined, nullptr);
+            const trisect::PolygonMesh mesh = result.to_mesh();
+            EXPECT_EQ(engines::open_edge(mesh), "");
+            EXPECT_FALSE(result.state()->outlined->is_cut());
+            EXPECT_EQ(mesh.corners, expected.corners);
+            EXPECT_TRUE(mesh.points == expected.points);
+        }
+        const trisect::Solid result = trisect::evaluate(a - b, options);
         EXPECT_EQ(trisect::evaluate(result | b).to_mesh().corners,
                   trisect::evaluate(divided | b).to_mesh().corners);
         EXPECT_EQ(result.to_brep().counts().faces, divided.to_brep().counts().faces);
     }
+}
+
+// Who has an index asks it, and who is so much larger gets one: the price of a small cut does not
+// depend on the part.
+TEST(Undivided, NotWhereOneMeshIsIndexedOrMuchLarger) {
+    trisect::PolygonMesh moved = trisect::make_icosphere(1, 4);
+    for (auto& p : moved.points) {
+        p[0] += 0.73;
+        p[1] *= 0.81;
+        p[2] += 0.11 * p[0] + 0.03;
+    }
+    trisect::SolidOptions import;
+    import.import.lattice = trisect::Lattice{-40};
+    const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
+    const trisect::Solid larger = trisect::Solid::from_mesh(trisect::make_icosphere(1, 5), import);
+    EXPECT_EQ(trisect::evaluate(larger - b).state()->outlined, nullptr);
+    const trisect::Solid same = trisect::Solid::from_mesh(trisect::make_icosphere(1, 4), import);
+    EXPECT_NE(trisect::evaluate(same - b).state()->outlined, nullptr);
+    same.refine();
+    EXPECT_EQ(trisect::evaluate(same - b).state()->outlined, nullptr);
 }
 
 // Faces, edges and corners coincide.
