@@ -84,7 +84,8 @@ PolygonList::~PolygonList() {
 
 std::shared_ptr<const CellNode> CellNode::leaf(PolygonList polygons, const FinePoint& reference,
                                                int winding, bool mixed) {
-    std::shared_ptr<CellNode> n(new CellNode);
+    struct Made : CellNode {};  // with its counts in one piece of memory
+    const auto n = std::make_shared<Made>();
     n->polygons_ = std::move(polygons);
     n->reference_ = reference;
     n->winding_ = winding;
@@ -95,7 +96,8 @@ std::shared_ptr<const CellNode> CellNode::leaf(PolygonList polygons, const FineP
 
 std::shared_ptr<const CellNode> CellNode::deferred(std::unique_ptr<const DeferredLeaf> leaf,
                                                    int winding, std::uint64_t size) {
-    std::shared_ptr<CellNode> n(new CellNode);
+    struct Made : CellNode {};  // with its counts in one piece of memory
+    const auto n = std::make_shared<Made>();
     n->reference_ = leaf->reference;
     n->deferred_ = std::move(leaf);
     n->winding_ = winding;
@@ -119,7 +121,8 @@ std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const Fine
 std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, CellRef below,
                                                 CellRef above) {
     TRISECT_EXPECTS((wall & 1) != 0, "a wall must lie at an odd position");
-    std::shared_ptr<CellNode> n(new CellNode);
+    struct Made : CellNode {};  // with its counts in one piece of memory
+    const auto n = std::make_shared<Made>();
     n->axis_ = axis;
     n->wall_ = wall;
     n->size_ = below.node->size() + above.node->size();

@@ -42,7 +42,8 @@ bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b)
 
 // Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
 // outside, 0 when doubles cannot tell.
-int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximation& x) {
+template <class Corner>
+int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x) {
     const Vector3& n = f.plane.normal;
     std::size_t k = std::fabs(n[0]) > std::fabs(n[1]) ? 0 : 1;
     if (std::fabs(n[2]) > std::fabs(n[k])) k = 2;
@@ -52,8 +53,8 @@ int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximatio
     const std::size_t j = (k + 2) % 3;
     int inside = 1;
     for (std::size_t c = 0; c < f.size; ++c) {
-        const Approximation a = facets.corner(f, c);
-        const Approximation b = facets.corner(f, c + 1U < f.size ? c + 1 : 0);
+        const auto& a = corner(c);
+        const auto& b = corner(c + 1U < f.size ? c + 1 : 0);
         const double u = b.c[i] - a.c[i];
         const double v = b.c[j] - a.c[j];
         const double p = x.c[i] - a.c[i];
@@ -73,6 +74,19 @@ int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximatio
         if (m <= error) inside = 0;
     }
     return inside;
+}
+
+int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximation& x) {
+    struct Exact {
+        const Vector3& c;
+        double error = 0;
+    };
+    if (f.is_whole())
+        return is_inside(
+            f, [&](std::size_t c) { return Exact{f.corners[c]}; }, x);
+    const Approximation* const corners = facets.outline(f);
+    return is_inside(
+        f, [&](std::size_t c) -> const Approximation& { return corners[c]; }, x);
 }
 
 }  // namespace

@@ -122,6 +122,10 @@ public:
 private:
     Ref of_operation(const Ref& formula) {
         const Kind kind = formula->kind;
+        if (kind == Kind::Not) {
+            Ref child = of(formula->children[0]);
+            return child == formula->children[0] ? formula : Residual::negation(std::move(child));
+        }
         std::vector<Ref> children;
         children.reserve(formula->children.size());
         bool changed = false;
@@ -138,7 +142,6 @@ private:
             }
         }
         if (!changed) return formula;
-        if (kind == Kind::Not) return Residual::negation(children[0]);
         if (!distinct) return Residual::combination(kind, children);
         std::erase_if(children, [](const Ref& c) { return c->kind == Kind::Constant; });
         return Residual::of_distinct(kind, std::move(children));
