@@ -57,6 +57,13 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
 bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
+    // Fragments that nobody has taken end here, whatever is thrown or given up.
+    struct EndCovers {
+        std::vector<PolygonRef>& covers;
+        ~EndCovers() {
+            if (!covers.empty()) end_fragments(covers);
+        }
+    } const end_covers{covers_};
     const EvaluateStats before = stats;
     if (!arrange_listed(problem, stats)) {
         stats = before;
