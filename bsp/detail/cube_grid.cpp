@@ -82,10 +82,10 @@ ShapeRows all_that_meet(const CubeGrid& grid, const CubeSet& cubes) {
 OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
     : grid_(grid),
       triangles_(mesh.triangles),
-      of_points_(mesh.points.size()),
-      places_(mesh.triangles.size()) {
+      of_points_(std::make_unique_for_overwrite<CubeGrid::Cube[]>(mesh.points.size())),
+      places_(std::make_unique_for_overwrite<std::uint32_t[]>(mesh.triangles.size())) {
     const CubeGrid by_value = grid;  // nothing that is written may be a part of it
-    CubeGrid::Cube* out = of_points_.data();
+    CubeGrid::Cube* out = of_points_.get();
     for (const LatticePoint& p : mesh.points) *out++ = by_value.cube_of(p);
     is_useful_ = mark_facets();
 }
@@ -93,17 +93,17 @@ OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
 bool OccupiedCubes::mark_facets() {
     ShapeRows begins(grid_);
     std::vector<std::uint32_t> large;
-    const CubeGrid::Cube* const of_points = of_points_.data();
+    const CubeGrid::Cube* const of_points = of_points_.get();
     std::uint64_t* const rows = begins.of(0);
     const CubeGrid grid = grid_;
     const std::size_t of_shape = begins.padded;
-    std::uint32_t* place = places_.data();
+    std::uint32_t* place = places_.get();
     for (const auto& t : triangles_) {
         const CubeRange range(of_points[t[0]], of_points[t[1]], of_points[t[2]]);
         const unsigned shape = range.shape();
         *place++ = range.lo | shape << 24;
         if (shape == CubeRange::large) [[unlikely]] {
-            large.push_back(static_cast<std::uint32_t>(place - places_.data() - 1));
+            large.push_back(static_cast<std::uint32_t>(place - places_.get() - 1));
             continue;
         }
         rows[shape * of_shape + grid.row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
@@ -124,11 +124,11 @@ std::vector<std::uint32_t> OccupiedCubes::facets_in(const CubeSet& cubes) const 
     ShapeRows begins = all_that_meet(grid_, cubes);
     const CubeGrid grid = grid_;
     const std::size_t of_shape = begins.padded;
-    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(places_.size() + 1);
+    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(triangles_.size() + 1);
     std::uint32_t* end = found.get();
     const std::uint64_t* const rows = begins.of(0);
     std::uint32_t number = 0;
-    for (const std::uint32_t place : places_) {
+    for (const std::uint32_t place : std::span(places_.get(), triangles_.size())) {
         const std::size_t shape = place >> 24;
         const CubeGrid::Cube lo = place & 0xffffff;
         bool meets = false;

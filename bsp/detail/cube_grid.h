@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -73,6 +74,9 @@ public:
     [[nodiscard]] std::size_t size() const { return rows_.size(); }
     [[nodiscard]] const std::uint64_t& row(std::size_t i) const { return rows_[i]; }
     [[nodiscard]] std::uint64_t& row(std::size_t i) { return rows_[i]; }
+    [[nodiscard]] bool is_any() const {
+        return std::ranges::any_of(rows_, [](std::uint64_t row) { return row != 0; });
+    }
     [[nodiscard]] bool has(const CubeGrid& grid, CubeGrid::Cube c) const {
         return (rows_[grid.row(c)] >> CubeGrid::x(c) & 1U) != 0;
     }
@@ -148,9 +152,9 @@ private:
 
     CubeGrid grid_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
-    std::vector<CubeGrid::Cube> of_points_;
+    std::unique_ptr<CubeGrid::Cube[]> of_points_;
     /// By facet: the least cube of its range, and in byte 3 its shape.
-    std::vector<std::uint32_t> places_;
+    std::unique_ptr<std::uint32_t[]> places_;
     CubeSet occupied_;
     bool is_useful_ = false;
 };

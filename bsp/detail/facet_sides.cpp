@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <numeric>
 
 namespace trisect::detail {
@@ -183,25 +184,26 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
         return std::nullopt;
     CubeSet wanted(std::vector<std::uint64_t>(grid_.row_count()));
     CubeSet unknown(std::vector<std::uint64_t>(grid_.row_count()));
-    bool any_unknown = false;
     const Side side = below ? Side::Below : Side::Above;
     for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+        const std::size_t row = runs_[i].row;
         const Side known = sides_[root(i)];
-        if (known == side) wanted.row(runs_[i].row) |= runs_[i].bits;
-        if (known != Side::Unknown) continue;
-        unknown.row(runs_[i].row) |= runs_[i].bits;
-        any_unknown = true;
+        if (known == side) wanted.row(row) |= runs_[i].bits;
+        if (known == Side::Unknown) unknown.row(row) |= runs_[i].bits & cubes_.cubes().row(row);
     }
-    std::vector<std::uint32_t> facets(mesh_.triangles.size());
-    std::uint32_t* end = facets.data();
+    const bool any_unknown = unknown.is_any();
+    const auto facets = std::make_unique_for_overwrite<std::uint32_t[]>(mesh_.triangles.size() + 1);
+    std::uint32_t* end = facets.get();
     bool is_known = true;
-    const auto add_far = [&](std::uint32_t begin, std::uint32_t last) {
+    const auto add_far = [&, grid = grid_](std::uint32_t begin, std::uint32_t last) {
+        std::uint32_t* to = end;
         for (std::uint32_t f = begin; f < last; ++f) {
-            const CubeGrid::Cube cube = cubes_.cube_of_facet(f);
-            *end = f;
-            end += wanted.has(grid_, cube) ? 1 : 0;
-            if (any_unknown && unknown.has(grid_, cube)) is_known = false;
+            *to = f;
+            to += wanted.has(grid, cubes_.cube_of_facet(f)) ? 1 : 0;
         }
+        end = to;
+        for (std::uint32_t f = begin; any_unknown && f < last; ++f)
+            is_known = is_known && !unknown.has(grid, cubes_.cube_of_facet(f));
     };
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -214,8 +216,7 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     }
     add_far(next, static_cast<std::uint32_t>(mesh_.triangles.size()));
     if (!is_known) return std::nullopt;
-    facets.resize(static_cast<std::size_t>(end - facets.data()));
-    return facets;
+    return std::vector<std::uint32_t>(facets.get(), end);
 }
 
 }  // namespace trisect::detail

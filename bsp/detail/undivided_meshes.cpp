@@ -218,8 +218,8 @@ bool PairFinder::compare(const CellTask& task) {
     for (std::size_t k = 0; k < 3; ++k) near.c[k] = corner[static_cast<int>(k)] * wall_scale;
     ++stats_.mixed_leaves;
     ++stats_.plain_leaves;
-    if (!facets_.list({task.cell, near, operands, nullptr, &search_.options}) ||
-        !pairs_.relate_all(facets_, true, stats_)) {
+    const LeafProblem problem{task.cell, near, operands, nullptr, &search_.options};
+    if (!facets_.list(problem) || !pairs_.relate_all(facets_, true, stats_)) {
         search_.in_doubt.store(true, std::memory_order_relaxed);
         return false;
     }
