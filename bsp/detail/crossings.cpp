@@ -119,7 +119,8 @@ void Crossings::arrange() {
     };
     make_unique(doubtful);
     make_unique(hidden);
-    radix_sort(covers, [](const Cover& c) { return std::uint64_t{c.facet} << 32 | c.operand; });
+    const std::uint64_t count = operands.size();
+    radix_sort(covers, [count](const Cover& c) { return c.facet * count + c.operand; });
     covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
     sort_pairs();
     list_shown();
@@ -127,13 +128,16 @@ void Crossings::arrange() {
     hidden = {};
 }
 
-// By small keys: a crossing is a hundred bytes.
+// By small keys: a crossing is a hundred bytes. Of as few digits as the facets need: each is a
+// pass.
 void Crossings::sort_pairs() {
     using Key = std::pair<std::uint64_t, std::uint32_t>;
+    std::uint64_t last = 0;
+    for (const FacetCrossing& c : pairs) last = std::max(last, std::uint64_t{c.facets[1]});
     std::vector<Key> keys;
     keys.reserve(pairs.size());
     for (const FacetCrossing& c : pairs)
-        keys.emplace_back(std::uint64_t{c.facets[0]} << 32 | c.facets[1],
+        keys.emplace_back(c.facets[0] * (last + 1) + c.facets[1],
                           static_cast<std::uint32_t>(keys.size()));
     radix_sort(keys, [](const Key& k) { return k.first; });
     keys.erase(std::unique(keys.begin(), keys.end(),

@@ -47,6 +47,9 @@ public:
                              std::span<const OutlineSegment> segments);
     /// Edges of the open part, in no order; none where it is empty.
     [[nodiscard]] std::span<const TracedEdge> edges() const { return edges_; }
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    /// The segment that begins where one ends inside the facet, else none.
+    [[nodiscard]] std::uint32_t next(std::uint32_t segment) const { return next_[segment]; }
     [[nodiscard]] std::span<const OutlineMeetings::Point> meetings() const {
         return meetings_.points();
     }
@@ -90,7 +93,6 @@ private:
     [[nodiscard]] Covers bit(std::uint32_t segment) const {
         return Covers{1} << segments_[segment].cutter;
     }
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
     std::array<const LatticePoint*, 3> corners_{};
     std::span<const OutlineSegment> segments_;
     std::size_t cutters_ = 0;

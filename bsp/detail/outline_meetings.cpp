@@ -15,6 +15,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <trisect/bsp/detail/double2.h>
 #include <trisect/bsp/detail/plain_facets.h>
@@ -24,6 +25,16 @@ namespace trisect::detail {
 namespace {
 
 constexpr double slack = 1.0001;
+
+// The axis along which a segment is longest, and the way along it with its sign.
+std::pair<std::size_t, double> longest_way(const OutlineSegment& s) {
+    std::pair<std::size_t, double> longest(0, s.at[1]->c[0] - s.at[0]->c[0]);
+    for (std::size_t k = 1; k < 3; ++k) {
+        const double way = s.at[1]->c[k] - s.at[0]->c[k];
+        if (std::fabs(way) > std::fabs(longest.second)) longest = {k, way};
+    }
+    return longest;
+}
 
 }  // namespace
 
@@ -73,12 +84,10 @@ void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
     const std::array<std::size_t, 2> axes{(dropped + 1) % 3, (dropped + 2) % 3};
     boxes_.assign((segments_.size() + 3) / 4,
                   {{all_lanes(far), all_lanes(far)}, {all_lanes(-far), all_lanes(-far)}});
-    ways_.clear();
     for (std::size_t s = 0; s < segments_.size(); ++s) {
         const Approximation& from = *segments_[s].at[0];
         const Approximation& to = *segments_[s].at[1];
         BoxRow& row = boxes_[s / 4];
-        Way way;
         for (std::size_t k = 0; k < 2; ++k) {
             const std::size_t axis = axes[k];
             const double a = from.c[axis];
@@ -88,9 +97,7 @@ void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
             const double high = std::max(a + from.error, b + to.error) - facet.origin[axis];
             row.low[k][s % 4] = static_cast<float>(low);
             row.high[k][s % 4] = static_cast<float>(high);
-            if (k == 0 || std::fabs(b - a) > std::fabs(way.length)) way = {axis, b - a};
         }
-        ways_.push_back(way);
     }
 }
 
@@ -164,7 +171,9 @@ bool OutlineMeetings::add_point(const std::array<std::uint32_t, 2>& segments,
     const auto spread = [&](std::size_t i) {
         return std::fabs(values[i].at[0]) + std::fabs(values[i].at[1]);
     };
-    const auto length = [&](std::size_t i) { return std::fabs(ways_[segments[i]].length); };
+    const auto length = [&](std::size_t i) {
+        return std::fabs(longest_way(segments_[segments[i]]).second);
+    };
     const std::size_t better =
         values[1].error * length(1) * spread(0) < values[0].error * length(0) * spread(1) ? 1 : 0;
     const Values& v = values[better];
@@ -185,23 +194,25 @@ bool OutlineMeetings::sort_meetings() {
     meetings_.resize(2 * points_.size());
     for (std::uint32_t p = 0; p < points_.size(); ++p) {
         const Point& point = points_[p];
-        for (std::size_t i = 0; i < 2; ++i) {
-            const std::uint32_t s = point.segments[i];
-            const Way& way = ways_[s];
-            const double c = point.at.c[way.axis];
-            meetings_[next_[s]++] = {point.segments[1 - i],   p,
-                                     point.opens[i],          0,
-                                     way.length > 0 ? c : -c, point.at.error};
-        }
+        for (std::size_t i = 0; i < 2; ++i)
+            meetings_[next_[point.segments[i]]++] = {point.segments[1 - i], p, point.opens[i], 0,
+                                                     0};
     }
-    for (std::uint32_t s = 0; s < segments_.size(); ++s) {
-        const std::span<Meeting> run = of(s);
-        if (run.size() < 2) continue;
-        std::ranges::sort(run, {}, &Meeting::along);
-        for (std::size_t i = 1; i < run.size(); ++i)
-            if (!(run[i].along - run[i - 1].along > slack * (run[i - 1].error + run[i].error)))
-                return false;
+    for (std::uint32_t s = 0; s < segments_.size(); ++s)
+        if (first_[s + 1] - first_[s] > 1 && !sort_along(segments_[s], of(s))) return false;
+    return true;
+}
+
+bool OutlineMeetings::sort_along(const OutlineSegment& segment, std::span<Meeting> run) const {
+    const auto [axis, way] = longest_way(segment);
+    for (Meeting& m : run) {
+        const double c = points_[m.point].at.c[axis];
+        m.along = way > 0 ? c : -c;
     }
+    std::ranges::sort(run, {}, &Meeting::along);
+    const auto error = [&](std::size_t i) { return points_[run[i].point].at.error; };
+    for (std::size_t i = 1; i < run.size(); ++i)
+        if (!(run[i].along - run[i - 1].along > slack * (error(i - 1) + error(i)))) return false;
     return true;
 }
 

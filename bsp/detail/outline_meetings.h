@@ -48,8 +48,7 @@ public:
         std::uint32_t point = 0;   ///< the number of the common point
         bool opens = false;        ///< from there on the other cutter leaves open, or covers
         std::uint64_t before = 0;  ///< for the caller
-        double along = 0;          ///< the way along one axis
-        double error = 0;
+        double along = 0;          ///< of several, the way along one axis
     };
     struct Point {
         std::array<std::uint32_t, 2> segments{};
@@ -80,24 +79,18 @@ private:
         double error = 0;
         bool known = false;
     };
-    // The axis that a segment is longest along, of two, and how.
-    struct Way {
-        std::size_t axis = 0;
-        double length = 0;  // with its sign
-    };
-
     void make_boxes(const OutlinePlane& facet);
     [[nodiscard]] bool compare_with_all(std::uint32_t a);
     [[nodiscard]] bool compare(std::uint32_t a, std::uint32_t b);
     [[nodiscard]] bool add_point(const std::array<std::uint32_t, 2>& segments,
                                  const std::array<Values, 2>& values);
     [[nodiscard]] bool sort_meetings();
+    [[nodiscard]] bool sort_along(const OutlineSegment& segment, std::span<Meeting> run) const;
     [[nodiscard]] const OutlinePlane& plane_of(std::uint32_t segment);
     [[nodiscard]] static Values values_of(const OutlinePlane& plane, const OutlineSegment& s);
 
     std::span<const OutlineSegment> segments_;
     std::vector<BoxRow> boxes_;
-    std::vector<Way> ways_;                // of segments
     std::vector<OutlinePlane> planes_;     // of their cutters' facets,
     std::vector<std::uint8_t> has_plane_;  // where they were asked for
     std::vector<Point> points_;

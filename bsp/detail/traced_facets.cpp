@@ -66,6 +66,7 @@ public:
         find_marks();
         ends_.assign(crossings_.pairs.size(), {-1, -1});
         edges_of_.assign(crossings_.pairs.size(), {-1, -1});
+        planes_.assign(parts_.facets.size(), -1);
         const auto& pairs = crossings_.pairs;
         const auto& by_second = crossings_.by_second;
         std::size_t first = 0;
@@ -205,12 +206,8 @@ private:
                 if (point < 0) point = parts_.bench.corner(ref_.source, ref_.facet, p.which);
                 return point;
             }
-            case OutlinePoint::Kind::End: {
-                // Ends of segments come in the order of their direction.
-                const Side& s = sides_[p.place];
-                const bool along = segments_[p.place].open_below == (s.side == 0);
-                return end_of(s.pair, along ? u(p.which) : 1 - u(p.which));
-            }
+            case OutlinePoint::Kind::End:
+                return end_of(p.place, u(p.which));
             case OutlinePoint::Kind::Meeting:
                 break;
         }
@@ -230,9 +227,26 @@ private:
         return parts_.bench.support_of(edge_of(s.pair, 1 - s.side));
     }
 
-    PointId end_of(std::uint32_t pair, std::size_t k) {
-        PointId& point = ends_[pair][k];
-        if (point >= 0) return point;
+    // Where one segment ends and the next one begins the same edge pierces the facet.
+    PointId end_of(std::uint32_t segment, std::size_t end) {
+        PointId& point = known_end(segment, end);
+        if (point < 0) point = name_end(sides_[segment].pair, end_in_pair(segment, end));
+        if (end == 1 && outline_.next(segment) != FacetOutline::none)
+            known_end(outline_.next(segment), 0) = point;
+        return point;
+    }
+
+    // Ends of segments come in the order of their direction.
+    [[nodiscard]] std::size_t end_in_pair(std::uint32_t segment, std::size_t end) const {
+        const bool along = segments_[segment].open_below == (sides_[segment].side == 0);
+        return along ? end : 1 - end;
+    }
+
+    PointId& known_end(std::uint32_t segment, std::size_t end) {
+        return ends_[sides_[segment].pair][end_in_pair(segment, end)];
+    }
+
+    PointId name_end(std::uint32_t pair, std::size_t k) {
         const FacetCrossing& c = crossings_.pairs[pair];
         const std::size_t side = c.ends[k].of_second ? 1 : 0;
         const std::size_t operand = operand_of_(c.facets[side]);
@@ -240,8 +254,8 @@ private:
                              c.facets[side] - crossings_.operands[operand].first, false, false};
         Workbench& bench = parts_.bench;
         const PlaneId first = edge_of(pair, side);
-        return point = bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
-                                    bench.support_of(edge_of(pair, 1 - side)), c.ends[k].at);
+        return bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
+                            bench.support_of(edge_of(pair, 1 - side)), c.ends[k].at);
     }
 
     // The plane of the first edge of one of a pair's facets.
@@ -250,8 +264,15 @@ private:
         if (plane >= 0) return plane;
         const std::uint32_t number = crossings_.pairs[pair].facets[side];
         const std::size_t operand = operand_of_(number);
-        return plane = parts_.bench.plane(PlaneName::edge(
-                   marks_[operand]->source(), number - crossings_.operands[operand].first, 0));
+        const Crossings::Operand& o = crossings_.operands[operand];
+        const FacetMarks& marks = *marks_[operand];
+        const std::uint32_t facet = number - o.first;
+        PlaneId none = -1;
+        PlaneId& known = marks.takes_part(facet, o.inside_above)
+                             ? planes_[u(marks.number_of_worked(facet, o.inside_above))]
+                             : none;
+        if (known < 0) known = parts_.bench.plane(PlaneName::edge(marks.source(), facet, 0));
+        return plane = known;
     }
 
     const Crossings& crossings_;
@@ -261,6 +282,7 @@ private:
     std::vector<FacetMarks*> marks_;                // by operand
     std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were asked for
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
+    std::vector<PlaneId> planes_;                   // the same by number of the facet
     // Of one facet:
     std::vector<Side> sides_;
     std::vector<OutlineSegment> segments_;
