@@ -12,7 +12,9 @@
 // the trees of the results before. Boundaries must be the same sets with the same faces.
 //
 // A chain has two to five steps with solids that integer maps take out of each other's grid. Its
-// leaves are arranged in doubles, fragments of earlier steps included; how many is counted.
+// leaves are arranged in doubles, fragments of earlier steps included; how many is counted. Pairs
+// and first steps are also evaluated without being divided, where they allow it, and must give the
+// mesh that cells give.
 //
 //     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]
 //                         [--only-pair I] [--only-formula I] [--only-chain I]
@@ -74,6 +76,7 @@ struct Counters {
     std::atomic<std::uint64_t> mixed_leaves;     // of all chains
     std::atomic<std::uint64_t> plain_leaves;     // of them
     std::atomic<std::uint64_t> plain_fragments;  // in those
+    std::atomic<std::uint64_t> undivided;        // meshes of pairs and first steps
     std::atomic<std::uint64_t> results;          // cell tree against naive
     std::atomic<std::uint64_t> stepwise;         // cell tree, step by step, against naive
     std::atomic<std::uint64_t> classic;          // classic BSP tree against naive
@@ -175,6 +178,13 @@ public:
             ++counters_.results;
             return check(result, wanted);
         });
+        if (!stepwise)
+            guarded("undivided", expression, [&] {
+                const auto difference =
+                    engines::undivided_difference(engines::formula(expression, solids_), options_);
+                counters_.undivided += difference ? 1U : 0U;
+                return difference.value_or("");
+            });
         if (stepwise)
             guarded("cell tree, step by step", expression, [&] {
                 const Timer timer(counters_.microseconds_ours);
@@ -318,8 +328,13 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
         const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume);
         const Timer timer(counters.microseconds_ours);
         trisect::EvaluateStats stats;
-        result = trisect::evaluate(
-            engines::formula(reference::pair_expression(kind), {result, tool}), options, &stats);
+        const auto step = engines::formula(reference::pair_expression(kind), {result, tool});
+        if (operands.size() == 2) {
+            const auto difference = engines::undivided_difference(step, options);
+            counters.undivided += difference ? 1U : 0U;
+            if (!difference.value_or("").empty()) return "undivided: " + *difference;
+        }
+        result = trisect::evaluate(step, options, &stats);
         counters.mixed_leaves += stats.mixed_leaves;
         counters.plain_leaves += stats.plain_leaves;
         counters.plain_fragments += stats.plain_fragments;
@@ -414,6 +429,7 @@ void print(const Counters& c) {
     row("their leaves that were arranged", c.mixed_leaves);
     row("of those, in doubles", c.plain_leaves);
     row("fragments of earlier steps in those", c.plain_fragments);
+    row("meshes of pairs and first steps that were not divided", c.undivided);
     row("results of the cell tree compared with the naive engine", c.results);
     row("the same, formulas step by step", c.stepwise);
     row("results of the classic BSP tree compared with the naive engine", c.classic);

@@ -3,7 +3,16 @@
 #include "engines.h"
 
 #include <map>
+#include <memory>
 #include <set>
+
+#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/detail/crossings.h>
+#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/detail/translate.h>
+#include <trisect/bsp/detail/undivided_meshes.h>
+#include <trisect/kernel/error.h>
 
 namespace engines {
 
@@ -161,6 +170,50 @@ reference::Operand mapped(const reference::Operand& operand, reference::Random& 
             p = {q[0], q[1], q[2]};
         }
     return determinant(m) < 0 ? reference::reversed(out) : out;
+}
+
+namespace {
+
+// Nothing where it cannot be assembled.
+std::optional<trisect::PolygonMesh> mesh_of(const trisect::detail::SolidState& state) {
+    try {
+        return trisect::detail::assemble_mesh(state);
+    } catch (const trisect::UnsupportedError&) {
+        return std::nullopt;
+    }
+}
+
+bool are_equal(const std::optional<trisect::PolygonMesh>& a,
+               const std::optional<trisect::PolygonMesh>& b) {
+    return a.has_value() == b.has_value() &&
+           (!a || (a->corners == b->corners && a->points == b->points));
+}
+
+}  // namespace
+
+std::optional<std::string> undivided_difference(const trisect::Expression& expression,
+                                                const trisect::EvaluateOptions& options) {
+    using namespace trisect::detail;
+    const Translation t = translate(expression);
+    std::vector<std::shared_ptr<const SolidState>> states;
+    for (const trisect::Solid& s : t.slots) states.push_back(s.state());
+    trisect::EvaluateStats stats;
+    const auto state = evaluate_undivided(t.formula, states, options, stats, 1);
+    if (state == nullptr) return std::nullopt;
+    trisect::EvaluateOptions dividing = options;
+    dividing.max_memory = std::uint64_t{1} << 40;  // a limit has to be kept by cells
+    const auto expected = mesh_of(*trisect::evaluate(expression, dividing).state());
+    if (!are_equal(mesh_of(*state), expected)) return "another mesh";
+    if (!expected) return std::string();
+    if (state->outlined->is_cut()) return "a tree was made for a mesh";
+    // Where an outline is in doubt a tree is made after all.
+    SolidState doubtful = *state;
+    auto crossings = std::make_shared<Crossings>(*state->crossings);
+    crossings->doubtful.push_back(crossings->shown.front());
+    doubtful.crossings = crossings;
+    if (!are_equal(mesh_of(doubtful), expected)) return "another mesh out of a tree";
+    if (!state->outlined->is_cut()) return "no tree was made";
+    return std::string();
 }
 
 }  // namespace engines

@@ -3,7 +3,9 @@
 // The library's results in the form in which the reference engine compares boundaries.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
@@ -36,5 +38,11 @@ std::string difference(const trisect::Brep& brep, const reference::CanonicalBoun
 
 /// Why the triangles of a result do not close, corner index by corner index; empty when they do.
 std::string open_edge(const trisect::PolygonMesh& mesh);
+
+/// What is different where two meshes are evaluated without being divided (undivided_meshes.h),
+/// empty when the mesh is the same corner by corner; nothing where they are divided. Meshes of any
+/// size are tried, pieces as well.
+[[nodiscard]] std::optional<std::string> undivided_difference(
+    const trisect::Expression& expression, const trisect::EvaluateOptions& options);
 
 }  // namespace engines
