@@ -293,14 +293,9 @@ bool is_strictly_convex(const Plane& plane, std::span<const Point> points,
 std::vector<IndexTriangle> cut_convex(std::span<const Index> loop) {
     std::vector<IndexTriangle> triangles;
     triangles.reserve(loop.size() - 2);
-    if (loop.size() > detail::small_convex_limit) {
-        detail::cut_convex(static_cast<Index>(loop.size()), [&](Index a, Index b, Index c) {
-            triangles.push_back({loop[a], loop[b], loop[c]});
-        });
-        return triangles;
-    }
-    for (std::size_t i = 2; i < loop.size(); ++i)
-        triangles.push_back({loop[0], loop[i - 1], loop[i]});
+    detail::cut_convex_or_fan(static_cast<Index>(loop.size()), [&](Index a, Index b, Index c) {
+        triangles.push_back({loop[a], loop[b], loop[c]});
+    });
     return triangles;
 }
 

@@ -42,4 +42,11 @@ void cut_convex(std::uint32_t count, const Emit& emit) {
     });
 }
 
+/// The same, but a fan around corner 0 where corners are few.
+template <class Emit>
+void cut_convex_or_fan(std::uint32_t count, const Emit& emit) {
+    if (count > small_convex_limit) return cut_convex(count, emit);
+    for (std::uint32_t i = 2; i < count; ++i) emit(std::uint32_t{0}, i - 1, i);
+}
+
 }  // namespace trisect::detail

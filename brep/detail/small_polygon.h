@@ -5,19 +5,22 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+
+#include <trisect/brep/detail/convex_cut.h>
 
 namespace trisect::detail {
 
 /// More corners than this are for the sweep (triangulate.h).
-inline constexpr std::size_t small_polygon_limit = 16;
+inline constexpr std::size_t small_polygon_limit = 32;
 
 /// Cuts a simple polygon with corners 0 .. n-1, counter-clockwise, into n - 2 triangles that use
 /// every corner, straight ones too.
 ///
 /// `orientation(i, j, k)` is the exact sign of a turn; `first_corner()` names the corner to start
-/// at, and is asked only when the polygon is not convex (then it is a fan around corner 0);
+/// at, and is asked only when the polygon is not convex;
 /// `emit(i, j, k)` receives the triangles. An ear is a strictly convex corner whose triangle holds
 /// no other corner, not even on its sides; every simple polygon has one (Meisters 1975). Corners
 /// that are strictly convex cannot be in the way alone, so only the others are looked at. At most
@@ -27,28 +30,33 @@ template <class Orientation, class FirstCorner, class Emit>
 bool cut_small_polygon(std::size_t n, Orientation&& orientation, FirstCorner&& first_corner,
                        Emit&& emit) {
     using Index = std::uint32_t;
-    std::array<Index, small_polygon_limit> prev{};
-    std::array<Index, small_polygon_limit> next{};
-    std::array<bool, small_polygon_limit> blocks{};
-    bool convex = true;
+    static_assert(small_polygon_limit <= 32, "a bit for each corner");
+    std::array<std::uint8_t, small_polygon_limit> prev{};
+    std::array<std::uint8_t, small_polygon_limit> next{};
+    std::uint32_t blocks = 0;
+    const auto bit = [](Index i) { return std::uint32_t{1} << i; };
+    const auto is_blunt = [&](Index i) {
+        return orientation(Index{prev[i]}, i, Index{next[i]}) <= 0;
+    };
     for (Index i = 0; i < n; ++i) {
-        prev[i] = static_cast<Index>(i == 0 ? n - 1 : i - 1);
-        next[i] = static_cast<Index>(i + 1 == n ? 0 : i + 1);
-        if (n > 3) blocks[i] = orientation(prev[i], i, next[i]) <= 0;
-        convex = convex && !blocks[i];
+        prev[i] = static_cast<std::uint8_t>(i == 0 ? n - 1 : i - 1);
+        next[i] = static_cast<std::uint8_t>(i + 1 == n ? 0 : i + 1);
+        if (n > 3 && is_blunt(i)) blocks |= bit(i);
     }
-    if (convex) {
-        for (Index i = 2; i < n; ++i) emit(0U, i - 1, i);
+    if (blocks == 0) {
+        cut_convex_or_fan(static_cast<Index>(n), emit);
         return true;
     }
     const auto is_ear = [&](Index c) {
-        if (blocks[c]) return false;
+        if ((blocks & bit(c)) != 0) return false;
         const Index a = prev[c];
         const Index b = next[c];
-        for (Index p = 0; p < n; ++p)
-            if (blocks[p] && p != a && p != b && orientation(a, c, p) >= 0 &&
-                orientation(c, b, p) >= 0 && orientation(b, a, p) >= 0)
+        for (std::uint32_t others = blocks & ~(bit(a) | bit(b)); others != 0;
+             others &= others - 1) {
+            const auto p = static_cast<Index>(std::countr_zero(others));
+            if (orientation(a, c, p) >= 0 && orientation(c, b, p) >= 0 && orientation(b, a, p) >= 0)
                 return false;
+        }
         return true;
     };
     Index c = first_corner();
@@ -62,17 +70,19 @@ bool cut_small_polygon(std::size_t n, Orientation&& orientation, FirstCorner&& f
         const Index before = prev[c];
         const Index after = next[c];
         emit(before, c, after);
-        next[before] = after;
-        prev[after] = before;
+        next[before] = static_cast<std::uint8_t>(after);
+        prev[after] = static_cast<std::uint8_t>(before);
         // Cutting only narrows wedges: a convex corner stays convex.
         for (const Index i : {before, after})
-            if (blocks[i]) blocks[i] = orientation(prev[i], i, next[i]) <= 0;
+            if ((blocks & bit(i)) != 0 && !is_blunt(i)) blocks &= ~bit(i);
         --left;
         failures = 0;
         c = next[after];  // skipping one spreads the triangles
     }
-    if (orientation(prev[c], c, next[c]) <= 0) return false;
-    emit(prev[c], c, next[c]);
+    const Index before = prev[c];
+    const Index after = next[c];
+    if (orientation(before, c, after) <= 0) return false;
+    emit(before, c, after);
     return true;
 }
 
