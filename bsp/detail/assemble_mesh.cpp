@@ -56,9 +56,13 @@ CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
         std::uint32_t* const table = tables.emplace_back(count, none).data();
         const ParallelParts of_groups(marks.group_count(), threads, least_groups);
         if (of_groups.count() == 1) {
-            marks.for_each_whole([=](std::uint32_t facet, bool) {
+            const auto mark = [=](std::uint32_t facet, bool) {
                 for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
-            });
+            };
+            const auto mark_eight = [=](std::uint32_t facet) {
+                for (std::uint32_t k = 0; k < 8; ++k) mark(facet + k, false);
+            };
+            marks.for_each_whole(0, marks.group_count(), mark_eight, mark);
             continue;
         }
         of_groups.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
@@ -147,20 +151,16 @@ private:
     void number_table(std::size_t t, std::span<const std::size_t> counts) {
         const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
         std::vector<std::uint32_t>& table = tables_[t];
-        if (counts.size() == 1) {
-            for (std::size_t i = 0; i < table.size(); ++i)
-                if (table[i] != none) table[i] = add_point(coordinates_of(points[i]));
-            return;
-        }
         std::vector<std::size_t> first(counts.size());
         std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
         resize_on_threads(mesh_.points, first.back() + counts.back(), threads_);
+        Point3d* const out = mesh_.points.data();
         ParallelParts(table.size(), threads_, least_points)
-            .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
                 std::size_t n = first[part];
                 for (std::size_t i = begin; i < end; ++i) {
                     if (table[i] == none) continue;
-                    mesh_.points[n] = coordinates_of(points[i]);
+                    out[n] = coordinates_of(points[i], unit);
                     table[i] = static_cast<std::uint32_t>(n++);
                 }
             });
@@ -178,17 +178,15 @@ private:
 
     // A power of two times a double, which is what Lattice::to_double is unless the power
     // underflows.
-    [[nodiscard]] double in_units(double v) const {
-        return unit_ >= 0x1p-1000 ? v * unit_ : lattice_.to_double(v);
+    [[nodiscard]] Point3d in_units(const std::array<double, 3>& p, double unit) const {
+        if (unit >= 0x1p-1000) [[likely]]
+            return {p[0] * unit, p[1] * unit, p[2] * unit};
+        return {lattice_.to_double(p[0]), lattice_.to_double(p[1]), lattice_.to_double(p[2])};
     }
 
-    [[nodiscard]] Point3d in_units(const std::array<double, 3>& p) const {
-        return {in_units(p[0]), in_units(p[1]), in_units(p[2])};
-    }
-
-    [[nodiscard]] Point3d coordinates_of(const LatticePoint& p) const {
-        return in_units(std::array{static_cast<double>(p.x), static_cast<double>(p.y),
-                                   static_cast<double>(p.z)});
+    [[nodiscard]] Point3d coordinates_of(const LatticePoint& p, double unit) const {
+        return in_units(
+            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}, unit);
     }
 
     std::uint32_t add_point(const Point3d& p) {
@@ -274,12 +272,23 @@ private:
         const FacetMarks& marks = parts_.sources[t];
         const Triangle* const triangles = marks.source()->mesh().triangles.data();
         const std::uint32_t* const numbers = tables_[t].data();
-        marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool flipped) {
+        const auto write = [&](std::uint32_t facet, bool flipped) {
             if (next_place < place_of(facet, flipped)) [[unlikely]]
                 write_worked_before(place_of(facet, flipped));
             const Triangle corners = numbered(triangles[facet], flipped, numbers);
             out = std::copy(corners.begin(), corners.end(), out);
-        });
+        };
+        const auto write_eight = [&](std::uint32_t facet) {
+            if (next_place < place_of(facet + 7, false)) [[unlikely]] {
+                for (std::uint32_t k = 0; k < 8; ++k) write(facet + k, false);
+                return;
+            }
+            std::uint32_t* const at = std::exchange(out, out + 24);
+            for (std::size_t k = 0; k < 8; ++k)
+                for (std::size_t i = 0; i < 3; ++i)
+                    at[3 * k + i] = numbers[triangles[facet + k][i]];
+        };
+        marks.for_each_whole(begin, end, write_eight, write);
         write_worked_before(no_place);
     }
 
@@ -305,7 +314,7 @@ private:
 
     std::uint32_t vertex(PointId p) {
         std::uint32_t& at = number_[u(p)];
-        if (at == none) at = add_point(in_units(bench_.nearest(p)));
+        if (at == none) at = add_point(in_units(bench_.nearest(p), unit_));
         return at;
     }
 
