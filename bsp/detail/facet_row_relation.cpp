@@ -31,12 +31,14 @@
 #include <cstdint>
 
 #include <trisect/bsp/detail/float4.h>
+#include <trisect/kernel/detail/wide_clones.h>
 
 namespace trisect::detail {
 
 namespace {
 
 using Four = std::array<float, 4>;
+using Numbers = const std::array<Four, 4>*;
 using Vectors = std::array<Float4, 3>;
 
 Float4 load(const Four& v) {
@@ -69,10 +71,10 @@ struct Facets {
     Float4 bound;
     Float4 tilt;
 
-    template <class Numbers>
-    explicit Facets(const Numbers& numbers) {
+    explicit Facets(const std::array<Numbers, 4>& numbers) {
         const auto columns = [&](std::size_t i) {
-            return transposed(numbers(0)[i], numbers(1)[i], numbers(2)[i], numbers(3)[i]);
+            return transposed((*numbers[0])[i], (*numbers[1])[i], (*numbers[2])[i],
+                              (*numbers[3])[i]);
         };
         for (std::size_t c = 0; c < 3; ++c) {
             const std::array<Float4, 4> four = columns(c);
@@ -152,16 +154,11 @@ std::array<unsigned, 3> bits_of_each(const std::array<Mask4, 3>& masks) {
     return {bits_of(masks[0]), bits_of(masks[1]), bits_of(masks[2])};
 }
 
-}  // namespace
-
-FacetRows::Relation FacetRows::relate(const std::array<Pair, 4>& pairs) const {
-    const auto numbers = [&](std::size_t side) {
-        return [this, &pairs, side](std::size_t i) -> const std::array<Four, 4>& {
-            return singles_[pairs[i][side]].numbers;
-        };
-    };
-    const Facets a(numbers(0));
-    const Facets b(numbers(1));
+TRISECT_WIDE_CLONES void relate_four(const std::array<Numbers, 4>& first,
+                                     const std::array<Numbers, 4>& second,
+                                     FacetRows::Relation& out) {
+    const Facets a(first);
+    const Facets b(second);
     const Values of_a(a, b);
     const Values of_b(b, a);
     const Vectors& n = a.normal;
@@ -189,11 +186,25 @@ FacetRows::Relation FacetRows::relate(const std::array<Pair, 4>& pairs) const {
                           (ends | (earlier_end < -ends_error)) & (s.down - t.down > before_error) &
                           (t.up - s.up > behind_error);
     const Mask4 apart = (t.down - s.down > before_error) | (s.up - t.up > behind_error);
-    return {bits_of(off | (sure & apart)),
-            bits_of(sure & ordered),
-            {bits_of_each(of_a.above), bits_of_each(of_b.above)},
-            bits_of(starts),
-            bits_of(ends)};
+    out.apart = bits_of(off | (sure & apart));
+    out.crosses = bits_of(sure & ordered);
+    out.above = {bits_of_each(of_a.above), bits_of_each(of_b.above)};
+    out.starts = bits_of(starts);
+    out.ends = bits_of(ends);
+}
+
+}  // namespace
+
+FacetRows::Relation FacetRows::relate(const std::array<Pair, 4>& pairs) const {
+    std::array<Numbers, 4> first;
+    std::array<Numbers, 4> second;
+    for (std::size_t i = 0; i < 4; ++i) {
+        first[i] = &singles_[pairs[i][0]].numbers;
+        second[i] = &singles_[pairs[i][1]].numbers;
+    }
+    Relation out;
+    relate_four(first, second, out);
+    return out;
 }
 
 }  // namespace trisect::detail

@@ -125,29 +125,31 @@ FacetRows::Probe FacetRows::probe(std::size_t facet) const {
     const std::size_t i = facet % 4;
     Probe out;
     for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k) out.corners[c][k] = r.corners[c][k][i];
-    for (std::size_t k = 0; k < 3; ++k) out.normal[k] = r.normal[k][i];
-    out.offset = r.offset[i];
-    out.bound = r.bound[i];
+        for (std::size_t k = 0; k < 3; ++k) out.corners[c][k].fill(r.corners[c][k][i]);
+    for (std::size_t k = 0; k < 3; ++k) out.normal[k].fill(r.normal[k][i]);
+    out.offset.fill(r.offset[i]);
+    out.bound.fill(r.bound[i]);
     return out;
 }
 
-unsigned FacetRows::parted(std::size_t row, const Probe& probe) const {
+unsigned FacetRows::parted(std::size_t row, const Probe& probe, unsigned among) const {
     const Row& r = rows_[row];
-    return off(fours(r.normal), FourFloats(r.offset), FourFloats(r.bound), probe.corners) |
-           off(fours(probe.normal), FourFloats(probe.offset), FourFloats(probe.bound), r.corners);
+    const unsigned beside =
+        off(fours(probe.normal), FourFloats(probe.offset), FourFloats(probe.bound), r.corners);
+    if ((among & ~beside) == 0) return beside;
+    return beside | off(fours(r.normal), FourFloats(r.offset), FourFloats(r.bound), probe.corners);
 }
 
 FacetRows::Segment FacetRows::segment(const Approximation& a, const Approximation& b) const {
     return {{single(a.c, scale_), single(b.c, scale_)}, above(scale_ * std::max(a.error, b.error))};
 }
 
-unsigned FacetRows::parted(std::size_t row, const Segment& segment) const {
+unsigned FacetRows::parted(std::size_t row, const Segment& segment, unsigned among) const {
     const Row& r = rows_[row];
     // No component of a normal is above 1, nor by much above it before it was rounded.
     const unsigned beside = off(fours(r.normal), FourFloats(r.offset),
                                 FourFloats(r.bound) + FourFloats(4 * segment.error), segment.ends);
-    if (beside == 15U) return beside;
+    if ((among & ~beside) == 0) return beside;
     const Fours a = fours(segment.ends[0]);
     const Fours d = minus(fours(segment.ends[1]), a);
     const std::array<Fours, 3> corners{minus(fours(r.corners[0]), a), minus(fours(r.corners[1]), a),

@@ -21,17 +21,19 @@ public:
     void start(const Vector3& extent);
     void add(const std::array<Vector3, 3>& corners, const PlainPlane& plane);
 
-    /// A facet to be compared with the others.
-    struct Probe {
-        std::array<std::array<float, 3>, 3> corners;
-        std::array<float, 3> normal;
-        float offset;
-        float bound;
+    using Four = std::array<float, 4>;
+    /// A facet to be compared with the others: every number four times.
+    struct alignas(16) Probe {
+        std::array<std::array<Four, 3>, 3> corners;
+        std::array<Four, 3> normal;
+        Four offset;
+        Four bound;
     };
     [[nodiscard]] Probe probe(std::size_t facet) const;
     /// Which facets of a row lie beside the probe's plane, or have the probe beside theirs: a bit
-    /// for each. Such a facet and the probe have no point in common.
-    [[nodiscard]] unsigned parted(std::size_t row, const Probe& probe) const;
+    /// for each of those `among` them, and perhaps for others. Such a facet and the probe have no
+    /// point in common.
+    [[nodiscard]] unsigned parted(std::size_t row, const Probe& probe, unsigned among = 15) const;
 
     /// How four pairs of facets lie to each other: a bit for each pair.
     struct Relation {
@@ -55,11 +57,11 @@ public:
     };
     [[nodiscard]] Segment segment(const Approximation& a, const Approximation& b) const;
     /// Which facets of a row have both ends surely on one side of their plane, or the whole line
-    /// surely beside them.
-    [[nodiscard]] unsigned parted(std::size_t row, const Segment& segment) const;
+    /// surely beside them; of those `among` them, as above.
+    [[nodiscard]] unsigned parted(std::size_t row, const Segment& segment,
+                                  unsigned among = 15) const;
 
 private:
-    using Four = std::array<float, 4>;
     // Coordinates are scaled so that no two points of the leaf differ by more than 1. The plane of
     // a facet has `normal` · p - `offset` = 0, the largest component of the normal is 1 or -1, and
     // values at points of the leaf are off by less than `bound`.

@@ -130,6 +130,9 @@ int exact_side(const PlainFacet& f, std::size_t i, const Plane& plane) {
                            f.edge(i).plane.plane(), plane));
 }
 
+// So many are listed before they are compared.
+constexpr std::size_t many_pairs = 4096;
+
 // Without a call, which std::has_single_bit is on the oldest processors of the family.
 bool is_single(std::uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
 
@@ -366,23 +369,53 @@ void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
         next_marked_[row] = marked_[row] != 0 ? row : next_marked_[row + 1];
 }
 
+// Rows from the candidate `i` on of which boxes meet that of the candidate: the number of the row
+// and four bits for its boxes, of those that come behind it, and are marked if it is not.
+std::span<const std::uint64_t> PlainPairs::find_rows(std::size_t i, bool all) {
+    const BoxRows::Probe probe = boxes_.probe(i);
+    const std::size_t first = (i + 1) / 4;
+    std::uint64_t* const begin = rows_.data();
+    std::uint64_t* end = begin;
+    if (has_all_boxes_) {
+        static_cast<void>(boxes_.visit_meeting(first, probe, [&](std::size_t row, unsigned met) {
+            *end++ = row << 4 | met;
+            return true;
+        }));
+    } else {
+        const auto next = [&](std::size_t row) {
+            return all || row >= boxes_.row_count() ? row : next_marked_[row];
+        };
+        for (std::size_t row = next(first);
+             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0][0];
+             row = next(row + 1))
+            if (const unsigned met = boxes_.meeting(row, probe); met != 0) *end++ = row << 4 | met;
+    }
+    if (end != begin && *begin >> 4 == first) *begin &= ~std::uint64_t{15} | 15U << (i + 1) % 4;
+    if (!all)
+        for (std::uint64_t* r = begin; r != end; ++r) *r &= ~std::uint64_t{15} | marked_[*r >> 4];
+    return {begin, end};
+}
+
 bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                        EvaluateStats& stats) {
     list_candidates(facets);
     pairs_.clear();
+    rows_.resize(boxes_.row_count());
     if (!marks.empty()) mark_rows(marks);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         check_budget(*facets.problem().options, stats);
-        const BoxRows::Probe probe = boxes_.probe(i);
-        const FacetRows::Probe facet = has_planes_ ? planes_.probe(i) : FacetRows::Probe{};
         const bool all = marks.empty() || (marked_[i / 4] >> i % 4 & 1U) != 0;
-        const std::size_t first = (i + 1) / 4;
-        const auto look_at = [&](std::size_t row, unsigned met) {
-            if (row == first) met &= ~0U << (i + 1) % 4;
-            if (!all) met &= marked_[row];
-            if (met == 0) return true;
-            stats.pairs_boxes += count_of[met];
-            if (has_planes_) met &= ~planes_.parted(row, facet);
+        const std::span<const std::uint64_t> rows = find_rows(i, all);
+        if (rows.empty()) continue;
+        FacetRows::Probe facet;
+        if (has_planes_) facet = planes_.probe(i);
+        std::uint64_t meeting = 0;
+        for (const std::uint64_t r : rows) {
+            const std::size_t row = r >> 4;
+            auto met = static_cast<unsigned>(r & 15U);
+            if (met == 0) continue;
+            meeting += count_of[met];
+            if (has_planes_) met &= ~planes_.parted(row, facet, met);
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
                 if (has_planes_) {
@@ -392,21 +425,11 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                     return false;
                 }
             }
-            return true;
-        };
-        if (has_all_boxes_) {
-            if (!boxes_.visit_meeting(first, probe, look_at)) return false;
-            continue;
         }
-        const auto next = [&](std::size_t row) {
-            return all || row >= boxes_.row_count() ? row : next_marked_[row];
-        };
-        for (std::size_t row = next(first);
-             row < boxes_.row_count() && boxes_.first_low(row) <= probe.hi[0][0];
-             row = next(row + 1))
-            if (!look_at(row, boxes_.meeting(row, probe))) return false;
+        stats.pairs_boxes += meeting;
+        if (pairs_.size() >= many_pairs && !add_pairs(facets)) return false;
     }
-    return !has_planes_ || add_pairs(facets);
+    return add_pairs(facets);
 }
 
 // The pairs that were listed, four at once: single precision is enough for nearly all of them.
@@ -425,6 +448,7 @@ bool PlainPairs::add_pairs(PlainFacets& facets) {
                 return false;
         }
     }
+    pairs_.clear();
     return true;
 }
 

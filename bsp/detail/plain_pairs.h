@@ -108,6 +108,7 @@ private:
     [[nodiscard]] bool relate_two(PlainFacets& facets, EvaluateStats& stats);
     [[nodiscard]] bool sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                              EvaluateStats& stats);
+    [[nodiscard]] std::span<const std::uint64_t> find_rows(std::size_t candidate, bool all);
     void list_candidates(PlainFacets& facets);
     void sort_candidates(const PlainFacets& facets);
     void mark_rows(std::span<const std::uint8_t> marks);
@@ -132,7 +133,9 @@ private:
     bool has_all_boxes_ = false;
     FacetRows planes_;  // of the same items, if no fragments are among them
     bool has_planes_ = false;
-    std::vector<FacetRows::Pair> pairs_;      // of candidates that planes do not part
+    std::vector<std::uint64_t> rows_;         // see find_rows()
+    std::vector<FacetRows::Pair> pairs_;      // of candidates that planes do not part: the first
+    std::size_t listed_ = 0;                  // so many
     std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows
