@@ -43,11 +43,12 @@ std::size_t longest_axis(const Approximation& a, const Approximation& b) {
 }  // namespace
 
 void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
-                         LeafFormula& formula, EvaluateStats& stats) {
+                         LeafFormula& formula, std::span<const int> open, EvaluateStats& stats) {
     facets_ = &facets;
     pairs_ = &pairs;
     windings_ = &windings;
     formula_ = &formula;
+    open_ = open;
     stats_ = &stats;
     n_ = facets.operand_count();
     row_ = formula.row_size();
@@ -565,6 +566,13 @@ void PlainCutting::start_item(LeafIndex item) {
     count_ = 0;
 }
 
+// Whether an operand other than a facet's own decides the formula on both of its sides.
+bool PlainCutting::is_covered(LeafIndex operand, std::span<const int> windings) const {
+    for (std::size_t o = 0; o < open_.size(); ++o)
+        if (windings[o] != open_[o] && o != LeafWork::u(operand)) return true;
+    return false;
+}
+
 PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     start_item(item);
     const PlainFacet& f = (*facets_)[item];
@@ -590,11 +598,13 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
         }
         if (is_known(windings)) return answer_for(windings).result;
     }
-    PlainPart& part = add_part();
-    set_sides(part, windings_->windings(windings));
-    settle(part);
     Result result;
-    if (part.state == PlainPart::State::Kept) result = {Remains::Uncut, part.inside_above};
+    if (!is_covered(f.operand, windings_->windings(windings))) {
+        PlainPart& part = add_part();
+        set_sides(part, windings_->windings(windings));
+        settle(part);
+        if (part.state == PlainPart::State::Kept) result = {Remains::Uncut, part.inside_above};
+    }
     answer_for(windings) = {windings, key, result};
     return result;
 }

@@ -60,9 +60,10 @@ struct PlainPart {
 /// Keeps its memory.
 class PlainCutting {
 public:
-    /// \pre contacts are known. `formula` must outlive the leaf.
+    /// \pre contacts are known. `formula` and `open` must outlive the leaf. `open`: by operand the
+    /// winding number where it does not decide the formula by itself; or empty.
     void start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
-               LeafFormula& formula, EvaluateStats& stats);
+               LeafFormula& formula, std::span<const int> open, EvaluateStats& stats);
 
     /// What is left of an item. `Doubtful`: doubles cannot tell.
     enum class Remains : std::uint8_t { Doubtful, Nothing, Uncut, Parts };
@@ -92,6 +93,7 @@ private:
     enum class Split : std::uint8_t { Doubtful, Missed, Done };
 
     void start_item(LeafIndex item);
+    [[nodiscard]] bool is_covered(LeafIndex operand, std::span<const int> windings) const;
     [[nodiscard]] bool make_shape();
     [[nodiscard]] bool clip_to_cell();
     [[nodiscard]] bool clip_at(std::size_t axis, bool high);
@@ -159,6 +161,7 @@ private:
     const PlainPairs* pairs_ = nullptr;
     PlainWindings* windings_ = nullptr;
     LeafFormula* formula_ = nullptr;
+    std::span<const int> open_;
     EvaluateStats* stats_ = nullptr;
     std::size_t n_ = 0;    // operands
     std::size_t row_ = 0;  // of the formula

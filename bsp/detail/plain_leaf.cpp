@@ -76,7 +76,8 @@ bool PlainLeaf::arrange_listed(Crossings* crossings, EvaluateStats& stats,
     windings_.start(facets_, pairs_);
     formula_.start(facets_.problem());
     crossed_ = 0;
-    cutting_.start(facets_, pairs_, windings_, formula_, stats);
+    start_covers(crossings);
+    cutting_.start(facets_, pairs_, windings_, formula_, open_, stats);
     for (LeafIndex i = 0; i < facets_.size(); ++i) {
         const bool crossed = !pairs_.contacts(i).empty();
         if (crossed && crossings != nullptr) {
@@ -113,22 +114,32 @@ bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
     });
 }
 
+void PlainLeaf::start_covers(const Crossings* crossings) {
+    open_.clear();
+    slots_.clear();
+    if (crossings == nullptr) return;
+    for (std::size_t o = 0; o < facets_.operand_count(); ++o) {
+        open_.push_back(crossings->operands[slot_of(o)].open);
+        slots_.push_back(static_cast<std::uint32_t>(slot_of(o)));
+    }
+}
+
 // Notes a facet that something crosses, and the operands that it lies in here, of those that do not
 // cross it. One whose part in the cell is empty is somebody else's.
 bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
     if (crossings.operands.size() == 2) return true;
-    const std::size_t n = facets_.operand_count();
     const std::size_t own = LeafWork::u(facets_[item].operand);
-    const std::uint32_t number = crossings.number_of(slot_of(own), facets_[item].ref.facet);
-    crosses_.assign(n, 0);
-    crosses_[own] = 1;
-    std::size_t others = n - 1;
-    for (const PlainContact& c : pairs_.contacts(item)) {
-        std::uint8_t& crosses = crosses_[LeafWork::u(facets_[c.other].operand)];
-        others -= crosses == 0 ? 1 : 0;
-        crosses = 1;
+    const std::uint32_t number = crossings.number_of(slots_[own], facets_[item].ref.facet);
+    const auto contacts = pairs_.contacts(item);
+    // They come operand by operand.
+    std::size_t crossing = 0;
+    LeafIndex last = -1;
+    for (const PlainContact& c : contacts) {
+        const LeafIndex operand = facets_[c.other].operand;
+        crossing += operand != last ? 1 : 0;
+        last = operand;
     }
-    if (others == 0 && is_crossed_inside(item)) {
+    if (crossing + 1 == open_.size() && is_crossed_inside(item)) {
         seen.push_back(number);
         return true;
     }
@@ -136,10 +147,12 @@ bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std
     if (!windings) return false;
     if (windings->empty()) return true;
     seen.push_back(number);
-    for (std::size_t o = 0; o < n; ++o) {
-        const std::size_t slot = slot_of(o);
-        if (crosses_[o] == 0 && (*windings)[o] != crossings.operands[slot].open)
-            crossings.covers.push_back({number, static_cast<std::uint32_t>(slot)});
+    for (std::size_t o = 0; o < open_.size(); ++o) {
+        if ((*windings)[o] == open_[o] || o == own) continue;
+        const bool crosses = std::ranges::any_of(contacts, [&](const PlainContact& c) {
+            return LeafWork::u(facets_[c.other].operand) == o;
+        });
+        if (!crosses) crossings.covers.push_back({number, slots_[o]});
     }
     return true;
 }

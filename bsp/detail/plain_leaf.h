@@ -42,6 +42,7 @@ private:
                                       std::vector<PolygonRef>& out);
     [[nodiscard]] bool try_to_arrange(const LeafProblem& problem, Crossings* crossings,
                                       EvaluateStats& stats, std::vector<PolygonRef>& out);
+    void start_covers(const Crossings* crossings);
     [[nodiscard]] bool add_covers(LeafIndex item, Crossings& crossings,
                                   std::vector<std::uint32_t>& seen);
     [[nodiscard]] bool is_crossed_inside(LeafIndex item) const;
@@ -57,7 +58,10 @@ private:
     LeafFormula formula_;
     std::size_t crossed_ = 0;  // facets
     std::vector<std::uint32_t>* seen_ = nullptr;
-    std::vector<std::uint8_t> crosses_;  // by operand
+    // By operand, where crossings are collected: its winding number where it covers nothing, and
+    // its slot.
+    std::vector<int> open_;
+    std::vector<std::uint32_t> slots_;
 };
 
 }  // namespace trisect::detail

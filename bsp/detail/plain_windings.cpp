@@ -314,7 +314,7 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
     if (const FacetRows* const planes = pairs_->all_planes()) {
         const FacetRows::Segment segment = planes->segment(start.at, target);
         return all->visit_meeting(0, probe, [&](std::size_t row, unsigned met) {
-            return count(0, row, met & ~planes->parted(row, segment));
+            return count(0, row, met & ~planes->parted(row, segment, met));
         });
     }
     const auto count_in = [&](const BoxRows& boxes, LeafIndex first, std::size_t begin,
@@ -432,7 +432,7 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
 
 void PlainWindings::list_ways() {
     has_ways_ = true;
-    ways_.clear();
+    found_.clear();
     for (LeafIndex i = 0; i < facets_->size(); ++i) {
         if (pairs_->contacts(i).empty() || !(*facets_)[i].is_whole()) continue;
         const auto& vertices = vertices_[LeafWork::u(i)];
@@ -444,13 +444,16 @@ void PlainWindings::list_ways() {
             const LeafIndex from = root(a);
             const LeafIndex to = root(b);
             if (from == to) continue;
-            ways_.push_back({from, to, i, c, c});
-            ways_.push_back({to, from, i, c, d});
+            found_.push_back({from, to, i, c, c});
+            found_.push_back({to, from, i, c, d});
         }
     }
-    std::ranges::sort(ways_, [](const Way& a, const Way& b) {
-        return a.from != b.from ? a.from < b.from : a.to < b.to;
-    });
+    // Counting sort: `first_way_[n + 1]` runs from the start of node n's to their end.
+    first_way_.assign(nodes_.size() + 2, 0);
+    for (const Way& w : found_) ++first_way_[LeafWork::u(w.from) + 2];
+    for (std::size_t n = 2; n < first_way_.size(); ++n) first_way_[n] += first_way_[n - 1];
+    ways_.resize(found_.size());
+    for (const Way& w : found_) ways_[first_way_[LeafWork::u(w.from) + 1]++] = w;
 }
 
 // From a tree that has become known to all that edges connect it with.
@@ -460,16 +463,17 @@ void PlainWindings::spread(LeafIndex r) {
     while (!reached_.empty()) {
         const LeafIndex from = reached_.back();
         reached_.pop_back();
-        const auto begin = std::ranges::lower_bound(ways_, from, {}, &Way::from);
-        for (auto way = begin; way != ways_.end() && way->from == from; ++way) {
-            if (nodes_[LeafWork::u(way->to)].state == State::Known) continue;
+        const std::size_t end = first_way_[LeafWork::u(from) + 1];
+        for (std::size_t i = first_way_[LeafWork::u(from)]; i < end; ++i) {
+            const Way& way = ways_[i];
+            if (nodes_[LeafWork::u(way.to)].state == State::Known) continue;
             const auto known = windings(nodes_[LeafWork::u(from)].windings);
             traced_.assign(known.begin(), known.end());
-            if (!follow(*way, traced_)) continue;
-            Node& to = nodes_[LeafWork::u(way->to)];
+            if (!follow(way, traced_)) continue;
+            Node& to = nodes_[LeafWork::u(way.to)];
             to.state = State::Known;
             to.windings = keep(traced_);
-            reached_.push_back(way->to);
+            reached_.push_back(way.to);
         }
     }
 }

@@ -122,7 +122,9 @@ private:
     std::vector<ClearBox> clear_boxes_;
     std::vector<int> known_;  // a row of `operands_` for each
     std::vector<int> traced_;
-    std::vector<Way> ways_;  // along edges of facets that are crossed, by `from`
+    std::vector<Way> found_;              // along edges of facets that are crossed
+    std::vector<Way> ways_;               // the same, by `from`
+    std::vector<std::size_t> first_way_;  // by node
     bool has_ways_ = false;
     std::vector<LeafIndex> reached_;
     // Of all facets of an operand, by operand; made for the first trace that asks for them.
