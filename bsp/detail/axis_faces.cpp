@@ -106,21 +106,40 @@ bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t acros
 // --- Which planes.
 
 void AxisFaces::choose(std::span<const Leaf> leaves) {
-    if (parts_.facets.empty()) return;
-    across_.clear();
-    for (const Leaf& leaf : leaves)
-        across_.push_back(leaf.picture != nullptr || all_across_axes(*leaf.polygons));
-    if (std::ranges::find(across_, true) == across_.end()) return;
+    list_open_planes();
+    if (open_count_ == 0) return;
     facets_.assign(parts_.facets.size(), {});
+    across_.clear();
+    for (const Leaf& leaf : leaves) {
+        across_.push_back(leaf.picture != nullptr || all_across_axes(*leaf.polygons));
+        if (!across_.back()) continue;
+        check_stop(1 + leaf.polygons->size());
+        read_leaf(leaf);
+        if (open_count_ != 0) continue;
+        passing_ = {};
+        return;
+    }
+    if (std::ranges::find(across_, true) == across_.end()) return;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (across_[i]) continue;
         check_stop(1 + leaves[i].polygons->size());
-        if (across_[i]) {
-            read_leaf(leaves[i]);
-        } else {
-            block_leaf(leaves[i]);
-        }
+        block_leaf(leaves[i]);
     }
     judge();
+}
+
+// Those that may be taken: a facet of them has changed, and none that passes through was met. In a
+// chain few planes have changed facets, and leaves that nothing cuts show soon that all of them
+// have others too.
+void AxisFaces::list_open_planes() {
+    std::optional<AxisPlane> last;
+    for (const BoundaryFacet& f : parts_.facets) {
+        if (f.source->is_half_space()) continue;
+        const PolygonRef facet{f.source, nullptr, f.facet, false, false};
+        if ((last && lies_in(facet, *last)) || !is_across_an_axis(facet)) continue;
+        last = axis_plane(PlaneName::support(f.source, f.facet));
+        if (open_planes_.insert(key_of(*last), 0).second) ++open_count_;
+    }
 }
 
 const FacetMarks& AxisFaces::marks_of(const Source* source) {
@@ -130,8 +149,8 @@ const FacetMarks& AxisFaces::marks_of(const Source* source) {
 }
 
 AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& name) {
-    const Key128 key{plane.axis, static_cast<std::uint64_t>(plane.position)};
-    const auto [id, inserted] = sheet_ids_.insert(key, static_cast<std::int32_t>(sheets_.size()));
+    const auto [id, inserted] =
+        sheet_ids_.insert(key_of(plane), static_cast<std::int32_t>(sheets_.size()));
     if (inserted) {
         sheets_.emplace_back();
         sheets_.back().plane = plane;
@@ -166,7 +185,9 @@ void AxisFaces::pass(const PolygonRef& facet) {
     if (last_passed_ && lies_in(facet, *last_passed_)) return;
     const PlaneName name = PlaneName::support(facet.source, facet.facet);
     last_passed_ = axis_plane(name);
-    sheet_at(*last_passed_, name).is_general = true;
+    Sheet& sheet = sheet_at(*last_passed_, name);
+    if (!sheet.has_passing && open_planes_.find(key_of(*last_passed_)) >= 0) --open_count_;
+    sheet.has_passing = sheet.is_general = true;
 }
 
 // Its parts are in the picture's units. One that is not cut has all its area in the cell.

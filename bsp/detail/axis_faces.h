@@ -78,7 +78,8 @@ private:
         AxisPlane plane;
         PlaneName name;
         std::array<std::int32_t, 2> first{-1, -1};
-        bool is_general = false;  // not taken
+        bool is_general = false;   // not taken
+        bool has_passing = false;  // a facet passes through
         std::size_t parts = 0;
         PlaneId id = -1;  // once it was asked for
         std::uint32_t rank = 0;
@@ -125,8 +126,12 @@ private:
         friend auto operator<=>(const Other&, const Other&) = default;
     };
 
+    static Key128 key_of(const AxisPlane& plane) {
+        return {plane.axis, static_cast<std::uint64_t>(plane.position)};
+    }
     [[nodiscard]] const FacetMarks& marks_of(const Source* source);
     [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
+    void list_open_planes();
     void read_leaf(const Leaf& leaf);
     void block_leaf(const Leaf& leaf);
     void read_facet(const PolygonRef& facet, std::int32_t number, const AxisPicture::Part& part,
@@ -171,6 +176,8 @@ private:
     const Source* last_source_ = nullptr;
     std::size_t last_table_ = 0;
     std::optional<AxisPlane> last_passed_;
+    FlatMap open_planes_;
+    std::size_t open_count_ = 0;
     std::vector<bool> across_;  // by leaf
     std::vector<Facet> facets_;
     std::vector<Sheet> sheets_;
