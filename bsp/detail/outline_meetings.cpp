@@ -5,9 +5,18 @@
 // bound: what a box reaches to is rounded, and rounding keeps the order. If the rounded least of
 // one is larger than the rounded most of the other, so are the exact ones.
 //
-// Those that are left cross where each has its ends on both sides of the other one's plane. These
+// Those that are left cross where each has its ends on both sides of the other one's line. These
 // signs come from doubles with a bound, and what has no sure answer ends the attempt. The point is
 // then taken on the one of the two segments that tells it better.
+//
+// The bound, with u = 2^-53 and E the largest error of the four ends. The value of a point is
+// du y - dv x, with (du, dv) the way along the line and (x, y) the way from its start. Each of
+// these differences is off by 2E for its ends, and by a factor of 1 + u. So a product, say du y, is
+// off by
+//     2E (|du| + |y|) + 4E^2 + 3.1u |du y|
+// besides products of E and u, and the difference of both by another u of it. That makes
+//     2E (|du| + |dv| + |x| + |y| + 4E) + 4.1u (|du y| + |dv x|);
+// 2.001 E and 8u are taken, which pays for the products and for rounding the bound itself.
 
 #include <trisect/bsp/detail/outline_meetings.h>
 
@@ -70,18 +79,23 @@ bool OutlineMeetings::find(const OutlinePlane& facet, std::span<const OutlineSeg
     compared_ = 0;
     first_.assign(segments.size() + 1, 0);
     if (cutters < 2) return true;
+    if (!set_axes(facet)) return false;
     make_boxes(facet);
-    has_plane_.assign(segments.size(), 0);
-    if (planes_.size() < segments.size()) planes_.resize(segments.size());
     for (std::uint32_t a = 0; a < segments.size(); ++a)
         if (!compare_with_all(a)) return false;
     return points_.empty() || sort_meetings();
 }
 
+// False when doubles cannot tell how the facet lies.
+bool OutlineMeetings::set_axes(const OutlinePlane& facet) {
+    const std::size_t k = facet.dominant_axis();
+    axes_ = {(k + 1) % 3, (k + 2) % 3};
+    if (facet.normal[k] < 0) std::swap(axes_[0], axes_[1]);
+    return std::fabs(facet.normal[k]) > 0x1p-50 * facet.minor[k];
+}
+
 void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
     constexpr float far = std::numeric_limits<float>::infinity();
-    const std::size_t dropped = facet.dominant_axis();
-    const std::array<std::size_t, 2> axes{(dropped + 1) % 3, (dropped + 2) % 3};
     boxes_.assign((segments_.size() + 3) / 4,
                   {{all_lanes(far), all_lanes(far)}, {all_lanes(-far), all_lanes(-far)}});
     for (std::size_t s = 0; s < segments_.size(); ++s) {
@@ -89,7 +103,7 @@ void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
         const Approximation& to = *segments_[s].at[1];
         BoxRow& row = boxes_[s / 4];
         for (std::size_t k = 0; k < 2; ++k) {
-            const std::size_t axis = axes[k];
+            const std::size_t axis = axes_[k];
             const double a = from.c[axis];
             const double b = to.c[axis];
             // From the facet, where single precision goes farthest.
@@ -127,42 +141,35 @@ bool OutlineMeetings::compare(std::uint32_t a, std::uint32_t b) {
     const std::array<std::uint32_t, 2> pair{a, b};
     std::array<Values, 2> values;
     for (std::size_t i = 0; i < 2; ++i) {
-        values[i] = values_of(plane_of(pair[1 - i]), segments_[pair[i]]);
+        values[i] = values_of(segments_[pair[1 - i]], segments_[pair[i]]);
         if (values[i].known && (values[i].at[0] > 0) == (values[i].at[1] > 0)) return true;
     }
     return values[0].known && values[1].known && add_point(pair, values);
 }
 
-const OutlinePlane& OutlineMeetings::plane_of(std::uint32_t segment) {
-    OutlinePlane& plane = planes_[segment];
-    if (has_plane_[segment] == 0) {
-        plane = OutlinePlane(segments_[segment].corners);
-        has_plane_[segment] = 1;
-    }
-    return plane;
-}
-
-// Of both ends.
-OutlineMeetings::Values OutlineMeetings::values_of(const OutlinePlane& plane,
-                                                   const OutlineSegment& s) {
+// Of both ends: positive to the left of the line.
+OutlineMeetings::Values OutlineMeetings::values_of(const OutlineSegment& line,
+                                                   const OutlineSegment& s) const {
+    const auto [u, v] = axes_;
+    const Approximation& p = *line.at[0];
+    const Approximation& q = *line.at[1];
     const Approximation& from = *s.at[0];
     const Approximation& to = *s.at[1];
-    Double2 sum{};
-    Double2 permanent{};
-    double slope = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Double2 d = Double2{from.c[k], to.c[k]} - both(plane.origin[k]);
-        const Double2 size = larger(d, -d);
-        sum += both(plane.normal[k]) * d;
-        permanent += both(plane.minor[k]) * size;
-        slope += plane.minor[k];
-    }
-    const Double2 error =
-        both(0x1p-50) * permanent + both(slack * slope) * Double2{from.error, to.error};
+    const double du = q.c[u] - p.c[u];
+    const double dv = q.c[v] - p.c[v];
+    const Double2 x = Double2{from.c[u], to.c[u]} - both(p.c[u]);
+    const Double2 y = Double2{from.c[v], to.c[v]} - both(p.c[v]);
+    const auto size = [](Double2 a) { return larger(a, -a); };
+    const Double2 left = both(du) * y;
+    const Double2 right = both(dv) * x;
+    const Double2 value = left - right;
+    const double e = std::max(std::max(p.error, q.error), std::max(from.error, to.error));
+    const Double2 ways = both(std::fabs(du) + std::fabs(dv) + 4 * e) + (size(x) + size(y));
+    const Double2 error = both(0x1p-50) * (size(left) + size(right)) + both(2.001 * e) * ways;
     Values out;
-    out.at = {sum[0], sum[1]};
+    out.at = {value[0], value[1]};
     out.error = error[0] + error[1];
-    out.known = where_at_most(larger(sum, -sum), error) == 0;
+    out.known = where_at_most(size(value), error) == 0;
     return out;
 }
 
@@ -181,7 +188,7 @@ bool OutlineMeetings::add_point(const std::array<std::uint32_t, 2>& segments,
     Point& point = points_.emplace_back();
     point.segments = segments;
     for (std::size_t i = 0; i < 2; ++i) {
-        point.opens[i] = (values[i].at[1] < 0) == segments_[segments[1 - i]].open_below;
+        point.opens[i] = values[i].at[1] > 0;  // what is open is to the left
         ++first_[segments[i] + 1];
     }
     return interpolate(*s.at[0], v.at[0], *s.at[1], v.at[1], v.error, point.at);

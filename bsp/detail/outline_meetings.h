@@ -18,10 +18,9 @@ namespace trisect::detail {
 /// A segment in which a facet of another operand, a cutter, crosses the facet. It is directed so
 /// that what the cutter leaves open is on its left.
 struct OutlineSegment {
-    std::uint32_t cutter = 0;                      ///< a small number for each operand
-    bool open_below = false;                       ///< the open side of the cutter's facet
-    std::array<const LatticePoint*, 3> corners{};  ///< of the cutter's facet
-    std::array<const Approximation*, 2> at{};      ///< its ends
+    std::uint32_t cutter = 0;                  ///< a small number for each operand
+    bool open_below = false;                   ///< the open side of the cutter's facet
+    std::array<const Approximation*, 2> at{};  ///< its ends
     std::array<std::int8_t, 2> edge{};  ///< of the facet, where an end lies in its outline; else -1
     /// Where an end lies inside: a name for the edge of the cutter that pierces the facet there.
     std::array<std::uint64_t, 2> through{};
@@ -79,6 +78,7 @@ private:
         double error = 0;
         bool known = false;
     };
+    [[nodiscard]] bool set_axes(const OutlinePlane& facet);
     void make_boxes(const OutlinePlane& facet);
     [[nodiscard]] bool compare_with_all(std::uint32_t a);
     [[nodiscard]] bool compare(std::uint32_t a, std::uint32_t b);
@@ -86,13 +86,12 @@ private:
                                  const std::array<Values, 2>& values);
     [[nodiscard]] bool sort_meetings();
     [[nodiscard]] bool sort_along(const OutlineSegment& segment, std::span<Meeting> run) const;
-    [[nodiscard]] const OutlinePlane& plane_of(std::uint32_t segment);
-    [[nodiscard]] static Values values_of(const OutlinePlane& plane, const OutlineSegment& s);
+    [[nodiscard]] Values values_of(const OutlineSegment& line, const OutlineSegment& s) const;
 
     std::span<const OutlineSegment> segments_;
+    // Of the projection, turned so that the facet is seen from above.
+    std::array<std::size_t, 2> axes_{};
     std::vector<BoxRow> boxes_;
-    std::vector<OutlinePlane> planes_;     // of their cutters' facets,
-    std::vector<std::uint8_t> has_plane_;  // where they were asked for
     std::vector<Point> points_;
     std::vector<Meeting> meetings_;
     std::vector<std::uint32_t> first_;  // of segments

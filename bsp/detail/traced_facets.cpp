@@ -156,7 +156,6 @@ private:
 
     static void set_ends(const FacetCrossing& c, std::uint32_t side, const Source& source,
                          std::uint32_t facet, OutlineSegment& segment) {
-        segment.corners = corners_of(source, facet);
         // Within the facet, to the left of the product of the normals, is what lies below the
         // other facet for the first one, and above it for the second one.
         const bool along = segment.open_below == (side == 0);

@@ -47,7 +47,6 @@ public:
             OutlineSegment s;
             s.cutter = static_cast<std::uint32_t>(i % 5);
             s.open_below = open_below_[i];
-            for (std::size_t k = 0; k < 3; ++k) s.corners[k] = &triangles_[i][k];
             for (std::size_t k = 0; k < 2; ++k) s.at[k] = &at_[i][k];
             segments_.push_back(s);
         }
@@ -119,6 +118,15 @@ private:
             }
         }
         if (ends.size() != 2) return;
+        // What is below the triangle is to the left of the product of the normals.
+        for (int axis = 0; axis < 3; ++axis) {
+            const int product = trisect::sign_of_cross(plane_, plane, axis);
+            if (product == 0) continue;
+            const bool along =
+                (trisect::compare_coordinate(ends[0], ends[1], axis) < 0) == (product > 0);
+            if (along != open_below) std::swap(ends[0], ends[1]);
+            break;
+        }
         triangles_.push_back(t);
         planes_.push_back(plane);
         open_below_.push_back(open_below);
