@@ -15,10 +15,10 @@ namespace trisect::detail {
 
 /// A union, an intersection or a difference of two large imported meshes, as an OutlinedSolid: the
 /// facets that cross, and the others that bound the result. Null for all else: where meshes do not
-/// cross in general position, sides of facets are not known from that, or work or memory is limited;
-/// where one has an index, or is so large beside the other that it gets one: what is beside the
-/// smaller one is not looked at then. Meshes of fewer than `least_facets` are divided as quickly.
-/// What it returns does not depend on the number of threads.
+/// cross in general position, sides of facets are not known from that, or work or memory is
+/// limited; where one has an index, or is so large beside the other that it gets one: what is
+/// beside the smaller one is not looked at then. Meshes of fewer than `least_facets` are divided as
+/// quickly. What it returns does not depend on the number of threads.
 [[nodiscard]] std::shared_ptr<const SolidState> evaluate_undivided(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets = 1024);
