@@ -104,6 +104,7 @@ public:
         out_.are_joined = axis_faces_.takes_all();
         out_.stats.leaves = leaves_.size();
         out_.stats.axis_facets = axis_faces_.taken_count();
+        out_.stats.axis_leaves = axis_faces_.read_count();
         out_.stats.parts += axis_faces_.part_count();
         out_.stats.worked_facets = out_.facets.size();
         out_.stats.edges = out_.edges.size();

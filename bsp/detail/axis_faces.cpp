@@ -115,6 +115,7 @@ void AxisFaces::choose(std::span<const Leaf> leaves) {
         if (!across_.back()) continue;
         check_stop(1 + leaf.polygons->size());
         read_leaf(leaf);
+        ++read_count_;
         if (open_count_ != 0) continue;
         passing_ = {};
         return;

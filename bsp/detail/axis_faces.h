@@ -41,6 +41,8 @@ public:
     }
     /// How many facets are taken, and how many parts of facets.
     [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
+    /// How many leaves were read for that.
+    [[nodiscard]] std::size_t read_count() const { return read_count_; }
     /// Whether make_edges() makes all edges that there are: then all vertices are different,
     /// nothing is left to join, and outlines turn at all vertices but corners of facets that pass
     /// through.
@@ -178,6 +180,7 @@ private:
     std::optional<AxisPlane> last_passed_;
     FlatMap open_planes_;
     std::size_t open_count_ = 0;
+    std::size_t read_count_ = 0;
     std::vector<bool> across_;  // by leaf
     std::vector<Facet> facets_;
     std::vector<Sheet> sheets_;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -86,6 +87,24 @@ TEST(AssemblyWork, EdgesOfEqualToolsCrossInTheirPlaneOfSymmetry) {
     const Solid block = Solid::from_mesh(make_box({-4, -4, -4}, {4, 4, 4}));
     const AssemblyStats stats = stats_of(evaluate(evaluate(block - at(-0.25)) - at(0.25)));
     EXPECT_GT(stats.named_by_edges, 30U);
+}
+
+// The planes of a box that is cut are those of its neighbours, which pass through.
+TEST(AssemblyWork, FewLeavesAreReadWherePlanesHaveFacetsThatPassThrough) {
+    std::vector<Expression> boxes;
+    for (int i = 0; i < 64; ++i) {
+        const std::array<double, 3> low{2.0 * (i / 16), 2.0 * (i / 4 % 4), 2.0 * (i % 4)};
+        boxes.emplace_back(Solid::from_mesh(make_box(low, {low[0] + 1, low[1] + 1, low[2] + 1})));
+    }
+    EvaluateOptions options;
+    options.leaf_polygons = 6;
+    const Solid grid = evaluate(Expression::any_of(boxes), options);
+    const Solid tool = Solid::from_mesh(trisect::transformed(
+        trisect::make_icosphere(0.25, 1), trisect::AffineMap::translation({7.03, 7.01, 7.02})));
+    const AssemblyStats stats = stats_of(evaluate(grid - tool, options));
+    EXPECT_EQ(stats.axis_facets, 0U);
+    EXPECT_GT(stats.axis_leaves, 0U);
+    EXPECT_LT(2 * stats.axis_leaves, stats.leaves);
 }
 
 TEST(AssemblyWork, OnlyCoplanarNeighboursAreJoined) {
