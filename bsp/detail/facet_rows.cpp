@@ -24,6 +24,7 @@
 #include <limits>
 
 #include <trisect/bsp/detail/four_floats.h>
+#include <trisect/kernel/detail/wide_clones.h>
 
 namespace trisect::detail {
 
@@ -132,6 +133,7 @@ FacetRows::Probe FacetRows::probe(std::size_t facet) const {
     return out;
 }
 
+TRISECT_WIDE_CLONES
 unsigned FacetRows::parted(std::size_t row, const Probe& probe, unsigned among) const {
     const Row& r = rows_[row];
     const unsigned beside =
@@ -144,6 +146,7 @@ FacetRows::Segment FacetRows::segment(const Approximation& a, const Approximatio
     return {{single(a.c, scale_), single(b.c, scale_)}, above(scale_ * std::max(a.error, b.error))};
 }
 
+TRISECT_WIDE_CLONES
 unsigned FacetRows::parted(std::size_t row, const Segment& segment, unsigned among) const {
     const Row& r = rows_[row];
     // No component of a normal is above 1, nor by much above it before it was rounded.
