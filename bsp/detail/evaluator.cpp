@@ -66,7 +66,7 @@ constexpr std::uint64_t parallel_size = 4096;
 // Leaves may be so many times as large where all polygons are across an axis.
 constexpr std::uint64_t axis_leaf_factor = 8;
 // Or where operands are small: where at least such a part of all their facets is in the cell.
-constexpr std::uint64_t small_operands_factor = 5;
+constexpr std::uint64_t small_operands_factor = 8;
 constexpr std::uint64_t small_operands_part = 8;
 
 class Worker;

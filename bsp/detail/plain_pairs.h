@@ -109,7 +109,7 @@ private:
     [[nodiscard]] bool sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
                              EvaluateStats& stats);
     [[nodiscard]] std::span<const std::uint64_t> find_rows(std::size_t candidate, bool all);
-    void list_candidates(PlainFacets& facets);
+    void list_candidates(PlainFacets& facets, LeafIndex few);
     void sort_candidates(const PlainFacets& facets);
     void mark_rows(std::span<const std::uint8_t> marks);
     /// Sets all of `out` when they cross.
