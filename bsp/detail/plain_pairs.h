@@ -134,8 +134,7 @@ private:
     FacetRows planes_;  // of the same items, if no fragments are among them
     bool has_planes_ = false;
     std::vector<std::uint64_t> rows_;         // see find_rows()
-    std::vector<FacetRows::Pair> pairs_;      // of candidates that planes do not part: the first
-    std::size_t listed_ = 0;                  // so many
+    std::vector<FacetRows::Pair> pairs_;      // of candidates that planes do not part
     std::vector<std::size_t> rows_of_first_;  // of two operands: with candidates of the first
     std::vector<std::uint8_t> marked_;        // of rows, where only marked ones count
     std::vector<std::size_t> next_marked_;    // rows
