@@ -88,6 +88,9 @@ OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
     CubeGrid::Cube* out = of_points_.get();
     for (const LatticePoint& p : mesh.points) *out++ = by_value.cube_of(p);
     is_useful_ = mark_facets();
+    bytes_ = mesh.points.size() * sizeof(CubeGrid::Cube) +
+             mesh.triangles.size() * sizeof(std::uint32_t) +
+             occupied_.size() * sizeof(std::uint64_t);
 }
 
 bool OccupiedCubes::mark_facets() {

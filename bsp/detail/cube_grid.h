@@ -142,6 +142,8 @@ public:
     }
     /// The facets whose boxes meet some cube of a set, in order.
     [[nodiscard]] std::vector<std::uint32_t> facets_in(const CubeSet& cubes) const;
+    /// Memory behind it.
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
 private:
     [[nodiscard]] bool mark_facets();
@@ -156,6 +158,7 @@ private:
     /// By facet: the least cube of its range, and in byte 3 its shape.
     std::unique_ptr<std::uint32_t[]> places_;
     CubeSet occupied_;
+    std::size_t bytes_ = 0;
     bool is_useful_ = false;
 };
 

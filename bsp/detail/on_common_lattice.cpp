@@ -39,6 +39,7 @@ public:
     ~Refiner() { end_fragments(out_); }  // where an exception ended the walk
 
     CellRef refine(const CellRef& root) {
+        if (is_whole_mesh(*root.node)) return refine_mesh(root);
         visit(root, Cell{});
         const CellNode* node = root.node.get();
         bool complemented = root.complemented;
@@ -46,13 +47,32 @@ public:
             complemented = complemented != node->child(0).complemented;
             node = node->child(0).node.get();
         }
-        FinePoint reference = node->reference();
-        for (std::int64_t& c : reference.c) c = shifted(c);
+        const FinePoint reference = shifted(node->reference());
         const int winding = complemented ? 1 - node->winding() : node->winding();
         return {CellNode::leaf(PolygonList(std::move(out_)), reference, winding, mixed_), false};
     }
 
 private:
+    // As it was imported.
+    [[nodiscard]] static bool is_whole_mesh(const CellNode& node) {
+        return node.is_leaf() && node.deferred() == nullptr && node.polygons().has_all_facets() &&
+               !node.polygons().flipped() && !node.polygons().whole_source()->is_half_space();
+    }
+
+    // Stays one, and so goes every way that whole meshes go.
+    [[nodiscard]] CellRef refine_mesh(const CellRef& root) const {
+        const CellNode& node = *root.node;
+        const auto source = node.polygons().whole_source()->refined(exponent_);
+        return {CellNode::leaf(PolygonList::all_facets(*source), shifted(node.reference()),
+                               node.winding(), node.is_mixed()),
+                root.complemented};
+    }
+
+    [[nodiscard]] FinePoint shifted(FinePoint p) const {
+        for (std::int64_t& c : p.c) c = shifted(c);
+        return p;
+    }
+
     [[nodiscard]] std::int64_t shifted(std::int64_t v) const {
         if (shift_ >= 62 || v > (universe_limit >> shift_) || v < -(universe_limit >> shift_))
             throw LimitError("a cell wall leaves the range of the common lattice of unit 2^" +

@@ -25,6 +25,7 @@
 #include <span>
 #include <utility>
 
+#include <trisect/bsp/detail/budget.h>
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/choose_wall.h>
 #include <trisect/bsp/detail/crossings.h>
@@ -56,6 +57,7 @@ class PairFinder;
 struct Search {
     const EvaluateOptions& options;
     const Crossings& operands;  // without pairs
+    MemoryBudget& memory;
     bool parallel = false;
     std::atomic<bool> in_doubt{false};  // nobody needs to go on
     PerThread<PairFinder> finders = {};
@@ -78,6 +80,8 @@ public:
         task.frame = Frame::covering(all);
         task.has_frame = true;
         std::array<CellOperand, 2> operands;
+        const auto held =
+            search_.memory.hold((facets[0].size() + facets[1].size()) * sizeof(PackedBox));
         for (std::size_t i = 0; i < 2; ++i) {
             CellOperand& o = operands[i];
             o.slot = static_cast<std::int32_t>(i);
@@ -183,6 +187,8 @@ bool PairFinder::divide(const CellTask& task, const Wall& wall) {
     }
     partition(task, wall, {children[0].cell, children[1].cell}, arena_, 1,
               {children[0].operands, children[1].operands});
+    const auto held =
+        search_.memory.hold((children[0].size() + children[1].size()) * sizeof(PackedBox));
     const std::uint64_t largest = std::max(children[0].size(), children[1].size());
     for (CellTask& c : children) c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
     return solve_both(children);
@@ -295,8 +301,8 @@ struct TwoMeshes {
 
 // All pairs of facets that cross, arranged; false when doubles cannot tell about one.
 bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
-                bool parallel, Crossings& crossings, EvaluateStats& stats) {
-    Search search{options, crossings, parallel};
+                MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
+    Search search{options, crossings, memory, parallel};
     if (!search.finder().run(two.nodes, near)) return false;
     search.finders.for_each([&](const PairFinder& f) {
         crossings.append(f.crossings());
@@ -310,18 +316,22 @@ bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOption
 std::optional<std::vector<UncrossedFacets>> find_uncrossed(
     const TwoMeshes& two, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, bool parallel, Crossings& crossings, EvaluateStats& stats) {
+    MemoryBudget memory(options.max_memory);
     const CubeGrid grid(two.common, slabs_for(two.larger()));
     std::array<std::optional<OccupiedCubes>, 2> cubes;
     do_both(
         parallel, [&] { cubes[0].emplace(grid, *two.meshes[0]); },
         [&] { cubes[1].emplace(grid, *two.meshes[1]); });
     if (!cubes[0]->is_useful() || !cubes[1]->is_useful()) return std::nullopt;
+    const auto of_cubes = memory.hold(cubes[0]->bytes() + cubes[1]->bytes());
     TwoLists near;
     do_both(
         parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes()); },
         [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes()); });
     if (near[0].empty() || near[1].empty()) return std::nullopt;
-    if (!find_pairs(two, near, options, parallel, crossings, stats) || crossings.pairs.empty())
+    const auto of_near = memory.hold((near[0].size() + near[1].size()) * sizeof(std::uint32_t));
+    if (!find_pairs(two, near, options, memory, parallel, crossings, stats) ||
+        crossings.pairs.empty())
         return std::nullopt;
     std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
     const auto find = [&](std::size_t i) {
@@ -336,8 +346,10 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(
     std::vector<UncrossedFacets> out;
     for (std::size_t i = 0; i < 2; ++i) {
         stats.untouched_polygons += facets[i]->size();
+        memory.keep(facets[i]->size() * sizeof(std::uint32_t));
         out.push_back({&two.source(i), crossings.operands[i].inside_above, *std::move(facets[i])});
     }
+    stats.memory = memory.peak();
     return out;
 }
 
@@ -346,7 +358,7 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(
 std::shared_ptr<const SolidState> evaluate_undivided(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets) {
-    if (solids.size() != 2 || options.max_work != 0 || options.max_memory != 0) return nullptr;
+    if (solids.size() != 2 || options.max_work != 0) return nullptr;
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     if (!crossings) return nullptr;
     const TwoMeshes two(solids);

@@ -28,7 +28,27 @@ protected:
         trisect::transformed(trisect::make_icosphere(1, 4),
                              trisect::compose(trisect::AffineMap::translation({0.43, 0.31, 0.27}),
                                               trisect::AffineMap::rotation({1, 2, 3}, 37))));
+    // By cells: a limit of work is counted by them.
+    static trisect::EvaluateOptions dividing() {
+        trisect::EvaluateOptions options;
+        options.max_work = std::uint64_t{1} << 60;
+        return options;
+    }
 };
+
+// Of two large meshes only the facets that come near the other one are looked at.
+TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
+    EvaluateStats stats;
+    EvaluateStats divided;
+    (void)evaluate(a | b, {}, &stats);
+    (void)evaluate(a | b, dividing(), &divided);
+    EXPECT_GT(stats.pairs_cutting, 0U);
+    EXPECT_LE(stats.pairs_cutting, divided.pairs_cutting);  // some count in several cells
+    EXPECT_LT(2 * stats.listed_polygons, divided.listed_polygons);
+    EXPECT_EQ(stats.traces, 0U);
+    EXPECT_GT(stats.untouched_polygons, 1000U);
+    EXPECT_LT(stats.memory, divided.memory);
+}
 
 TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
     const PredicateCounters before = trisect::predicate_counters();
@@ -44,10 +64,10 @@ TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
 }
 
 // The short ways of leaves, by their counts: one trace serves what hangs together, and within a cut
-// facet winding numbers are carried over.
+// facet winding numbers are carried over. (A symmetric difference is cut at once.)
 TEST_F(TwoBalls, WindingNumbersAreCarriedOverInsteadOfTraced) {
     EvaluateStats stats;
-    (void)evaluate(a | b, {}, &stats);
+    (void)evaluate(a ^ b, {}, &stats);
     EXPECT_GT(stats.untouched_polygons, 1000U);
     EXPECT_GT(stats.traces_within, stats.pieces / 2);
     EXPECT_LT(stats.traces * 4, stats.pieces + stats.untouched_polygons);
@@ -67,7 +87,7 @@ TEST_F(TwoBalls, AllLeavesAreArrangedInDoubles) {
 
 TEST_F(TwoBalls, CellsAndPairsAreFew) {
     EvaluateStats stats;
-    (void)evaluate(a | b, {}, &stats);
+    (void)evaluate(a | b, dividing(), &stats);
     EXPECT_GT(stats.cells, 0U);
     EXPECT_GE(stats.cells, stats.shared_cells + stats.constant_cells + stats.mixed_leaves);
     EXPECT_GT(stats.shared_cells, 0U);

@@ -201,7 +201,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const auto state = evaluate_undivided(t.formula, states, options, stats, 1);
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;
-    dividing.max_memory = std::uint64_t{1} << 40;  // a limit has to be kept by cells
+    dividing.max_work = std::uint64_t{1} << 60;  // a limit is counted by cells
     const auto expected = mesh_of(*trisect::evaluate(expression, dividing).state());
     if (!are_equal(mesh_of(*state), expected)) return "another mesh";
     if (!expected) return std::string();

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/detail/outlined_solid.h>
 
@@ -19,9 +21,9 @@ struct Count {
     int undivided = 0;
 };
 
-// A limit of memory has to be kept by cells.
+// A limit of work is counted by cells.
 trisect::EvaluateOptions dividing(trisect::EvaluateOptions options) {
-    options.max_memory = std::uint64_t{1} << 40;
+    options.max_work = std::uint64_t{1} << 60;
     return options;
 }
 
@@ -112,6 +114,36 @@ TEST(Undivided, LargeMeshesByAnyNumberOfThreads) {
                   trisect::evaluate(divided | b).to_mesh().corners);
         EXPECT_EQ(result.to_brep().counts().faces, divided.to_brep().counts().faces);
     }
+}
+
+// Files seldom have coordinates of the same fineness.
+TEST(Undivided, MeshesOfDifferentLattices) {
+    trisect::PolygonMesh moved = trisect::make_icosphere(1, 4);
+    for (auto& p : moved.points) {
+        p[0] += 0.73;
+        p[1] *= 0.81;
+        p[2] += 0.11 * p[0] + 0.03;
+    }
+    const auto on_lattice = [](const trisect::PolygonMesh& mesh, int exponent) {
+        trisect::SolidOptions import;
+        import.import.lattice = trisect::Lattice{exponent};
+        return trisect::Solid::from_mesh(mesh, import);
+    };
+    trisect::PolygonMesh rounded = trisect::make_icosphere(1, 4);
+    for (auto& p : rounded.points)
+        for (double& c : p) c = std::ldexp(std::nearbyint(std::ldexp(c, 32)), -32);
+    // Meshes of a result come in the order in which they were imported.
+    const trisect::Solid coarse = on_lattice(rounded, -32);
+    const trisect::Solid fine = on_lattice(rounded, -40);
+    const trisect::Solid b = on_lattice(moved, -40);
+    const trisect::Solid mixed = trisect::evaluate(coarse - b);
+    EXPECT_NE(mixed.state()->outlined, nullptr);
+    const trisect::PolygonMesh mesh = mixed.to_mesh();
+    const trisect::PolygonMesh expected = trisect::evaluate(fine - b, dividing({})).to_mesh();
+    EXPECT_EQ(mesh.corners, expected.corners);
+    EXPECT_TRUE(mesh.points == expected.points);
+    EXPECT_NE(trisect::evaluate(b - coarse).state()->outlined, nullptr);
+    EXPECT_NE(trisect::evaluate(~coarse | ~b).state()->outlined, nullptr);
 }
 
 // Who has an index asks it, and who is so much larger gets one: the price of a small cut does not

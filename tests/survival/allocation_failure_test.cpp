@@ -126,6 +126,21 @@ TEST(AllocationFailure, BooleanInGeneralPosition) {
     EXPECT_EQ(bytes_of(a.to_mesh()), before);
 }
 
+// Large enough not to be divided.
+TEST(AllocationFailure, BooleanOfTwoLargeMeshes) {
+    PolygonMesh moved = trisect::make_icosphere(1, 3);
+    for (auto& p : moved.points) {
+        p[0] += 0.73;
+        p[1] *= 0.81;
+        p[2] += 0.11 * p[0] + 0.03;
+    }
+    const Solid a = Solid::from_mesh(trisect::make_icosphere(1, 3));
+    const Solid b = Solid::from_mesh(moved);
+    trisect::EvaluateOptions options;
+    options.threads = 1;
+    fail_every_allocation([&] { return bytes_of(evaluate(a - b, options).to_mesh(1)); });
+}
+
 TEST(AllocationFailure, BooleanOfASolidThatMeetsItself) {
     PolygonMesh mesh = trisect::make_box({0, 0, 0}, {2, 2, 2});
     const PolygonMesh other = trisect::make_box({1, 1, 1}, {3, 3, 3});
