@@ -24,6 +24,7 @@
 #include <trisect/bsp/detail/assembly_parts.h>
 #include <trisect/bsp/detail/boundary_edges.h>
 #include <trisect/bsp/detail/face_loops.h>
+#include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/detail/parallel_parts.h>
 #include <trisect/kernel/stop_scope.h>
@@ -470,7 +471,11 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                           std::uint32_t threads) {
     // No arena for what no step would divide.
-    const bool small = solid.root.node->size() < 8 * least_groups;
+    std::size_t facets = solid.root.node->size();
+    if (solid.outlined != nullptr)
+        for (const UncrossedFacets& list : solid.outlined->uncrossed())
+            facets += list.facets.size();
+    const bool small = facets < 8 * least_groups;
     return on_threads(small ? 1 : threads,
                       [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
 }
