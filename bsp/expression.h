@@ -114,6 +114,9 @@ struct EvaluateStats {
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
+/// Of two large meshes, and of prisms along one axis, only what a mesh of the result needs is found
+/// out; the first call that needs its cells (a query, to_brep(), another operation) divides space
+/// then, which takes up to twice as long as this call. Solid::refine() does so ahead.
 /// Operands of different lattices are moved to the finest one on which all of them fit. That is
 /// exact, except for operands of very different size: see EvaluateOptions::lattices and
 /// EvaluateStats::lattice.
