@@ -14,6 +14,7 @@
 #include <trisect/bsp/detail/cell_task.h>
 #include <trisect/bsp/detail/evaluator.h>
 #include <trisect/bsp/detail/prism_arrangement.h>
+#include <trisect/bsp/detail/reference_points.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -74,12 +75,6 @@ const Source* mesh_of(const SolidState& solid) {
         return r.source == source && r.fragment == nullptr && !r.touched && r.facet == next++;
     };
     return std::all_of(polygons.begin(), polygons.end(), is_next) ? source : nullptr;
-}
-
-bool lies_outside(const FinePoint& p, const Box& box) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
-    return false;
 }
 
 }  // namespace

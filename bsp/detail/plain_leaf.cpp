@@ -6,10 +6,10 @@
 // points exactly, pairs of facets by orientations of corners, and constructed points by doubles
 // with a bound. A point on a line that was cut before is known to be on it by name
 // (plain_cutting.cpp), and single signs are asked exactly where that is likely to help, such as
-// those of corners on other facets (plain_pairs.cpp); every other sign that doubles cannot tell
-// ends the attempt, and the leaf is arranged the long way. So the short way never decides anything
-// that it does not know; leaves with coincident facets, or with edges along others, lose the
-// attempt, which mostly ends at the first such pair.
+// those of corners on other facets (plain_pair_relation.cpp); every other sign that doubles cannot
+// tell ends the attempt, and the leaf is arranged the long way. So the short way never decides
+// anything that it does not know; leaves with coincident facets, or with edges along others, lose
+// the attempt, which mostly ends at the first such pair.
 //
 // Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
 // and whose edges name the planes that cut them out. So they are items like whole facets, of up to

@@ -17,6 +17,12 @@
 
 namespace trisect::detail {
 
+bool lies_outside(const FinePoint& p, const Box& box) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
+    return false;
+}
+
 const CellNode* unfolded(const CellNode* node) {
     if (!node->is_leaf()) return node;
     const CellNode* refinement = node->refinement();

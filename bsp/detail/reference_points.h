@@ -16,6 +16,9 @@ using CellChildren = std::array<CellTask, 2>;
 /// A leaf that someone refined stands for its refinement.
 [[nodiscard]] const CellNode* unfolded(const CellNode* node);
 
+/// Whether a point is beyond a box, as the reference points of imported meshes are.
+[[nodiscard]] bool lies_outside(const FinePoint& p, const Box& box);
+
 /// Winding number of a solid, given by the node of a cell, at a point of the cell; nothing when the
 /// way to it from a point that is known there meets an edge or a vertex.
 [[nodiscard]] std::optional<int> winding_in_tree(const CellNode& root, bool complemented,

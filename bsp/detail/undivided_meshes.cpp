@@ -37,6 +37,7 @@
 #include <trisect/bsp/detail/partition.h>
 #include <trisect/bsp/detail/plain_facets.h>
 #include <trisect/bsp/detail/plain_pairs.h>
+#include <trisect/bsp/detail/reference_points.h>
 #include <trisect/bsp/detail/stack_arena.h>
 #include <trisect/bsp/detail/work_budget.h>
 #include <trisect/kernel/detail/parallel_parts.h>
@@ -236,12 +237,6 @@ bool PairFinder::compare(const CellTask& task) {
 // About a facet in each cube that the surface meets.
 int slabs_for(std::size_t facets) {
     return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(facets) / 8)), 4, 62);
-}
-
-bool lies_outside(const FinePoint& p, const Box& box) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
-    return false;
 }
 
 // Of an imported mesh.
