@@ -68,11 +68,9 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
 
 Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
     const detail::Translation t = detail::translate(expression);
+    const StopScope scope(options.cancel);  // for what looks at the flag of its thread
     std::vector<std::shared_ptr<const SolidState>> states;
-    {
-        const StopScope scope(options.cancel);  // operands that were only outlined are cut now
-        for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
-    }
+    for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
     EvaluateOptions with_flag = options;
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();

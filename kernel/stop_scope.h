@@ -82,6 +82,11 @@ inline void check_stop(std::uint64_t units = 1) {
     return stop_scope_of_thread == nullptr ? nullptr : stop_scope_of_thread->cancel();
 }
 
+/// \throw CancelledError when the flag is set; null is never set.
+inline void check_flag(const std::atomic<bool>* cancel) {
+    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw CancelledError();
+}
+
 }  // namespace detail
 
 }  // namespace trisect

@@ -23,13 +23,11 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <trisect/bsp/detail/arranger_pool.h>
 #include <trisect/bsp/detail/axis_polygon.h>
@@ -53,8 +51,8 @@
 #include <trisect/bsp/detail/stack_arena.h>
 #include <trisect/bsp/detail/work_budget.h>
 #include <trisect/kernel/contract.h>
-#include <trisect/kernel/detail/handover.h>
 #include <trisect/kernel/detail/per_thread.h>
+#include <trisect/kernel/detail/task_group.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -79,6 +77,7 @@ struct Shared {
     bool parallel = false;
     const Crossings* crossings = nullptr;  // their operands, if they are collected
     PerThread<Worker> workers = {};
+    SharedFailure failure = {};  // of cells that were solved beside each other
 
     Worker& worker();
 };
@@ -524,25 +523,10 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
     const auto held = shared_.memory.hold(listed * sizeof(PackedBox));
     std::array<CellRef, 2> results;
     if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
-        tbb::task_group group;
-        Handover start;
-        Handover result;
-        start.give();
-        group.run([&] {
-            start.take();
-            results[1] = shared_.worker().solve(children[1]);
-            result.give();
-        });
-        std::exception_ptr failure;
-        try {
-            results[0] = deep_solve(children[0]);
-        } catch (...) {
-            failure = std::current_exception();
-            group.cancel();
-        }
-        group.wait();
-        result.take();
-        if (failure) std::rethrow_exception(failure);
+        SharedFailure& failure = shared_.failure;
+        fork_join([&] { failure.guard([&] { results[1] = shared_.worker().solve(children[1]); }); },
+                  [&] { failure.guard([&] { results[0] = deep_solve(children[0]); }); });
+        failure.check();
     } else {
         for (std::size_t i = 0; i < 2; ++i) results[i] = deep_solve(children[i]);
     }
@@ -574,6 +558,7 @@ CellRef Worker::solve(CellTask& task) {
     } release{arena_, mark};
     ++stats_.cells;
     check_budget(options_, stats_);
+    shared_.failure.check();
     stats_.depth = std::max(stats_.depth, task.depth);
     prune(task);
     if (task.formula->kind == Residual::Kind::Constant) return constant(task, task.formula->value);
@@ -628,7 +613,11 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
     if (shared.parallel) {
         tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                                    : static_cast<int>(options.threads));
-        arena.execute([&] { result.root = solve_root(shared, formula, solids); });
+        try {
+            arena.execute([&] { result.root = solve_root(shared, formula, solids); });
+        } catch (const Abandoned&) {
+            shared.failure.rethrow();
+        }
     } else {
         result.root = solve_root(shared, formula, solids);
     }

@@ -18,12 +18,12 @@
 #include <span>
 #include <utility>
 
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <trisect/bsp/detail/axis_trace.h>
 #include <trisect/bsp/detail/packed_box.h>
 #include <trisect/bsp/detail/stack_arena.h>
+#include <trisect/kernel/detail/task_group.h>
 
 namespace trisect::detail {
 
@@ -288,7 +288,10 @@ void refine_below(const CellNode& node, const Cell& cell, bool parallel) {
         refine_below(*at->child(i).node, c, parallel);
     };
     if (parallel && at->size() > 64 * refinable_leaf) {
-        tbb::parallel_invoke([&] { below(0); }, [&] { below(1); });
+        FirstFailure failure;
+        fork_join([&] { failure.guard(1, [&] { below(1); }); },
+                  [&] { failure.guard(0, [&] { below(0); }); });
+        failure.rethrow();
     } else {
         below(0);
         below(1);

@@ -1,54 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Work on several threads whose outcome does not depend on them: a range of numbers in consecutive
-// parts, and two things at once.
+// A range of numbers in consecutive parts on several threads, with an outcome that does not depend
+// on them.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <limits>
-#include <mutex>
 #include <type_traits>
 #include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
-#include <trisect/kernel/detail/handover.h>
+#include <trisect/kernel/detail/task_group.h>
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
-
-/// Of several failures the one with the lowest number, which is what a loop would have met. Safe to
-/// use from many threads.
-class FirstFailure {
-public:
-    /// Calls work(); keeps what it throws. Does nothing after a failure with a lower number.
-    template <class Work>
-    void guard(std::size_t number, const Work& work) {
-        if (number > number_.load(std::memory_order_relaxed)) return;
-        try {
-            work();
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (number > number_.load(std::memory_order_relaxed)) return;
-            number_.store(number, std::memory_order_relaxed);
-            failure_ = std::current_exception();
-        }
-    }
-    /// To be called when all work has ended.
-    void rethrow() const {
-        if (failure_) std::rethrow_exception(failure_);
-    }
-
-private:
-    std::atomic<std::size_t> number_{std::numeric_limits<std::size_t>::max()};
-    std::mutex mutex_;
-    std::exception_ptr failure_;
-};
 
 /// How many threads may work at once here, at most.
 [[nodiscard]] inline std::size_t threads_here() {
@@ -67,29 +37,6 @@ auto on_threads(std::uint32_t threads, const Work& work) {
     return arena.execute([&] { return work(std::uint32_t{0}); });
 }
 
-/// Calls first() and second(), at the same time if another thread is free; the calling thread does
-/// second(), and no work of others while it waits. Throws what first() throws, else what second()
-/// throws.
-template <class First, class Second>
-void both_at_once(const First& first, const Second& second) {
-    FirstFailure failure;
-    Handover start;
-    Handover end;
-    start.give();
-    oneapi::tbb::this_task_arena::isolate([&] {
-        oneapi::tbb::task_group group;
-        group.run([&] {
-            start.take();
-            failure.guard(0, first);
-            end.give();
-        });
-        failure.guard(1, second);
-        group.wait();
-    });
-    end.take();
-    failure.rethrow();
-}
-
 /// The numbers below `size`, in parts of nearly the same length, none shorter than `least`. A few
 /// parts for each thread even out what they take; few numbers are one part. `threads` = 0 takes as
 /// many as there are.
@@ -102,13 +49,15 @@ public:
 
     /// Calls work(part, begin, end) for each part; in their order if there is one thread. The
     /// calling thread takes part, and does no work of others while it waits. Throws what the first
-    /// part that fails throws.
+    /// part that fails throws, and CancelledError when the StopScope of the calling thread was
+    /// cancelled before a part began.
     template <class Work>
     void for_each(const Work& work) const {
         const auto one = [&](std::size_t part) {
             work(part, size_ * part / count_, size_ * (part + 1) / count_);
         };
         if (count_ == 1) {
+            check_flag(cancel_of_thread());
             one(0);
             return;
         }
@@ -121,25 +70,21 @@ private:
     void share(const One& one) const {
         std::atomic<std::size_t> next{0};
         FirstFailure failure;
+        const std::atomic<bool>* const cancel = cancel_of_thread();
         const auto take_parts = [&] {
             for (std::size_t part = next++; part < count_; part = next++)
-                failure.guard(part, [&] { one(part); });
-        };
-        Handover start;
-        Handover end;
-        start.give();
-        oneapi::tbb::this_task_arena::isolate([&] {
-            oneapi::tbb::task_group group;
-            for (std::size_t i = std::min(threads_here(), count_); i > 1; --i)
-                group.run([&] {
-                    start.take();
-                    take_parts();
-                    end.give();
+                failure.guard(part, [&] {
+                    check_flag(cancel);
+                    one(part);
                 });
+        };
+        oneapi::tbb::this_task_arena::isolate([&] {
+            TaskGroup group;
+            for (std::size_t i = std::min(threads_here(), count_); i > 1; --i)
+                group.run(take_parts);
             take_parts();
             group.wait();
         });
-        end.take();
         failure.rethrow();
     }
 
