@@ -8,6 +8,7 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -18,12 +19,14 @@ constexpr std::size_t new_stack = std::size_t{1} << 23;
 
 struct Call {
     const std::function<void()>& function;
+    StopScope* scope;  // of the calling thread, which waits
     std::exception_ptr failure;
     PredicateCounters counters;
 };
 
 void* run(void* p) {
     Call& call = *static_cast<Call*>(p);
+    stop_scope_of_thread = call.scope;
     try {
         call.function();
     } catch (...) {
@@ -53,7 +56,7 @@ const std::byte* find_stack_reserve() noexcept {
 }
 
 void run_on_new_stack(const std::function<void()>& function) {
-    Call call{function, nullptr, {}};
+    Call call{function, stop_scope_of_thread, nullptr, {}};
     pthread_attr_t attributes;
     if (pthread_attr_init(&attributes) != 0) throw LimitError("no memory for a deeper recursion");
     pthread_t thread{};

@@ -32,7 +32,8 @@ inline constinit thread_local const std::byte* stack_reserve_of_thread = nullptr
 }
 
 /// Runs `call` in a thread with a stack of eight megabytes and waits for it. What it throws is
-/// thrown here; the predicates that it counts are counted here.
+/// thrown here; the predicates that it counts are counted here; the StopScope of this thread holds
+/// there.
 /// \throw LimitError when there is no memory for a stack.
 void run_on_new_stack(const std::function<void()>& call);
 

@@ -30,6 +30,7 @@
 #include <trisect/bsp/detail/index_grid_lists.h>
 #include <trisect/bsp/detail/index_signs.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -107,6 +108,7 @@ IndexTree& IndexTree::operator=(IndexTree&&) noexcept = default;
 
 // What others see of a cell before its slot is the old slot, afterwards everything below it.
 std::uint32_t IndexTree::divide(const IndexGrid& g, std::size_t cell) const {
+    check_stop();
     const std::lock_guard lock(*dividing_);
     const std::atomic_ref slot(roots_[g.first + cell]);
     if (const std::uint32_t s = slot.load(std::memory_order_relaxed); s != IndexSlot::pending)
@@ -253,6 +255,7 @@ void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref
         });
         return;
     }
+    check_stop(1 + n.size());
     const auto& incomplete = state.incomplete;
     for (const PolygonRef r : n.polygons()) {
         const bool is_incomplete =
@@ -278,6 +281,7 @@ void IndexTreeBuilder::add_cells(const CellRef& ref, bool turned, const Cell& ce
 
 void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell,
                                      std::uint32_t node, int depth) {
+    check_stop(1 + cell_node.size());
     ids_.clear();
     Box bounds;
     if (const Source* only = polygons_.only_source()) {

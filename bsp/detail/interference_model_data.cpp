@@ -21,6 +21,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -125,6 +126,7 @@ void InterferenceModelData::build() {
     const auto start = std::chrono::steady_clock::now();
     first_triangle.reserve(brep.faces().size() + 1);
     for (const FaceId f : brep.faces()) {
+        check_stop();
         append_triangles(brep, f, triangles);
         first_triangle.push_back(static_cast<std::uint32_t>(triangles.size()));
     }

@@ -30,6 +30,7 @@
 
 #include <trisect/bsp/detail/obb_fit.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -172,6 +173,7 @@ private:
     }
 
     [[nodiscard]] ObbChild below(const Part& part, std::size_t depth) {
+        check_stop(part.size());
         tree_.depth = std::max(tree_.depth, depth);
         if (part.size() <= leaf_)
             return ObbChild::leaf(static_cast<std::uint32_t>(part.begin),

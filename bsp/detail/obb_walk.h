@@ -14,6 +14,7 @@
 #include <trisect/bsp/detail/obb_pose.h>
 #include <trisect/bsp/detail/obb_tree.h>
 #include <trisect/bsp/detail/triangle_filter.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -74,11 +75,13 @@ public:
             if (ca.is_leaf() && cb.is_leaf()) {
                 if (compare_leaves(ca, cb, visit)) return true;
             } else if (ca.is_leaf() || (!cb.is_leaf() && b_is_larger(pair))) {
+                check_stop();
                 ++counters_.node_tests;
                 unsigned hits = pose_.overlaps(a_.tree->box(pair.a), b_.tree->nodes[cb.node()]);
                 for (std::uint32_t k = 0; k < 4; ++k)
                     if ((hits >> k & 1U) != 0) stack_.push_back({pair.a, ObbId::of(cb.node(), k)});
             } else {
+                check_stop();
                 ++counters_.node_tests;
                 unsigned hits = pose_.overlaps(a_.tree->nodes[ca.node()], b_.tree->box(pair.b));
                 for (std::uint32_t k = 0; k < 4; ++k)
