@@ -2,10 +2,17 @@
 #include "limits.h"
 
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
+#include <thread>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -25,17 +32,56 @@ bool last_json = false;
     ::_exit(failure.code);
 }
 
+/// Bytes of data that this process has mapped, or 0 where the system does not say.
+std::uint64_t mapped_data() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t pages = 0;
+    for (int field = 0; field < 6; ++field) statm >> pages;
+    return statm ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+/// How many of `threads` there are under a memory limit: their stacks are data too, and may take a
+/// quarter of what is left.
+std::size_t affordable_threads(std::size_t threads, std::uint64_t max_memory) {
+    const std::uint64_t used = mapped_data();
+    const std::uint64_t left = max_memory > used ? max_memory - used : 0;
+    const std::uint64_t stack =
+        tbb::global_control::active_value(tbb::global_control::thread_stack_size);
+    return std::min<std::uint64_t>(threads, 1 + left / (4 * std::max<std::uint64_t>(stack, 1)));
+}
+
+/// Starts all threads that may work later. oneTBB starts them when there is work, also from its own
+/// threads, where a failure would end the process.
+void start_threads(std::size_t count) {
+    if (count < 2) return;
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+    std::atomic<std::size_t> here{0};
+    tbb::parallel_for(
+        std::size_t{0}, count,
+        [&](std::size_t) {
+            ++here;
+            while (here < count && std::chrono::steady_clock::now() < give_up)
+                std::this_thread::yield();
+        },
+        tbb::simple_partitioner());
+}
+
 }  // namespace
 
 struct Limits::Threads {
-    explicit Threads(int n)
-        : control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n)) {}
+    explicit Threads(std::size_t n) : control(tbb::global_control::max_allowed_parallelism, n) {}
     tbb::global_control control;
 };
 
 Limits::Limits(const CommonOptions& options) {
-    if (options.threads > 0) threads_ = std::make_unique<Threads>(options.threads);
+    std::size_t threads = options.threads > 0
+                              ? static_cast<std::size_t>(options.threads)
+                              : static_cast<std::size_t>(tbb::info::default_concurrency());
+    if (options.max_memory != 0) threads = affordable_threads(threads, options.max_memory);
+    if (options.threads > 0 || options.max_memory != 0)
+        threads_ = std::make_unique<Threads>(threads);
     if (options.max_memory == 0) return;
+    start_threads(threads);
     rlimit limit{};
     if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
     previous_ = limit.rlim_cur;
