@@ -63,12 +63,6 @@ std::size_t first_off_line(std::span<const LatticePoint> points,
 
 }  // namespace
 
-int LoopTriangulator::turn(const Projected& a, const Projected& b, const Projected& c) {
-    const Int128 left = Int128{b.u - a.u} * (c.v - a.v);
-    const Int128 right = Int128{b.v - a.v} * (c.u - a.u);
-    return left > right ? 1 : (left < right ? -1 : 0);
-}
-
 LoopShape LoopTriangulator::shape(std::span<const std::uint32_t> loop) const {
     LoopShape s;
     const std::size_t i = loop.size() < 3 ? loop.size() : first_off_line(points_, loop);
@@ -107,8 +101,8 @@ void LoopTriangulator::project(std::span<const std::uint32_t> loop) {
 bool LoopTriangulator::is_strictly_convex() const {
     const std::size_t n = flat_.size();
     const auto goes_up = [&](std::size_t i) {
-        const Projected& a = flat_[i % n];
-        const Projected& b = flat_[(i + 1) % n];
+        const FlatCorner& a = flat_[i % n];
+        const FlatCorner& b = flat_[(i + 1) % n];
         return b.v > a.v || (b.v == a.v && b.u > a.u);
     };
     std::size_t runs = 0;
@@ -149,22 +143,32 @@ LoopShape LoopTriangulator::triangulate(std::span<const std::uint32_t> loop,
         return s;
     }
     if (fan(loop, 0, out) || fan(loop, 1, out)) return s;
+    if (loop.size() >= ShortEars::least_corners && cut_short_ears(loop, out)) return s;
     s.simple = clip_ears(loop, out);
     return s;
+}
+
+bool LoopTriangulator::cut_short_ears(std::span<const std::uint32_t> loop,
+                                      std::vector<std::array<std::uint32_t, 3>>& out) {
+    const std::size_t first = out.size();
+    if (!short_ears_.triangulate(flat_, out)) return false;
+    for (std::size_t t = first; t < out.size(); ++t)
+        for (std::uint32_t& corner : out[t]) corner = loop[corner];
+    return true;
 }
 
 // Whether no other corner lies in the ear's triangle: `boundary_too` asks about the closed one.
 // Corners at the same place as one of the ear's do not count.
 bool LoopTriangulator::is_clear(std::uint32_t ear, bool boundary_too) {
-    const Projected& a = flat_[prev_[ear]];
-    const Projected& b = flat_[ear];
-    const Projected& c = flat_[next_[ear]];
+    const FlatCorner& a = flat_[prev_[ear]];
+    const FlatCorner& b = flat_[ear];
+    const FlatCorner& c = flat_[next_[ear]];
     const int limit = boundary_too ? 0 : 1;
     work_ += reflex_.size() + 1;
     if (work_ > work_limit) throw LimitError("triangulating a face takes too much work");
     for (const std::uint32_t i : reflex_) {
         if (clipped_[i]) continue;
-        const Projected& p = flat_[i];
+        const FlatCorner& p = flat_[i];
         if (turn(c, a, p) < limit || turn(a, b, p) < limit || turn(b, c, p) < limit) continue;
         if (p == a || p == b || p == c) continue;
         return false;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/brep/detail/short_ears.h>
 #include <trisect/kernel/lattice_point.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -34,7 +35,8 @@ public:
     /// nothing, left out). A simple planar loop gives triangles without overlap that use all its
     /// corners, also those in the middle of a side; a loop that touches itself (a hole joined by
     /// a bridge) as well. Cost: O(n) for a convex loop (halved, convex_cut.h) and where a
-    /// fan does, else O(n r) for r reflex corners, typically.
+    /// fan does; O(n log n), typically, for other loops with many corners (short_ears.h), unless
+    /// they cross themselves: then O(n r) for r reflex corners.
     /// \throw LimitError for too many corners or too much work.
     LoopShape triangulate(std::span<const std::uint32_t> loop,
                           std::vector<std::array<std::uint32_t, 3>>& out);
@@ -43,16 +45,12 @@ public:
     [[nodiscard]] LoopShape shape(std::span<const std::uint32_t> loop) const;
 
 private:
-    struct Projected {
-        std::int64_t u, v;
-        friend bool operator==(const Projected&, const Projected&) = default;
-    };
-    static int turn(const Projected& a, const Projected& b, const Projected& c);
-
     void project(std::span<const std::uint32_t> loop);
     [[nodiscard]] bool is_strictly_convex() const;
     bool fan(std::span<const std::uint32_t> loop, std::size_t apex,
              std::vector<std::array<std::uint32_t, 3>>& out) const;
+    bool cut_short_ears(std::span<const std::uint32_t> loop,
+                        std::vector<std::array<std::uint32_t, 3>>& out);
     bool clip_ears(std::span<const std::uint32_t> loop,
                    std::vector<std::array<std::uint32_t, 3>>& out);
     bool is_clear(std::uint32_t ear, bool boundary_too);
@@ -60,7 +58,8 @@ private:
               std::vector<std::array<std::uint32_t, 3>>& out);
 
     std::span<const LatticePoint> points_;
-    std::vector<Projected> flat_;
+    std::vector<FlatCorner> flat_;
+    ShortEars short_ears_;
     std::vector<std::uint32_t> prev_, next_;
     std::vector<std::uint32_t> reflex_;
     std::vector<bool> clipped_;

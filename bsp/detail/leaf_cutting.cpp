@@ -66,13 +66,19 @@ void LeafCutting::set_start(const WorkPolygon& part) {
     const LeafItem& item = work_->item(item_);
     known_.assign(work_->problem->operands.size(), 0);
     known_[u(item.operand)] = 1;
-    step_.assign(known_.size(), 0);
     start_.windings.assign(known_.size(), 0);
-    start_.at = windings_->windings_above(item_, part, step_, known_, start_.windings);
     start_.vertex = -1;
     // In the plane of another facet it is not clear whether the point lies on that.
-    for (const LeafContact& c : work_->contacts(item_))
-        if (c.covers) start_.windings[u(work_->item(c.other).operand)] = unknown_winding;
+    for (const LeafContact& c : work_->contacts(item_)) {
+        if (!c.covers) continue;
+        const std::size_t operand = u(work_->item(c.other).operand);
+        start_.windings[operand] = unknown_winding;
+        known_[operand] = 1;
+    }
+    // A mesh that coincides with the others needs no trace for each of its facets.
+    if (std::all_of(known_.begin(), known_.end(), [](char known) { return known != 0; })) return;
+    step_.assign(known_.size(), 0);
+    start_.at = windings_->windings_above(item_, part, step_, known_, start_.windings);
 }
 
 bool LeafCutting::may_bound(const Part& part) {
