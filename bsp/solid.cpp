@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/detail/assembly.h>
 #include <trisect/bsp/detail/outlined_solid.h>
 #include <trisect/bsp/detail/refine_leaf.h>
@@ -34,12 +35,14 @@ bool is_constant(const SolidState& s, bool inside) {
 
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
     if (mesh.triangles.empty()) return {};
+    const bool embedded =
+        embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
     const Lattice lattice = mesh.lattice;
     const auto source = detail::Source::make(std::move(mesh), threads);
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
     state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
-    state->embedded = embedding == Embedding::Assume;
+    state->embedded = embedded;
     state->source = source->serial();
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }

@@ -26,7 +26,10 @@ enum class Embedding : std::uint8_t {
     /// only cells where operands meet are resolved.
     Assume,
     /// May intersect, cover or contain itself: every cell is resolved.
-    Resolve
+    Resolve,
+    /// Found out first (brep/validate/embedding.h): as Assume for a boundary that is embedded, else
+    /// as Resolve. Some microseconds a triangle; resolving takes several times as long.
+    Check
 };
 
 struct SolidOptions {
@@ -60,6 +63,7 @@ public:
     /// are, points that planes have in common, and faces are divided along planes of their
     /// neighbours. Faces of results name the boundary's by their numbers.
     ///
+    /// A boundary with other corners is resolved under Embedding::Check.
     /// \throw Error (InvalidSolid) when it is inside out and its embedding is assumed;
     /// UnsupportedError for an edge between two faces of one plane that is not between lattice
     /// points and on no plane that names its ends (assemble with maximal faces); LimitError.

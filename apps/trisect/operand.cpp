@@ -44,7 +44,7 @@ Json facts_of(const ImportedMesh& imported, const std::string& name, std::size_t
 }
 
 Embedding embedding_of(const OperandOptions& options) {
-    return options.assume_embedded ? Embedding::Assume : Embedding::Resolve;
+    return options.assume_embedded ? Embedding::Assume : Embedding::Check;
 }
 
 Operand exact_operand(const Session& session, const std::string& name,
@@ -107,7 +107,7 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
 
 std::string embedding_text(const OperandOptions& options) {
     return options.assume_embedded ? "assumed free of self-intersection"
-                                   : "self-intersections resolved";
+                                   : "checked; where they meet themselves, resolved";
 }
 
 }  // namespace trisect::app

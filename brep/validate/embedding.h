@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether a boundary is embedded: free of self-intersection, with nested shells.
+#pragma once
+
+#include <trisect/brep/lattice_mesh.h>
+
+namespace trisect {
+
+/// True when the mesh bounds a solid and no two of its triangles meet beyond the corners and edges
+/// that they share: then its winding numbers are 0 and 1, and no facet lies on another one.
+///
+/// Exact. Also false for what does not harm but would have to be looked at: edges of more than two
+/// triangles, corners with several fans, corners inside edges; and when the answer would take more
+/// than some hundred pairs a triangle. Cost: O(n log n) for ordinary meshes, about two
+/// microseconds a triangle. \throw CancelledError, LimitError by the StopScope
+[[nodiscard]] bool is_embedded(const LatticeMesh& mesh);
+
+}  // namespace trisect
