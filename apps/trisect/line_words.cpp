@@ -5,6 +5,15 @@
 
 namespace trisect::app {
 
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return line;
+}
+
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+
 std::vector<LineWord> words_of(std::string_view line) {
     constexpr std::string_view separators = " \t,\r";
     std::vector<LineWord> words;

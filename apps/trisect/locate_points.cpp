@@ -30,10 +30,7 @@ std::vector<std::array<double, 3>> parse_points(std::string_view text, const std
     FilePlace place{name, 0, 0, 0};
     while (!text.empty()) {
         ++place.line;
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, std::min(end, text.find('#')));
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const std::vector<LineWord> words = words_of(line);
+        const std::vector<LineWord> words = words_of(without_comment(take_line(text)));
         if (words.empty()) continue;
         std::array<double, 3> point{};
         for (std::size_t k = 0; k < std::min<std::size_t>(3, words.size()); ++k) {
