@@ -71,7 +71,8 @@ struct SmoothMotion {
 /// deviation falls with the third power of the range of time, down to about 2^-57 of the distance
 /// from the axis. Angles, sines and cosines come from proved series, not from the C library.
 ///
-/// Immutable value; copying shares. Safe to use from many threads where the law is.
+/// Immutable value; copying shares. Safe to use from many threads where the law is. A motion that
+/// was moved from stands still where it was modelled, from 0 to 1.
 class EnclosedMotion {
 public:
     /// Stands still where it was modelled.
@@ -96,16 +97,20 @@ public:
     /// time. \throw UsageError as above.
     [[nodiscard]] static EnclosedMotion smooth(SmoothMotion motion, std::vector<double> breaks);
 
-    [[nodiscard]] double duration() const { return breaks_.back(); }
-    [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
+    [[nodiscard]] double duration() const { return breaks().back(); }
+    [[nodiscard]] std::span<const double> breaks() const {
+        return law_ != nullptr ? std::span<const double>(breaks_) : still_breaks;
+    }
     /// Whether the pose certainly never changes; then any range of time may be asked about.
-    [[nodiscard]] bool is_still() const { return is_still_; }
+    [[nodiscard]] bool is_still() const { return is_still_ || law_ == nullptr; }
     /// \pre as MotionLaw::enclose.
     [[nodiscard]] MotionEnclosure enclose(double from, double to) const {
-        return law_->enclose(from, to);
+        return law_ != nullptr ? law_->enclose(from, to) : MotionEnclosure();
     }
 
 private:
+    static constexpr std::array<double, 2> still_breaks{0, 1};
+
     std::shared_ptr<const MotionLaw> law_;
     std::vector<double> breaks_{0, 1};
     bool is_still_ = false;

@@ -189,18 +189,29 @@ Motion Motion::through(std::span<const Pose> poses) {
     return Motion(std::move(pieces));
 }
 
-Motion Motion::then(const Motion& next) const {
-    if (!same_map(frozen(pieces_->back(), 1), frozen(next.pieces_->front(), 0)))
-        throw UsageError("a motion must begin where the one before it ends");
-    Pieces pieces = *pieces_;
-    pieces.insert(pieces.end(), next.pieces_->begin(), next.pieces_->end());
+Motion Motion::joined(std::span<const Motion> motions) {
+    if (motions.empty()) throw UsageError("a motion needs at least one piece");
+    Pieces pieces;
+    for (const Motion& next : motions) {
+        const Pieces& more = next.pieces();
+        if (!pieces.empty() && !same_map(frozen(pieces.back(), 1), frozen(more.front(), 0)))
+            throw UsageError("a motion must begin where the one before it ends");
+        pieces.insert(pieces.end(), more.begin(), more.end());
+    }
     return Motion(std::move(pieces));
 }
 
-std::size_t Motion::piece_count() const { return pieces_->size(); }
+Motion Motion::then(const Motion& next) const { return joined(std::array{*this, next}); }
+
+const Motion::Pieces& Motion::still_pieces() {
+    static const auto& still = *new Pieces{MotionPiece::still()};  // never destroyed
+    return still;
+}
+
+std::size_t Motion::piece_count() const { return pieces().size(); }
 
 bool Motion::is_still() const {
-    return std::all_of(pieces_->begin(), pieces_->end(), [](const MotionPiece& p) {
+    return std::all_of(pieces().begin(), pieces().end(), [](const MotionPiece& p) {
         MotionPiece reduced = p;
         reduced.reduce();
         return reduced.degree() == 0;
@@ -215,7 +226,7 @@ Pose Motion::pose_at(const ExactRational& s) const {
                          " pieces is between 0 and " + std::to_string(count));
     const mpz_class floor = at.get_num() / at.get_den();
     const std::size_t i = std::min<std::size_t>(floor.get_ui(), piece_count() - 1);
-    const MotionPiece pose = frozen((*pieces_)[i], at - static_cast<unsigned long>(i));
+    const MotionPiece pose = frozen(pieces()[i], at - static_cast<unsigned long>(i));
     std::array<Pose::Number, 9> m;
     std::array<Pose::Number, 3> t;
     for (std::size_t r = 0; r < 3; ++r) {
@@ -229,7 +240,7 @@ std::array<double, 12> Motion::approximate_pose_at(double s) const {
     const double last = static_cast<double>(piece_count());
     const double clamped = std::clamp(s, 0.0, last);
     const std::size_t i = std::min(static_cast<std::size_t>(clamped), piece_count() - 1);
-    const MotionPiece& piece = (*pieces_)[i];
+    const MotionPiece& piece = pieces()[i];
     const mpq_class at(clamped - static_cast<double>(i));
     const mpq_class weight = piece.weight.value_at(at);
     const auto value = [&](const IntegerPolynomial& p) {
@@ -245,6 +256,6 @@ std::array<double, 12> Motion::approximate_pose_at(double s) const {
 
 Motion Motion::of_piece(const MotionPiece& piece) { return Motion(Pieces{piece}); }
 
-const detail::MotionPiece& Motion::piece(std::size_t i) const { return (*pieces_)[i]; }
+const detail::MotionPiece& Motion::piece(std::size_t i) const { return pieces()[i]; }
 
 }  // namespace trisect

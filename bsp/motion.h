@@ -36,7 +36,8 @@ struct Screw {
 /// i + 1. In each piece the pose is a matrix of polynomials in the parameter divided by a
 /// polynomial; nothing is sampled and nothing rounded.
 ///
-/// Immutable value; copying shares. Safe to use from many threads.
+/// Immutable value; copying shares. Safe to use from many threads. A motion that was moved from
+/// stands still where it was modelled.
 class Motion {
 public:
     /// Stands still where it was modelled, or at a pose; one piece.
@@ -61,6 +62,9 @@ public:
     /// Straight pieces from pose to pose (blend). \throw UsageError for less than two poses.
     [[nodiscard]] static Motion through(std::span<const Pose> poses);
 
+    /// One after the other; O(pieces), where a chain of then() copies all that came before.
+    /// \throw UsageError for none, or when one does not begin where the one before it ends.
+    [[nodiscard]] static Motion joined(std::span<const Motion> motions);
     /// This motion, then that one. \throw UsageError when it does not begin where this one ends.
     [[nodiscard]] Motion then(const Motion& next) const;
 
@@ -81,8 +85,10 @@ public:
 private:
     using Pieces = std::vector<detail::MotionPiece>;
     explicit Motion(Pieces pieces);
+    [[nodiscard]] const Pieces& pieces() const { return pieces_ ? *pieces_ : still_pieces(); }
+    [[nodiscard]] static const Pieces& still_pieces();
 
-    std::shared_ptr<const Pieces> pieces_;  // never empty
+    std::shared_ptr<const Pieces> pieces_;  // not empty; null after a move
 };
 
 }  // namespace trisect

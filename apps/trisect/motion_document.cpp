@@ -3,6 +3,8 @@
 
 #include <trisect/kernel/error.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -11,15 +13,17 @@
 #include <utility>
 #include <vector>
 
-#include "outcome.h"
-
 namespace trisect::app {
 namespace {
+
+// Not ours (outcome.h), which keeps the order of members and searches them all for each new one: a
+// file may have millions.
+using Document = nlohmann::json;
 
 // A part of the document and its name in messages.
 class Member {
 public:
-    Member(const Json& json, std::string name, const std::string& file)
+    Member(const Document& json, std::string name, const std::string& file)
         : json_(json), name_(std::move(name)), file_(file) {}
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -78,7 +82,7 @@ public:
     }
 
 private:
-    const Json& json_;
+    const Document& json_;
     std::string name_;
     const std::string& file_;
 };
@@ -115,7 +119,7 @@ EnclosedMotion turning(const Member& m) {
 }  // namespace
 
 EnclosedMotion parse_motion_document(std::string_view text, const std::string& name) {
-    const Json document = Json::parse(text, nullptr, false);
+    const Document document = Document::parse(text, nullptr, false);
     const Member root(document, "", name);
     if (document.is_discarded()) root.fail("is not JSON");
     root.expect_members({"keyframes", "turn"});

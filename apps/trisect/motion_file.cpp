@@ -31,7 +31,7 @@ public:
     void line(std::string_view text) {
         ++place_.line;
         place_.column = 1;
-        const std::vector<LineWord> words = words_of(text.substr(0, text.find('#')));
+        const std::vector<LineWord> words = words_of(without_comment(text));
         if (words.empty()) return;
         if (words.front().text == "screw")
             screw(words);
@@ -40,7 +40,7 @@ public:
     }
 
     Motion finish() {
-        if (motion_) return std::move(*motion_);
+        if (!pieces_.empty()) return Motion::joined(pieces_);  // each begins where one ends
         if (pose_) return Motion(*pose_);
         place_.column = 0;
         throw InputError(place_, "a motion needs a pose or a screw");
@@ -76,7 +76,7 @@ private:
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = number(words[i]);
         place_.column = 1;
         const Pose next = checked([&] { return Pose::from_doubles(rows); });
-        if (pose_) append(checked([&] { return Motion::blend(*pose_, next); }));
+        if (pose_) pieces_.push_back(checked([&] { return Motion::blend(*pose_, next); }));
         pose_ = next;
     }
 
@@ -87,29 +87,20 @@ private:
         for (std::size_t i = 0; i < 3; ++i) screw.center[i] = number(words[5 + i]);
         for (std::size_t i = 0; i < 3; ++i) screw.shift[i] = number(words[8 + i]);
         place_.column = 1;
-        const Motion piece = checked([&] { return Motion::screw(pose_.value_or(Pose()), screw); });
-        append(piece);
-        pose_ = checked([&] { return piece.pose_at(1); });
-    }
-
-    void append(const Motion& piece) {
-        motion_ = motion_ ? checked([&] { return motion_->then(piece); }) : piece;
+        pieces_.push_back(checked([&] { return Motion::screw(pose_.value_or(Pose()), screw); }));
+        pose_ = checked([&] { return pieces_.back().pose_at(1); });
     }
 
     FilePlace place_;
     std::optional<Pose> pose_;  // where the motion is
-    std::optional<Motion> motion_;
+    std::vector<Motion> pieces_;
 };
 
 }  // namespace
 
 Motion parse_motion(std::string_view text, const std::string& name) {
     MotionReader reader(name);
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        reader.line(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
+    while (!text.empty()) reader.line(take_line(text));
     return reader.finish();
 }
 

@@ -50,6 +50,16 @@ TEST_F(SweepCommand, DocumentHasTimeAndWitnesses) {
     EXPECT_EQ(document["witnesses"][0]["b"]["point"][2], 3.0);
 }
 
+TEST_F(SweepCommand, ManyPosesAreOneMotion) {
+    std::string text;
+    for (int i = 0; i <= 300; ++i)
+        text +=
+            "1 0 0 " + std::to_string(i % 2) + " 0 1 0 0 0 0 1 " + std::to_string(298 - i) + "\n";
+    const json document = sweep(write("many.txt", text), {"--json"}).json();
+    EXPECT_EQ(document["pieces"], 300);
+    EXPECT_EQ(document["time"]["value"], 300);
+}
+
 TEST_F(SweepCommand, NoContactIsNone) {
     const std::string aside =
         write("aside.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 9 0 1 0 0 0 0 1 0");

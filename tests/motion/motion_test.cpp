@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include <trisect/bsp/enclosed_motion.h>
 #include <trisect/kernel/error.h>
 
 namespace {
@@ -89,6 +92,41 @@ TEST(Motion, ChainMustHangTogether) {
     EXPECT_EQ(half.pose_at(1), quarter.pose_at(1));
     EXPECT_THROW((void)quarter.then(quarter), UsageError);
     EXPECT_THROW((void)half.pose_at(q("5/2")), UsageError);
+}
+
+TEST(Motion, ManyAreJoinedAtOnce) {
+    std::vector<Motion> steps;
+    Pose at;
+    for (int i = 1; i <= 20; ++i) {
+        const Pose next = Pose::from_translation({0, i % 3 * 1.0, -i * 1.0});
+        steps.push_back(Motion::blend(at, next));
+        at = next;
+    }
+    const Motion all = Motion::joined(steps);
+    ASSERT_EQ(all.piece_count(), steps.size());
+    EXPECT_EQ(all.pose_at(20), at);
+    EXPECT_EQ(all.pose_at(q("7/2")), steps[3].pose_at(q("1/2")));
+    EXPECT_EQ(all.then(Motion(at)).piece_count(), 21U);
+    std::swap(steps[3], steps[4]);
+    EXPECT_THROW((void)Motion::joined(steps), UsageError);
+    EXPECT_THROW((void)Motion::joined({}), UsageError);
+}
+
+TEST(Motion, MovedFromStandsStill) {
+    static_assert(std::is_nothrow_move_constructible_v<Motion>);
+    Motion m = Motion::translation(Pose(), {0, 0, 1});
+    const Motion taken = std::move(m);
+    EXPECT_TRUE(m.is_still());  // NOLINT(bugprone-use-after-move): that is the test
+    EXPECT_EQ(m.piece_count(), 1U);
+    EXPECT_EQ(m.pose_at(1), Pose());
+    EXPECT_EQ(taken.pose_at(1), Pose::from_translation({0, 0, 1}));
+
+    trisect::EnclosedMotion e(taken);
+    const trisect::EnclosedMotion kept = std::move(e);
+    EXPECT_TRUE(e.is_still());  // NOLINT(bugprone-use-after-move)
+    EXPECT_EQ(e.duration(), 1);
+    EXPECT_TRUE(e.enclose(0, 1).motion.is_still());
+    EXPECT_FALSE(kept.is_still());
 }
 
 TEST(Motion, ThroughPoses) {
