@@ -4,6 +4,7 @@
 // allocate and print, none of which a signal handler may do.
 #include "supervisor.h"
 
+#include <trisect/brep/io/output_file.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>
@@ -89,11 +90,7 @@ void Supervisor::enter_stage(const std::string& name, int index, int count) {
 }
 
 void Supervisor::watch_output(const std::filesystem::path& target) {
-    std::error_code error;
-    std::filesystem::path real = target;
-    if (std::filesystem::is_symlink(target, error)) {
-        real = std::filesystem::weakly_canonical(target, error);
-    }
+    const std::filesystem::path real = output_target(target);
     const std::lock_guard lock(mutex_);
     folder_ = real.has_parent_path() ? real.parent_path() : ".";
 }

@@ -129,16 +129,21 @@ void write_directly(const fs::path& path, std::string_view bytes) {
     if (error != 0) fail(path.string(), error);
 }
 
-/// The file that a symbolic link stands for.
-fs::path without_links(const fs::path& path) {
+}  // namespace
+
+// Link by link: what std::filesystem resolves ends before a link to a file that is not there.
+fs::path output_target(const fs::path& path) {
+    constexpr int most_links = 40;  // as many as Linux follows
+    fs::path target = path;
     std::error_code error;
-    if (!fs::is_symlink(path, error)) return path;
-    fs::path target = fs::weakly_canonical(path, error);
-    if (error) fail(path.string(), error.value());
+    for (int links = 0; fs::is_symlink(target, error); ++links) {
+        if (links == most_links) fail(path.string(), ELOOP);
+        const fs::path next = fs::read_symlink(target, error);
+        if (error) fail(path.string(), error.value());
+        target = target.parent_path() / next;
+    }
     return target;
 }
-
-}  // namespace
 
 void write_descriptor(int descriptor, const std::string& name, std::string_view bytes) {
     const NoPipeSignal quiet;
@@ -149,7 +154,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
     if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes);
-    TemporaryFile file(without_links(path));
+    TemporaryFile file(output_target(path));
     if (exists) file.set_mode(status.st_mode);
     file.write(bytes);
     file.rename_to_target();

@@ -5,8 +5,8 @@
 // The bytes go to a new file in the folder of the target, which is then renamed onto it; a reader
 // sees the old file or the new one, and after a failure (full disk, folder not writable) the old
 // one is there and nothing else. The new file has the permissions of the one it replaces. Through a
-// symbolic link the file it points to is replaced. A target that is not a regular file (a pipe, a
-// device) is written directly, since renaming would replace it.
+// symbolic link the file it points to is replaced, or made where there is none yet. A target that
+// is not a regular file (a pipe, a device) is written directly, since renaming would replace it.
 //
 // Errors: Error with ErrorCode::Input, naming the file and the reason of the system. A reader that
 // closes its end of a pipe is such an error too and raises no signal.
@@ -17,6 +17,10 @@
 #include <string_view>
 
 namespace trisect {
+
+/// The file that write_file writes: what symbolic links lead to, whether it is there or not.
+/// Links in the names of folders are left as they are. Errors: as above, for links in a circle.
+[[nodiscard]] std::filesystem::path output_target(const std::filesystem::path& path);
 
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 

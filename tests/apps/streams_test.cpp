@@ -3,6 +3,7 @@
 // Standard input and output, pipes that close, and what goes where.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "process.h"
@@ -79,6 +80,18 @@ TEST_F(Streams, FailedRunKeepsTheOldFile) {
     EXPECT_EQ(trisect({"union", cube_, open_box("open.obj"), "-o", out}).code, 4);
     EXPECT_EQ(read(out), "the old one");
     EXPECT_EQ(entry_count(), 3U);
+}
+
+TEST_F(Streams, LinksToOutputsThatAreNotThereAreFollowed) {
+    namespace fs = std::filesystem;
+    fs::create_symlink("new.off", path("link.off"));
+    EXPECT_EQ(trisect({"convert", cube_, "-o", path("link.off")}).code, 0);
+    EXPECT_TRUE(fs::is_symlink(path("link.off")));
+    EXPECT_EQ(trisect({"check", path("new.off")}).code, 0);
+    fs::create_symlink("none/new.off", path("astray.off"));
+    EXPECT_EQ(trisect({"convert", cube_, "-o", path("astray.off")}).code, 3);
+    EXPECT_TRUE(fs::is_symlink(path("astray.off")));
+    EXPECT_EQ(entry_count(), 4U);
 }
 
 }  // namespace

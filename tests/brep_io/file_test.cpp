@@ -138,6 +138,26 @@ TEST(Files, ReplacingKeepsPermissionsAndLinks) {
     EXPECT_EQ(read_mesh(target).face_count(), 4U);
 }
 
+TEST(Files, LinksToFilesThatAreNotThereAreFollowed) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder.path() / "there");
+    fs::create_symlink("there/mesh.obj", folder.path() / "first");
+    fs::create_symlink("first", folder.path() / "second");
+    EXPECT_EQ(output_target(folder.path() / "second"), folder.path() / "there/mesh.obj");
+    write_file(folder.path() / "second", "text");
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "first"));
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "second"));
+    EXPECT_EQ(content(folder.path() / "there/mesh.obj"), "text");
+
+    fs::create_symlink("nowhere/mesh.obj", folder.path() / "astray");
+    fs::create_symlink("circle", folder.path() / "circle");
+    EXPECT_NE(write_error(folder.path() / "astray").find("No such file"), std::string::npos);
+    EXPECT_NE(write_error(folder.path() / "circle").find("symbolic links"), std::string::npos);
+    EXPECT_TRUE(fs::is_symlink(folder.path() / "astray"));
+    const auto entries = fs::recursive_directory_iterator(folder.path());
+    EXPECT_EQ(std::distance(begin(entries), end(entries)), 6);
+}
+
 TEST(Files, PipesAreReadAndAClosedPipeIsAnError) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
