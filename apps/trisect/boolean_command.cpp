@@ -4,7 +4,6 @@
 // one pass; difference is A minus all the others.
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/io/exact_boundary.h>
-#include <trisect/brep/io/output_file.h>
 #include <trisect/bsp/expression.h>
 
 #include <fmt/format.h>
@@ -17,6 +16,7 @@
 #include "formula.h"
 #include "mesh_files.h"
 #include "operand.h"
+#include "output_name.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -58,7 +58,7 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
     }
     session.stage("write", [&] {
-        if (!options.exact.empty()) write_file(options.exact, exact_text(brep));
+        if (!options.exact.empty()) session.write_output(options.exact, exact_text(brep));
         result.written = write_output_mesh(session, options.output, format, mesh);
     });
 }
@@ -107,7 +107,9 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
         ->expected(2, 1 << 20);
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
         ->required();
-    command->add_option("--exact", options.exact, "file for the boundary without loss, as integers")
+    command
+        ->add_option("--exact", options.exact,
+                     "file for the boundary without loss, as integers; '-' is the standard output")
         ->type_name("FILE");
     command->add_flag("--source-faces", options.source_faces,
                       "do not join coplanar faces of different origin");
@@ -132,6 +134,7 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const MeshFormat format = output_format(session, options.output);
+    check_outputs(session, {options.output, options.exact});
     session.plan(options.certificate ? 6 : 5);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });

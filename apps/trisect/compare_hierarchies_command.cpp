@@ -114,6 +114,7 @@ void add_compare_hierarchies_command(CLI::App& app, CompareHierarchiesOptions& o
 
 Outcome run_compare_hierarchies(Session& session, const CompareHierarchiesOptions& options) {
     check_output_name(session, options.chart, ".svg");
+    check_outputs(session, {options.chart}, Answer::Printed);
     if (options.frames < 2 || options.frames > 100000)
         throw UsageError("--frames: from 2 to 100000");
     scenes::ComparisonOptions comparison_options;

@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "exact_map.h"
 #include "mesh_files.h"
+#include "output_name.h"
 #include "report_json.h"
 #include "values.h"
 
@@ -86,6 +87,7 @@ void add_convert_command(CLI::App& app, ConvertOptions& options) {
 
 Outcome run_convert(Session& session, const ConvertOptions& options) {
     const MeshFormat format = output_format(session, options.output);
+    check_outputs(session, {options.output});
     const ExactMap map = map_of(options);
     session.plan(3);
     PolygonMesh mesh = session.stage("read", [&] { return read_input(session, options.input); });

@@ -68,7 +68,10 @@ void write_case(Session& session, const CorpusOptions& options, const SlantedSce
     std::vector<std::string> files;
     for (std::size_t i = 0; i < scene.operands.size(); ++i) {
         files.push_back(fmt::format("{}-{}.off", scene.name, i));
-        write_mesh((folder / files.back()).string(), scene.operands[i]);
+        const std::string file = (folder / files.back()).string();
+        const FormattedMesh formatted =
+            format_mesh(scene.operands[i], {.format = MeshFormat::Off}, file);
+        session.write_output(file, formatted.bytes);
     }
     session.write_output(
         (folder / (scene.name + ".json")).string(),

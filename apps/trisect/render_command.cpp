@@ -144,6 +144,7 @@ void add_render_command(CLI::App& app, RenderOptions& options) {
 
 Outcome run_render(Session& session, const RenderOptions& options) {
     check_output_name(session, options.output, ".png");
+    check_outputs(session, {options.output});
     check_sample_count(options.style);
     const View view = View::from_text(options.view, options.up);
     session.plan(6);

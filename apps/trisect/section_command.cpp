@@ -86,6 +86,7 @@ void add_section_command(CLI::App& app, SectionOptions& options) {
 
 Outcome run_section(Session& session, const SectionOptions& options) {
     check_output_name(session, options.output, ".svg");
+    check_outputs(session, {options.output}, Answer::Printed);
     session.plan(5);
     const QueriedSet set = read_set(session, options.set);
     const BrepIndex index = session.stage("index", [&] { return BrepIndex(set.solid); });

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "mesh_files.h"
+#include "output_name.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -31,6 +32,7 @@ void add_tessellate_command(CLI::App& app, TessellateOptions& options) {
 
 Outcome run_tessellate(Session& session, const TessellateOptions& options) {
     const MeshFormat format = output_format(session, options.output);
+    check_outputs(session, {options.output});
     session.plan(4);
     const CurvedBoundary boundary = session.stage("read", [&] {
         auto patches = read_patches(options.input);

@@ -173,6 +173,7 @@ void add_tree_command(CLI::App& app, TreeOptions& options) {
 
 Outcome run_tree(Session& session, const TreeOptions& options) {
     check_output_name(session, options.output, ".svg");
+    check_outputs(session, {options.output}, Answer::Printed);
     session.plan(5);
     const QueriedSet set = read_set(session, options.set);
     const BrepIndex index = session.stage("index", [&] { return BrepIndex(set.solid); });

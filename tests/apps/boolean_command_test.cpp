@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,6 +105,61 @@ TEST_F(BooleanCommand, RepairCertifiesWhatIsWritten) {
     EXPECT_LT(document["repair"]["radius"], 1e-9);
     EXPECT_EQ(trisect({"check", out_}).code, 0);
     EXPECT_TRUE(run("union", {a_, b_})["repair"].is_null());
+}
+
+TEST_F(BooleanCommand, OutputsInOneFileAreRefused) {
+    namespace fs = std::filesystem;
+    const std::string x = path("x.off");
+    const auto refused = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"union", a_, b_};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const Finished result = trisect(arguments);
+        EXPECT_EQ(result.code, 2) << result.err;
+        return result.code == 2;
+    };
+    const std::size_t before = entry_count();
+    EXPECT_TRUE(refused({"-o", x, "--exact", x}));
+    EXPECT_TRUE(refused({"-o", x, "--exact", path("./x.off")}));
+    EXPECT_TRUE(refused({"-o", x, "--exact", path("none/../x.off")}));
+    EXPECT_EQ(entry_count(), before);
+    fs::create_symlink("x.off", path("link.off"));
+    EXPECT_TRUE(refused({"-o", path("link.off"), "--exact", x}));
+    EXPECT_TRUE(refused({"-o", x, "--exact", path("link.off")}));
+    (void)write("x.off", "old");
+    EXPECT_TRUE(refused({"-o", path("link.off"), "--exact", x}));
+    fs::create_hard_link(x, path("hard.off"));
+    EXPECT_TRUE(refused({"-o", path("hard.off"), "--exact", x}));
+    EXPECT_EQ(read(x), "old");
+    fs::create_directory_symlink(".", path("here"));
+    EXPECT_TRUE(refused({"-o", path("here/y.off"), "--exact", path("y.off")}));
+}
+
+TEST_F(BooleanCommand, TheStandardOutputHoldsOneThing) {
+    const auto code = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"union", a_, b_, "--format", "off"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return trisect(arguments).code;
+    };
+    EXPECT_EQ(code({"-o", "-", "--exact", "-"}), 2);
+    EXPECT_EQ(code({"-o", "-", "--exact", "/dev/stdout"}), 2);
+    EXPECT_EQ(code({"-o", out_, "--exact", "-", "--json"}), 2);
+    EXPECT_EQ(code({"-o", out_, "--exact", "/dev/stdout", "--json"}), 2);
+    EXPECT_EQ(code({"-o", "/dev/stdout", "--json"}), 2);
+    // Nobody reads what is written there.
+    EXPECT_EQ(code({"-o", "/dev/null", "--exact", "/dev/null"}), 0);
+    const std::string exact = path("alone.exact");
+    EXPECT_EQ(code({"-o", out_, "--exact", exact}), 0);
+    const Finished alone = trisect({"union", a_, b_, "-o", out_, "--exact", "-"});
+    EXPECT_EQ(alone.code, 0) << alone.err;
+    EXPECT_EQ(alone.out, read(exact));
+}
+
+TEST_F(BooleanCommand, TheOutputMayBeAnOperand) {
+    const std::string both = write("both.obj", read(a_));
+    EXPECT_EQ(trisect({"union", both, b_, "-o", both}).code, 0);
+    EXPECT_EQ(trisect({"union", a_, b_, "-o", out_}).code, 0);
+    EXPECT_EQ(trisect({"xor", both, out_, "-o", path("z.off"), "--json"}).json()["output"]["faces"],
+              0);
 }
 
 TEST_F(BooleanCommand, ManyOperands) {

@@ -41,6 +41,14 @@ TEST_F(SectionCommand, CubeGivesASquare) {
     for (const json& corner : document["regions"][0]["outer"]) EXPECT_EQ(corner[2], 0.5);
 }
 
+TEST_F(SectionCommand, TheStandardOutputHoldsOneThing) {
+    EXPECT_EQ(trisect({"section", cube_, "--plane", "z", "-o", "/dev/stdout"}).code, 2);
+    EXPECT_EQ(trisect({"section", cube_, "--plane", "z", "-o", "/dev/stdout", "--json"}).code, 2);
+    const Finished drawn = trisect({"section", cube_, "--plane", "z", "-o", "-"});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_TRUE(is_well_formed_xml(drawn.out));
+}
+
 TEST_F(SectionCommand, ShortFormsAreAxes) {
     for (const char* plane : {"x", "y", "z", "x=0.25", "y=1.75", "z=0.1"}) {
         const json document = section({cube_, "--plane", plane});
