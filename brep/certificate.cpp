@@ -83,6 +83,8 @@ Certificate certify(const PolygonMesh& mesh) {
                    has_none(DefectKind::InsideOutShell) && has_none(DefectKind::ShellNesting);
     // On a lattice that rounds once more the answer would be about another mesh.
     if (topology.lattice().lossless) out.self_intersecting_pairs = self_intersecting_pairs(mesh);
+    if (!out.self_intersecting_pairs)
+        out.undecided = topology.lattice().lossless ? Undecided::Work : Undecided::Span;
     return out;
 }
 

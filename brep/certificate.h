@@ -16,14 +16,22 @@
 
 namespace trisect {
 
+/// Why nothing is known about self-intersection.
+enum class Undecided : std::uint8_t {
+    No,    ///< it is known
+    Span,  ///< the written coordinates span too many bits for the exact check
+    Work   ///< more pairs of faces are near each other than the check compares
+};
+
 struct Certificate {
     bool closed = false;    ///< the written faces' boundaries cancel
     bool oriented = false;  ///< and the volume they enclose is not negative
     /// Pairs of written faces that meet beyond the corners and edges they share, or have the same
-    /// corners; nothing when the written coordinates span too many bits for an exact check.
+    /// corners; nothing when that was not decided.
     std::optional<std::size_t> self_intersecting_pairs;
-    double max_move = 0;               ///< largest change of one coordinate, user's units
-    std::size_t rounded_vertices = 0;  ///< vertices with a changed coordinate
+    Undecided undecided = Undecided::No;  ///< why it was not
+    double max_move = 0;                  ///< largest change of one coordinate, user's units
+    std::size_t rounded_vertices = 0;     ///< vertices with a changed coordinate
 
     /// The mesh bounds a solid, and this is proved.
     [[nodiscard]] bool holds() const {

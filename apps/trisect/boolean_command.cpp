@@ -92,6 +92,8 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
     out += fmt::format("{:<11}{}\n", "operands", embedding_text(options.operands));
     if (result.certificate) {
         out += fmt::format("{:<11}{}\n", "certified", to_text(*result.certificate));
+        if (!options.repair && !result.certificate->holds())
+            out += fmt::format("{:<11}--repair moves vertices until it is certified\n", "");
     }
     if (result.rounding) out += fmt::format("{:<11}{}\n", "rounding", to_text(*result.rounding));
     double total = 0;

@@ -29,6 +29,12 @@ const char* name_of(CertifiedRounding::Outcome outcome) {
     }
 }
 
+const char* reason_of(Undecided undecided) {
+    return undecided == Undecided::Work
+               ? "too many faces are near each other to compare them all"
+               : "the written coordinates span too many bits for an exact check";
+}
+
 }  // namespace
 
 Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format) {
@@ -66,22 +72,26 @@ std::string to_text(const CertifiedRounding& r) {
 
 Json to_json(const Certificate& c) {
     Json out;
+    out["certified"] = c.holds();
     out["closed"] = c.closed;
     out["oriented"] = c.oriented;
     out["self_intersecting_pairs"] =
         c.self_intersecting_pairs ? Json(*c.self_intersecting_pairs) : Json();
+    out["undecided"] = c.undecided == Undecided::No ? Json() : Json(reason_of(c.undecided));
     out["max_move"] = c.max_move;
     out["rounded_vertices"] = c.rounded_vertices;
     return out;
 }
 
 std::string to_text(const Certificate& c) {
-    const std::string pairs = c.self_intersecting_pairs
-                                  ? fmt::format("{}", *c.self_intersecting_pairs)
-                                  : "an unknown number of";
-    return fmt::format("{}, {}, {} self-intersecting pairs, {} vertices rounded by at most {}",
-                       c.closed ? "closed" : "NOT closed", c.oriented ? "oriented" : "NOT oriented",
-                       pairs, c.rounded_vertices, number_text(c.max_move));
+    const std::string pairs =
+        c.self_intersecting_pairs
+            ? fmt::format("{} self-intersecting pairs", *c.self_intersecting_pairs)
+            : fmt::format("whether it meets itself is NOT known ({})", reason_of(c.undecided));
+    return fmt::format("{}{}, {}, {}, {} vertices rounded by at most {}",
+                       c.holds() ? "" : "NO: ", c.closed ? "closed" : "NOT closed",
+                       c.oriented ? "oriented" : "NOT oriented", pairs, c.rounded_vertices,
+                       number_text(c.max_move));
 }
 
 }  // namespace trisect::app

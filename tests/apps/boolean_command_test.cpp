@@ -107,6 +107,26 @@ TEST_F(BooleanCommand, RepairCertifiesWhatIsWritten) {
     EXPECT_TRUE(run("union", {a_, b_})["repair"].is_null());
 }
 
+TEST_F(BooleanCommand, UndecidedIsNotCertified) {
+    const std::string tetrahedron = write("t.obj",
+                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
+    const json certificate = run("intersection", {tetrahedron, block})["certificate"];
+    EXPECT_EQ(certificate.value("certified", true), false);
+    EXPECT_TRUE(certificate["self_intersecting_pairs"].is_null());
+    EXPECT_TRUE(certificate.value("undecided", json()).is_string());
+    const Finished spoken = trisect({"intersection", tetrahedron, block, "-o", out_});
+    EXPECT_NE(spoken.err.find("certified  NO: "), std::string::npos) << spoken.err;
+    EXPECT_NE(spoken.err.find("too many bits"), std::string::npos) << spoken.err;
+    EXPECT_NE(spoken.err.find("--repair"), std::string::npos) << spoken.err;
+
+    const json whole = run("union", {a_, b_})["certificate"];
+    EXPECT_EQ(whole.value("certified", false), true);
+    EXPECT_TRUE(whole.value("undecided", json("?")).is_null());
+    EXPECT_EQ(trisect({"union", a_, b_, "-o", out_}).err.find("NO: "), std::string::npos);
+}
+
 TEST_F(BooleanCommand, OutputsInOneFileAreRefused) {
     namespace fs = std::filesystem;
     const std::string x = path("x.off");
