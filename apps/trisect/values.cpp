@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "values.h"
 
+#include <trisect/brep/io/detail/decimal.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <system_error>
 
@@ -17,11 +19,19 @@ namespace {
     throw UsageError(fmt::format("{}: '{}' is not {}", what, text, wanted));
 }
 
+std::from_chars_result read(const char* first, const char* last, double& value) {
+    return detail::nearest_double(first, last, value);
+}
+template <std::integral Number>
+std::from_chars_result read(const char* first, const char* last, Number& value) {
+    return std::from_chars(first, last, value);
+}
+
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
     // from_chars knows no plus sign.
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = read(text.data(), text.data() + text.size(), value);
     return error == std::errc{} && end == text.data() + text.size();
 }
 

@@ -13,7 +13,7 @@
 
 namespace trisect::app {
 
-/// A finite number, the whole text. \throw UsageError naming `what`.
+/// A finite number, the whole text, as the nearest double. \throw UsageError naming `what`.
 [[nodiscard]] double parse_number(std::string_view text, std::string_view what);
 /// The same for an integer.
 [[nodiscard]] std::int64_t parse_integer(std::string_view text, std::string_view what);

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -178,7 +177,7 @@ private:
     static bool read(std::string_view word, double& value) {
         if (word.starts_with('+')) word.remove_prefix(1);
         const char* end = word.data() + word.size();
-        const auto [stop, error] = std::from_chars(word.data(), end, value);
+        const auto [stop, error] = detail::nearest_double(word.data(), end, value);
         return stop == end && error == std::errc{};
     }
 

@@ -52,6 +52,20 @@ TEST_F(LocateCommand, PointsOfTheCommandLineComeFirst) {
               expected);
 }
 
+TEST_F(LocateCommand, NumbersNearZeroAreTheNearestDoubles) {
+    const std::string points = write("p.txt",
+                                     "1e-400 1 1\n1 1 -1e-9999999999999999999\n1e-320 1 1\n"
+                                     "3e-324 1 1\n2e-324 1 1\n-5e-324 1 1\n");
+    const std::vector<std::string> expected{"face", "face", "inside", "inside", "face", "outside"};
+    EXPECT_EQ(words({"--points", points}), expected);
+    EXPECT_EQ(words({"--point", "1e-400,1,1"}), std::vector<std::string>{"face"});
+    for (const char* text : {"1 1 1\n1 1e400 1\n", "1 1 1\n1 -1e+400 1\n", "1 1 1\n1 inf 1\n"}) {
+        const Finished result = trisect({"locate", cube_, "--points", "-"}, {text, {}});
+        EXPECT_EQ(result.code, 3);
+        EXPECT_NE(result.err.find("standard input:2:3"), std::string::npos) << result.err;
+    }
+}
+
 TEST_F(LocateCommand, LastLineNeedsNoEnd) {
     EXPECT_EQ(words({"--points", "-"}, "1 1 1").size(), 1U);
     EXPECT_TRUE(words({"--points", "-"}, "# nothing\n").empty());

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // OBJ: what is read, each documented leniency, each refusal with its place.
+#include <trisect/brep/io/detail/decimal.h>
+
 #include "io_test_support.h"
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <system_error>
 
 namespace {
 
@@ -36,6 +41,35 @@ TEST(Obj, NumbersAtTheEndsOfTheRange) {
     EXPECT_EQ(m.points[1], (Point3d{1, 4.9406564584124654e-324, -1.7976931348623157e308}));
     expect_obj_error("v 1" + zeros + "e-5 0 0\n", ":1:3", "too large");
     expect_obj_error("v 0 1e+999999999999999999999999 0\n", ":1:5", "too large");
+}
+
+TEST(NearestDouble, RoundsAtTheEndsOfTheRange) {
+    using trisect::detail::nearest_double;
+    const auto read = [](const std::string& text) {
+        double value = 7;
+        const auto [end, error] = nearest_double(text.data(), text.data() + text.size(), value);
+        EXPECT_EQ(end, text.data() + text.size()) << text;
+        EXPECT_EQ(error, std::errc{}) << text;
+        return value;
+    };
+    constexpr double least = 4.9406564584124654e-324;
+    EXPECT_EQ(read("1e-400"), 0);
+    EXPECT_TRUE(std::signbit(read("-1e-400")));
+    EXPECT_EQ(read("0.0001e-999999999999999999999"), 0);
+    // Half of the least double is 2^-1075: what is below goes to zero.
+    EXPECT_EQ(read("2.47032822920623e-324"), 0);
+    EXPECT_EQ(read("2.4703282292062328e-324"), least);
+    EXPECT_EQ(read("7.4e-324"), least);
+    EXPECT_EQ(read("7.5e-324"), 2 * least);
+    EXPECT_EQ(read("2.2250738585072011e-308"), std::numeric_limits<double>::min() - least);
+    EXPECT_EQ(read("1.7976931348623158e308"), std::numeric_limits<double>::max());
+    for (const std::string text : {"1e400", "-1e400", "1.8e308", "0.1e99999999999999999999"}) {
+        double value = 7;
+        EXPECT_EQ(nearest_double(text.data(), text.data() + text.size(), value).ec,
+                  std::errc::result_out_of_range)
+            << text;
+        EXPECT_EQ(value, 7);
+    }
 }
 
 TEST(Obj, CornersWithTextureAndNormal) {

@@ -5,10 +5,11 @@
 //
 // Lines end with LF, CR LF, or (in a file whose first line does) a bare CR. Words are separated by
 // blanks, tabs, CR, vertical tabs and form feeds. A number must fill its whole word: `1.5x` is an
-// error, not 1.5. Numbers are read by std::from_chars, which rounds correctly and knows no locale;
-// a leading `+`, which it refuses, is skipped here.
+// error, not 1.5. Numbers are read by nearest_double (decimal.h), which rounds correctly and knows
+// no locale; a leading `+`, which it refuses, is skipped here.
 #pragma once
 
+#include <trisect/brep/io/detail/decimal.h>
 #include <trisect/brep/io/detail/input_text.h>
 
 #include <algorithm>
@@ -105,13 +106,11 @@ public:
         word_ = here_;
         const char* first = here_ + (*here_ == '+' ? 1 : 0);
         double value = 0;
-        auto [stop, error] = std::from_chars(first, line_end_, value);
+        auto [stop, error] = nearest_double(first, line_end_, value);
         if (first != here_ && first != line_end_ && *first == '-')
             error = std::errc::invalid_argument;
-        if (error == std::errc::result_out_of_range)
-            value = beyond_range(first, stop, what);
-        else if (error != std::errc{})
-            fail_word(what, "is not a number");
+        if (error == std::errc::result_out_of_range) fail_word(what, "is too large for a double");
+        if (error != std::errc{}) fail_word(what, "is not a number");
         end_number(stop, what);
         return value;
     }
@@ -199,30 +198,6 @@ private:
                                           " characters");
         }
         here_ = stop;
-    }
-
-    /// from_chars reports overflow and underflow alike. What rounds to zero is zero, correctly
-    /// rounded; the two are told apart by the decimal position of the first non-zero digit.
-    double beyond_range(const char* first, const char* stop, const char* what) const {
-        const std::string_view text(first, static_cast<std::size_t>(stop - first));
-        const std::size_t e = std::min(text.find_first_of("eE"), text.size());
-        const std::string_view mantissa = text.substr(0, e);
-        const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
-        const std::size_t digit = std::min(mantissa.find_first_of("123456789"), mantissa.size());
-        const auto position = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(digit);
-        if (position + exponent(text.substr(e)) > 0) fail_word(what, "is too large for a double");
-        return text[0] == '-' ? -0.0 : 0.0;
-    }
-
-    /// The number after the `e`, cut off at a size that no mantissa can make up for.
-    static std::int64_t exponent(std::string_view text) noexcept {
-        constexpr std::int64_t huge = std::int64_t{1} << 62;
-        if (text.empty()) return 0;
-        text.remove_prefix(text.substr(1, 1) == "+" ? 2 : 1);
-        std::int64_t value = 0;
-        const auto error = std::from_chars(text.data(), text.data() + text.size(), value).ec;
-        if (error == std::errc::result_out_of_range) return text[0] == '-' ? -huge : huge;
-        return std::min(std::max(value, -huge), huge);
     }
 
     const InputText& source_;
