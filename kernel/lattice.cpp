@@ -3,7 +3,9 @@
 #include <trisect/kernel/lattice.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -196,6 +198,12 @@ bool reaches_below(Coordinates points, int limit, std::uint32_t threads, int& lo
     return false;
 }
 
+// The shortest digits that read back as the same double: others take up to 310 characters.
+std::string shortest_text(double value) {
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
 class Rounding {
 public:
     explicit Rounding(Lattice lattice)
@@ -254,7 +262,7 @@ private:
             const double units = scaled(p[k], -lattice_.exponent);
             if (!(std::fabs(units) < static_cast<double>(coordinate_limit)))
                 throw LimitError("vertex " + std::to_string(index) + ": coordinate " +
-                                 std::to_string(p[k]) +
+                                 shortest_text(p[k]) +
                                  " is not finite or outside the lattice of unit 2^" +
                                  std::to_string(lattice_.exponent));
             const double rounded = std::nearbyint(units);
@@ -271,6 +279,24 @@ private:
     double largest_move_ = 0;  ///< lattice units
     double vanished_ = 0;      ///< user's units
 };
+
+// Rounding takes a coordinate near the largest double up to 2^1024, which every later use of it
+// would find infinite.
+void refuse_beyond_doubles(Coordinates points, std::span<const LatticePoint> rounded,
+                           Lattice lattice) {
+    if (lattice.exponent + coordinate_bits < std::numeric_limits<double>::max_exponent) return;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto units = static_cast<double>(rounded[i][static_cast<int>(k)]);
+            if (std::isfinite(lattice.to_double(units))) continue;
+            throw Error(ErrorCode::InvalidSolid,
+                        "vertex " + std::to_string(i) + ": coordinate " +
+                            shortest_text(points[i][k]) +
+                            " is so near the largest double that rounding to the lattice of unit "
+                            "2^" +
+                            std::to_string(lattice.exponent) + " goes beyond it");
+        }
+}
 
 }  // namespace
 
@@ -303,6 +329,7 @@ std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> poin
         roundings[part] = round;
     });
     for (const Rounding& round : roundings) round.report_to(report);
+    refuse_beyond_doubles(points, out, lattice);
     return out;
 }
 

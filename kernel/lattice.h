@@ -42,7 +42,8 @@ inline constexpr int growth_bits = 8;
                                      std::uint32_t threads = 1);
 
 /// Rounds to the nearest lattice point (ties to even) and reports.
-/// \throw LimitError when a coordinate is not finite or leaves the lattice's range.
+/// \throw LimitError when a coordinate is not finite or leaves the lattice's range; Error
+/// (InvalidSolid) when it is rounded beyond the largest double.
 [[nodiscard]] std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points,
                                                    Lattice lattice, LatticeReport& report,
                                                    std::uint32_t threads = 1);

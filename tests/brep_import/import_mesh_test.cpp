@@ -7,10 +7,12 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include <trisect/brep/detail/loop_triangulator.h>
+#include <trisect/brep/validate/validate.h>
 
 #include "mesh_builders.h"
 
@@ -29,6 +31,30 @@ double volume6(const LatticeMesh& m) {
                                  a.z * (b.x * c.y - b.y * c.x));
     }
     return v;
+}
+
+TEST(ImportMesh, CornersThatRoundBeyondTheLargestDoubleAreRefused) {
+    PolygonMesh mesh = cuboid({0, 0, 0}, {1, 1, 1});
+    const auto scale = [&](double size) {
+        for (Point3d& p : mesh.points)
+            for (double& c : p) c = c == 0 ? 0 : size;
+    };
+    scale(std::numeric_limits<double>::max());
+    const auto message = [&](const auto& work) -> std::string {
+        try {
+            work();
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::InvalidSolid);
+            return e.what();
+        }
+        return "accepted";
+    };
+    const std::string vertex = "vertex 1: coordinate 1.7976931348623157e+308 ";
+    EXPECT_TRUE(message([&] { (void)import_mesh(mesh); }).starts_with(vertex));
+    EXPECT_TRUE(message([&] { (void)validate(mesh); }).starts_with(vertex));
+    scale(1.7e308);
+    EXPECT_EQ(message([&] { (void)import_mesh(mesh); }), "accepted");
+    EXPECT_EQ(message([&] { (void)validate(mesh); }), "accepted");
 }
 
 TEST(ImportMesh, CuboidOfQuadrilaterals) {
