@@ -114,28 +114,34 @@ BrepIndex::BrepIndex(const Solid& solid) {
     core_ = std::move(core);
 }
 
-BrepIndex BrepIndex::with_brep() const {
-    if (core_->handles) return *this;
-    auto core = std::make_shared<IndexCore>();
-    core->base = core_->base;
-    core->handles = std::make_shared<const detail::IndexHandles>(*core->base);
-    return BrepIndex(std::shared_ptr<const IndexCore>(std::move(core)));
+const IndexCore& BrepIndex::empty_core() {
+    // Never destroyed: it may be asked for after main().
+    static const auto& empty = *new BrepIndex(Solid());
+    return *empty.core_;
 }
 
-void BrepIndex::refine() const { core_->tree().divide_all(); }
+BrepIndex BrepIndex::with_brep() const {
+    if (core().handles) return *this;
+    auto with = std::make_shared<IndexCore>();
+    with->base = core().base;
+    with->handles = std::make_shared<const detail::IndexHandles>(*with->base);
+    return BrepIndex(std::shared_ptr<const IndexCore>(std::move(with)));
+}
 
-const Solid& BrepIndex::solid() const { return core_->base->solid; }
-bool BrepIndex::has_brep() const { return core_->handles != nullptr; }
+void BrepIndex::refine() const { core().tree().divide_all(); }
+
+const Solid& BrepIndex::solid() const { return core().base->solid; }
+bool BrepIndex::has_brep() const { return core().handles != nullptr; }
 
 const Brep& BrepIndex::brep() const {
     TRISECT_EXPECTS(has_brep(), "an index without B-rep was asked for it");
-    return core_->handles->brep();
+    return core().handles->brep();
 }
 
 IndexStats BrepIndex::stats() const {
-    const detail::IndexTree& tree = core_->tree();
+    const detail::IndexTree& tree = core().tree();
     IndexStats s;
-    s.polygons = core_->polygons().size();
+    s.polygons = core().polygons().size();
     const detail::IndexTree::Stats t = tree.stats();
     s.nodes = t.nodes;
     s.mixed_leaves = t.mixed;
@@ -143,45 +149,45 @@ IndexStats BrepIndex::stats() const {
     s.pending_cells = t.pending;
     s.listed = t.listed;
     s.depth = t.depth;
-    s.bytes = t.bytes + core_->polygons().bytes();
-    if (core_->handles) s.bytes += core_->handles->bytes();
+    s.bytes = t.bytes + core().polygons().bytes();
+    if (core().handles) s.bytes += core().handles->bytes();
     if (s.polygons != 0)
         s.bytes_per_polygon = static_cast<double>(s.bytes) / static_cast<double>(s.polygons);
-    s.build_seconds = core_->base->build_seconds;
-    if (core_->handles) s.brep_seconds = core_->handles->seconds();
+    s.build_seconds = core().base->build_seconds;
+    if (core().handles) s.brep_seconds = core().handles->seconds();
     return s;
 }
 
 Place BrepIndex::locate(const std::array<double, 3>& point) const {
     std::vector<PolygonId> on;
-    return located(*core_, IndexPoint::from_user(point, solid().lattice()), on);
+    return located(core(), IndexPoint::from_user(point, solid().lattice()), on);
 }
 
 Place BrepIndex::locate(const LatticePoint& point) const {
     std::vector<PolygonId> on;
-    return located(*core_, IndexPoint(point), on);
+    return located(core(), IndexPoint(point), on);
 }
 
 Place BrepIndex::locate(const Point& point) const {
     std::vector<PolygonId> on;
-    return located(*core_, IndexPoint(point), on);
+    return located(core(), IndexPoint(point), on);
 }
 
 Place BrepIndex::locate(const std::array<ExactRational, 3>& point) const {
     std::vector<PolygonId> on;
     IndexPoint::Rational p = point;
     for (ExactRational& x : p) x = x.scaled(-solid().lattice().exponent);
-    return located(*core_, IndexPoint(std::move(p)), on);
+    return located(core(), IndexPoint(std::move(p)), on);
 }
 
 std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> points,
                                      unsigned threads) const {
     std::vector<Place> places(points.size());
     detail::locate_batch(
-        *core_->base, points, threads,
+        *core().base, points, threads,
         [&](std::uint32_t i, Location l, const IndexPoint* p, std::vector<PolygonId>& on) {
             places[i].location = l;
-            if (l == Location::OnFace) places[i] = named(*core_, *p, on);
+            if (l == Location::OnFace) places[i] = named(core(), *p, on);
         });
     return places;
 }
@@ -189,43 +195,43 @@ std::vector<Place> BrepIndex::locate(std::span<const std::array<double, 3>> poin
 void BrepIndex::classify(std::span<const std::array<double, 3>> points, std::span<Location> results,
                          unsigned threads) const {
     if (points.size() != results.size()) throw UsageError("as many results as points are needed");
-    detail::classify_batch(*core_->base, points, threads, results);
+    detail::classify_batch(*core().base, points, threads, results);
 }
 
 std::optional<RayHit> BrepIndex::first_hit(const Ray& ray) const {
-    return detail::first_hit(*core_, IndexLine(ray, solid().lattice()));
+    return detail::first_hit(core(), IndexLine(ray, solid().lattice()));
 }
 std::optional<RayHit> BrepIndex::first_hit(const Segment& segment) const {
-    return detail::first_hit(*core_, IndexLine(segment, solid().lattice()));
+    return detail::first_hit(core(), IndexLine(segment, solid().lattice()));
 }
 std::optional<FacetHit> BrepIndex::first_facet(const Ray& ray) const {
-    return detail::first_facet(*core_, IndexLine(ray, solid().lattice()));
+    return detail::first_facet(core(), IndexLine(ray, solid().lattice()));
 }
 std::optional<FacetHit> BrepIndex::first_facet(const Segment& segment) const {
-    return detail::first_facet(*core_, IndexLine(segment, solid().lattice()));
+    return detail::first_facet(core(), IndexLine(segment, solid().lattice()));
 }
 std::vector<RayHit> BrepIndex::all_hits(const Ray& ray) const {
-    return detail::all_hits(*core_, IndexLine(ray, solid().lattice()));
+    return detail::all_hits(core(), IndexLine(ray, solid().lattice()));
 }
 std::vector<RayHit> BrepIndex::all_hits(const Segment& segment) const {
-    return detail::all_hits(*core_, IndexLine(segment, solid().lattice()));
+    return detail::all_hits(core(), IndexLine(segment, solid().lattice()));
 }
 
 std::optional<Nearest> BrepIndex::nearest(const std::array<double, 3>& point) const {
-    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+    return detail::nearest(core(), IndexPoint::from_user(point, solid().lattice()),
                            detail::NearestKind::Boundary);
 }
 std::optional<Nearest> BrepIndex::nearest_edge(const std::array<double, 3>& point) const {
-    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+    return detail::nearest(core(), IndexPoint::from_user(point, solid().lattice()),
                            detail::NearestKind::Edge);
 }
 std::optional<Nearest> BrepIndex::nearest_vertex(const std::array<double, 3>& point) const {
-    return detail::nearest(*core_, IndexPoint::from_user(point, solid().lattice()),
+    return detail::nearest(core(), IndexPoint::from_user(point, solid().lattice()),
                            detail::NearestKind::Vertex);
 }
 
 std::optional<NearestBounds> BrepIndex::distance(const std::array<double, 3>& point) const {
-    return detail::distance(*core_, IndexPoint::from_user(point, solid().lattice()));
+    return detail::distance(core(), IndexPoint::from_user(point, solid().lattice()));
 }
 
 std::optional<SignedDistance> BrepIndex::signed_distance(const std::array<double, 3>& point) const {
@@ -233,16 +239,16 @@ std::optional<SignedDistance> BrepIndex::signed_distance(const std::array<double
     if (!found) return std::nullopt;
     const IndexPoint p = IndexPoint::from_user(point, solid().lattice());
     std::vector<PolygonId> on;
-    const Location l = detail::locate_polygons(*core_->base, p, on);
+    const Location l = detail::locate_polygons(*core().base, p, on);
     const int sign = l == Location::Inside ? -1 : (l == Location::Outside ? 1 : 0);
     return SignedDistance{sign, std::move(*found)};
 }
 
 std::vector<SectionRegion> BrepIndex::section(const Plane& plane) const {
-    return detail::section(*core_, plane);
+    return detail::section(core(), plane);
 }
 PlaneRelation BrepIndex::relation_to(const Plane& plane) const {
-    return detail::relation_to(*core_, plane);
+    return detail::relation_to(core(), plane);
 }
 
 BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
@@ -253,13 +259,13 @@ BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
     const IndexPoint low = IndexPoint::from_user(lo, lattice);
     const IndexPoint high = IndexPoint::from_user(hi, lattice);
     BoxEntities out;
-    for (const PolygonId id : detail::polygons_in_box(*core_->base, low, high)) {
-        out.faces.push_back(core_->polygons().face_source(id));
-        if (core_->handles) out.face_ids.push_back(core_->handles->face_of(id));
+    for (const PolygonId id : detail::polygons_in_box(*core().base, low, high)) {
+        out.faces.push_back(core().polygons().face_source(id));
+        if (core().handles) out.face_ids.push_back(core().handles->face_of(id));
     }
     sort_unique(out.faces);
     sort_unique(out.face_ids);
-    if (!core_->handles) return out;
+    if (!core().handles) return out;
     // An edge that meets the box is one of a face that does.
     const Brep& b = brep();
     for (const FaceId f : out.face_ids)
@@ -281,20 +287,20 @@ BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
 std::vector<IndexCell> BrepIndex::cells(FaceId face) const {
     TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
     std::vector<IndexCell> out;
-    const auto polygons = core_->handles->polygons_of(face);
+    const auto polygons = core().handles->polygons_of(face);
     detail::for_leaves(
-        core_->tree(),
+        core().tree(),
         [&](const detail::DoubleBox& cell) {
             return std::any_of(polygons.begin(), polygons.end(), [&](PolygonId id) {
-                return cell.overlaps(detail::to_doubles(core_->polygons().box(id)));
+                return cell.overlaps(detail::to_doubles(core().polygons().box(id)));
             });
         },
         [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
             if (!c.is_mixed()) return;
-            const auto listed = core_->tree().listed(core_->tree().leaf(c.leaf));
+            const auto listed = core().tree().listed(core().tree().leaf(c.leaf));
             if (std::any_of(listed.begin(), listed.end(),
-                            [&](PolygonId id) { return core_->handles->face_of(id) == face; }))
-                out.push_back(to_cell(*core_, c, cell));
+                            [&](PolygonId id) { return core().handles->face_of(id) == face; }))
+                out.push_back(to_cell(core(), c, cell));
         });
     return out;
 }
@@ -306,12 +312,12 @@ std::vector<IndexCell> BrepIndex::cells(EdgeId edge) const {
     const detail::DoubleBox box = detail::hull(b.point(b.origin(h)), b.point(b.target(h)));
     std::vector<IndexCell> out;
     detail::for_leaves(
-        core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
+        core().tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
         [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
             if (!c.is_mixed()) return;
-            const auto edges = core_->handles->edges_in(c.leaf);
+            const auto edges = core().handles->edges_in(c.leaf);
             if (std::find(edges.begin(), edges.end(), edge) != edges.end())
-                out.push_back(to_cell(*core_, c, cell));
+                out.push_back(to_cell(core(), c, cell));
         });
     return out;
 }
@@ -322,18 +328,18 @@ std::vector<IndexCell> BrepIndex::cells(VertexId vertex) const {
     const detail::DoubleBox box = detail::hull(p, p);
     std::vector<IndexCell> out;
     detail::for_leaves(
-        core_->tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
+        core().tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
         [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
             if (!c.is_mixed()) return;
-            const auto vertices = core_->handles->vertices_in(c.leaf);
+            const auto vertices = core().handles->vertices_in(c.leaf);
             if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
-                out.push_back(to_cell(*core_, c, cell));
+                out.push_back(to_cell(core(), c, cell));
         });
     return out;
 }
 
 IndexCell BrepIndex::cell_at(const std::array<double, 3>& point) const {
-    return detail::cell_at(*core_->base, IndexPoint::from_user(point, solid().lattice()));
+    return detail::cell_at(*core().base, IndexPoint::from_user(point, solid().lattice()));
 }
 
 Plane plane_on_lattice(const std::array<double, 4>& coefficients, Lattice lattice) {

@@ -242,7 +242,8 @@ struct IndexStats {
 /// An index over the boundary of a solid. Results of evaluate() are indexed from the leaves of
 /// their cell tree; no B-rep is built unless asked for.
 ///
-/// Immutable value; copying shares. Safe to use from many threads. It keeps the solid alive.
+/// Immutable value; copying shares. Safe to use from many threads. It keeps the solid alive. An
+/// index that was moved from is that of the empty set.
 ///
 /// Cost: building O(n), about 0.1 us a triangle; a query that comes to a part of the boundary where
 /// none was before prepares that part (about 10 us for the next 30 triangles, 0.3 us a triangle
@@ -327,6 +328,11 @@ public:
 
 private:
     explicit BrepIndex(std::shared_ptr<const detail::IndexCore> core) : core_(std::move(core)) {}
+    [[nodiscard]] const detail::IndexCore& core() const {
+        return core_ != nullptr ? *core_ : empty_core();
+    }
+    [[nodiscard]] static const detail::IndexCore& empty_core();
+
     std::shared_ptr<const detail::IndexCore> core_;
 };
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/kernel/lattice_point.h>
@@ -70,8 +71,17 @@ public:
         NodeId above;
     };
 
-    /// The empty set.
+    /// The empty set; so is a tree that was moved from.
     BspTree() = default;
+    BspTree(const BspTree&) = default;
+    BspTree& operator=(const BspTree&) = default;
+    BspTree(BspTree&& o) noexcept : BspTree() { swap(o); }
+    BspTree& operator=(BspTree&& o) noexcept {
+        BspTree taken(std::move(o));
+        swap(taken);
+        return *this;
+    }
+    ~BspTree() = default;
     /// The empty set or the whole space.
     explicit BspTree(Label label) : root_(label) {}
     /// The points on or below a plane. \pre the plane cuts the cube.
@@ -111,6 +121,11 @@ public:
     void validate() const;
 
 private:
+    void swap(BspTree& o) noexcept {
+        nodes_.swap(o.nodes_);
+        std::swap(root_, o.root_);
+    }
+
     std::vector<Node> nodes_;
     NodeId root_{Label::Out};
 };

@@ -17,11 +17,17 @@ Expression::Expression(const Solid& solid) {
     root_ = std::move(n);
 }
 
+const std::shared_ptr<const Expression::Node>& Expression::empty_root() {
+    // Never destroyed: formulas may be made after main().
+    static const auto& empty = *new std::shared_ptr<const Node>(std::make_shared<Node>());
+    return empty;
+}
+
 Expression Expression::combine(Kind kind, std::span<const Expression> terms) {
     auto n = std::make_shared<Node>();
     n->kind = kind;
     n->children.reserve(terms.size());
-    for (const Expression& t : terms) n->children.push_back(t.root_);
+    for (const Expression& t : terms) n->children.push_back(t.root());
     return Expression(std::shared_ptr<const Node>(std::move(n)));
 }
 

@@ -16,7 +16,8 @@ namespace trisect {
 
 /// Immutable value; copying shares. Operators follow set notation:
 ///   a | b union, a & b intersection, a - b difference, a ^ b symmetric difference, ~a complement.
-/// All results are regularised: the closure of the interior.
+/// All results are regularised: the closure of the interior. A formula that was moved from is that
+/// of the empty set.
 class Expression {
 public:
     enum class Kind : std::uint8_t { Leaf, Not, And, Or, Xor };
@@ -32,7 +33,10 @@ public:
 
     Expression(const Solid& solid);  // NOLINT(google-explicit-constructor): a solid is a formula
 
-    [[nodiscard]] const std::shared_ptr<const Node>& root() const { return root_; }
+    /// Never null.
+    [[nodiscard]] const std::shared_ptr<const Node>& root() const {
+        return root_ != nullptr ? root_ : empty_root();
+    }
 
     friend Expression operator|(const Expression& a, const Expression& b);
     friend Expression operator&(const Expression& a, const Expression& b);
@@ -47,6 +51,7 @@ public:
 private:
     explicit Expression(std::shared_ptr<const Node> root) : root_(std::move(root)) {}
     static Expression combine(Kind kind, std::span<const Expression> terms);
+    [[nodiscard]] static const std::shared_ptr<const Node>& empty_root();
     std::shared_ptr<const Node> root_;
 };
 

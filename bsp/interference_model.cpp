@@ -8,10 +8,13 @@ namespace trisect {
 
 using detail::InterferenceModelData;
 
-InterferenceModel::InterferenceModel() {
-    static const auto empty = std::make_shared<const InterferenceModelData>(Solid());
-    data_ = empty;
+const std::shared_ptr<const InterferenceModelData>& InterferenceModel::empty_data() {
+    // Never destroyed: models may be used after main().
+    static const auto& empty = *new auto(std::make_shared<const InterferenceModelData>(Solid()));
+    return empty;
 }
+
+InterferenceModel::InterferenceModel() : data_(empty_data()) {}
 
 InterferenceModel::InterferenceModel(const Solid& solid)
     : data_(std::make_shared<const InterferenceModelData>(solid)) {}
@@ -19,23 +22,23 @@ InterferenceModel::InterferenceModel(const Solid& solid)
 InterferenceModel::InterferenceModel(const BrepIndex& index)
     : data_(std::make_shared<const InterferenceModelData>(index)) {}
 
-const Solid& InterferenceModel::solid() const { return data_->solid; }
-const Brep& InterferenceModel::brep() const { return data_->brep; }
-Lattice InterferenceModel::lattice() const { return data_->brep.lattice(); }
-bool InterferenceModel::is_empty() const { return data_->is_empty(); }
-std::size_t InterferenceModel::triangle_count() const { return data_->triangles.size(); }
-const BrepIndex& InterferenceModel::index() const { return data_->index(); }
+const Solid& InterferenceModel::solid() const { return data().solid; }
+const Brep& InterferenceModel::brep() const { return data().brep; }
+Lattice InterferenceModel::lattice() const { return data().brep.lattice(); }
+bool InterferenceModel::is_empty() const { return data().is_empty(); }
+std::size_t InterferenceModel::triangle_count() const { return data().triangles.size(); }
+const BrepIndex& InterferenceModel::index() const { return data().index(); }
 
 InterferenceModelStats InterferenceModel::stats() const {
     InterferenceModelStats s;
-    s.faces = data_->brep.counts().faces;
-    s.triangles = data_->triangles.size();
-    s.shells = data_->shell_vertex.size();
-    s.bytes = data_->bytes();
-    s.brep_seconds = data_->brep_seconds;
-    s.triangulate_seconds = data_->triangulate_seconds;
-    s.boxes_seconds = data_->boxes_seconds;
-    s.box_levels = data_->boxes.depth;
+    s.faces = data().brep.counts().faces;
+    s.triangles = data().triangles.size();
+    s.shells = data().shell_vertex.size();
+    s.bytes = data().bytes();
+    s.brep_seconds = data().brep_seconds;
+    s.triangulate_seconds = data().triangulate_seconds;
+    s.boxes_seconds = data().boxes_seconds;
+    s.box_levels = data().boxes.depth;
     return s;
 }
 

@@ -37,7 +37,8 @@ struct InterferenceModelStats {
 /// Poses are applied to the solid, never to the model: nothing in it ever moves.
 ///
 /// Immutable value; copying shares. Safe to use from many threads. The empty solid is allowed: it
-/// is disjoint from everything. Cost: Solid::to_brep and O(n log n).
+/// is disjoint from everything, and a model that was moved from is that of the empty solid. Cost:
+/// Solid::to_brep and O(n log n).
 class InterferenceModel {
 public:
     /// Of the empty solid.
@@ -61,9 +62,13 @@ public:
     [[nodiscard]] const BrepIndex& index() const;
 
     /// For algorithms of the library: bsp/detail/interference_model_data.h.
-    [[nodiscard]] const detail::InterferenceModelData& data() const { return *data_; }
+    [[nodiscard]] const detail::InterferenceModelData& data() const {
+        return data_ != nullptr ? *data_ : *empty_data();
+    }
 
 private:
+    [[nodiscard]] static const std::shared_ptr<const detail::InterferenceModelData>& empty_data();
+
     std::shared_ptr<const detail::InterferenceModelData> data_;
 };
 

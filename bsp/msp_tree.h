@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/brep.h>
@@ -160,8 +161,17 @@ public:
         Ref above;
     };
 
-    /// The empty set.
+    /// The empty set; so is a tree that was moved from.
     MspTree() = default;
+    MspTree(const MspTree&) = default;
+    MspTree& operator=(const MspTree&) = default;
+    MspTree(MspTree&& o) noexcept : MspTree() { swap(o); }
+    MspTree& operator=(MspTree&& o) noexcept {
+        MspTree taken(std::move(o));
+        swap(taken);
+        return *this;
+    }
+    ~MspTree() = default;
 
     /// The index of a whole boundary; leaves name its faces, edges and vertices.
     /// O(candidates · n) predicates a level of the tree. Deterministic.
@@ -214,6 +224,18 @@ public:
 
 private:
     friend class MspTreeBuilder;
+
+    void swap(MspTree& o) noexcept {
+        nodes_.swap(o.nodes_);
+        dimension_.swap(o.dimension_);
+        planes_.swap(o.planes_);
+        std::swap(root_, o.root_);
+        std::swap(lattice_, o.lattice_);
+        std::swap(faces_, o.faces_);
+        std::swap(polygons_, o.polygons_);
+        std::swap(fragments_, o.fragments_);
+        std::swap(build_seconds_, o.build_seconds_);
+    }
 
     std::vector<Node> nodes_;
     std::vector<std::uint8_t> dimension_;  // by node

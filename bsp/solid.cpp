@@ -67,11 +67,13 @@ Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t thread
 
 }  // namespace
 
-Solid::Solid() {
+const std::shared_ptr<const SolidState>& Solid::empty_state() {
     // Never destroyed, nor is whole space: solids may be made after main().
     static const auto& empty = *new auto(constant_state(false));
-    state_ = empty;
+    return empty;
 }
+
+Solid::Solid() : state_(empty_state()) {}
 
 Solid Solid::whole_space() {
     static const auto& whole = *new auto(constant_state(true));
@@ -114,17 +116,17 @@ void Solid::refine(std::uint32_t threads) const {
     detail::refine_all(detail::cut_state(*this)->root, threads);
 }
 
-Lattice Solid::lattice() const { return state_->lattice; }
-bool Solid::is_empty() const { return is_constant(*state_, false); }
-bool Solid::is_whole_space() const { return is_constant(*state_, true); }
-std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state_->source); }
+Lattice Solid::lattice() const { return state()->lattice; }
+bool Solid::is_empty() const { return is_constant(*state(), false); }
+bool Solid::is_whole_space() const { return is_constant(*state(), true); }
+std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state()->source); }
 
 Brep Solid::to_brep(const AssembleOptions& options) const {
     return detail::assemble_brep(*detail::cut_state(*this), options);
 }
 
 PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
-    return detail::assemble_mesh(*state_, nullptr, true, threads);
+    return detail::assemble_mesh(*state(), nullptr, true, threads);
 }
 
 }  // namespace trisect

@@ -48,6 +48,8 @@ struct AssembleOptions {
 /// It may be empty, unbounded (half-space, complement) or the whole space. It is the closure of its
 /// interior; its boundary is not part of the information in any other way. Inside is where the
 /// winding number of the imported boundary is positive.
+///
+/// A solid that was moved from is the empty set, and so is one made of a null state.
 class Solid {
 public:
     /// The empty set.
@@ -80,7 +82,7 @@ public:
     [[nodiscard]] std::uint32_t source_id() const;
     /// True for the empty set. O(1) for results of evaluate().
     [[nodiscard]] bool is_empty() const;
-    /// True for sets that contain everything far away.
+    /// True for whole space.
     [[nodiscard]] bool is_whole_space() const;
 
     /// Divides large cells of the boundary now, once for all solids that share them; the set stays
@@ -99,11 +101,16 @@ public:
     /// the mesh does not depend on it.
     [[nodiscard]] PolygonMesh to_mesh(std::uint32_t threads = 0) const;
 
-    [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const { return state_; }
+    /// Never null.
+    [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const {
+        return state_ != nullptr ? state_ : empty_state();
+    }
     explicit Solid(std::shared_ptr<const detail::SolidState> state) : state_(std::move(state)) {}
 
 private:
-    std::shared_ptr<const detail::SolidState> state_;
+    [[nodiscard]] static const std::shared_ptr<const detail::SolidState>& empty_state();
+
+    std::shared_ptr<const detail::SolidState> state_;  // null: the empty set
 };
 
 }  // namespace trisect

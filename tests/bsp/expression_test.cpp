@@ -8,6 +8,8 @@
 
 #include <ctime>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/measure.h>
@@ -78,6 +80,16 @@ TEST_F(Operators, ManyTermsInOneNode) {
     const std::vector<Expression> one{a};
     EXPECT_EQ(volume(Expression::any_of(one)), "8");
     EXPECT_EQ(volume(Expression::all_of(one)), "8");
+}
+
+TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
+    static_assert(std::is_nothrow_move_constructible_v<Expression>);
+    Expression e = a | b;
+    const Expression taken = std::move(e);
+    ASSERT_NE(e.root(), nullptr);  // NOLINT(bugprone-use-after-move): that is the test
+    EXPECT_TRUE(evaluate(e).is_empty());
+    EXPECT_EQ(volume(taken - e), volume(taken));
+    EXPECT_EQ(volume(taken & ~e), volume(taken));
 }
 
 TEST_F(Operators, NoTermsAreTheNeutralElement) {

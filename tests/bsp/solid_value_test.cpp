@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 #include <trisect/brep/measure.h>
@@ -56,6 +58,30 @@ TEST(SolidValue, AssignmentToItselfAndMovesKeepTheSet) {
     EXPECT_EQ(trisect::volume(a.to_brep()), 1);
     const Solid moved = std::move(a);
     EXPECT_EQ(trisect::volume(moved.to_brep()), 1);
+}
+
+TEST(SolidValue, MovedFromIsTheEmptySet) {
+    static_assert(std::is_nothrow_move_constructible_v<Solid>);
+    static_assert(std::is_nothrow_move_assignable_v<Solid>);
+    Solid a = unit_box();
+    const Solid taken = std::move(a);
+    EXPECT_TRUE(a.is_empty());  // NOLINT(bugprone-use-after-move): that is the test
+    EXPECT_NE(a.state(), nullptr);
+    EXPECT_EQ(a.source_id(), 0U);
+    EXPECT_EQ(a.to_mesh().face_count(), 0U);
+    EXPECT_TRUE(a.to_brep().is_empty());
+    a.refine();
+    EXPECT_EQ(trisect::volume(evaluate(taken | a).to_brep()), 1);
+    a = taken;
+    EXPECT_EQ(trisect::volume(a.to_brep()), 1);
+}
+
+TEST(SolidValue, OfANullStateIsTheEmptySet) {
+    const Solid s(std::shared_ptr<const trisect::detail::SolidState>(nullptr));
+    EXPECT_TRUE(s.is_empty());
+    EXPECT_FALSE(s.is_whole_space());
+    EXPECT_TRUE(evaluate(~s).is_whole_space());
+    EXPECT_EQ(trisect::volume(evaluate(unit_box() - s).to_brep()), 1);
 }
 
 TEST(SolidValue, EveryImportHasItsOwnName) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <trisect/kernel/error.h>
@@ -22,6 +24,20 @@ constexpr NodeId out(Label::Out);
 NodeId inner(std::uint32_t i) { return NodeId(i); }
 
 Plane at(int axis, std::int64_t position) { return Plane::axis_aligned(axis, 1, position); }
+
+TEST(BspTree, MovedFromIsTheEmptySet) {
+    static_assert(std::is_nothrow_move_constructible_v<BspTree>);
+    static_assert(std::is_nothrow_move_assignable_v<BspTree>);
+    BspTree a = BspTree::half_space(at(0, 4));
+    const BspTree taken = std::move(a);
+    EXPECT_TRUE(a.is_constant());  // NOLINT(bugprone-use-after-move): that is the test
+    EXPECT_EQ(a.classify(LatticePoint{1, 2, 3}), Membership::Outside);
+    EXPECT_EQ(taken.classify(LatticePoint{1, 2, 3}), Membership::Inside);
+    BspTree b = taken;
+    a = std::move(b);
+    EXPECT_EQ(a.classify(LatticePoint{1, 2, 3}), Membership::Inside);
+    EXPECT_TRUE(b.is_constant());  // NOLINT(bugprone-use-after-move)
+}
 
 TEST(BspTree, ConstantsHoldAllOrNothing) {
     EXPECT_TRUE(BspTree().is_constant());

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
@@ -95,6 +97,16 @@ void expect_sound(const InterferenceModelData& d) {
     ASSERT_EQ(d.shell_vertex.size(), d.brep.shells().size());
     for (const ShellId s : d.brep.shells())
         EXPECT_EQ(d.brep.shell(d.brep.face(d.brep.outgoing(d.shell_vertex[s.index]))), s);
+}
+
+TEST(InterferenceModel, MovedFromIsThatOfTheEmptySolid) {
+    static_assert(std::is_nothrow_move_constructible_v<InterferenceModel>);
+    InterferenceModel m(box(0, 0, 0, 1, 1, 1));
+    const InterferenceModel taken = std::move(m);
+    EXPECT_TRUE(m.is_empty());  // NOLINT(bugprone-use-after-move): that is the test
+    EXPECT_EQ(m.triangle_count(), 0U);
+    EXPECT_TRUE(m.solid().is_empty());
+    EXPECT_EQ(taken.triangle_count(), 12U);
 }
 
 TEST(InterferenceModel, BoxHasTwoTrianglesAFaceAndOneDiagonal) {

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/brep_mesh.h>
@@ -30,6 +32,19 @@ using test::cube;
 using test::rectangle;
 using test::reversed;
 using test::SolidSketch;
+
+TEST(MspTree, MovedFromIsTheEmptySet) {
+    static_assert(std::is_nothrow_move_constructible_v<MspTree>);
+    static_assert(std::is_nothrow_move_assignable_v<MspTree>);
+    MspTree a = MspTree::from_brep(cube(4));
+    const MspTree taken = std::move(a);
+    // NOLINTNEXTLINE(bugprone-use-after-move): that is the test
+    EXPECT_EQ(a.locate(LatticePoint{1, 2, 3}), Ref::leaf(Leaf::Out));
+    a.validate();
+    EXPECT_GT(taken.node_count(), 0U);
+    a = taken;
+    EXPECT_EQ(a.node_count(), taken.node_count());
+}
 
 TEST(MspTree, EmptySet) {
     const MspTree tree;

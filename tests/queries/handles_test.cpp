@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <type_traits>
+#include <utility>
+
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
 
@@ -83,6 +87,21 @@ void expect_faces(const BrepIndex& index, const trisect::LatticeMesh& mesh, std:
         EXPECT_TRUE(box.edge_ids.empty());
         EXPECT_TRUE(box.vertex_ids.empty());
     }
+}
+
+TEST(BrepIndex, MovedFromIsThatOfTheEmptySet) {
+    static_assert(std::is_nothrow_move_constructible_v<BrepIndex>);
+    BrepIndex index(trisect::evaluate(~Solid()));
+    const BrepIndex taken = std::move(index);
+    // NOLINTNEXTLINE(bugprone-use-after-move): that is the test
+    EXPECT_EQ(index.locate(std::array{1.0, 2.0, 3.0}).location, Location::Outside);
+    EXPECT_TRUE(index.solid().is_empty());
+    EXPECT_FALSE(index.has_brep());
+    EXPECT_TRUE(index.with_brep().brep().is_empty());
+    EXPECT_FALSE(index.nearest({1, 2, 3}).has_value());
+    EXPECT_EQ(index.stats().polygons, 0U);
+    index.refine();
+    EXPECT_EQ(taken.locate(std::array{1.0, 2.0, 3.0}).location, Location::Inside);
 }
 
 TEST(Handles, OfFreshMeshesOnASmallGrid) {
