@@ -88,6 +88,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     state->lattice = lattice.lattice;
     state->root = std::move(evaluation.root);
     state->embedded = true;
+    state->far_out = detail::far_out_of(*t.formula, states);
     state->incomplete = all_incomplete(std::move(evaluation.incomplete), states);
     state->crossings = std::move(evaluation.crossings);
     evaluation.stats.lattice = lattice;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/detail/assembly.h>
 #include <trisect/bsp/detail/outlined_solid.h>
@@ -24,6 +25,7 @@ std::shared_ptr<const SolidState> constant_state(bool inside) {
     auto s = std::make_shared<SolidState>();
     s->root = {CellNode::leaf(PolygonList(), FinePoint{}, inside ? 1 : 0, false), false};
     s->lattice_matters = false;
+    s->far_out = inside ? 1 : 0;
     return s;
 }
 
@@ -31,6 +33,14 @@ bool is_constant(const SolidState& s, bool inside) {
     const CellNode& n = *s.root.node;
     return s.outlined == nullptr && n.is_leaf() && n.size() == 0 &&
            ((n.winding() > 0) != s.root.complemented) == inside;
+}
+
+// Only sets made of half-spaces alone do not know it; the boundary tells. What it leaves to whole
+// space and the empty set their trees know.
+bool is_unbounded(const Solid& solid) {
+    if (solid.state()->far_out >= 0) return solid.state()->far_out != 0;
+    const Brep brep = solid.to_brep();
+    return brep.is_empty() ? solid.is_whole_space() : exact_volume(brep).sign() < 0;
 }
 
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
@@ -95,6 +105,7 @@ Solid Solid::half_space(const Plane& plane, Lattice lattice) {
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
     state->root = {CellNode::fresh(*source, p, s < 0 ? 1 : 0, false), false};
+    state->far_out = -1;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }
 
@@ -126,6 +137,8 @@ Brep Solid::to_brep(const AssembleOptions& options) const {
 }
 
 PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
+    if (is_unbounded(*this))
+        throw UnsupportedError("the set is unbounded: its mesh would be read as another set");
     return detail::assemble_mesh(*state(), nullptr, true, threads);
 }
 

@@ -92,13 +92,17 @@ public:
     /// many may take part, 0 means one for every processor.
     void refine(std::uint32_t threads = 0) const;
 
-    /// The boundary. Assembled anew at every call; costs O(n log n) in the faces.
+    /// The boundary. Assembled anew at every call; costs O(n log n) in the faces. That of a
+    /// complement has the volume below its faces negative. The empty set and whole space both have
+    /// none: is_whole_space() tells them apart.
     /// \throw UnsupportedError when the boundary is unbounded (a half-space).
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
     /// Triangles with correctly rounded coordinates. Facets that nothing changed are copied; what
     /// is left of others is joined with its coplanar neighbours first. No vertex lies inside an
     /// edge (before rounding). `threads`: how many may take part, 0 means one for every processor;
     /// the mesh does not depend on it.
+    /// \throw UnsupportedError when the set is unbounded: whole space would be read back as the
+    /// empty set, and a complement as a mesh that is inside out.
     [[nodiscard]] PolygonMesh to_mesh(std::uint32_t threads = 0) const;
 
     /// Never null.

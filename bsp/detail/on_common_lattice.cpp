@@ -227,6 +227,7 @@ std::shared_ptr<const SolidState> rounded(const std::shared_ptr<const SolidState
     auto out = std::make_shared<SolidState>(
         *Solid::from_import(std::move(imported), Embedding::Resolve).state());
     out->root.complemented = out->root.complemented != boundary.unbounded;
+    out->far_out = boundary.unbounded ? 1 : 0;
     return out;
 }
 

@@ -45,12 +45,21 @@ const std::shared_ptr<const SolidState>& OutlinedSolid::cut() const {
     auto state = std::make_shared<SolidState>();
     state->lattice = solids_[0]->lattice;
     state->root = std::move(evaluation.root);
+    state->far_out = far_out_of(*formula_, solids_);
     state->incomplete = std::move(evaluation.incomplete);
     auto& incomplete = state->incomplete;
     std::sort(incomplete.begin(), incomplete.end());
     incomplete.erase(std::unique(incomplete.begin(), incomplete.end()), incomplete.end());
     state->crossings = std::move(evaluation.crossings);
     return cut_ = std::move(state);
+}
+
+std::int8_t far_out_of(const Residual& formula,
+                       std::span<const std::shared_ptr<const SolidState>> solids) {
+    SlotValues values;
+    values.reserve(solids.size());
+    for (const auto& s : solids) values.push_back(s->far_out);
+    return static_cast<std::int8_t>(bounded_value_of(formula, values));
 }
 
 bool OutlinedSolid::is_cut() const {
@@ -120,6 +129,7 @@ std::shared_ptr<const SolidState> outline_prisms(
     stats = made;
     auto state = std::make_shared<SolidState>();
     state->lattice = solids[0]->lattice;
+    state->far_out = far_out_of(*formula, solids);
     state->root = {CellNode::leaf(PolygonList(std::move(arrangement.whole())), reference,
                                   value_of(*formula, values) ? 1 : 0, true),
                    false};

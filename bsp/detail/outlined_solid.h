@@ -62,6 +62,10 @@ private:
     return state->outlined != nullptr ? state->outlined->cut() : state;
 }
 
+/// SolidState::far_out of the value of a formula over these.
+[[nodiscard]] std::int8_t far_out_of(const Residual& formula,
+                                     std::span<const std::shared_ptr<const SolidState>> solids);
+
 /// The value of a formula over so many prisms along one axis that they are too large for a leaf;
 /// null for all others, and where work or memory is limited.
 [[nodiscard]] std::shared_ptr<const SolidState> outline_prisms(

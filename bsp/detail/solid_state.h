@@ -38,6 +38,9 @@ struct SolidState {
     /// whole, or nothing, and who wants more than to_mesh() takes OutlinedSolid::cut() instead of
     /// this.
     std::shared_ptr<const OutlinedSolid> outlined;
+    /// Whether the set contains what is far away: 0 or 1; -1 where that depends on the direction,
+    /// or may, because half-spaces alone decide it.
+    std::int8_t far_out = 0;
     bool lattice_matters = true;  ///< false for the empty set and whole space
 };
 

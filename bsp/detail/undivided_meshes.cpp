@@ -369,6 +369,7 @@ std::shared_ptr<const SolidState> evaluate_undivided(
     stats = made;
     auto state = std::make_shared<SolidState>();
     state->lattice = solids[0]->lattice;
+    state->far_out = far_out_of(*formula, solids);
     SlotValues values;
     Box all;
     for (std::size_t i = 0; i < 2; ++i) {

@@ -84,6 +84,33 @@ TEST(SolidValue, OfANullStateIsTheEmptySet) {
     EXPECT_EQ(trisect::volume(evaluate(unit_box() - s).to_brep()), 1);
 }
 
+TEST(SolidValue, UnboundedSetsHaveNoMesh) {
+    using trisect::UnsupportedError;
+    const Solid a = unit_box();
+    EXPECT_THROW((void)Solid::whole_space().to_mesh(), UnsupportedError);
+    EXPECT_THROW((void)evaluate(~Solid()).to_mesh(), UnsupportedError);
+    const Solid rest = evaluate(~a);
+    EXPECT_THROW((void)rest.to_mesh(), UnsupportedError);
+    EXPECT_THROW((void)evaluate(rest | a).to_mesh(), UnsupportedError);
+    EXPECT_THROW((void)evaluate(a ^ Solid::whole_space()).to_mesh(), UnsupportedError);
+    // The boundary itself is bounded, and its orientation says on which side the set is.
+    EXPECT_EQ(trisect::volume(rest.to_brep()), -1);
+    EXPECT_EQ(evaluate(~rest).to_mesh().face_count(), 12U);
+    EXPECT_EQ(evaluate(a - rest).to_mesh().face_count(), 12U);
+}
+
+TEST(SolidValue, OnTheirBoundaryDependsWhetherHalfSpacesAreBounded) {
+    // The unit box and its complement, of half-spaces alone.
+    trisect::Expression box = Solid::whole_space();
+    for (int axis = 0; axis < 3; ++axis) {
+        box = box & Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 1));
+        box = box - Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 0));
+    }
+    EXPECT_EQ(evaluate(box).to_mesh().face_count(), 12U);
+    EXPECT_THROW((void)evaluate(~box).to_mesh(), trisect::UnsupportedError);
+    EXPECT_EQ(evaluate(box & unit_box()).to_mesh().face_count(), 12U);
+}
+
 TEST(SolidValue, EveryImportHasItsOwnName) {
     EXPECT_NE(unit_box().source_id(), unit_box().source_id());
 }

@@ -216,7 +216,8 @@ private:
         if (std::string why = engines::difference(result.to_brep(), wanted.boundary); !why.empty())
             return why;
         if (!wanted.unbounded)
-            if (std::string why = engines::open_edge(result.to_mesh()); !why.empty()) return why;
+            if (std::string why = engines::open_edge(engines::boundary_mesh(result)); !why.empty())
+                return why;
         const bool nothing = wanted.boundary.empty() && !wanted.unbounded;
         const bool everything = wanted.boundary.empty() && wanted.unbounded;
         if (result.is_empty() == nothing && result.is_whole_space() == everything) return {};

@@ -20,7 +20,8 @@ std::string disagreement(const std::vector<reference::Operand>& operands,
     std::vector<trisect::Solid> solids;
     for (const auto& o : operands) solids.push_back(engines::solid(o, embedding));
     const trisect::Solid result = trisect::evaluate(engines::formula(expression, solids), options);
-    if (std::string why = engines::open_edge(result.to_mesh()); !why.empty()) return why;
+    if (std::string why = engines::open_edge(engines::boundary_mesh(result)); !why.empty())
+        return why;
     const auto expected = reference::evaluate(operands, expression);
     return engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells));
 }

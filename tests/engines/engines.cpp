@@ -191,6 +191,10 @@ bool are_equal(const std::optional<trisect::PolygonMesh>& a,
 
 }  // namespace
 
+trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid) {
+    return trisect::detail::assemble_mesh(*solid.state(), nullptr, true, 0);
+}
+
 std::optional<std::string> undivided_difference(const trisect::Expression& expression,
                                                 const trisect::EvaluateOptions& options) {
     using namespace trisect::detail;

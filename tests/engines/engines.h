@@ -36,6 +36,9 @@ std::vector<reference::Polygon> polygons(const trisect::Brep& brep);
 /// the faces are maximal and the vertices are the real ones: nothing of the tree may show.
 std::string difference(const trisect::Brep& brep, const reference::CanonicalBoundary& expected);
 
+/// The boundary of any set in triangles; Solid::to_mesh() refuses sets that are unbounded.
+trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid);
+
 /// Why the triangles of a result do not close, corner index by corner index; empty when they do.
 std::string open_edge(const trisect::PolygonMesh& mesh);
 

@@ -35,7 +35,7 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
         trisect::evaluate(engines::formula(expression, solids), options, &stats);
     leaves.plain += stats.plain_leaves;
     leaves.mixed += stats.mixed_leaves;
-    EXPECT_EQ(engines::open_edge(result.to_mesh()), "");
+    EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     const auto expected = reference::evaluate(operands, expression);
     EXPECT_EQ(engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells)),
               "");
@@ -112,7 +112,7 @@ TEST(GeneralPosition, AStepAfterTheOther) {
         EXPECT_EQ(
             engines::difference(second.to_brep(), reference::canonical_boundary(expected.cells)),
             "");
-        EXPECT_EQ(engines::open_edge(second.to_mesh()), "");
+        EXPECT_EQ(engines::open_edge(engines::boundary_mesh(second)), "");
     }
 }
 
@@ -129,7 +129,8 @@ TEST(GeneralPosition, ThreadsAskForTheSameLeaf) {
         {
             std::vector<std::jthread> threads;
             for (trisect::PolygonMesh& mesh : meshes)
-                threads.emplace_back([&] { mesh = trisect::evaluate(result | a).to_mesh(); });
+                threads.emplace_back(
+                    [&] { mesh = engines::boundary_mesh(trisect::evaluate(result | a)); });
         }
         for (const trisect::PolygonMesh& mesh : meshes) {
             EXPECT_EQ(mesh.corners, meshes[0].corners);

@@ -69,7 +69,7 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
         trisect::evaluate(engines::formula(expression, solids), options, &stats);
     leaves.prisms += stats.prism_leaves;
     leaves.mixed += stats.mixed_leaves;
-    EXPECT_EQ(engines::open_edge(result.to_mesh()), "");
+    EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     const auto expected = reference::evaluate(operands, expression);
     EXPECT_EQ(engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells)),
               "");
@@ -105,11 +105,11 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     const auto expected =
         reference::canonical_boundary(reference::evaluate(operands, expression).cells);
     const trisect::Solid result(outlined);
-    EXPECT_EQ(engines::open_edge(result.to_mesh()), "");
+    EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*outlined, {}), expected), "");
     const double volume =
         volume_of(trisect::detail::assemble_mesh(*trisect::detail::cut_state(result)));
-    EXPECT_NEAR(volume_of(result.to_mesh()), volume, 1e-9 * std::fabs(volume));
+    EXPECT_NEAR(volume_of(engines::boundary_mesh(result)), volume, 1e-9 * std::fabs(volume));
 }
 
 TEST(Prisms, PairsAlongEveryAxis) {
@@ -167,7 +167,7 @@ TEST(Prisms, StepsAfterOutlines) {
             "");
         EXPECT_TRUE(trisect::evaluate(turned & engraved).is_empty());
         EXPECT_TRUE(trisect::evaluate((both - solids[2]) - engraved).is_empty());
-        EXPECT_EQ(engines::open_edge(both.to_mesh()), "");
+        EXPECT_EQ(engines::open_edge(engines::boundary_mesh(both)), "");
     }
     EXPECT_GT(outlined, 10U);
 }

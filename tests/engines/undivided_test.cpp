@@ -106,20 +106,20 @@ TEST(Undivided, LargeMeshesByAnyNumberOfThreads) {
         trisect::EvaluateOptions options;
         const trisect::Solid divided = trisect::evaluate(a - b, dividing(options));
         ASSERT_EQ(divided.state()->outlined, nullptr);
-        const trisect::PolygonMesh expected = divided.to_mesh();
+        const trisect::PolygonMesh expected = engines::boundary_mesh(divided);
         for (const std::uint32_t threads : {1U, 2U, 8U}) {
             options.threads = threads;
             const trisect::Solid result = trisect::evaluate(a - b, options);
             ASSERT_NE(result.state()->outlined, nullptr);
-            const trisect::PolygonMesh mesh = result.to_mesh();
+            const trisect::PolygonMesh mesh = engines::boundary_mesh(result);
             EXPECT_EQ(engines::open_edge(mesh), "");
             EXPECT_FALSE(result.state()->outlined->is_cut());
             EXPECT_EQ(mesh.corners, expected.corners);
             EXPECT_TRUE(mesh.points == expected.points);
         }
         const trisect::Solid result = trisect::evaluate(a - b, options);
-        EXPECT_EQ(trisect::evaluate(result | b).to_mesh().corners,
-                  trisect::evaluate(divided | b).to_mesh().corners);
+        EXPECT_EQ(engines::boundary_mesh(trisect::evaluate(result | b)).corners,
+                  engines::boundary_mesh(trisect::evaluate(divided | b)).corners);
         EXPECT_EQ(result.to_brep().counts().faces, divided.to_brep().counts().faces);
     }
 }
@@ -141,8 +141,9 @@ TEST(Undivided, MeshesOfDifferentLattices) {
     const trisect::Solid b = on_lattice(moved, -40);
     const trisect::Solid mixed = trisect::evaluate(coarse - b);
     EXPECT_NE(mixed.state()->outlined, nullptr);
-    const trisect::PolygonMesh mesh = mixed.to_mesh();
-    const trisect::PolygonMesh expected = trisect::evaluate(fine - b, dividing({})).to_mesh();
+    const trisect::PolygonMesh mesh = engines::boundary_mesh(mixed);
+    const trisect::PolygonMesh expected =
+        engines::boundary_mesh(trisect::evaluate(fine - b, dividing({})));
     EXPECT_EQ(mesh.corners, expected.corners);
     EXPECT_TRUE(mesh.points == expected.points);
     EXPECT_NE(trisect::evaluate(b - coarse).state()->outlined, nullptr);
