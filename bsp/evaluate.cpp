@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <trisect/bsp/detail/translate.h>
 #include <trisect/bsp/detail/undivided_meshes.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
@@ -37,6 +39,14 @@ std::vector<FacetName> all_incomplete(
     all.reserve(made.size() + (*longest)->incomplete.size());
     std::ranges::set_union((*longest)->incomplete, made, std::back_inserter(all));
     return all;
+}
+
+// Cells are kept apart from corners and from reference points, which have even coordinates in this
+// scale: an even offset could put a wall through one, and so could an offset of a unit or more.
+void expect_valid(const EvaluateOptions& options) {
+    if (options.wall_offset % 2 == 0 || options.wall_offset >= detail::wall_scale)
+        throw UsageError("EvaluateOptions::wall_offset: must be odd and below " +
+                         std::to_string(detail::wall_scale));
 }
 
 }  // namespace
@@ -67,6 +77,7 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
 }
 
 Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
+    expect_valid(options);
     const detail::Translation t = detail::translate(expression);
     const StopScope scope(options.cancel);  // for what looks at the flag of its thread
     std::vector<std::shared_ptr<const SolidState>> states;

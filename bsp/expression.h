@@ -66,7 +66,8 @@ private:
 struct EvaluateOptions {
     /// A cell with at most this many polygons is resolved instead of refined.
     std::uint32_t leaf_polygons = 100;
-    /// Offset of walls from lattice positions in 1/256 units; odd. For tests of vertices on walls.
+    /// Offset of walls from lattice positions in 1/256 units: odd, below 256. For tests of vertices
+    /// on walls.
     std::uint32_t wall_offset = 83;
     /// What counts as inside an operand that covers itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;

@@ -92,6 +92,16 @@ TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
     EXPECT_EQ(volume(taken & ~e), volume(taken));
 }
 
+TEST_F(Operators, WallsThatMayMeetCornersAreRefused) {
+    for (const std::uint32_t offset : {0U, 2U, 82U, 256U, 257U}) {
+        trisect::EvaluateOptions options;
+        options.wall_offset = offset;
+        EXPECT_THROW((void)evaluate(a | b, options), trisect::UsageError) << offset;
+        options.wall_offset = offset % 256 + 1 - offset % 2;
+        EXPECT_FALSE(evaluate(a | b, options).is_empty()) << options.wall_offset;
+    }
+}
+
 TEST_F(Operators, NoTermsAreTheNeutralElement) {
     EXPECT_TRUE(evaluate(Expression::any_of({})).is_empty());
     EXPECT_TRUE(evaluate(Expression::all_of({})).is_whole_space());
