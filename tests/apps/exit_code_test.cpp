@@ -3,11 +3,15 @@
 // The exit codes, each of them at least once. 70 stands for a mistake of ours; it has no input.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <csignal>
 #include <string>
 #include <vector>
 
 #include <unistd.h>
+
+#include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/primitives/sphere.h>
 
 #include "process.h"
 #include "scratch.h"
@@ -141,6 +145,27 @@ TEST_F(ExitCode, MemoryLimitIsFive) {
     const Finished result = trisect({"info", many, "--max-memory", "12M", "--json"});
     EXPECT_EQ(result.code, 5) << result.err;
     EXPECT_EQ(result.json()["error"]["kind"], "limit");
+}
+
+// Threads and their stacks are memory too: there are fewer of them, or the limit is said to be hit.
+TEST_F(ExitCode, MemoryLimitOfWorkOnSeveralThreadsIsFive) {
+    std::array<std::string, 2> balls;
+    for (std::size_t i = 0; i < 2; ++i) {
+        trisect::PolygonMesh mesh = trisect::make_icosphere(1, 5);
+        for (auto& p : mesh.points) p[0] += 0.375 * static_cast<double>(i);
+        trisect::WriteOptions options;
+        options.format = trisect::MeshFormat::Off;
+        balls[i] =
+            write("ball" + std::to_string(i) + ".off", trisect::format_mesh(mesh, options).bytes);
+    }
+    int hit = 0;
+    for (int megabytes = 12; megabytes <= 60; megabytes += 4) {
+        const Finished result = trisect({"union", balls[0], balls[1], "-o", out_, "--threads", "8",
+                                         "--max-memory", std::to_string(megabytes) + "M"});
+        EXPECT_TRUE(result.code == 0 || result.code == 5) << megabytes << " " << result.err;
+        if (result.code == 5) ++hit;
+    }
+    EXPECT_GT(hit, 0);
 }
 
 TEST_F(ExitCode, InterruptIsSix) {
