@@ -26,8 +26,8 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/transform.h>
-#include <trisect/bsp/detail/assembly.h>
-#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 

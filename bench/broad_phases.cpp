@@ -20,8 +20,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <trisect/bsp/detail/broad_phase.h>
-#include <trisect/bsp/hierarchies/broad_phases.h>
+#include <trisect/bsp/interference/boxes/broad_phase.h>
+#include <trisect/bsp/interference/scene/broad_phases.h>
 
 #include "shapes.h"
 

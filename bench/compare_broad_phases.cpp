@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/detail/body_bounds.h>
-#include <trisect/bsp/detail/broad_phase.h>
-#include <trisect/bsp/hierarchies/broad_phases.h>
-#include <trisect/bsp/hierarchies/chain_boxes.h>
-#include <trisect/bsp/hierarchies/dynamic_tree.h>
-#include <trisect/bsp/hierarchies/space_time_boxes.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/hierarchies/motion/space_time_boxes.h>
+#include <trisect/bsp/interference/boxes/broad_phase.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/scene/body_bounds.h>
+#include <trisect/bsp/interference/scene/broad_phases.h>
+#include <trisect/bsp/interference/scene/chain_boxes.h>
+#include <trisect/bsp/interference/scene/dynamic_tree.h>
 #include <trisect/kernel/error.h>
 
 #include "scenes/bar_chart.h"

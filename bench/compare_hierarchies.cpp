@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/volume_hierarchies.h>
+#include <trisect/bsp/hierarchies/volumes/volume_hierarchies.h>
 #include <trisect/kernel/error.h>
 
 #include "hierarchy_tables.h"

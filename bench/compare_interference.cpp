@@ -27,12 +27,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include <trisect/bsp/detail/boundary_pairs.h>
-#include <trisect/bsp/detail/distance_search.h>
-#include <trisect/bsp/detail/quick_relation.h>
-#include <trisect/bsp/interference.h>
-#include <trisect/bsp/interference_model.h>
-#include <trisect/bsp/interference_query.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/interference_query.h>
+#include <trisect/bsp/interference/relation/boundary_pairs.h>
+#include <trisect/bsp/interference/relation/distance_search.h>
+#include <trisect/bsp/interference/relation/quick_relation.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 

@@ -37,7 +37,7 @@
 
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/solid.h>
 
 #if defined(TRISECT_WITH_FCL)

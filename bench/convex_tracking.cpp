@@ -24,16 +24,16 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/detail/interference_model_data.h>
-#include <trisect/bsp/hierarchies/broad_phases.h>
-#include <trisect/bsp/hierarchies/chain_boxes.h>
-#include <trisect/bsp/hierarchies/contact_schedule.h>
-#include <trisect/bsp/hierarchies/convex_hull.h>
-#include <trisect/bsp/hierarchies/convex_parts_structure.h>
-#include <trisect/bsp/hierarchies/feature_walk.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/convex/convex_hull.h>
+#include <trisect/bsp/hierarchies/convex/convex_parts_structure.h>
+#include <trisect/bsp/hierarchies/convex/feature_walk.h>
+#include <trisect/bsp/hierarchies/convex/sub_part_tracker.h>
+#include <trisect/bsp/hierarchies/motion/contact_schedule.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
-#include <trisect/bsp/hierarchies/sub_part_tracker.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/scene/broad_phases.h>
+#include <trisect/bsp/interference/scene/chain_boxes.h>
 
 #include "scenes/scenes.h"
 

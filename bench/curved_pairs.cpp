@@ -19,8 +19,8 @@
 
 #include <trisect/brep/curved/curved_shapes.h>
 #include <trisect/brep/curved/tessellate.h>
-#include <trisect/bsp/hierarchies/patch_distance.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/curved/patch_distance.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
 
 #include "shapes.h"

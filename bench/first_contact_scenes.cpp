@@ -20,11 +20,11 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/enclosed_contact.h>
-#include <trisect/bsp/first_contact.h>
-#include <trisect/bsp/interference_model.h>
-#include <trisect/bsp/motion.h>
-#include <trisect/bsp/moving_points.h>
+#include <trisect/bsp/interference/enclosed_contact.h>
+#include <trisect/bsp/interference/first_contact.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/motion.h>
+#include <trisect/bsp/interference/moving_points.h>
 
 #include "first_contact_peer.h"
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
 #include <trisect/kernel/error.h>
 

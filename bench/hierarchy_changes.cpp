@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/hierarchies/dynamic_tree.h>
 #include <trisect/bsp/hierarchies/structures.h>
+#include <trisect/bsp/interference/scene/dynamic_tree.h>
 
 #include "hierarchy_tables.h"
 #include "scenes/question_runs.h"

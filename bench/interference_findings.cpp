@@ -23,8 +23,8 @@
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/interference_model.h>
 #include <trisect/kernel/pose.h>
 
 #include "interference_peers.h"

@@ -11,9 +11,9 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/boundary_distance.h>
-#include <trisect/bsp/hierarchies/sphere_trees.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/hierarchies/volumes/sphere_trees.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/interference.h>
 
 #include "hierarchy_tables.h"
 

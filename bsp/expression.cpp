@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include <trisect/bsp/detail/end_graph.h>
+#include <trisect/kernel/support/end_graph.h>
 
 namespace trisect {
 

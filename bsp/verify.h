@@ -27,7 +27,7 @@
 // the piece is within r of T. The points within r of T are the sum of T and a cube: a convex set.
 // The piece lies in the convex hull of its vertices, and so within r of T. The same is done with
 // the triangles of RESULT. Distances of vertices are bounded from above with certified doubles
-// (brep/detail/grid_distance.h).
+// (brep/measure/grid_distance.h).
 //
 // The certified radius is an interval [lower, upper]: some point of the closure of D is at least
 // `lower` away from one of the boundaries, no point of D more than `upper` from either. Pieces are

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <trisect/brep/primitives/extrusion.h>
-#include <trisect/bsp/first_contact.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/first_contact.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/trisect.h>
 
 namespace {

@@ -10,7 +10,7 @@
 #include <trisect/brep/curved/tessellate.h>
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/measure.h>
-#include <trisect/bsp/hierarchies/patch_distance.h>
+#include <trisect/bsp/hierarchies/curved/patch_distance.h>
 #include <trisect/trisect.h>
 
 int main() {

@@ -13,9 +13,9 @@
 #include <optional>
 #include <string>
 
-#include <trisect/kernel/detail/parallel_parts.h>
-#include <trisect/kernel/detail/wide_clones.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect {
 

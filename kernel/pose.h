@@ -25,7 +25,7 @@ namespace trisect {
 ///
 /// Limit: every number is below 2^447. Twelve doubles fit when the highest bit of the largest and
 /// the lowest set bit of the smallest are less than 447 places apart. A pair of posed solids needs
-/// more: see detail/relative_pose.h.
+/// more: see kernel/pose/relative_pose.h.
 ///
 /// Value type of 830 bytes. Composition and inverse are exact; a microsecond for numbers of
 /// doubles, ten when fractions must be reduced.

@@ -9,8 +9,8 @@
 //   all       3√3·2^327 < 2^330    3√3·2^(218+163) < 2^384    16·2^(327+163) = 2^494
 //   digits    3 and 6              4 and 7                    4 and 8 columns
 //
-// N digits (detail/digits.h) hold 56 (N-1) + 62 bits. The columns of a sum are formed exactly
-// whatever its terms: they hold at most 21 products below 2^118 each.
+// N digits (kernel/number/digits.h) hold 56 (N-1) + 62 bits. The columns of a sum are formed
+// exactly whatever its terms: they hold at most 21 products below 2^118 each.
 //
 // Bernstein and Fussell (2009) introduced predicates on planes alone; keeping the homogeneous point
 // follows Nehring-Wirxel, Trettner, Kobbelt (2021), sec. 3; the tighter bound on det4 (4096 V^9
@@ -23,8 +23,8 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
-#include <trisect/kernel/detail/digits.h>
-#include <trisect/kernel/detail/filters.h>
+#include <trisect/kernel/number/digits.h>
+#include <trisect/kernel/number/filters.h>
 
 namespace trisect {
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 
 #include "question_runs.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
 
 namespace scenes {

@@ -6,7 +6,7 @@
 #include "compare_hierarchies_command.h"
 
 #include <trisect/bsp/hierarchies/structures.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference_model.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>

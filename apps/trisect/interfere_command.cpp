@@ -4,9 +4,9 @@
 // overlapping, one inside the other, or equal; and which faces, edges and vertices of the two meet.
 // The numbers of a pose are taken exactly as given, and the solids are not moved, so nothing is
 // rounded on the way.
-#include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>

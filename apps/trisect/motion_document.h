@@ -3,7 +3,7 @@
 // Motions as JSON: those that no rational formula describes.
 #pragma once
 
-#include <trisect/bsp/enclosed_motion.h>
+#include <trisect/bsp/interference/enclosed_motion.h>
 
 #include <string>
 #include <string_view>

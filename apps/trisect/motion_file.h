@@ -3,8 +3,8 @@
 // Files of motions: a line for the pose at the start, then a line for every piece.
 #pragma once
 
-#include <trisect/bsp/enclosed_motion.h>
-#include <trisect/bsp/motion.h>
+#include <trisect/bsp/interference/enclosed_motion.h>
+#include <trisect/bsp/interference/motion.h>
 
 #include <string>
 #include <string_view>

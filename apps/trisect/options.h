@@ -7,7 +7,7 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/mesh_format.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/first_contact.h>
+#include <trisect/bsp/interference/first_contact.h>
 
 #include <array>
 #include <cstdint>

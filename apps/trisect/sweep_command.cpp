@@ -3,9 +3,9 @@
 // sweep A B --motion FILE: when does B, moving, first touch A; or, with --until overlap, how far
 // can it go. The time is exact; so is "no contact". Of motions by key frames or of constant angular
 // speed the answer is a certified interval.
-#include <trisect/bsp/enclosed_contact.h>
-#include <trisect/bsp/first_contact.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/enclosed_contact.h>
+#include <trisect/bsp/interference/first_contact.h>
+#include <trisect/bsp/interference/interference_model.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>

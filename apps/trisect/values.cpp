@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "values.h"
 
-#include <trisect/brep/io/detail/decimal.h>
+#include <trisect/brep/io/formats/decimal.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <trisect/brep/brep_builder.h>
-#include <trisect/brep/detail/gmp_conversion.h>
-#include <trisect/brep/io/detail/input_text.h>
-#include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/io/formats/input_text.h>
+#include <trisect/brep/io/formats/text_cursor.h>
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/error.h>
 

@@ -14,10 +14,10 @@
 #include <optional>
 
 #include <trisect/brep/exact_rational.h>
-#include <trisect/brep/io/detail/binary.h>
-#include <trisect/brep/io/detail/formats.h>
-#include <trisect/brep/io/detail/input_text.h>
-#include <trisect/brep/io/detail/text_cursor.h>
+#include <trisect/brep/io/formats/binary.h>
+#include <trisect/brep/io/formats/formats.h>
+#include <trisect/brep/io/formats/input_text.h>
+#include <trisect/brep/io/formats/text_cursor.h>
 #include <trisect/brep/polygon_mesh.h>
 
 namespace trisect {

@@ -4,7 +4,7 @@
 // is done in 64 bits, so the cost does not depend on the file.
 #include <trisect/brep/io/mesh_format.h>
 
-#include <trisect/brep/io/detail/binary.h>
+#include <trisect/brep/io/formats/binary.h>
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 // where the extension says nothing, and between the two kinds of STL.
 #include <trisect/brep/io/read_mesh.h>
 
-#include <trisect/brep/io/detail/formats.h>
-#include <trisect/brep/io/detail/input_text.h>
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/io/formats/formats.h>
+#include <trisect/brep/io/formats/input_text.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {

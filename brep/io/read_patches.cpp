@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <utility>
 
-#include <trisect/brep/io/detail/input_text.h>
-#include <trisect/brep/io/detail/number_text.h>
-#include <trisect/brep/io/detail/text_cursor.h>
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/io/formats/input_text.h>
+#include <trisect/brep/io/formats/number_text.h>
+#include <trisect/brep/io/formats/text_cursor.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {

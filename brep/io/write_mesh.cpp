@@ -4,7 +4,7 @@
 // of range and nothing is written that the readers would refuse.
 #include <trisect/brep/io/write_mesh.h>
 
-#include <trisect/brep/io/detail/formats.h>
+#include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/output_file.h>
 #include <trisect/kernel/error.h>
 

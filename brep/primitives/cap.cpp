@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <string>
 
-#include <trisect/brep/detail/loop_triangulator.h>
+#include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/wide_int.h>
 

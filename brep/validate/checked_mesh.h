@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/brep/detail/edge_table.h>
-#include <trisect/brep/detail/prepared_mesh.h>
+#include <trisect/brep/import/edge_table.h>
+#include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/brep/validate/validate.h>
 

@@ -3,7 +3,7 @@
 // open_edge and t_vertex: edges whose traversals do not cancel. Those that cancel together with
 // other edges of their line do bound a closed surface; only its corners do not match.
 
-#include <trisect/brep/detail/line_balance.h>
+#include <trisect/brep/import/line_balance.h>
 #include <trisect/brep/validate/checked_mesh.h>
 
 namespace trisect::detail {

@@ -21,7 +21,7 @@
 #include <set>
 #include <vector>
 
-#include <trisect/brep/detail/sweep_line.h>
+#include <trisect/brep/face/sweep_line.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 

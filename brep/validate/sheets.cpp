@@ -24,7 +24,7 @@
 #include <numeric>
 #include <span>
 
-#include <trisect/brep/detail/edge_table.h>
+#include <trisect/brep/import/edge_table.h>
 #include <trisect/brep/validate/region_outline.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>

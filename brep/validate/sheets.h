@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include <trisect/brep/detail/prepared_mesh.h>
+#include <trisect/brep/import/prepared_mesh.h>
 
 namespace trisect::detail {
 

@@ -15,7 +15,7 @@
 #include <numeric>
 #include <optional>
 
-#include <trisect/brep/detail/volume_sign.h>
+#include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/validate/checked_mesh.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/plane.h>

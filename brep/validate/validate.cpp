@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <trisect/brep/brep.h>
-#include <trisect/brep/detail/weld_points.h>
+#include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/validate/checked_mesh.h>
 #include <trisect/kernel/stop_scope.h>
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include <trisect/bsp/hierarchies/all_pairs.h>
-#include <trisect/bsp/hierarchies/convex_parts_structure.h>
-#include <trisect/bsp/hierarchies/partitions.h>
-#include <trisect/bsp/hierarchies/sphere_trees.h>
-#include <trisect/bsp/hierarchies/volume_hierarchies.h>
+#include <trisect/bsp/hierarchies/convex/convex_parts_structure.h>
+#include <trisect/bsp/hierarchies/pairs/all_pairs.h>
+#include <trisect/bsp/hierarchies/partitions/partitions.h>
+#include <trisect/bsp/hierarchies/volumes/sphere_trees.h>
+#include <trisect/bsp/hierarchies/volumes/volume_hierarchies.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::hierarchies {

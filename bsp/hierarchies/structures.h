@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include <trisect/bsp/hierarchies/pair_structure.h>
+#include <trisect/bsp/hierarchies/pairs/pair_structure.h>
 
 namespace trisect::hierarchies {
 

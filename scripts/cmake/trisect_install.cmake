@@ -6,7 +6,13 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/trisect)
 
 install(
-    TARGETS trisect trisect_kernel trisect_brep trisect_bsp
+    TARGETS
+        trisect
+        trisect_kernel
+        trisect_brep
+        trisect_bsp
+        trisect_interference
+        trisect_hierarchies
     EXPORT trisect_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
 )

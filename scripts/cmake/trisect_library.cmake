@@ -29,12 +29,14 @@ function(trisect_add_library layer)
     endif()
 endfunction()
 
-# trisect_add_subfolders(<folder>...): enters those folders that exist.
+# trisect_add_subfolders(<folder>...): enters folders, all of which must exist: what is left out in
+# silence is missed by nobody, a folder of tests least of all.
 function(trisect_add_subfolders)
     foreach(folder IN LISTS ARGN)
-        if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/CMakeLists.txt)
-            add_subdirectory(${folder})
+        if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/CMakeLists.txt)
+            message(FATAL_ERROR "${CMAKE_CURRENT_SOURCE_DIR}/${folder} has no CMakeLists.txt")
         endif()
+        add_subdirectory(${folder})
     endforeach()
 endfunction()
 

@@ -42,7 +42,7 @@ if(TRISECT_COVERAGE)
     target_link_options(
         trisect_options
         INTERFACE
-            "SHELL:-Wl,--whole-archive $<TARGET_FILE:trisect_bsp> $<TARGET_FILE:trisect_brep> $<TARGET_FILE:trisect_kernel> -Wl,--no-whole-archive"
+            "SHELL:-Wl,--whole-archive $<TARGET_FILE:trisect_hierarchies> $<TARGET_FILE:trisect_interference> $<TARGET_FILE:trisect_bsp> $<TARGET_FILE:trisect_brep> $<TARGET_FILE:trisect_kernel> -Wl,--no-whole-archive"
     )
 endif()
 target_link_options(trisect_options INTERFACE ${TRISECT_INSTRUMENTATION})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/brep/detail/rounded_polygon.h>
+#include <trisect/brep/face/rounded_polygon.h>
 
 #include <gtest/gtest.h>
 

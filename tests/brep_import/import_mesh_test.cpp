@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trisect/brep/detail/loop_triangulator.h>
+#include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/brep/validate/validate.h>
 
 #include "mesh_builders.h"

@@ -20,9 +20,9 @@
 
 #include <gtest/gtest.h>
 
-#include <trisect/brep/detail/import_triangles.h>
-#include <trisect/brep/detail/side_balance.h>
-#include <trisect/brep/detail/weld_points.h>
+#include <trisect/brep/import/import_triangles.h>
+#include <trisect/brep/import/side_balance.h>
+#include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 

@@ -4,7 +4,7 @@
 // triangles add up to the loop, step by step between grid points, and triangles that do not fold
 // have the area that the loop has.
 
-#include <trisect/brep/detail/loop_triangulator.h>
+#include <trisect/brep/face/loop_triangulator.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // Large loops: every corner is used, no triangle is flat or turned over, areas add up, and ears are
 // compared with few corners.
 
-#include <trisect/brep/detail/short_ears.h>
+#include <trisect/brep/face/short_ears.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What files say beside their mesh: normals of STL and empty fields of OBJ.
-#include <trisect/brep/io/detail/binary.h>
 #include <trisect/brep/io/file_remarks.h>
+#include <trisect/brep/io/formats/binary.h>
 
 #include "io_test_support.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // OBJ: what is read, each documented leniency, each refusal with its place.
-#include <trisect/brep/io/detail/decimal.h>
+#include <trisect/brep/io/formats/decimal.h>
 
 #include "io_test_support.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // PLY in its three encodings: any types, foreign elements, and headers that lie.
-#include <trisect/brep/io/detail/binary.h>
+#include <trisect/brep/io/formats/binary.h>
 
 #include "io_test_support.h"
 

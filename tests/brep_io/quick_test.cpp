@@ -3,9 +3,9 @@
 // The quick ways of the readers beside the careful ones: the same meshes and the same errors at the
 // same places, for good files, for files with odd spelling and for spoiled ones; and how much of a
 // file goes the quick way.
-#include <trisect/brep/io/detail/formats.h>
-#include <trisect/brep/io/detail/quick_items.h>
-#include <trisect/brep/io/detail/quick_text.h>
+#include <trisect/brep/io/formats/formats.h>
+#include <trisect/brep/io/formats/quick_items.h>
+#include <trisect/brep/io/formats/quick_text.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 

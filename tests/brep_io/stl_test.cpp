@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // STL of both kinds: telling them apart, exact welding, each leniency and each refusal.
-#include <trisect/brep/io/detail/binary.h>
+#include <trisect/brep/io/formats/binary.h>
 
 #include "io_test_support.h"
 

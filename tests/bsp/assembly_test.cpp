@@ -18,7 +18,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
-#include <trisect/bsp/detail/assembly.h>
+#include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 

@@ -10,8 +10,8 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/cell_tree.h>
-#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/detail/choose_wall.h>
+#include <trisect/bsp/divide/choose_wall.h>
 
 #include <array>
 #include <vector>

@@ -3,7 +3,7 @@
 // Cubes that facets occupy, and the facets that meet some (cube_grid.h), against slabs that are
 // compared one by one.
 
-#include <trisect/bsp/detail/cube_grid.h>
+#include <trisect/bsp/two_meshes/cube_grid.h>
 
 #include <algorithm>
 #include <random>

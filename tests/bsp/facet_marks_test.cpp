@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/detail/facet_marks.h>
+#include <trisect/bsp/assembly/parts/facet_marks.h>
 
 #include <gtest/gtest.h>
 

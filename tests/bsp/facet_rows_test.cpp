@@ -2,7 +2,7 @@
 //
 // What rows of facets in single precision part is apart, by exact orientations of the corners.
 
-#include <trisect/bsp/detail/facet_rows.h>
+#include <trisect/bsp/leaf/doubles/facet_rows.h>
 
 #include <algorithm>
 #include <array>

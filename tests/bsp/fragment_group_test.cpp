@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/detail/fragment_group.h>
+#include <trisect/bsp/assembly/parts/fragment_group.h>
 
 #include <memory>
 #include <vector>

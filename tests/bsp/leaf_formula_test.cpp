@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <trisect/bsp/detail/leaf_formula.h>
+#include <trisect/bsp/leaf/leaf_formula.h>
 
 #include "reference/random_solids.h"
 

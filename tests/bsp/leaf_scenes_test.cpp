@@ -13,7 +13,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/transform.h>
-#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>

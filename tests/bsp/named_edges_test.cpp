@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include <trisect/bsp/detail/named_edges.h>
+#include <trisect/bsp/assembly/parts/named_edges.h>
 
 #include "engines/engines.h"
 

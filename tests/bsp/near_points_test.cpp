@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include <trisect/bsp/detail/near_points.h>
+#include <trisect/bsp/cells/near_points.h>
 
 #include "engines/engines.h"
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/detail/outline_meetings.h>
+#include <trisect/bsp/assembly/traced/outline_meetings.h>
 
 #include "reference/random_solids.h"
 

@@ -12,11 +12,11 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/cell_tree.h>
-#include <trisect/bsp/detail/reference_points.h>
-#include <trisect/bsp/detail/refine_leaf.h>
-#include <trisect/bsp/detail/solid_state.h>
-#include <trisect/bsp/detail/trace_winding.h>
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/divide/reference_points.h>
+#include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/bsp/expression.h>
 
 namespace {

@@ -3,7 +3,7 @@
 // Residuals: simplification must never change the value, and must leave nothing behind that is
 // already known.
 
-#include <trisect/bsp/detail/residual.h>
+#include <trisect/bsp/cells/residual.h>
 
 #include <gtest/gtest.h>
 

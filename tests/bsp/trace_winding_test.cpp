@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trisect/bsp/cell_tree.h>
-#include <trisect/bsp/detail/leaf_arrangement.h>
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/evaluate/leaf_arrangement.h>
 
 #include "engines/engines.h"
 

@@ -3,7 +3,7 @@
 // Pairs of triangles in general position against exact arithmetic: two triangles meet iff an edge
 // of one goes through the other.
 
-#include <trisect/bsp/detail/triangle_pair.h>
+#include <trisect/kernel/triangle_pair.h>
 
 #include <gtest/gtest.h>
 

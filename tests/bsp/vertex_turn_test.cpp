@@ -13,8 +13,9 @@
 #include <trisect/brep/planar_loops.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/transform.h>
-#include <trisect/bsp/detail/boundary_edges.h>
-#include <trisect/bsp/detail/vertex_turn.h>
+#include <trisect/bsp/assembly/assembly_parts.h>
+#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/parts/vertex_turn.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 

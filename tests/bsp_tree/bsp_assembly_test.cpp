@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/bsp_assembly.h>
+#include <trisect/bsp/classic/bsp_assembly.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include <trisect/bsp/bsp_boundary.h>
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/bsp_merge.h>
+#include <trisect/bsp/classic/bsp_boundary.h>
 #include <trisect/kernel/error.h>
 
 #include "meshes.h"

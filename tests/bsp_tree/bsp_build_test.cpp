@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include <trisect/bsp/bsp_boundary.h>
-#include <trisect/bsp/bsp_sections.h>
+#include <trisect/bsp/classic/bsp_boundary.h>
+#include <trisect/bsp/classic/bsp_sections.h>
 #include <trisect/kernel/error.h>
 
 #include "brute_force.h"

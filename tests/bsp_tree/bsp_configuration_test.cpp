@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/bsp_assembly.h>
-#include <trisect/bsp/bsp_boundary.h>
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/bsp_merge.h>
+#include <trisect/bsp/classic/bsp_assembly.h>
+#include <trisect/bsp/classic/bsp_boundary.h>
 
 #include "meshes.h"
 

@@ -10,11 +10,11 @@
 #include <optional>
 #include <random>
 
-#include <trisect/bsp/bsp_assembly.h>
 #include <trisect/bsp/bsp_boolean.h>
-#include <trisect/bsp/bsp_boundary.h>
 #include <trisect/bsp/bsp_build.h>
-#include <trisect/bsp/bsp_sections.h>
+#include <trisect/bsp/classic/bsp_assembly.h>
+#include <trisect/bsp/classic/bsp_boundary.h>
+#include <trisect/bsp/classic/bsp_sections.h>
 #include <trisect/kernel/error.h>
 
 #include "brute_force.h"

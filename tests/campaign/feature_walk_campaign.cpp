@@ -15,7 +15,7 @@
 #include <exception>
 #include <string>
 
-#include <trisect/bsp/hierarchies/feature_walk.h>
+#include <trisect/bsp/hierarchies/convex/feature_walk.h>
 
 #include "convex_oracle.h"
 

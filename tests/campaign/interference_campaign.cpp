@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/counters.h>
 
 #include "interference/brute_force.h"

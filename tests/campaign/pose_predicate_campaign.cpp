@@ -33,9 +33,9 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
-#include <trisect/kernel/moved_predicates.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/pose.h>
+#include <trisect/kernel/pose/moved_predicates.h>
 
 namespace {
 

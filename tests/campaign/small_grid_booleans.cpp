@@ -42,10 +42,10 @@
 #include <vector>
 
 #include <trisect/bsp/boolean_rule.h>
-#include <trisect/bsp/bsp_assembly.h>
-#include <trisect/bsp/bsp_boundary.h>
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/bsp_merge.h>
+#include <trisect/bsp/classic/bsp_assembly.h>
+#include <trisect/bsp/classic/bsp_boundary.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 

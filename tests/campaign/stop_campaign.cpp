@@ -38,9 +38,9 @@
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
-#include <trisect/bsp/interference_model.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/stop_scope.h>
 

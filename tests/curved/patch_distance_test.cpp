@@ -2,7 +2,7 @@
 //
 // Surfaces at known distances.
 
-#include <trisect/bsp/hierarchies/patch_distance.h>
+#include <trisect/bsp/hierarchies/curved/patch_distance.h>
 
 #include <gtest/gtest.h>
 

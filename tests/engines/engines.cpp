@@ -6,12 +6,12 @@
 #include <memory>
 #include <set>
 
-#include <trisect/bsp/detail/assembly.h>
-#include <trisect/bsp/detail/crossings.h>
-#include <trisect/bsp/detail/outlined_solid.h>
-#include <trisect/bsp/detail/solid_state.h>
-#include <trisect/bsp/detail/translate.h>
-#include <trisect/bsp/detail/undivided_meshes.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/two_meshes/undivided_meshes.h>
 #include <trisect/kernel/error.h>
 
 namespace engines {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/detail/assembly.h>
-#include <trisect/bsp/detail/outlined_solid.h>
-#include <trisect/bsp/detail/translate.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/evaluate/translate.h>
 
 #include "engines.h"
 

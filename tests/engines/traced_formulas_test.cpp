@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <trisect/bsp/detail/assembly.h>
-#include <trisect/bsp/detail/solid_state.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/kernel/error.h>
 
 #include "engines.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/cells/outlined_solid.h>
 
 #include "engines.h"
 

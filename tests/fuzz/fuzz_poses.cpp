@@ -3,7 +3,7 @@
 // Fuzzing of placed solids: two solids on a small grid under rotations by small integer quaternions
 // and translations by halves. The relation of B to A mirrors that of A to B, does not change when
 // both are moved together, and agrees with the volume of what they have in common.
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/error.h>
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // Boxes of a snake's links: what a frame costs in counts. Answers: tests/scene.
 
-#include <trisect/bsp/hierarchies/chain_boxes.h>
+#include <trisect/bsp/interference/scene/chain_boxes.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // A schedule against looking at all pairs at every moment.
 
-#include <trisect/bsp/hierarchies/contact_schedule.h>
+#include <trisect/bsp/hierarchies/motion/contact_schedule.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/feature_walk.h>
+#include <trisect/bsp/hierarchies/convex/feature_walk.h>
 #include <trisect/kernel/error.h>
 
 #include "convex_oracle.h"

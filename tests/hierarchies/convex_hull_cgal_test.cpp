@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/convex_hull.h>
+#include <trisect/bsp/hierarchies/convex/convex_hull.h>
 #include <trisect/kernel/predicates.h>
 
 #include "convex_oracle.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/hierarchies/convex_hull.h>
+#include <trisect/bsp/hierarchies/convex/convex_hull.h>
 
 #include <gtest/gtest.h>
 

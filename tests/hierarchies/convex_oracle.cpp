@@ -12,8 +12,8 @@
 #include <array>
 #include <cmath>
 
-#include <trisect/brep/detail/gmp_conversion.h>
-#include <trisect/bsp/hierarchies/convex_hull.h>
+#include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/bsp/hierarchies/convex/convex_hull.h>
 
 namespace convex_oracle {
 

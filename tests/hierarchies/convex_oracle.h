@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
-#include <trisect/bsp/hierarchies/convex_polytope.h>
-#include <trisect/bsp/hierarchies/feature_walk.h>
+#include <trisect/bsp/hierarchies/convex/convex_polytope.h>
+#include <trisect/bsp/hierarchies/convex/feature_walk.h>
 #include <trisect/kernel/pose.h>
 
 namespace convex_oracle {

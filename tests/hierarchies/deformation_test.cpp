@@ -8,8 +8,8 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/hierarchies/deformation.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/deformation.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
 
 namespace {

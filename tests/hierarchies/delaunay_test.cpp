@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/hierarchies/delaunay.h>
+#include <trisect/bsp/hierarchies/partitions/delaunay.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // A tree that is changed ten thousand times: always sound, always the pairs of brute force, and not
 // much worse than one built anew.
-#include <trisect/bsp/hierarchies/dynamic_tree.h>
+#include <trisect/bsp/interference/scene/dynamic_tree.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // Closest features by walking against all pairs of features, from any start and along motions.
 
-#include <trisect/bsp/hierarchies/feature_walk.h>
+#include <trisect/bsp/hierarchies/convex/feature_walk.h>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-#include <trisect/bsp/hierarchies/convex_hull.h>
+#include <trisect/bsp/hierarchies/convex/convex_hull.h>
 
 #include "convex_oracle.h"
 

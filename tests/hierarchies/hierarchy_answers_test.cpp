@@ -9,12 +9,12 @@
 #include <vector>
 
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/boundary_distance.h>
-#include <trisect/bsp/detail/interference_model_data.h>
-#include <trisect/bsp/detail/meeting_pairs.h>
-#include <trisect/bsp/detail/pair_distance.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/relation/meeting_pairs.h>
+#include <trisect/bsp/interference/relation/pair_distance.h>
 
 #include "engines/engines.h"
 #include "interference/brute_force.h"

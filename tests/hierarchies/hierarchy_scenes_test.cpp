@@ -9,10 +9,10 @@
 #include <tuple>
 #include <vector>
 
-#include <trisect/bsp/boundary_distance.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/interference_scene.h>
 
 #include "scenes/scenes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/hierarchies/hull_tree.h>
+#include <trisect/bsp/hierarchies/convex/hull_tree.h>
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/hierarchies/convex_parts.h>
+#include <trisect/bsp/hierarchies/convex/convex_parts.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"

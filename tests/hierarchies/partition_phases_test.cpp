@@ -2,7 +2,7 @@
 //
 // What the partitions of space cost as broad phases, in counts: linear for similar sizes, and
 // graceful where sizes differ.
-#include <trisect/bsp/hierarchies/broad_phases.h>
+#include <trisect/bsp/interference/scene/broad_phases.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 //
 // Partitions of space as structures over two models: no pair of triangles that meets is left out,
 // none comes up twice, the closest pair is found, and sizes are linear.
-#include <trisect/bsp/hierarchies/partitions.h>
-#include <trisect/bsp/hierarchies/queries.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
+#include <trisect/bsp/hierarchies/partitions/partitions.h>
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,10 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/boundary_pairs.h>
-#include <trisect/bsp/detail/distance_search.h>
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/boundary_pairs.h>
+#include <trisect/bsp/interference/relation/distance_search.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "../scene/scene_solids.h"
 

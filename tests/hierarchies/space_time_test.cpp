@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/hierarchies/space_time_boxes.h>
+#include <trisect/bsp/hierarchies/motion/space_time_boxes.h>
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/detail/body_bounds.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/scene/body_bounds.h>
 
 #include "../reference/random_solids.h"
 

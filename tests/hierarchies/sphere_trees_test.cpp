@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/hierarchies/sphere_trees.h>
+#include <trisect/bsp/hierarchies/volumes/sphere_trees.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/boundary_distance.h>
+#include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/solid.h>
 
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/hierarchies/sub_part_tracker.h>
+#include <trisect/bsp/hierarchies/convex/sub_part_tracker.h>
 
 #include <gtest/gtest.h>
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/kernel/error.h>
 
-#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"

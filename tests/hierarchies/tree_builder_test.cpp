@@ -2,7 +2,7 @@
 //
 // Trees by every rule over points of a grid, of a line, and in one place: each thing is in one
 // leaf, and clusters that lie apart are parted.
-#include <trisect/bsp/hierarchies/tree_builder.h>
+#include <trisect/bsp/interference/boxes/tree_builder.h>
 
 #include <gtest/gtest.h>
 

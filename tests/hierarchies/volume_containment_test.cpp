@@ -11,13 +11,13 @@
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/exact_place.h>
-#include <trisect/bsp/detail/interference_model_data.h>
-#include <trisect/bsp/hierarchies/kdop.h>
-#include <trisect/bsp/hierarchies/small_hull.h>
-#include <trisect/bsp/hierarchies/sphere_kind.h>
-#include <trisect/bsp/hierarchies/tree_frame.h>
-#include <trisect/kernel/detail/relative_pose.h>
+#include <trisect/bsp/hierarchies/pairs/tree_frame.h>
+#include <trisect/bsp/hierarchies/volumes/kdop.h>
+#include <trisect/bsp/hierarchies/volumes/small_hull.h>
+#include <trisect/bsp/hierarchies/volumes/sphere_kind.h>
+#include <trisect/bsp/interference/relation/exact_place.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/pose/relative_pose.h>
 
 #include "reference/random_solids.h"
 

@@ -2,7 +2,7 @@
 //
 // Walls above a boundary: every cell has some of it, few polygons, and all that is in the cell.
 
-#include <trisect/bsp/hierarchies/wall_cells.h>
+#include <trisect/bsp/hierarchies/partitions/wall_cells.h>
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/hierarchies/inner_balls.h>
-#include <trisect/bsp/hierarchies/plane_tree.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/hierarchies/partitions/inner_balls.h>
+#include <trisect/bsp/hierarchies/partitions/plane_tree.h>
+#include <trisect/bsp/interference/interference_model.h>
 
 namespace {
 

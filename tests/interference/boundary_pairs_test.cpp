@@ -10,8 +10,8 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/boundary_pairs.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/boundary_pairs.h>
 
 #include "brute_triangles.h"
 #include "engines/engines.h"

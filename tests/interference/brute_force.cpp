@@ -10,8 +10,8 @@
 #include <sstream>
 #include <tuple>
 
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "engines/engines.h"
 #include "kernel/pose_oracle.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/pose.h>
 
 #include "reference/naive_boolean.h"

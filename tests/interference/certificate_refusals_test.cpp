@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string>
 
-#include <trisect/bsp/distance_certificate.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference_certificate.h>
+#include <trisect/bsp/interference/distance_certificate.h>
+#include <trisect/bsp/interference/interference_certificate.h>
 
 #include "interference/placed_pair.h"
 #include "interference/refusals.h"

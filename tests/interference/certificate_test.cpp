@@ -3,7 +3,7 @@
 // Certificates of random scenes and models: all are accepted, and what is changed so that it proves
 // nothing any more is not.
 
-#include <trisect/bsp/interference_certificate.h>
+#include <trisect/bsp/interference/interference_certificate.h>
 
 #include <gtest/gtest.h>
 

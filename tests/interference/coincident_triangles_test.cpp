@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/detail/coincident_triangles.h>
+#include <trisect/bsp/interference/relation/coincident_triangles.h>
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
 

@@ -2,7 +2,7 @@
 //
 // Certificates of distances: those of random scenes are accepted, corrupted ones are not.
 
-#include <trisect/bsp/distance_certificate.h>
+#include <trisect/bsp/interference/distance_certificate.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/boundary_distance.h>
+#include <trisect/bsp/interference/boundary_distance.h>
 
 #include "interference/placed_pair.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/boundary_distance.h>
+#include <trisect/bsp/interference/boundary_distance.h>
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/distance_search.h>
-#include <trisect/bsp/detail/interference_model_data.h>
+#include <trisect/bsp/interference/relation/distance_search.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"

@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 
-#include <trisect/bsp/boundary_distance.h>
-#include <trisect/bsp/interference.h>
-#include <trisect/bsp/interference_query.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/interference_query.h>
+#include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/kernel/error.h>
 
 #include "interference/placed_pair.h"

@@ -13,9 +13,9 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"

@@ -2,7 +2,7 @@
 //
 // Contacts of two posed triangles against rationals: the points and the features that meet there.
 
-#include <trisect/bsp/detail/moved_triangle_pair.h>
+#include <trisect/bsp/interference/boxes/moved_triangle_pair.h>
 
 #include <gtest/gtest.h>
 

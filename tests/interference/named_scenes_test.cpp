@@ -3,7 +3,7 @@
 // Scenes that people know by name: the placements that other programs got wrong, and those that
 // mechanical assemblies consist of. Numbers of the FCL scenes are those of the reports.
 
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "kernel/pose_oracle.h"
 

@@ -9,10 +9,10 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/obb_fit.h>
-#include <trisect/bsp/detail/obb_pose.h>
-#include <trisect/bsp/detail/obb_tree.h>
-#include <trisect/bsp/detail/parting_planes.h>
+#include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/bsp/interference/boxes/obb_pose.h>
+#include <trisect/bsp/interference/boxes/obb_tree.h>
+#include <trisect/bsp/interference/coherent/parting_planes.h>
 
 #include "brute_triangles.h"
 #include "reference/random_solids.h"

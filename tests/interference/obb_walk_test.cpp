@@ -10,8 +10,8 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/obb_fit.h>
-#include <trisect/bsp/detail/obb_walk.h>
+#include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/bsp/interference/boxes/obb_walk.h>
 
 #include "brute_triangles.h"
 #include "reference/random_solids.h"

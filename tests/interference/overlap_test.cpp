@@ -2,7 +2,7 @@
 //
 // The overlap of placed solids: volumes that are known, and equations between volumes.
 
-#include <trisect/bsp/interference_overlap.h>
+#include <trisect/bsp/interference/interference_overlap.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 
 #include "interference/brute_force.h"
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 

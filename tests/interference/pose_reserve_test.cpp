@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/detail/pose_reserve.h>
+#include <trisect/bsp/interference/coherent/pose_reserve.h>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/due_list.h>
+#include <trisect/kernel/support/due_list.h>
 
 #include "reference/random_solids.h"
 

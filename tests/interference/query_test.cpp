@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/interference_query.h>
+#include <trisect/bsp/interference/interference_query.h>
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/obb_walk.h>
-#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/boxes/obb_walk.h>
+#include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
 

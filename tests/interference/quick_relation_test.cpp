@@ -8,8 +8,8 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
-#include <trisect/bsp/detail/quick_relation.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
 

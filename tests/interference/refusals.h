@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/interference_certificate.h>
+#include <trisect/bsp/interference/interference_certificate.h>
 
 namespace refusals {
 

@@ -2,7 +2,7 @@
 //
 // Relations and contacts of random scenes on a small grid against brute force in rationals.
 
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 
 #include <gtest/gtest.h>
 

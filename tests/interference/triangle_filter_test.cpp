@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <trisect/bsp/detail/triangle_filter.h>
+#include <trisect/bsp/interference/boxes/triangle_filter.h>
 
 #include "brute_triangles.h"
 #include "reference/random_solids.h"

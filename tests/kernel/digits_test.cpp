@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/kernel/detail/digits.h>
+#include <trisect/kernel/number/digits.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The error bounds of the filters (kernel/detail/filters.h) in a binary format of six bits.
+// The error bounds of the filters (kernel/number/filters.h) in a binary format of six bits.
 //
 // In double the bounds are theorems that random input hardly touches: an error of five roundings in
 // the worst direction has a probability of nearly nothing. In six bits all inputs of a formula, or
@@ -8,7 +8,7 @@
 // formulas are the same templates. Exponents are not limited, which is what the proofs assume of
 // double as well.
 
-#include <trisect/kernel/detail/filters.h>
+#include <trisect/kernel/number/filters.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // Signs between two posed solids against rationals that move the points.
 
-#include <trisect/kernel/moved_predicates.h>
+#include <trisect/kernel/pose/moved_predicates.h>
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <trisect/kernel/counters.h>
-#include <trisect/kernel/detail/relative_pose.h>
 #include <trisect/kernel/pose.h>
+#include <trisect/kernel/pose/relative_pose.h>
 
 #include "gmp_oracle.h"
 #include "pose_oracle.h"

@@ -3,7 +3,7 @@
 // Work in parts: every number once, the failure of the first part that fails, and loops that give
 // the same for any number of threads.
 
-#include <trisect/kernel/detail/parallel_parts.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // One value for each thread that asks: the same one again, none shared, all seen afterwards.
 
-#include <trisect/kernel/detail/per_thread.h>
+#include <trisect/kernel/support/per_thread.h>
 
 #include <gtest/gtest.h>
 

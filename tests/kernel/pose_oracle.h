@@ -9,9 +9,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include <trisect/kernel/detail/bounded_int.h>
-#include <trisect/kernel/detail/relative_pose.h>
+#include <trisect/kernel/number/bounded_int.h>
 #include <trisect/kernel/pose.h>
+#include <trisect/kernel/pose/relative_pose.h>
 
 #include "gmp_oracle.h"
 

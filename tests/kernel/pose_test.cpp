@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include <trisect/kernel/detail/bounded_int.h>
-#include <trisect/kernel/detail/relative_pose.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/bounded_int.h>
+#include <trisect/kernel/pose/relative_pose.h>
 
 #include "gmp_oracle.h"
 #include "pose_oracle.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <trisect/bsp/moving_points.h>
+#include <trisect/bsp/interference/moving_points.h>
 
 namespace ccd {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include <trisect/bsp/contact_certificate.h>
-#include <trisect/bsp/overlap_certificate.h>
+#include <trisect/bsp/interference/contact_certificate.h>
+#include <trisect/bsp/interference/overlap_certificate.h>
 
 #include "moving_pair.h"
 

@@ -4,7 +4,7 @@
 // made of roots that are known: simple and repeated ones, at ends of ranges and brackets, and at
 // the event itself.
 
-#include <trisect/bsp/detail/certified_time.h>
+#include <trisect/bsp/interference/certificate/certified_time.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 //
 // Certificates of first contact: those of random scenes are accepted, corrupted ones are not.
 
-#include <trisect/bsp/contact_certificate.h>
+#include <trisect/bsp/interference/contact_certificate.h>
 
 #include <gtest/gtest.h>
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <trisect/brep/brep_mesh.h>
-#include <trisect/bsp/contact_certificate.h>
-#include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/contact_certificate.h>
+#include <trisect/bsp/interference/motion/motion_piece.h>
 
 #include "certified_pair.h"
 #include "interference/refusals.h"

@@ -3,7 +3,7 @@
 // Certificates of contact under enclosed motions: those of random scenes are accepted, corrupted
 // ones are not.
 
-#include <trisect/bsp/enclosed_certificate.h>
+#include <trisect/bsp/interference/enclosed_certificate.h>
 
 #include <gtest/gtest.h>
 

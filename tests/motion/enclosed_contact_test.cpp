@@ -3,7 +3,7 @@
 // First contact of enclosed motions: named configurations, the same motions as exact rational ones,
 // and random solids whose times of contact are known exactly.
 
-#include <trisect/bsp/enclosed_contact.h>
+#include <trisect/bsp/interference/enclosed_contact.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // Enclosures contain the motion that they stand for: sampled against rotations by the exponential
 // formula in long doubles, and for rational motions against the motion itself.
 
-#include <trisect/bsp/enclosed_motion.h>
+#include <trisect/bsp/interference/enclosed_motion.h>
 
 #include <gtest/gtest.h>
 

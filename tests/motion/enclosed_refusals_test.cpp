@@ -14,9 +14,9 @@
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/detail/motion_piece.h>
-#include <trisect/bsp/enclosed_certificate.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/enclosed_certificate.h>
+#include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/solid.h>
 
 #include "interference/refusals.h"

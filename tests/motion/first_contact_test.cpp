@@ -2,7 +2,7 @@
 //
 // First contact of small solids against brute force in rationals, and named configurations.
 
-#include <trisect/bsp/first_contact.h>
+#include <trisect/bsp/interference/first_contact.h>
 
 #include <gtest/gtest.h>
 

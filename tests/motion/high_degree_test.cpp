@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/first_contact.h>
+#include <trisect/bsp/interference/first_contact.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"

@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include <trisect/bsp/motion.h>
+#include <trisect/bsp/interference/motion.h>
 
 #include "reference/naive_boolean.h"
 #include "reference/triangle_contact.h"

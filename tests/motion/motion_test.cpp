@@ -2,7 +2,7 @@
 //
 // Motions: what poses they pass through, and what is refused.
 
-#include <trisect/bsp/motion.h>
+#include <trisect/bsp/interference/motion.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/enclosed_motion.h>
+#include <trisect/bsp/interference/enclosed_motion.h>
 #include <trisect/kernel/error.h>
 
 namespace {

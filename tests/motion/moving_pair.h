@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/interference_model.h>
-#include <trisect/bsp/motion.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/solid.h>
 
 #include "engines/engines.h"

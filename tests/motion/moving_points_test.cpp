@@ -3,7 +3,7 @@
 // Vertex against face and edge against edge, both on straight paths: named configurations, and
 // small grids against a search that knows no determinant.
 
-#include <trisect/bsp/moving_points.h>
+#include <trisect/bsp/interference/moving_points.h>
 
 #include <gtest/gtest.h>
 

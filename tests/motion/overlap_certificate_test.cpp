@@ -3,7 +3,7 @@
 // Certificates of the first overlap: those of random scenes are accepted, corrupted ones are not,
 // and what they claim is so by definition, in rationals.
 
-#include <trisect/bsp/overlap_certificate.h>
+#include <trisect/bsp/interference/overlap_certificate.h>
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/detail/interference_model_data.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "certified_pair.h"
 #include "interference/brute_force.h"

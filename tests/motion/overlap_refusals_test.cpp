@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/detail/motion_piece.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/overlap_certificate.h>
+#include <trisect/bsp/interference/motion/motion_piece.h>
+#include <trisect/bsp/interference/overlap_certificate.h>
 
 #include "certified_pair.h"
 #include "interference/refusals.h"

@@ -10,11 +10,11 @@
 #include <cstdint>
 
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/boundary_distance.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/first_contact.h>
-#include <trisect/bsp/interference.h>
-#include <trisect/bsp/interference_query.h>
+#include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/first_contact.h>
+#include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/interference_query.h>
 
 #include "reference/random_solids.h"
 

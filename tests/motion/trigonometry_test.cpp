@@ -2,7 +2,7 @@
 //
 // Sines, cosines and angles in fixed point against identities and the C library.
 
-#include <trisect/bsp/detail/trigonometry.h>
+#include <trisect/brep/number/trigonometry.h>
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <trisect/bsp/brep_index.h>
-#include <trisect/bsp/detail/index_counters.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/query/points/index_counters.h>
 
 #include "brute_force.h"
 

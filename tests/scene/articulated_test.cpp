@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/brep/primitives/box.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 

@@ -2,9 +2,9 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/detail/body_bounds.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/scene/body_bounds.h>
 #include <trisect/bsp/solid.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/detail/broad_phase.h>
-#include <trisect/bsp/hierarchies/broad_phases.h>
-#include <trisect/bsp/hierarchies/chain_boxes.h>
+#include <trisect/bsp/interference/boxes/broad_phase.h>
+#include <trisect/bsp/interference/scene/broad_phases.h>
+#include <trisect/bsp/interference/scene/chain_boxes.h>
 
 #include <gtest/gtest.h>
 

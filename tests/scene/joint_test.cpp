@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/joint.h>
+#include <trisect/bsp/interference/joint.h>
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/kernel/error.h>

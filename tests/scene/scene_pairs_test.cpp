@@ -3,7 +3,7 @@
 // Against brute force: every pair asked by itself, with the filters written out again here.
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/interference_scene.h>
+#include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 

@@ -3,7 +3,7 @@
 // Small solids and poses under which they meet, touch and coincide.
 #pragma once
 
-#include <trisect/bsp/interference_model.h>
+#include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 

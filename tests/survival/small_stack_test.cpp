@@ -17,7 +17,7 @@
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>

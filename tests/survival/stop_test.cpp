@@ -18,7 +18,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/validate.h>
-#include <trisect/bsp/detail/outlined_solid.h>
+#include <trisect/bsp/cells/outlined_solid.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 

@@ -17,9 +17,9 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
-#include <trisect/kernel/detail/parallel_parts.h>
-#include <trisect/kernel/detail/task_group.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/task_group.h>
 
 namespace {
 

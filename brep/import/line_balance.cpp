@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a solid needs is not that every edge is named twice, but that the boundaries of its faces
+// add up to zero as 1-chains: on every line, every open interval is run through as often one way as
+// the other. A face with a corner in the middle of its neighbour's side (a T-vertex), or the hole
+// that a dropped triangle without area leaves, balances in this sense and not in the other.
+//
+// Lines need names that are equal exactly when the lines are. A line through lattice points has a
+// primitive direction d (divided by the gcd, first nonzero component positive) and its lattice
+// points are p + t·d for integers t; the one with the smallest non-negative coordinate along the
+// axis where |d| is largest names it, and t is the position of every other point. |t·d| < 2^55.
+
+#include <trisect/brep/import/line_balance.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace trisect::detail {
+
+namespace {
+
+struct Interval {
+    LatticePoint direction;
+    LatticePoint base;
+    std::int64_t begin = 0;
+    std::int64_t end = 0;
+    std::int64_t count = 0;
+    std::size_t edge = 0;
+
+    [[nodiscard]] bool same_line(const Interval& o) const {
+        return direction == o.direction && base == o.base;
+    }
+};
+
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
+    const std::int64_t q = a / b;
+    return a % b != 0 && (a < 0) != (b < 0) ? q - 1 : q;
+}
+
+int largest_axis(const LatticePoint& d) {
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(d[i]) > std::abs(d[axis])) axis = i;
+    return axis;
+}
+
+Interval interval_of(const LatticePoint& a, const LatticePoint& b, std::int64_t count,
+                     std::size_t edge) {
+    LatticePoint d = b - a;
+    std::int64_t g = std::gcd(std::gcd(d.x, d.y), d.z);
+    if (d < LatticePoint{}) g = -g;  // lexicographically: the first nonzero component decides
+    d = {d.x / g, d.y / g, d.z / g};
+    const int axis = largest_axis(d);
+    const std::int64_t t = floor_divide(a[axis], d[axis]);
+    Interval i;
+    i.direction = d;
+    i.base = {a.x - t * d.x, a.y - t * d.y, a.z - t * d.z};
+    i.begin = std::min(t, t + g);
+    i.end = std::max(t, t + g);
+    i.count = g > 0 ? count : -count;
+    i.edge = edge;
+    return i;
+}
+
+// Marks the intervals of one line that meet a part where the counts do not add up to zero.
+void sweep_line(std::span<const Interval> line, std::vector<bool>& open) {
+    std::vector<std::pair<std::int64_t, std::int64_t>> events;
+    for (const Interval& i : line) {
+        events.emplace_back(i.begin, i.count);
+        events.emplace_back(i.end, -i.count);
+    }
+    std::sort(events.begin(), events.end());
+    // Prefix counts of uncancelled elementary intervals answer "any in [begin, end)?".
+    std::vector<std::int64_t> at;
+    std::vector<std::size_t> bad_before;
+    std::int64_t sum = 0;
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < events.size();) {
+        const std::int64_t t = events[i].first;
+        at.push_back(t);
+        bad_before.push_back(bad);
+        while (i < events.size() && events[i].first == t) sum += events[i++].second;
+        if (sum != 0) ++bad;
+    }
+    const auto index = [&](std::int64_t t) {
+        return static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), t) - at.begin());
+    };
+    for (const Interval& i : line)
+        open[i.edge] = bad_before[index(i.end)] != bad_before[index(i.begin)];
+}
+
+}  // namespace
+
+std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
+                                   std::span<const NetEdge> edges) {
+    std::vector<Interval> intervals;
+    intervals.reserve(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        intervals.push_back(
+            interval_of(points[edges[i].from], points[edges[i].to], edges[i].count, i));
+    std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+        if (a.direction != b.direction) return a.direction < b.direction;
+        if (a.base != b.base) return a.base < b.base;
+        return a.edge < b.edge;
+    });
+    std::vector<bool> open(edges.size(), false);
+    for (std::size_t i = 0; i < intervals.size();) {
+        std::size_t end = i + 1;
+        while (end < intervals.size() && intervals[end].same_line(intervals[i])) ++end;
+        sweep_line({intervals.data() + i, end - i}, open);
+        i = end;
+    }
+    return open;
+}
+
+}  // namespace trisect::detail

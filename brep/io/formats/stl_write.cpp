@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Writing STL. ASCII holds doubles in full. Binary holds floats: rounding a vertex may move it and
+// may even make two vertices one, so both are counted and reported instead of happening in silence.
+//
+// The normal is the direction of the cross product in double, as a courtesy to viewers; a triangle
+// without area, or one whose products overflow, gets 0 0 0, which the format allows.
+#include <trisect/brep/io/formats/binary.h>
+#include <trisect/brep/io/formats/formats.h>
+#include <trisect/brep/io/formats/number_text.h>
+#include <trisect/brep/io/formats/vertex_welder.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace trisect::detail {
+namespace {
+
+Point3d difference(const Point3d& a, const Point3d& b) noexcept {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double largest(const Point3d& v) noexcept {
+    return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+}
+
+/// `v` scaled so that its largest component has magnitude 1; zero when that is impossible.
+Point3d scaled(const Point3d& v) noexcept {
+    const double m = largest(v);
+    if (!std::isfinite(m) || m == 0) return {0, 0, 0};
+    return {v[0] / m, v[1] / m, v[2] / m};
+}
+
+std::array<float, 3> unit_normal(const Point3d& a, const Point3d& b, const Point3d& c) noexcept {
+    const Point3d u = scaled(difference(b, a));
+    const Point3d v = scaled(difference(c, a));
+    const Point3d n =
+        scaled({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0)) return {0, 0, 0};
+    return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),
+            static_cast<float>(n[2] / length)};
+}
+
+std::array<float, 3> face_normal(const PolygonMesh& mesh, std::size_t f) noexcept {
+    const auto loop = mesh.face(f);
+    return unit_normal(mesh.points[loop[0]], mesh.points[loop[1]], mesh.points[loop[2]]);
+}
+
+/// Number of distinct points; `point(i)` is the i-th of n.
+template <class PointAt>
+std::size_t distinct(std::size_t n, const PointAt& point) {
+    std::vector<Point3d> seen;
+    seen.reserve(n);
+    VertexWelder welder(seen, n);
+    std::array<Point3d, VertexWelder::block> points;
+    std::array<std::uint32_t, VertexWelder::block> numbers;
+    for (std::size_t begin = 0; begin < n; begin += points.size()) {
+        const std::size_t count = std::min(points.size(), n - begin);
+        for (std::size_t i = 0; i < count; ++i) points[i] = point(begin + i);
+        welder.vertices({points.data(), count}, numbers.data());
+    }
+    return seen.size();
+}
+
+using Point3f = std::array<float, 3>;
+
+Point3d as_doubles(const Point3f& p) noexcept {
+    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+}
+
+/// Rounds all points to float.
+std::vector<Point3f> rounded(const PolygonMesh& mesh, const std::string& name,
+                             WriteReport& report) {
+    std::vector<Point3f> points(mesh.points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        double move = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double c = mesh.points[v][k];
+            // A double that rounds beyond the largest float must not be converted at all.
+            if (std::fabs(c) > static_cast<double>(std::numeric_limits<float>::max())) {
+                throw LimitError(name + ": cannot write: vertex " + std::to_string(v) +
+                                 " has a coordinate beyond the range of binary STL (floats)");
+            }
+            points[v][k] = static_cast<float>(c);
+            move = std::max(move, std::fabs(static_cast<double>(points[v][k]) - c));
+        }
+        if (move > 0) ++report.rounded_vertices;
+        report.largest_move = std::max(report.largest_move, move);
+    }
+    report.lossless = report.rounded_vertices == 0;
+    if (!report.lossless) {
+        const std::size_t n = points.size();
+        report.merged_vertices = distinct(n, [&](std::size_t v) { return mesh.points[v]; }) -
+                                 distinct(n, [&](std::size_t v) { return as_doubles(points[v]); });
+    }
+    return points;
+}
+
+}  // namespace
+
+void write_stl_ascii(std::string& out, const PolygonMesh& mesh) {
+    out.reserve(420 * mesh.face_count() + 64);  // what is not used is never touched
+    TextWriter text(out);
+    text << "solid trisect\n";
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        text << "facet normal";
+        for (const float c : face_normal(mesh, f)) text << ' ' << c;
+        text << "\n  outer loop\n";
+        for (const std::uint32_t corner : mesh.face(f))
+            text << "    vertex " << mesh.points[corner] << '\n';
+        text << "  endloop\nendfacet\n";
+    }
+    text << "endsolid trisect\n";
+    text.finish();
+}
+
+WriteReport write_stl_binary(std::string& out, const PolygonMesh& mesh, const std::string& name) {
+    if (mesh.face_count() > std::numeric_limits<std::uint32_t>::max()) {
+        throw LimitError(name + ": cannot write: more faces than binary STL can count");
+    }
+    WriteReport report;
+    const std::vector<Point3f> points = rounded(mesh, name, report);
+    out.reserve(stl_header_size + mesh.face_count() * stl_record_size);
+    out += "binary STL by Trisect";  // must not begin with "solid"
+    out.resize(80, '\0');
+    store(out, static_cast<std::uint32_t>(mesh.face_count()), false);
+    out.resize(stl_header_size + mesh.face_count() * stl_record_size);
+    char* to = out.data() + stl_header_size;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        for (const float c : face_normal(mesh, f)) put<false>(to, c);
+        for (const std::uint32_t corner : mesh.face(f))
+            for (const float c : points[corner]) put<false>(to, c);
+        put<false>(to, std::uint16_t{0});
+    }
+    return report;
+}
+
+}  // namespace trisect::detail

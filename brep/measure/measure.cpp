@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Volume and moments are sums over the fan triangles (o, p, q) of the faces, each standing for the
+// tetrahedron with the origin:
+//
+//     6 V = Σ det(o, p, q),        24 ∫ x dV = Σ det(o, p, q) (o + p + q).
+//
+// The fan's apex o may be any point of the face's plane; one serves all loops of a face, and
+// holes subtract by their orientation.
+//
+// Lattice points give integers that fit fixed registers: |det| <= 6·2^159 < 2^162, times a sum of
+// three coordinates < 2^217, which leaves 256 bits room for 2^38 triangles.
+//
+// Plane points are quotients with denominators of up to 330 bits, all different. Adding the terms
+// one after the other costs O(n^2) for n points, and reducing each partial sum is slower still.
+//
+//  * Doubles (`FixedPointSums`): each term is divided to a fixed number of fractional bits, rounded
+//    down. n terms enclose the sum in [s, s + n] units; where both ends round to the same double
+//    that is the answer, otherwise the precision doubles and finally the exact sum decides.
+//  * Exact sums (`FractionTree`): det(o, p, q) has the denominator w_o w_p w_q, so the whole sum
+//    has a denominator that contains each w once (more often only where different points have equal
+//    w). A node of a balanced tree keeps the set of the denominators below it; merging two nodes
+//    multiplies by what the other has and it has not. Faces that are close in the list share
+//    points, so little is counted twice, and one reduction at the end suffices.
+
+#include <trisect/brep/measure.h>
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/measure/fraction_tree.h>
+
+namespace trisect {
+
+namespace {
+
+using namespace detail;
+
+constexpr std::size_t axes = 3;
+
+// Σ det and Σ det·(o + p + q), see the essay.
+template <class Integer>
+struct Sums {
+    Integer volume6 = 0;
+    std::array<Integer, axes> moment24{};
+};
+
+// Which of the sums are wanted.
+enum class Want { Volume, VolumeAndMoments };
+
+class LatticeSums {
+public:
+    explicit LatticeSums(Want want) : want_(want) {}
+
+    void add(const LatticePoint& o, const LatticePoint& p, const LatticePoint& q) {
+        const auto det = multiply<3>(WideInt<2>(minor(p, q, 1, 2)), WideInt<1>(o.x)) +
+                         multiply<3>(WideInt<2>(minor(p, q, 2, 0)), WideInt<1>(o.y)) +
+                         multiply<3>(WideInt<2>(minor(p, q, 0, 1)), WideInt<1>(o.z));
+        sums_.volume6 += WideInt<4>(det);
+        if (want_ == Want::Volume) return;
+        for (int i = 0; i < 3; ++i)
+            sums_.moment24[static_cast<std::size_t>(i)] +=
+                multiply<4>(det, WideInt<1>(o[i] + p[i] + q[i]));
+    }
+    const Sums<WideInt<4>>& sums() const { return sums_; }
+
+private:
+    static Int128 minor(const LatticePoint& p, const LatticePoint& q, int i, int j) {
+        return Int128{p[i]} * q[j] - Int128{p[j]} * q[i];
+    }
+
+    Want want_;
+    Sums<WideInt<4>> sums_;
+};
+
+// Calls visit(o, p, q) for the fan triangles of all loops, leaving out the flat ones at the apex.
+template <class Visit>
+void for_each_fan_triangle(const Brep& brep, FaceId f, const Visit& visit) {
+    const VertexId o = brep.origin(brep.halfedges(f)[0]);
+    for (const HalfedgeId h : brep.halfedges(f)) {
+        const VertexId p = brep.origin(h);
+        const VertexId q = brep.target(h);
+        if (p != o && q != o) visit(o, p, q);
+    }
+}
+
+mpz_class shifted_quotient(const mpz_class& n, const mpz_class& d, unsigned long bits) {
+    mpz_class q = n << bits;
+    mpz_fdiv_q(q.get_mpz_t(), q.get_mpz_t(), d.get_mpz_t());
+    return q;
+}
+
+// Volume and moments of some faces of a Brep.
+class SolidMeasure {
+public:
+    SolidMeasure(const Brep& brep, std::span<const FaceId> faces, Want want)
+        : brep_(brep),
+          want_(want),
+          lattice_(want),
+          exact_faces_(faces_with_plane_points(faces)),
+          corners_(brep, exact_faces_) {}
+
+    ExactRational volume6() const {
+        ExactRational r(lattice_.sums().volume6);
+        if (!exact_faces_.empty())
+            r += exact_sum(3, [](const mpz_class& det, const mpz_class& w, const auto&...) {
+                return fraction(det, w);
+            });
+        return r;
+    }
+    ExactRational moment24(std::size_t axis) const {
+        ExactRational r(lattice_.sums().moment24[axis]);
+        if (exact_faces_.empty()) return r;
+        r += exact_sum(4, [axis](const mpz_class& det, const mpz_class& w, const Corner& o,
+                                 const Corner& p, const Corner& q) {
+            return fraction(det * coordinate_sum(axis, o, p, q), w * w);
+        });
+        return r;
+    }
+    bool is_exact() const { return exact_faces_.empty(); }
+
+    // Enclosures of 6 V and of the 24-fold moments.
+    std::pair<Enclosure, std::array<Enclosure, axes>> enclose(unsigned long bits) const {
+        Sums<mpz_class> sums;
+        sums.volume6 = to_integer(lattice_.sums().volume6) << bits;
+        for (std::size_t i = 0; i < axes; ++i)
+            sums.moment24[i] = to_integer(lattice_.sums().moment24[i]) << bits;
+        unsigned long terms = 0;
+        for_each_exact_triangle([&](const mpz_class& det, const mpz_class& w, const Corner& o,
+                                    const Corner& p, const Corner& q) {
+            ++terms;
+            sums.volume6 += shifted_quotient(det, w, bits);
+            if (want_ == Want::Volume) return;
+            const mpz_class ww = w * w;
+            for (std::size_t i = 0; i < axes; ++i)
+                sums.moment24[i] += shifted_quotient(det * coordinate_sum(i, o, p, q), ww, bits);
+        });
+        const auto enclosure = [&](const mpz_class& low) {
+            return Enclosure{low, mpz_class(terms), bits};
+        };
+        return {enclosure(sums.volume6),
+                {enclosure(sums.moment24[0]), enclosure(sums.moment24[1]),
+                 enclosure(sums.moment24[2])}};
+    }
+
+private:
+    std::vector<FaceId> faces_with_plane_points(std::span<const FaceId> faces) {
+        std::vector<FaceId> exact;
+        for (const FaceId f : faces) {
+            if (!is_lattice_face(brep_, f)) {
+                exact.push_back(f);
+                continue;
+            }
+            for_each_fan_triangle(brep_, f, [this](VertexId o, VertexId p, VertexId q) {
+                lattice_.add(brep_.point(o).lattice(), brep_.point(p).lattice(),
+                             brep_.point(q).lattice());
+            });
+        }
+        return exact;
+    }
+
+    // (o + p + q)_axis times w_o w_p w_q.
+    static mpz_class coordinate_sum(std::size_t axis, const Corner& o, const Corner& p,
+                                    const Corner& q) {
+        return o.x[axis] * p.w * q.w + p.x[axis] * o.w * q.w + q.x[axis] * o.w * p.w;
+    }
+
+    template <class Visit>
+    void for_each_exact_triangle(FaceId f, const Visit& visit) const {
+        for_each_fan_triangle(brep_, f, [&](VertexId o, VertexId p, VertexId q) {
+            const Corner& a = corners_[o];
+            const Corner& b = corners_[p];
+            const Corner& c = corners_[q];
+            visit(determinant(a, b, c), mpz_class(a.w * b.w * c.w), a, b, c);
+        });
+    }
+    template <class Visit>
+    void for_each_exact_triangle(const Visit& visit) const {
+        for (const FaceId f : exact_faces_) for_each_exact_triangle(f, visit);
+    }
+
+    // `degree` is the number of coordinates multiplied in a term.
+    template <class Term>
+    ExactRational exact_sum(unsigned degree, const Term& term) const {
+        FractionTree tree(corners_);
+        for (const FaceId f : exact_faces_) {
+            mpq_class sum = 0;
+            for_each_exact_triangle(
+                f, [&](const mpz_class& det, const mpz_class& w, const Corner& o, const Corner& p,
+                       const Corner& q) { sum += term(det, w, o, p, q); });
+            tree.add(sum, denominators(f, degree));
+        }
+        const auto [numerator, denominator] = tree.sum();
+        return to_rational(numerator, denominator);
+    }
+
+    // A term multiplies the coordinates of three different corners, and one of them twice when
+    // the degree is 4: a denominator appears at most that often.
+    Denominators denominators(FaceId f, unsigned degree) const {
+        std::vector<std::uint32_t> numbers;
+        for (const HalfedgeId h : brep_.halfedges(f))
+            numbers.push_back(corners_[brep_.origin(h)].denominator);
+        std::sort(numbers.begin(), numbers.end());
+        Denominators powers;
+        for (std::size_t i = 0; i < numbers.size();) {
+            std::size_t j = i;
+            while (j < numbers.size() && numbers[j] == numbers[i]) ++j;
+            if (numbers[i] != 0)
+                powers.emplace_back(
+                    numbers[i],
+                    std::min<unsigned>(degree, static_cast<unsigned>(j - i + degree - 3)));
+            i = j;
+        }
+        return powers;
+    }
+
+    const Brep& brep_;
+    Want want_;
+    LatticeSums lattice_;
+    std::vector<FaceId> exact_faces_;
+    ExactCorners corners_;
+};
+
+std::vector<FaceId> all_faces(const Brep& brep) {
+    std::vector<FaceId> faces;
+    faces.reserve(brep.counts().faces);
+    for (const FaceId f : brep.faces()) faces.push_back(f);
+    return faces;
+}
+
+ExactRational volume_from(const ExactRational& volume6, Lattice lattice) {
+    return (volume6 / ExactRational(6)).scaled(3 * lattice.exponent);
+}
+
+ExactRational coordinate_from(const ExactRational& moment24, const ExactRational& volume6,
+                              Lattice lattice) {
+    return (moment24 / (volume6 * ExactRational(4))).scaled(lattice.exponent);
+}
+
+double rounded_volume(const SolidMeasure& m, Lattice lattice) {
+    if (!m.is_exact()) {
+        for (const unsigned long bits : precisions) {
+            const Enclosure e = m.enclose(bits).first;
+            const double low = volume_from(e.lower_end(), lattice).to_double();
+            if (low != 0 && low == volume_from(e.upper_end(), lattice).to_double()) return low;
+        }
+    }
+    return volume_from(m.volume6(), lattice).to_double();
+}
+
+// The double that the quotient of the enclosed numbers rounds to, if they tell.
+std::optional<double> rounded_coordinate(const Enclosure& moment24, const Enclosure& volume6,
+                                         Lattice lattice) {
+    // The extremes of a quotient whose divisor has one sign are quotients of the ends.
+    std::optional<double> common;
+    for (const auto& m : {moment24.lower_end(), moment24.upper_end()}) {
+        for (const auto& v : {volume6.lower_end(), volume6.upper_end()}) {
+            const double r = coordinate_from(m, v, lattice).to_double();
+            if (common && *common != r) return std::nullopt;
+            common = r;
+        }
+    }
+    return common;
+}
+
+std::optional<Point3d> rounded_centroid(const SolidMeasure& m, Lattice lattice) {
+    if (m.is_exact()) return std::nullopt;
+    for (const unsigned long bits : precisions) {
+        const auto [volume6, moments] = m.enclose(bits);
+        const int sign = volume6.lower_end().sign();
+        if (sign == 0 || sign != volume6.upper_end().sign()) continue;
+        Point3d out{};
+        bool known = true;
+        for (std::size_t i = 0; i < axes && known; ++i) {
+            const auto c = rounded_coordinate(moments[i], volume6, lattice);
+            known = c.has_value();
+            if (known) out[i] = *c;
+        }
+        if (known) return out;
+    }
+    return std::nullopt;
+}
+
+std::optional<Point3d> rounded(const std::optional<std::array<ExactRational, 3>>& c) {
+    if (!c) return std::nullopt;
+    return Point3d{(*c)[0].to_double(), (*c)[1].to_double(), (*c)[2].to_double()};
+}
+
+LatticeSums sums_of(const LatticeMesh& mesh, Want want) {
+    LatticeSums sums(want);
+    for (const auto& t : mesh.triangles)
+        sums.add(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+    return sums;
+}
+
+}  // namespace
+
+ExactRational exact_volume(const Brep& brep) {
+    return volume_from(SolidMeasure(brep, all_faces(brep), Want::Volume).volume6(), brep.lattice());
+}
+
+ExactRational exact_volume(const Brep& brep, ShellId shell) {
+    return volume_from(SolidMeasure(brep, brep.faces(shell), Want::Volume).volume6(),
+                       brep.lattice());
+}
+
+ExactRational exact_volume(const LatticeMesh& mesh) {
+    return volume_from(ExactRational(sums_of(mesh, Want::Volume).sums().volume6), mesh.lattice);
+}
+
+double volume(const Brep& brep) {
+    return rounded_volume(SolidMeasure(brep, all_faces(brep), Want::Volume), brep.lattice());
+}
+
+double volume(const Brep& brep, ShellId shell) {
+    return rounded_volume(SolidMeasure(brep, brep.faces(shell), Want::Volume), brep.lattice());
+}
+
+double volume(const LatticeMesh& mesh) { return exact_volume(mesh).to_double(); }
+
+int sign_of_volume(const Brep& brep, ShellId shell) {
+    const SolidMeasure m(brep, brep.faces(shell), Want::Volume);
+    if (!m.is_exact()) {
+        for (const unsigned long bits : precisions) {
+            const Enclosure e = m.enclose(bits).first;
+            const int sign = e.lower_end().sign();
+            if (sign != 0 && sign == e.upper_end().sign()) return sign;
+        }
+    }
+    return m.volume6().sign();
+}
+
+std::optional<std::array<ExactRational, 3>> exact_centroid(const Brep& brep) {
+    const SolidMeasure m(brep, all_faces(brep), Want::VolumeAndMoments);
+    const ExactRational v = m.volume6();
+    if (v.sign() == 0) return std::nullopt;
+    return std::array{coordinate_from(m.moment24(0), v, brep.lattice()),
+                      coordinate_from(m.moment24(1), v, brep.lattice()),
+                      coordinate_from(m.moment24(2), v, brep.lattice())};
+}
+
+std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& mesh) {
+    const LatticeSums sums = sums_of(mesh, Want::VolumeAndMoments);
+    const ExactRational v(sums.sums().volume6);
+    if (v.sign() == 0) return std::nullopt;
+    const auto coordinate = [&](std::size_t i) {
+        return coordinate_from(ExactRational(sums.sums().moment24[i]), v, mesh.lattice);
+    };
+    return std::array{coordinate(0), coordinate(1), coordinate(2)};
+}
+
+std::optional<Point3d> centroid(const Brep& brep) {
+    const SolidMeasure m(brep, all_faces(brep), Want::VolumeAndMoments);
+    if (const auto c = rounded_centroid(m, brep.lattice())) return c;
+    return rounded(exact_centroid(brep));
+}
+
+std::optional<Point3d> centroid(const LatticeMesh& mesh) { return rounded(exact_centroid(mesh)); }
+
+}  // namespace trisect

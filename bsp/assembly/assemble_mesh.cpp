@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// To triangles, facet by facet. Nearly all facets of a large result pass through. So corners get
+// their numbers first, in the order of their sources: which of them are in use is one pass over the
+// marks, their coordinates are one pass over the points, and then a facet is three look-ups in a
+// table. Vertices that cuts have made come after them, as they are met. A hash map from vertices to
+// numbers costs more than everything else here together.
+//
+// Facets that did not pass through are cut into triangles before anything is written. Then it is
+// known how many triangles come before any facet, and several threads write parts of the mesh.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/face/rounded_polygon.h>
+#include <trisect/brep/face/small_polygon.h>
+#include <trisect/brep/triangulate.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/assembly/assembly_parts.h>
+#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/parts/face_loops.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/parallel_parts.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+constexpr std::uint32_t in_use = 0;  // until corners have numbers
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// Fewer points are not worth a part of their own, nor fewer groups of eight facets.
+constexpr std::size_t least_points = 16384;
+constexpr std::size_t least_groups = 4096;
+
+// By source: the numbers of its corners in the mesh.
+using CornerTables = std::vector<std::vector<std::uint32_t>>;
+
+// Marks the corners of the facets that pass through as in use. Several threads mark the same ones,
+// and look first, so that they need not wait for each other's caches.
+CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
+    CornerTables tables;
+    for (const FacetMarks& marks : parts.sources) {
+        const Triangle* const triangles = marks.source()->mesh().triangles.data();
+        const std::size_t count = marks.source()->mesh().points.size();
+        std::uint32_t* const table = tables.emplace_back(count, none).data();
+        const ParallelParts of_groups(marks.group_count(), threads, least_groups);
+        if (of_groups.count() == 1) {
+            const auto mark = [=](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
+            };
+            const auto mark_eight = [=](std::uint32_t facet) {
+                for (std::uint32_t k = 0; k < 8; ++k) mark(facet + k, false);
+            };
+            marks.for_each_whole(0, marks.group_count(), mark_eight, mark);
+            continue;
+        }
+        of_groups.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            marks.for_each_whole(begin, end, [=](std::uint32_t facet, bool) {
+                for (const std::uint32_t v : triangles[facet]) {
+                    const std::atomic_ref corner(table[v]);
+                    if (corner.load(std::memory_order_relaxed) == none)
+                        corner.store(in_use, std::memory_order_relaxed);
+                }
+            });
+        });
+    }
+    return tables;
+}
+
+class MeshWriter {
+public:
+    /// `tables` as corners_in_use() makes them.
+    MeshWriter(const SolidState& solid, const BoundaryParts& parts, CornerTables tables,
+               std::uint32_t threads)
+        : lattice_(solid.lattice),
+          unit_(lattice_.to_double(1)),
+          inverse_unit_(1 / unit_),
+          threads_(threads),
+          parts_(parts),
+          bench_(parts.bench),
+          tables_(std::move(tables)),
+          loops_(parts.bench) {}
+
+    PolygonMesh write(std::span<const BoundaryEdge> edges) {
+        number_.assign(bench_.point_count(), none);
+        number_corners(edges);
+        worked_.reserve(3 * edges.size());
+        for (rest_ = edges; !rest_.empty();) cut_worked();
+        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
+        resize_on_threads(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size(), threads_);
+        for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
+        number_faces();
+        return std::move(mesh_);
+    }
+
+private:
+    // A facet that does not pass through: its triangles are in worked_, from `begin` on.
+    struct Worked {
+        std::pair<std::size_t, std::uint64_t> place;  // source and place_of
+        std::size_t begin;
+    };
+
+    // The order of the facets of a source; none is as late as `no_place`.
+    static constexpr std::uint64_t no_place = static_cast<std::uint64_t>(-1);
+    static std::uint64_t place_of(std::uint32_t facet, bool flipped) {
+        return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
+    }
+
+    // The corners of the result's facets, source by source, in the order of their vertices.
+    void number_corners(std::span<const BoundaryEdge> edges) {
+        std::size_t made = 0;  // at most: vertices that are no corners
+        for (const BoundaryEdge& e : edges) {
+            if (std::exchange(number_[u(e.from)], in_use) != none) continue;
+            if (bench_.is_corner(e.from)) {
+                corner_of(e.from) = in_use;
+            } else {
+                ++made;
+            }
+        }
+        const auto used_in = [](std::span<const std::uint32_t> part) {
+            return part.size() - static_cast<std::size_t>(std::ranges::count(part, none));
+        };
+        std::vector<std::vector<std::size_t>> counts;  // of every part of a table
+        std::size_t count = made;
+        for (const auto& table : tables_) {
+            const ParallelParts parts(table.size(), threads_, least_points);
+            auto& of_parts = counts.emplace_back(parts.count());
+            parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+                of_parts[part] = used_in(std::span(table).subspan(begin, end - begin));
+            });
+            count = std::accumulate(of_parts.begin(), of_parts.end(), count);
+        }
+        mesh_.points.reserve(count);
+        for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
+        for (const BoundaryEdge& e : edges)
+            number_[u(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : none;
+    }
+
+    // Numbers and coordinates for the corners in use; `counts` of them in each part.
+    void number_table(std::size_t t, std::span<const std::size_t> counts) {
+        const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
+        std::vector<std::uint32_t>& table = tables_[t];
+        std::vector<std::size_t> first(counts.size());
+        std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
+        resize_on_threads(mesh_.points, first.back() + counts.back(), threads_);
+        Point3d* const out = mesh_.points.data();
+        ParallelParts(table.size(), threads_, least_points)
+            .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
+                std::size_t n = first[part];
+                for (std::size_t i = begin; i < end; ++i) {
+                    if (table[i] == none) continue;
+                    out[n] = coordinates_of(points[i], unit);
+                    table[i] = static_cast<std::uint32_t>(n++);
+                }
+            });
+    }
+
+    // The place in the table of its source of a point that is a corner.
+    std::uint32_t& corner_of(PointId p) {
+        const auto [source, v] = bench_.corner_name(p);
+        return tables_[parts_.table_of(source)][v];
+    }
+
+    void add_worked(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        worked_.insert(worked_.end(), {a, b, c});
+    }
+
+    // A power of two times a double, which is what Lattice::to_double is unless the power
+    // underflows.
+    [[nodiscard]] Point3d in_units(const std::array<double, 3>& p, double unit) const {
+        if (unit >= 0x1p-1000) [[likely]]
+            return {p[0] * unit, p[1] * unit, p[2] * unit};
+        return {lattice_.to_double(p[0]), lattice_.to_double(p[1]), lattice_.to_double(p[2])};
+    }
+
+    [[nodiscard]] Point3d coordinates_of(const LatticePoint& p, double unit) const {
+        return in_units(
+            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}, unit);
+    }
+
+    std::uint32_t add_point(const Point3d& p) {
+        mesh_.points.push_back(p);
+        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+    }
+
+    // Cuts the facet whose edges come next into triangles.
+    void cut_worked() {
+        const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
+        check_stop();
+        std::size_t n = 1;
+        while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
+        const std::size_t table = parts_.table_of(f.source);
+        worked_facets_.push_back({{table, place_of(f.facet, f.flipped)}, worked_.size()});
+        loops_.set_region(f.support, f.flipped, rest_.first(n));
+        rest_ = rest_.subspan(n);
+        if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
+            const Triangle t = whole_facet(table, f.facet, f.flipped);
+            add_worked(t[0], t[1], t[2]);
+        } else if (loops_.has_holes()) {
+            cut_large(f, 0, loops_.loop_count());
+        } else {
+            for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(f, l);
+        }
+    }
+
+    void cut_loop(const BoundaryFacet& f, std::size_t l) {
+        const auto loop = loops_.loop(l);
+        if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
+            cut_large(f, l, l + 1);
+        } else {
+            cut_small(loop);
+        }
+    }
+
+    static Triangle numbered(const Triangle& corners, bool flipped, const std::uint32_t* numbers) {
+        return {numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
+                numbers[corners[flipped ? 1 : 2]]};
+    }
+
+    [[nodiscard]] Triangle whole_facet(std::size_t t, std::uint32_t facet, bool flipped) const {
+        return numbered(parts_.sources[t].source()->mesh().triangles[facet], flipped,
+                        tables_[t].data());
+    }
+
+    // The first facet that was cut, from one of a source on.
+    [[nodiscard]] std::vector<Worked>::const_iterator worked_from(std::size_t t,
+                                                                  std::size_t facet) const {
+        const std::pair at(t, place_of(static_cast<std::uint32_t>(facet), false));
+        return std::ranges::lower_bound(worked_facets_, at, {}, &Worked::place);
+    }
+
+    // Facets in their order, whether they pass through or were cut.
+    void write_source(std::size_t t) {
+        const FacetMarks& marks = parts_.sources[t];
+        const ParallelParts parts(marks.group_count(), threads_, least_groups);
+        std::vector<std::size_t> whole(parts.count());  // before each part
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            whole[part] = marks.counts(begin, end).whole;
+        });
+        const std::size_t count = std::accumulate(whole.begin(), whole.end(), std::size_t{0});
+        std::exclusive_scan(whole.begin(), whole.end(), whole.begin(), whole_written_);
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            write_part(t, begin, end, whole[part]);
+        });
+        whole_written_ += count;
+    }
+
+    // Groups [begin, end) of a source, before which so many facets that pass through are written.
+    // What the loop needs is kept by value: numbers that it writes may be anybody's.
+    void write_part(std::size_t t, std::size_t begin, std::size_t end, std::size_t whole_before) {
+        auto next = worked_from(t, 8 * begin);
+        const auto last = worked_from(t, 8 * end);
+        std::uint32_t* out = mesh_.corners.data() + 3 * whole_before + next->begin;
+        const auto place_of_next = [&] { return next != last ? next->place.second : no_place; };
+        std::uint64_t next_place = place_of_next();
+        const auto write_worked_before = [&](std::uint64_t place) {
+            for (; next_place < place; ++next, next_place = place_of_next())
+                out = std::copy(worked_.data() + next->begin, worked_.data() + (next + 1)->begin,
+                                out);
+        };
+        const FacetMarks& marks = parts_.sources[t];
+        const Triangle* const triangles = marks.source()->mesh().triangles.data();
+        const std::uint32_t* const numbers = tables_[t].data();
+        const auto write = [&](std::uint32_t facet, bool flipped) {
+            if (next_place < place_of(facet, flipped)) [[unlikely]]
+                write_worked_before(place_of(facet, flipped));
+            const Triangle corners = numbered(triangles[facet], flipped, numbers);
+            out = std::copy(corners.begin(), corners.end(), out);
+        };
+        const auto write_eight = [&](std::uint32_t facet) {
+            if (next_place < place_of(facet + 7, false)) [[unlikely]] {
+                for (std::uint32_t k = 0; k < 8; ++k) write(facet + k, false);
+                return;
+            }
+            std::uint32_t* const at = std::exchange(out, out + 24);
+            for (std::size_t k = 0; k < 8; ++k)
+                for (std::size_t i = 0; i < 3; ++i)
+                    at[3 * k + i] = numbers[triangles[facet + k][i]];
+        };
+        marks.for_each_whole(begin, end, write_eight, write);
+        write_worked_before(no_place);
+    }
+
+    void number_faces() {
+        resize_on_threads(mesh_.face_begin, mesh_.corners.size() / 3 + 1, threads_);
+        ParallelParts(mesh_.face_begin.size(), threads_, least_points)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    mesh_.face_begin[i] = static_cast<std::uint32_t>(3 * i);
+            });
+    }
+
+    // A facet may have been touched in vain; then nothing may tell it from one that was not.
+    bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
+        return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
+                   if (!bench_.is_corner(p)) return false;
+                   const auto [source, v] = bench_.corner_name(p);
+                   if (source != f.source) return false;
+                   const auto& corners = source->mesh().triangles[f.facet];
+                   return std::ranges::find(corners, v) != corners.end();
+               });
+    }
+
+    std::uint32_t vertex(PointId p) {
+        std::uint32_t& at = number_[u(p)];
+        if (at == none) at = add_point(in_units(bench_.nearest(p), unit_));
+        return at;
+    }
+
+    // In a loop of one region all passages of a vertex have one name.
+    static bool is_simple(std::span<const PointId> loop) {
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (loop[i] == loop[j]) return false;
+        return true;
+    }
+
+    // Vertices are rounded correctly when they get their numbers, and all corners of a loop are
+    // used; so turns are those of rounded corners, and few are left for integers.
+    void cut_small(std::span<const PointId> loop) {
+        const PlaneProjection::Axes axes = loops_.axes();
+        std::array<std::uint32_t, small_polygon_limit> vertices;
+        rounded_.clear();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            vertices[i] = vertex(loop[i]);
+            add_rounded(loop[i], vertices[i], axes);
+        }
+        const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            const int s = rounded_.turn(a, b, c);
+            return s != 0 ? s : exact_turn(loop[a], loop[b], loop[c], axes);
+        };
+        // A loop starts at its smallest vertex.
+        const auto first_corner = [] { return std::uint32_t{0}; };
+        const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
+                                            [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                                add_worked(vertices[a], vertices[b], vertices[c]);
+                                            });
+        TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
+    }
+
+    // In units of the lattice. Multiples of at least 2^-330 of these units do not underflow in
+    // those of the mesh, which differ by a power of two, unless that is extreme.
+    void add_rounded(PointId p, std::uint32_t vertex, PlaneProjection::Axes axes) {
+        const auto u = static_cast<std::size_t>(axes.u);
+        const auto v = static_cast<std::size_t>(axes.v);
+        if (unit_ < 0x1p-600 || bench_.is_lattice(p)) {
+            const Approximation& at = bench_.approximation(p);
+            return rounded_.add(at.c[u], at.c[v], at.error);
+        }
+        const Point3d& at = mesh_.points[vertex];
+        rounded_.add_nearest(at[u] * inverse_unit_, at[v] * inverse_unit_);
+    }
+
+    [[nodiscard]] int exact_turn(PointId a, PointId b, PointId c,
+                                 PlaneProjection::Axes axes) const {
+        return PlaneProjection::exact_orientation(bench_.homogeneous(a), bench_.homogeneous(b),
+                                                  bench_.homogeneous(c), axes);
+    }
+
+    // Loops [first, end) as one region.
+    void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end) {
+        points_.clear();
+        ids_.clear();
+        outline_.clear();
+        local_.resize(bench_.point_count(), none);
+        for (std::size_t l = first; l < end; ++l) {
+            auto& loop = outline_.emplace_back();
+            for (const PointId p : loops_.loop(l)) {
+                if (local_[u(p)] == none) {
+                    local_[u(p)] = static_cast<std::uint32_t>(ids_.size());
+                    ids_.push_back(p);
+                    points_.push_back(bench_.point(p));
+                }
+                loop.push_back(local_[u(p)]);
+            }
+        }
+        for (const PointId p : ids_) local_[u(p)] = none;
+        const Plane& support = bench_.plane_at(f.support);
+        for (const IndexTriangle& t :
+             triangulate(f.flipped ? support.flipped() : support, points_, outline_))
+            add_worked(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
+    }
+
+    Lattice lattice_;
+    double unit_;
+    double inverse_unit_;
+    std::uint32_t threads_;
+    const BoundaryParts& parts_;
+    const Workbench& bench_;
+    CornerTables tables_;
+    PolygonMesh mesh_;
+    std::span<const BoundaryEdge> rest_;  // of facets not yet cut
+    std::vector<Worked> worked_facets_;   // in their order; then one more where they end
+    std::vector<std::uint32_t> worked_;   // three corners a triangle
+    std::size_t whole_written_ = 0;
+    std::vector<std::uint32_t> number_;  // by PointId
+    FaceLoops loops_;
+    RoundedPolygon rounded_;
+    std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
+    std::vector<PointId> ids_;
+    std::vector<Point> points_;
+    std::vector<IndexLoop> outline_;
+};
+
+// The corners of facets that pass through: vertices, whatever the others do there.
+std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
+    std::vector<std::vector<bool>> used;
+    for (const FacetMarks& marks : parts.sources) {
+        const LatticeMesh& mesh = marks.source()->mesh();
+        auto& is_used = used.emplace_back(mesh.points.size(), false);
+        marks.for_each_whole([&](std::uint32_t facet, bool) {
+            for (const std::uint32_t v : mesh.triangles[facet]) is_used[v] = true;
+        });
+    }
+    std::vector<PointId> out;
+    for (std::size_t p = 0; p < parts.bench.point_count(); ++p) {
+        if (!parts.bench.is_corner(static_cast<PointId>(p))) continue;
+        const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
+        // No table: a corner of a facet that only named the point.
+        const std::int32_t t = parts.table_ids.find(BoundaryParts::key_of(source));
+        if (t >= 0 && used[u(t)][v]) out.push_back(parts.representatives[p]);
+    }
+    return out;
+}
+
+PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_planes,
+                     std::uint32_t threads) {
+    BoundaryParts parts;
+    gather_parts(solid, parts, by_planes, threads);
+    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    const auto join = [&] {
+        if (parts.are_joined) return sort_by_facet(parts, edges);
+        join_facets(parts, edges);
+        remove_straight_vertices(parts, true, {}, edges);
+        // Facets that nothing changed are left alone, so that it does not show which of them the
+        // tree has looked at.
+        mark_unchanged_facets(parts, edges);
+        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+        join_planes_across_axes(parts, edges);
+        if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
+            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
+    };
+    // What was cut and what passes through have nothing to do with each other yet.
+    CornerTables tables;
+    const bool large = parts.stats.whole_facets >= 8 * least_groups;
+    const auto find_corners = [&] { tables = corners_in_use(parts, large ? threads : 1); };
+    if (large && threads != 1) {
+        both_at_once(find_corners, join);
+    } else {
+        join();
+        find_corners();
+    }
+    if (stats != nullptr) *stats = parts.stats;
+    return MeshWriter(solid, parts, std::move(tables), threads).write(edges);
+}
+
+}  // namespace
+
+PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
+                          std::uint32_t threads) {
+    // No arena for what no step would divide.
+    std::size_t facets = solid.root.node->size();
+    if (solid.outlined != nullptr)
+        for (const UncrossedFacets& list : solid.outlined->uncrossed())
+            facets += list.facets.size();
+    const bool small = facets < 8 * least_groups;
+    return on_threads(small ? 1 : threads,
+                      [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
+}
+
+}  // namespace trisect::detail

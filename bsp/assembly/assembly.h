@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Assembly: from the polygons in the cells of a tree to a connected boundary.
+#pragma once
+
+#include <trisect/bsp/assembly/parts/assembly_stats.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect::detail {
+
+/// The boundary as a B-rep. With maximal faces it is a function of the set alone: it does not
+/// depend on the tree, on the operands' triangulation or on how they were combined.
+[[nodiscard]] Brep assemble_brep(const SolidState& solid, const AssembleOptions& options,
+                                 AssemblyStats* stats = nullptr);
+
+/// The boundary as triangles; facets that nothing touched are copied. Without `by_planes` all
+/// others go the general way (gather_parts()); the set, the vertices and the number of triangles
+/// are the same. `threads` as in ParallelParts.
+[[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr,
+                                        bool by_planes = true, std::uint32_t threads = 1);
+
+}  // namespace trisect::detail

@@ -1,0 +1,675 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which facets need work: fragments, and whole facets that something touches in a cell, because
+// vertices may lie in their edges. A facet without either is whole in every cell that it reaches
+// into (see PolygonRef) and passes through as it is: one byte is all that is ever written for it.
+// The others are turned into convex parts with exact vertices, one for every cell.
+//
+// Vertices are identified by name as they are made (Workbench::meet), then by value: points whose
+// certified doubles are close (near_points.h) are compared exactly. A second stage is
+// indispensable: where several planes run through one point its names differ.
+//
+// T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
+// the vertices of the leaf are all that can lie on an edge inside it. That keeps a search that is
+// quadratic in the worst case down to a few dozen candidates.
+
+#include <trisect/bsp/assembly/assembly_parts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include <trisect/bsp/assembly/axis/axis_faces.h>
+#include <trisect/bsp/assembly/parts/edge_splitter.h>
+#include <trisect/bsp/assembly/parts/fragment_group.h>
+#include <trisect/bsp/assembly/parts/named_edges.h>
+#include <trisect/bsp/assembly/parts/outline_edges.h>
+#include <trisect/bsp/assembly/traced/traced_facets.h>
+#include <trisect/bsp/cells/deferred_leaf.h>
+#include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/cells/near_points.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/deep_recursion.h>
+#include <trisect/kernel/support/parallel_parts.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Leaf {
+    const CellNode* node = nullptr;
+    bool complemented = false;
+    Cell cell;
+    std::size_t first_edge = 0;
+    std::size_t end_edge = 0;
+    std::size_t first_inside = 0;  // of inside_
+    std::size_t end_inside = 0;
+};
+
+// A part of a leaf's list of nothing but whole facets of one source.
+struct ListPart {
+    std::span<const std::uint32_t> facets;
+    bool contained = false;  ///< in the cell of the leaf, so that no other leaf lists them
+    const Leaf* leaf = nullptr;
+    std::size_t table = 0;
+    bool flipped = false;
+};
+
+class Gatherer {
+public:
+    Gatherer(const SolidState& solid, BoundaryParts& out, bool by_planes, std::uint32_t threads)
+        : solid_(solid),
+          out_(out),
+          by_planes_(by_planes),
+          threads_(threads),
+          axis_faces_(out),
+          splitter_(out.bench, out.facets) {}
+
+    /// False when pieces are needed that nobody has made: of OutlinedSolid::cut().
+    [[nodiscard]] bool run() {
+        list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
+        for (const Leaf& leaf : leaves_) {
+            check_stop(1 + leaf.node->size());
+            mark_facets(leaf);
+        }
+        mark_lists();
+        if (solid_.outlined != nullptr) mark_uncrossed(solid_.outlined->uncrossed());
+        if (solid_.crossings != nullptr) mark_crossed();
+        if (solid_.outlined != nullptr) mark_outlines(solid_.outlined->outlines());
+        number_facets();
+        if (solid_.outlined != nullptr) add_outlines(solid_.outlined->outlines(), out_, edges_);
+        if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
+        if (solid_.crossings != nullptr && solid_.outlined != nullptr &&
+            out_.stats.traced_facets != out_.facets.size())
+            return false;
+        const std::size_t traced = edges_.size();
+        if (by_planes_ && traced == 0) choose_axis_faces();
+        for (Leaf& leaf : leaves_) {
+            if (out_.stats.traced_facets == out_.facets.size()) break;
+            check_stop(1 + leaf.node->size());
+            make_parts(leaf);
+        }
+        const std::size_t of_leaves = edges_.size();
+        make_axis_faces();
+        out_.bench.end_points();
+        merge_equal_points();
+        check_stop(edges_.size());
+        conform_edges(traced, of_leaves);
+        out_.representatives = std::move(same_);
+        out_.are_joined = axis_faces_.takes_all();
+        out_.stats.leaves = leaves_.size();
+        out_.stats.axis_facets = axis_faces_.taken_count();
+        out_.stats.axis_leaves = axis_faces_.read_count();
+        out_.stats.parts += axis_faces_.part_count();
+        out_.stats.worked_facets = out_.facets.size();
+        out_.stats.edges = out_.edges.size();
+        return true;
+    }
+
+private:
+    void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
+    [[nodiscard]] const DeferredLeaf* deferred(const Leaf& leaf) const;
+    [[nodiscard]] const AxisPicture* picture(const Leaf& leaf) const;
+    void mark_facets(const Leaf& leaf);
+    void mark_crossed();
+    [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
+    [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
+    void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
+    void mark_lists();
+    void mark_uncrossed(std::span<const UncrossedFacets> lists);
+    void mark_outlines(const NamedOutlines& outlines);
+    void number_facets();
+    void make_parts(Leaf& leaf);
+    void make_list_parts(const Leaf& leaf);
+    void make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet);
+    void make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet);
+    void note_part(const Leaf& leaf, BoundaryFacet& facet);
+    void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
+    void choose_axis_faces();
+    void make_axis_faces();
+    void merge_equal_points();
+    void add_planes_through(PointId value);
+    [[nodiscard]] bool is_same(PointId value, PointId name);
+    void conform_edges(std::size_t traced, std::size_t of_leaves);
+    [[nodiscard]] std::size_t table(const Source* source);
+    void mark_incomplete(FacetMarks& marks) const;
+
+    const SolidState& solid_;
+    BoundaryParts& out_;
+    bool by_planes_;
+    std::uint32_t threads_;
+    std::vector<Leaf> leaves_;
+    std::vector<ListPart> lists_;
+    std::size_t last_table_ = 0;
+    // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
+    std::vector<BoundaryEdge> edges_;
+    AxisFaces axis_faces_;
+    std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
+    std::vector<PointId> same_;
+    std::vector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
+    EdgeSplitter splitter_;
+    // Of the group of fragments in the making.
+    FragmentGroup fragments_;
+    std::vector<PolygonRef> group_;
+    std::vector<PlaneId> planes_;
+    std::vector<PointId> points_;
+};
+
+std::size_t Gatherer::table(const Source* source) {
+    auto& tables = out_.sources;
+    if (last_table_ < tables.size() && tables[last_table_].source() == source) return last_table_;
+    const auto next = static_cast<std::int32_t>(tables.size());
+    const auto [id, inserted] = out_.table_ids.insert(BoundaryParts::key_of(source), next);
+    if (inserted) mark_incomplete(tables.emplace_back(source));
+    return last_table_ = u(id);
+}
+
+void Gatherer::mark_incomplete(FacetMarks& marks) const {
+    const std::uint64_t serial = marks.source()->serial();
+    const auto& incomplete = solid_.incomplete;
+    auto at = std::lower_bound(incomplete.begin(), incomplete.end(), FacetName{serial, 0});
+    for (; at != incomplete.end() && at->serial == serial; ++at)
+        for (const bool flipped : {false, true}) marks.set_worked(at->facet, flipped);
+}
+
+void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& cell) {
+    if (node.is_leaf()) {
+        if (node.size() != 0) leaves_.push_back({&node, complemented, cell});
+        return;
+    }
+    for (int i = 0; i < 2; ++i) {
+        const CellRef& c = node.child(i);
+        const Cell part =
+            i == 0 ? cell.below(node.axis(), node.wall()) : cell.above(node.axis(), node.wall());
+        with_enough_stack([&] { list_leaves(*c.node, c.complemented != complemented, part); });
+    }
+}
+
+// Whether a whole facet that a leaf lists bounds the result. It may be listed in cells that it
+// passes by; the one of its first corner counts, and is not looked for any more once it was found.
+// Of a facet that is worked on anyway every cell is looked at.
+bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bool flipped) {
+    return marks.is_present(facet, flipped) || marks.is_worked(facet, flipped) ||
+           cell.contains(Box::of(marks.source()->corner(facet, 0)));
+}
+
+// Where the crossings of all leaves are known, those that were deferred stay so.
+const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
+    const DeferredLeaf* const d = leaf.node->deferred();
+    return solid_.crossings != nullptr && d != nullptr && d->picture == nullptr ? d : nullptr;
+}
+
+// Where planes are outlined as a whole.
+const AxisPicture* Gatherer::picture(const Leaf& leaf) const {
+    const DeferredLeaf* const d = leaf.node->deferred();
+    return by_planes_ && d != nullptr ? d->picture.get() : nullptr;
+}
+
+void Gatherer::mark_crossed() {
+    const Crossings& crossings = *solid_.crossings;
+    std::vector<std::pair<std::uint64_t, FacetMarks*>> by_serial;
+    for (FacetMarks& marks : out_.sources) by_serial.emplace_back(marks.source()->serial(), &marks);
+    std::ranges::sort(by_serial);
+    auto facet = crossings.shown.begin();
+    for (std::size_t i = 0; i < crossings.operands.size(); ++i) {
+        const Crossings::Operand& o = crossings.operands[i];
+        const auto end =
+            i + 1 < crossings.operands.size()
+                ? std::lower_bound(facet, crossings.shown.end(), crossings.operands[i + 1].first)
+                : crossings.shown.end();
+        if (facet == end) continue;
+        const auto at = std::ranges::lower_bound(by_serial, o.serial, {},
+                                                 &std::pair<std::uint64_t, FacetMarks*>::first);
+        FacetMarks* const marks =
+            at != by_serial.end() && at->first == o.serial ? at->second : nullptr;
+        for (; facet != end; ++facet) {
+            if (marks == nullptr) continue;
+            marks->set_present(*facet - o.first, o.inside_above);
+            marks->set_worked(*facet - o.first, o.inside_above);
+        }
+    }
+}
+
+void Gatherer::mark_facets(const Leaf& leaf) {
+    const DeferredLeaf* const deferred = this->deferred(leaf);
+    if (deferred != nullptr)
+        for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
+    const AxisPicture* const picture = this->picture(leaf);
+    const PolygonList& polygons = deferred != nullptr  ? deferred->uncrossed
+                                  : picture != nullptr ? picture->facets
+                                                       : leaf.node->polygons();
+    if (const Source* source = polygons.whole_source();
+        source != nullptr && !source->is_half_space()) {
+        note_list(leaf, polygons, table(source));
+        return;
+    }
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        // What is_owned() reads of them lies anywhere in memory.
+        if (i + 2 * ahead < polygons.size()) {
+            const PolygonRef next = polygons[i + 2 * ahead];
+            if (!next.source->is_half_space())
+                __builtin_prefetch(&next.source->mesh().triangles[next.facet]);
+        }
+        if (i + ahead < polygons.size()) {
+            const PolygonRef next = polygons[i + ahead];
+            if (!next.source->is_half_space())
+                __builtin_prefetch(&next.source->corner(next.facet, 0));
+        }
+        const PolygonRef r = polygons[i];
+        FacetMarks& marks = out_.sources[table(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        const bool plain = r.fragment == nullptr && !r.touched && !r.source->is_half_space();
+        if (!plain) {
+            marks.set_present(r.facet, flipped);
+            marks.set_worked(r.facet, flipped);
+        } else if (is_owned(leaf.cell, marks, r.facet, flipped)) {
+            marks.set_present(r.facet, flipped);
+        }
+    }
+}
+
+// A list of nothing but whole facets of one source is marked later, by several threads: what other
+// leaves say of a facet makes no difference to it.
+void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table) {
+    FacetMarks& marks = out_.sources[table];
+    const bool flipped = polygons.flipped() != leaf.complemented;
+    if (polygons.has_all_facets()) {
+        for (std::uint32_t f = 0; f < polygons.size(); ++f) marks.set_present(f, flipped);
+        return;
+    }
+    const auto add = [&](std::span<const std::uint32_t> facets, bool contained) {
+        constexpr std::size_t most = 16384;
+        for (std::size_t i = 0; i < facets.size(); i += most)
+            lists_.push_back({facets.subspan(i, std::min(most, facets.size() - i)), contained,
+                              &leaf, table, flipped});
+    };
+    const std::span<const std::uint32_t> facets = polygons.facets();
+    add(facets.first(polygons.contained()), true);
+    add(facets.subspan(polygons.contained()), false);
+}
+
+// As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
+// for each of them. So they are asked for well before.
+template <bool Shared>
+void mark_list(const ListPart& list, FacetMarks& marks) {
+    constexpr std::size_t ahead = 16;
+    const Box inside = list.leaf->cell.lattice_box();
+    const LatticeMesh& mesh = marks.source()->mesh();
+    const auto facets = list.facets;
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        if (i + 2 * ahead < facets.size())
+            __builtin_prefetch(&mesh.triangles[facets[i + 2 * ahead]]);
+        if (i + ahead < facets.size())
+            __builtin_prefetch(&mesh.points[mesh.triangles[facets[i + ahead]][0]]);
+        const std::uint32_t f = facets[i];
+        const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
+        const bool owned =
+            (int{p.x >= inside.lo[0]} & int{p.x <= inside.hi[0]} & int{p.y >= inside.lo[1]} &
+             int{p.y <= inside.hi[1]} & int{p.z >= inside.lo[2]} & int{p.z <= inside.hi[2]}) != 0;
+        if constexpr (Shared) {
+            marks.add_present_shared(f, list.flipped, owned);
+        } else {
+            marks.add_present(f, list.flipped, owned);
+        }
+    }
+}
+
+void Gatherer::mark_lists() {
+    std::size_t facets = 0;
+    for (const ListPart& list : lists_) facets += list.facets.size();
+    constexpr std::size_t few = 65536;
+    const ParallelParts parts(lists_.size(), facets < few ? 1 : threads_, 1);
+    parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+        for (const ListPart& list : std::span(lists_).subspan(begin, end - begin)) {
+            FacetMarks& marks = out_.sources[list.table];
+            if (list.contained) {
+                for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+            } else if (parts.count() == 1) {
+                mark_list<false>(list, marks);
+            } else {
+                mark_list<true>(list, marks);
+            }
+        }
+    });
+}
+
+void Gatherer::mark_uncrossed(std::span<const UncrossedFacets> lists) {
+    for (const UncrossedFacets& list : lists) {
+        FacetMarks& marks = out_.sources[table(list.source)];
+        for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+    }
+}
+
+void Gatherer::mark_outlines(const NamedOutlines& outlines) {
+    for (const NamedOutlines::Face& f : outlines.faces) {
+        FacetMarks& marks = out_.sources[table(f.source)];
+        marks.set_present(f.facet, f.flipped);
+        marks.set_worked(f.facet, f.flipped);
+    }
+    for (const NamedOutlines::Edge& e : outlines.edges)
+        if (e.from.corner >= 0) (void)table(e.from.planes[0].source());
+}
+
+void Gatherer::number_facets() {
+    auto& tables = out_.sources;
+    std::stable_sort(tables.begin(), tables.end(), [](const auto& a, const auto& b) {
+        return a.source()->serial() < b.source()->serial();
+    });
+    last_table_ = 0;
+    for (std::size_t t = 0; t < tables.size(); ++t) {
+        FacetMarks& marks = tables[t];
+        out_.table_ids.assign(BoundaryParts::key_of(marks.source()), static_cast<std::int32_t>(t));
+        constexpr std::size_t least_groups = 4096;
+        const ParallelParts parts(marks.group_count(), threads_, least_groups);
+        std::vector<FacetMarks::Counts> counts(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            counts[part] = marks.counts(begin, end);
+        });
+        std::vector<std::size_t> first(parts.count());  // number of each part
+        std::size_t n = out_.facets.size();
+        for (std::size_t part = 0; part < parts.count(); ++part) {
+            out_.stats.whole_facets += counts[part].whole;
+            first[part] = n;
+            n += counts[part].worked;
+        }
+        out_.facets.resize(n);
+        marks.make_numbers();
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            marks.number_worked(begin, end, first[part]);
+            BoundaryFacet* out = out_.facets.data() + first[part];
+            marks.for_each_worked(begin, end, [&](std::uint32_t f, bool flipped) {
+                *out++ = {marks.source(), f, flipped};
+            });
+        });
+    }
+    out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
+}
+
+// Whether something of the leaf bounds the result, is cut or touched, and has no edges yet.
+bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
+    return std::ranges::any_of(leaf.operands, [&](const DeferredLeaf::Operand& o) {
+        const FacetMarks& marks = out_.sources[out_.table_of(o.polygons.whole_source())];
+        return std::ranges::any_of(o.polygons.facets(), [&](std::uint32_t f) {
+            return !marks.is_traced(f) && (marks.takes_part(f, false) || marks.takes_part(f, true));
+        });
+    });
+}
+
+bool Gatherer::needs_parts(const Leaf& leaf, const AxisPicture& picture) const {
+    return std::any_of(picture.facets.begin(), picture.facets.end(), [&](const PolygonRef& r) {
+        const FacetMarks& marks = out_.sources[out_.table_of(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        return marks.takes_part(r.facet, flipped) &&
+               !axis_faces_.takes(marks.number_of_worked(r.facet, flipped));
+    });
+}
+
+void Gatherer::make_parts(Leaf& leaf) {
+    leaf.first_edge = leaf.end_edge = edges_.size();
+    if (const auto* d = deferred(leaf); d != nullptr && !needs_parts(*d)) return;
+    if (const auto* p = picture(leaf); p != nullptr && !needs_parts(leaf, *p)) return;
+    const PolygonList& polygons = leaf.node->polygons();
+    if (const Source* source = polygons.whole_source()) {
+        const FacetMarks& marks = out_.sources[table(source)];
+        const bool flipped = polygons.flipped() != leaf.complemented;
+        const auto make = [&](std::uint32_t f) {
+            if (!marks.takes_part(f, flipped) || marks.is_traced(f)) return;
+            const std::int32_t number = marks.number_of_worked(f, flipped);
+            if (!axis_faces_.takes(number))
+                make_part({source, nullptr, f, polygons.flipped(), false}, leaf, number);
+        };
+        if (polygons.has_all_facets()) {
+            for (std::uint32_t f = 0; f < polygons.size(); ++f) make(f);
+        } else {
+            for (const std::uint32_t f : polygons.facets()) make(f);
+        }
+    } else {
+        make_list_parts(leaf);
+    }
+    leaf.end_edge = edges_.size();
+}
+
+// Fragments of one facet come one after the other.
+void Gatherer::make_list_parts(const Leaf& leaf) {
+    const PolygonList& polygons = leaf.node->polygons();
+    for (std::size_t i = 0; i < polygons.size();) {
+        const PolygonRef r = polygons[i++];
+        const FacetMarks& marks = out_.sources[table(r.source)];
+        const bool flipped = r.flipped != leaf.complemented;
+        if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
+        const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
+        if (axis_faces_.takes(facet)) continue;
+        if (r.fragment == nullptr || !ends_at_walls(*r.fragment, leaf.cell)) {
+            make_part(r, leaf, facet);
+            continue;
+        }
+        group_.assign(1, r);
+        for (; i < polygons.size() && group_.size() < FragmentGroup::max_parts; ++i) {
+            const PolygonRef next = polygons[i];
+            if (next.facet != r.facet || next.source != r.source || next.flipped != r.flipped ||
+                next.fragment == nullptr || !ends_at_walls(*next.fragment, leaf.cell))
+                break;
+            group_.push_back(next);
+        }
+        make_group(group_, leaf, facet);
+    }
+}
+
+// The number of parts decides what is left to join, and their leaves where.
+void Gatherer::note_part(const Leaf& leaf, BoundaryFacet& facet) {
+    const auto number = static_cast<std::int32_t>(&leaf - leaves_.data());
+    if (!leaf.node->is_mixed() || (facet.leaf >= 0 && facet.leaf != number))
+        facet.in_several_cells = true;
+    facet.leaf = number;
+    ++out_.stats.parts;
+    ++facet.parts;
+}
+
+void Gatherer::make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet) {
+    Workbench& bench = out_.bench;
+    const PolygonRef& ref = group[0];
+    BoundaryFacet& f = out_.facets[u(facet)];
+    f.support = bench.plane(PlaneName::support(ref.source, ref.facet));
+    if (!fragments_.join(group)) {
+        for (const PolygonRef& r : group) make_part(r, leaf, facet);
+        return;
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) note_part(leaf, f);
+    planes_.clear();
+    for (const PlaneName& n : fragments_.lines()) planes_.push_back(bench.plane(n));
+    points_.clear();
+    for (const FragmentGroup::Edge& e : fragments_.edges()) {
+        const auto& [p, q] = fragments_.lines_of(e.from);
+        points_.push_back(
+            bench.vertex(ref, f.support, planes_[p], planes_[q], fragments_.approximation(e.from)));
+    }
+    add_corners_near(points_, ref);
+    const auto point_at = [&](std::uint8_t vertex) {
+        return points_[fragments_.first_edge(vertex)];
+    };
+    for (const FragmentGroup::Edge& e : fragments_.edges()) {
+        PointId a = point_at(e.from);
+        PointId b = point_at(e.to);
+        if (f.flipped) std::swap(a, b);
+        edges_.push_back({a, b, facet, {planes_[e.line], e.above}});
+    }
+}
+
+void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet) {
+    Workbench& bench = out_.bench;
+    WorkPolygon shape = bench.polygon(ref);
+    bench.with_edges(shape, ref);
+    BoundaryFacet& f = out_.facets[u(facet)];
+    f.support = shape.support;
+    if (!leaf.cell.contains(ref.box()) || shape.is_empty())
+        shape = bench.clipped(shape, ref.box(), leaf.cell);
+    if (shape.is_empty()) return;
+    note_part(leaf, f);
+    if (ref.fragment != nullptr) add_corners_near({shape.points.data(), shape.points.size()}, ref);
+    const std::size_t n = shape.points.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = f.flipped ? n - 1 - k : k;
+        PointId a = shape.points[i];
+        PointId b = shape.points[i + 1 == n ? 0 : i + 1];
+        if (f.flipped) std::swap(a, b);
+        edges_.push_back({a, b, facet, shape.edges[i]});
+    }
+}
+
+// A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
+// around the corner know it by the corner's name only, so that name must take part in merging.
+void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRef& ref) {
+    if (ref.source->is_half_space()) return;
+    std::array<std::array<double, 3>, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(ref.source->corner(ref.facet, i)).c;
+    for (const PointId p : points) {
+        if (out_.bench.is_corner(p)) continue;
+        const Approximation a = out_.bench.approximation(p);
+        for (int i = 0; i < 3; ++i) {
+            bool near = true;
+            for (std::size_t k = 0; k < 3; ++k)
+                near = near && std::fabs(a.c[k] - corners[u(i)][k]) <= 1.0000001 * a.error;
+            if (near) (void)out_.bench.corner(ref.source, ref.facet, i);
+        }
+    }
+}
+
+void Gatherer::choose_axis_faces() {
+    std::vector<AxisFaces::Leaf> leaves;
+    leaves.reserve(leaves_.size());
+    for (const Leaf& leaf : leaves_) {
+        if (deferred(leaf) != nullptr) return;
+        const AxisPicture* const p = picture(leaf);
+        leaves.push_back(
+            {p != nullptr ? &p->facets : &leaf.node->polygons(), leaf.cell, leaf.complemented, p});
+    }
+    axis_faces_.choose(leaves);
+}
+
+void Gatherer::make_axis_faces() {
+    const auto edges_of = [&](const Leaf& leaf) {
+        return std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
+    };
+    for (std::size_t i = 0; i < leaves_.size(); ++i)
+        if (axis_faces_.is_across_axes(i)) axis_faces_.note_vertices(edges_of(leaves_[i]));
+    axis_faces_.make_edges(edges_);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        leaves_[i].first_inside = inside_.size();
+        if (axis_faces_.is_across_axes(i) && leaves_[i].node->is_mixed())
+            for (const BoundaryEdge& e : edges_of(leaves_[i]))
+                axis_faces_.add_vertices_in(e, inside_);
+        leaves_[i].end_inside = inside_.size();
+    }
+}
+
+// Union of points that are equal under different names. The representative is a corner of a source
+// if there is one, else the point made first.
+void Gatherer::merge_equal_points() {
+    // Few groups ask for the same planes as others.
+    constexpr std::size_t many_planes = 8192;
+    Workbench& bench = out_.bench;
+    same_.resize(bench.point_count());
+    std::iota(same_.begin(), same_.end(), 0);
+    if (axis_faces_.takes_all()) return;
+    const auto better = [&](PointId a, PointId b) {
+        return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
+    };
+    std::vector<PointId> values;
+    for_each_near_group(bench, [&](std::span<const PointId> group) {
+        // Against one of each value: what is equal to it needs no comparison of its own.
+        values.clear();
+        through_.clear();
+        if (bench.made_plane_count() > many_planes) bench.forget_made_planes();
+        for (const PointId p : group) {
+            const auto value = std::ranges::find_if(
+                values, [&](PointId v) { return bench.may_be_same(v, p) && is_same(v, p); });
+            if (value == values.end()) {
+                values.push_back(p);
+                add_planes_through(p);
+                continue;
+            }
+            const PointId kept = same_[u(*value)];
+            same_[u(p)] = kept;
+            if (better(p, kept)) same_[u(kept)] = same_[u(*value)] = same_[u(p)] = p;
+        }
+    });
+    for (PointId& p : same_)
+        while (same_[u(p)] != p) p = same_[u(p)];
+}
+
+void Gatherer::add_planes_through(PointId value) {
+    const Workbench& bench = out_.bench;
+    if (bench.is_corner(value)) return;
+    for (const PlaneId p : bench.planes_of(value))
+        through_.emplace_back(value, bench.plane_class(p));
+}
+
+// Where several planes have a point in common any three of them name it. Once a plane is found to
+// contain the point other names that it occurs in cost no arithmetic.
+bool Gatherer::is_same(PointId value, PointId name) {
+    const Workbench& bench = out_.bench;
+    if (bench.is_corner(name) || (bench.is_lattice(value) && bench.is_lattice(name)))
+        return bench.same_point(value, name);
+    return std::ranges::all_of(bench.planes_of(name), [&](PlaneId p) {
+        const std::pair known(value, bench.plane_class(p));
+        if (std::ranges::find(through_, known) != through_.end()) return true;
+        if (!bench.is_corner(value) && passes_by_edges(bench, value, p)) {
+            ++out_.stats.named_by_edges;
+        } else if (bench.side(value, p) != 0) {
+            return false;
+        }
+        through_.push_back(known);
+        return true;
+    });
+}
+
+// Edges of traced facets, which come first, and of planes across axes, which come last, have all
+// their vertices.
+void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
+    if (axis_faces_.takes_all()) {
+        out_.edges = std::move(edges_);
+        return;
+    }
+    for (BoundaryEdge& e : edges_) {
+        e.from = same_[u(e.from)];
+        e.to = same_[u(e.to)];
+    }
+    out_.edges.reserve(edges_.size() + edges_.size() / 8);
+    out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
+    out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
+                      edges_.end());
+    for (const Leaf& leaf : leaves_) {
+        check_stop();
+        const auto edges =
+            std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
+        if (!leaf.node->is_mixed()) {
+            out_.edges.insert(out_.edges.end(), edges.begin(), edges.end());
+            continue;
+        }
+        splitter_.clear();
+        for (const BoundaryEdge& e : edges) splitter_.add_candidate(e.from);
+        for (std::size_t i = leaf.first_inside; i < leaf.end_inside; ++i)
+            splitter_.add_candidate(same_[u(inside_[i])]);
+        splitter_.split(edges, out_.edges);
+    }
+}
+
+}  // namespace
+
+void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
+                  std::uint32_t threads) {
+    if (Gatherer(solid, parts, by_planes, threads).run()) return;
+    parts = BoundaryParts();
+    const bool made = Gatherer(*solid.outlined->cut(), parts, by_planes, threads).run();
+    TRISECT_EXPECTS(made, "a tree has all pieces");
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,699 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A plate with ten thousand pockets is a few planes. What its leaves list are convex parts of its
+// triangles, cut along walls of cells, along the lines of all tools, and by the diagonals of the
+// triangles. To give every corner of every part a name, to find the vertices that lie inside their
+// sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is about
+// places where in the end nothing is.
+//
+// Where all polygons of a cell are across an axis the slanted sides of those in one plane cancel:
+// nothing else that bounds the solid there has a slanted side. The other sides lie at integers. So
+// the outline of all that a plane has is a sum of integers (axis_outline.h), over all cells
+// together, and walls vanish with the rest.
+//
+// Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
+// vertex lies inside it, then the faces around change there, and so does one of those two outlines:
+// of the four quadrants around the line those that are inside can be told from the two outlines,
+// and if they are the same before and behind, no third plane has a boundary in between. So the ends
+// of all stretches on one line are all vertices on it, but for those of facets that are not taken.
+//
+// Those are facets that may come out as they went in: to_mesh copies them with their corners.
+// Whether a facet has changed shows in its area, or in an outline that turns inside one of its
+// edges. In doubt its plane is left to the general way.
+
+#include <trisect/bsp/assembly/axis/axis_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/bsp/leaf/grid/axis_clip.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
+
+namespace trisect::detail {
+
+namespace {
+
+bool is_across_an_axis(const PolygonRef& r) {
+    if (r.source->is_half_space()) return false;
+    const LatticePoint& a = r.source->corner(r.facet, 0);
+    const LatticePoint& b = r.source->corner(r.facet, 1);
+    const LatticePoint& c = r.source->corner(r.facet, 2);
+    return (a.x == b.x && a.x == c.x) || (a.y == b.y && a.y == c.y) || (a.z == b.z && a.z == c.z);
+}
+
+bool lies_in(const PolygonRef& r, const AxisPlane& plane) {
+    const auto axis = static_cast<int>(plane.axis);
+    for (int i = 0; i < 3; ++i)
+        if (r.source->corner(r.facet, i)[axis] * wall_scale != plane.position) return false;
+    return true;
+}
+
+bool all_across_axes(const PolygonList& polygons) {
+    return std::all_of(polygons.begin(), polygons.end(), is_across_an_axis);
+}
+
+/// Keeps a fragment that no list holds.
+class HeldFragment {
+public:
+    explicit HeldFragment(const Fragment* fragment) : fragment_(fragment) { fragment_->retain(); }
+    HeldFragment(const HeldFragment&) = delete;
+    HeldFragment& operator=(const HeldFragment&) = delete;
+    ~HeldFragment() { fragment_->release(); }
+
+private:
+    const Fragment* fragment_;
+};
+
+AxisRectangle rectangle_of(const Cell& cell, std::size_t across) {
+    AxisRectangle out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t axis = (across + 1 + i) % 3;
+        const auto side = [&](std::int64_t at, bool above) {
+            return AxisRectangle::Side{at, {PlaneName::wall(static_cast<int>(axis), at), above}};
+        };
+        out.sides[i] = {side(cell.lo[axis], true), side(cell.hi[axis], false)};
+    }
+    return out;
+}
+
+bool reaches_out(const PolygonRef& r, const Cell& cell) {
+    return r.fragment != nullptr ? !ends_at_walls(*r.fragment, cell) : !cell.contains(r.box());
+}
+
+// Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
+// tell.
+template <class Add>
+bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t across, const Add& add) {
+    if (!reaches_out(polygon, cell)) {
+        add(polygon);
+        return true;
+    }
+    AxisPolygon shape;
+    if (!shape.read(polygon) || shape.slanted_count > 1) return false;
+    if (!shape.meets(cell)) return true;
+    const auto part = clip_to_rectangle(shape, rectangle_of(cell, across));
+    if (!part) return true;
+    const HeldFragment held(part->fragment);
+    add(*part);
+    return true;
+}
+
+}  // namespace
+
+// --- Which planes.
+
+void AxisFaces::choose(std::span<const Leaf> leaves) {
+    list_open_planes();
+    if (open_count_ == 0) return;
+    facets_.assign(parts_.facets.size(), {});
+    across_.clear();
+    for (const Leaf& leaf : leaves) {
+        across_.push_back(leaf.picture != nullptr || all_across_axes(*leaf.polygons));
+        if (!across_.back()) continue;
+        check_stop(1 + leaf.polygons->size());
+        read_leaf(leaf);
+        ++read_count_;
+        if (open_count_ != 0) continue;
+        passing_ = {};
+        return;
+    }
+    if (std::ranges::find(across_, true) == across_.end()) return;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (across_[i]) continue;
+        check_stop(1 + leaves[i].polygons->size());
+        block_leaf(leaves[i]);
+    }
+    judge();
+}
+
+// Those that may be taken: a facet of them has changed, and none that passes through was met. In a
+// chain few planes have changed facets, and leaves that nothing cuts show soon that all of them
+// have others too.
+void AxisFaces::list_open_planes() {
+    std::optional<AxisPlane> last;
+    for (const BoundaryFacet& f : parts_.facets) {
+        if (f.source->is_half_space()) continue;
+        const PolygonRef facet{f.source, nullptr, f.facet, false, false};
+        if ((last && lies_in(facet, *last)) || !is_across_an_axis(facet)) continue;
+        last = axis_plane(PlaneName::support(f.source, f.facet));
+        if (open_planes_.insert(key_of(*last), 0).second) ++open_count_;
+    }
+}
+
+const FacetMarks& AxisFaces::marks_of(const Source* source) {
+    if (source != last_source_) last_table_ = parts_.table_of(source);
+    last_source_ = source;
+    return parts_.sources[last_table_];
+}
+
+AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& name) {
+    const auto [id, inserted] =
+        sheet_ids_.insert(key_of(plane), static_cast<std::int32_t>(sheets_.size()));
+    if (inserted) {
+        sheets_.emplace_back();
+        sheets_.back().plane = plane;
+        sheets_.back().name = name;
+    }
+    return sheets_[u(id)];
+}
+
+void AxisFaces::read_leaf(const Leaf& leaf) {
+    std::size_t i = 0;
+    for (const PolygonRef r : *leaf.polygons) {
+        const FacetMarks& marks = marks_of(r.source);
+        const bool flipped = r.flipped != leaf.complemented;
+        if (marks.takes_part(r.facet, flipped)) {
+            const std::int32_t number = marks.number_of_worked(r.facet, flipped);
+            if (leaf.picture != nullptr) {
+                read_facet(r, number, leaf.picture->parts[i], leaf.cell);
+            } else {
+                read_polygon(r, number, leaf.cell);
+            }
+        } else if (marks.is_present(r.facet, flipped)) {
+            pass(r);
+        }
+        ++i;
+    }
+    if (leaf.picture != nullptr) read_units(*leaf.picture, leaf.complemented);
+}
+
+// Its plane is not taken. Facets of one plane mostly come one after the other.
+void AxisFaces::pass(const PolygonRef& facet) {
+    passing_.push_back({facet.source, facet.facet});
+    if (last_passed_ && lies_in(facet, *last_passed_)) return;
+    const PlaneName name = PlaneName::support(facet.source, facet.facet);
+    last_passed_ = axis_plane(name);
+    Sheet& sheet = sheet_at(*last_passed_, name);
+    if (!sheet.has_passing && open_planes_.find(key_of(*last_passed_)) >= 0) --open_count_;
+    sheet.has_passing = sheet.is_general = true;
+}
+
+// Its parts are in the picture's units. One that is not cut has all its area in the cell.
+void AxisFaces::read_facet(const PolygonRef& facet, std::int32_t number,
+                           const AxisPicture::Part& part, const Cell& cell) {
+    Sheet& sheet = sheet_of(facet, number);
+    Facet& f = facets_[u(number)];
+    (void)count_part(sheet, number);
+    f.is_cut = f.is_cut || part.is_cut;
+    f.corners |= part.corners;
+    if (f.is_cut || sheet.is_general) return;
+    const auto add = [&](const PolygonRef& p) { add_area(p, f, sheet.plane); };
+    if (!with_part_in(facet, cell, sheet.plane.axis, add)) sheet.is_general = true;
+}
+
+void AxisFaces::read_units(const AxisPicture& picture, bool complemented) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::vector<AxisPicture::Layer> layers = picture.layers(k);
+        const AxisGrid::Frame frame = AxisGrid::frame(k);
+        AxisOutline::Units units;
+        units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - k) % 3);
+        units.row_planes = picture.planes[frame.row_axis];
+        units.bit_planes = picture.planes[frame.bit_axis];
+        for (std::size_t p = 1; p < layers.size(); ++p) {
+            const AxisPicture::Layer& low = layers[p - 1];
+            const AxisPicture::Layer& high = layers[p];
+            if (low == high) continue;
+            const Key128 key{k, static_cast<std::uint64_t>(picture.planes[k][p])};
+            const std::int32_t sheet = sheet_ids_.find(key);
+            TRISECT_EXPECTS(sheet >= 0, "no facet bounds a set where it ends");
+            if (sheets_[u(sheet)].is_general) continue;
+            for (const bool inside_low : {true, false}) {
+                std::uint64_t any = 0;
+                for (std::size_t r = 0; r < units.rows.size(); ++r)
+                    any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
+                if (any != 0) sheets_[u(sheet)].outline.add(units, inside_low != complemented);
+            }
+        }
+    }
+}
+
+void AxisFaces::block_leaf(const Leaf& leaf) {
+    for (const PolygonRef r : *leaf.polygons) {
+        const FacetMarks& marks = marks_of(r.source);
+        const bool flipped = r.flipped != leaf.complemented;
+        if (marks.takes_part(r.facet, flipped))
+            facets_[u(marks.number_of_worked(r.facet, flipped))].is_blocked = true;
+    }
+}
+
+AxisFaces::Sheet& AxisFaces::sheet_of(const PolygonRef& polygon, std::int32_t number) {
+    Facet& f = facets_[u(number)];
+    if (f.sheet < 0) {
+        const PlaneName name = PlaneName::support(polygon.source, polygon.facet);
+        const AxisPlane plane = *axis_plane(name);
+        f.sheet = static_cast<std::int32_t>(&sheet_at(plane, name) - sheets_.data());
+        f.normal_is_up = plane.sign > 0;
+    }
+    return sheets_[u(f.sheet)];
+}
+
+// Whether it faces up.
+bool AxisFaces::count_part(Sheet& sheet, std::int32_t number) {
+    const bool faces_up = facets_[u(number)].normal_is_up != parts_.facets[u(number)].flipped;
+    auto& first = sheet.first[faces_up ? 1 : 0];
+    if (first < 0 || number < first) first = number;
+    ++sheet.parts;
+    return faces_up;
+}
+
+void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
+    Sheet& sheet = sheet_of(polygon, number);
+    Facet& f = facets_[u(number)];
+    if (sheet.is_general) return;
+    const auto add = [&](const PolygonRef& part) {
+        if (!read_axis_sides(part, sheet.plane.axis, sides_)) {
+            sheet.is_general = true;
+            return;
+        }
+        sheet.outline.add(sides_, f.normal_is_up, count_part(sheet, number));
+        add_area(part, f, sheet.plane);
+        note_corners(part, f, sheet.plane.axis);
+    };
+    if (!with_part_in(polygon, cell, sheet.plane.axis, add)) sheet.is_general = true;
+}
+
+// In doubles from the facet's first corner. Of n products of differences, each off by the errors of
+// its vertices and by some roundings.
+void AxisFaces::add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const {
+    const std::size_t p = (plane.axis + 1) % 3;
+    const std::size_t q = (plane.axis + 2) % 3;
+    const Approximation origin = approximate(part.source->corner(part.facet, 0));
+    const auto add = [&](std::span<const Approximation> vertices) {
+        double sum = 0;
+        double reach = 0;
+        double error = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const Approximation& a = vertices[i];
+            const Approximation& b = vertices[i + 1 == vertices.size() ? 0 : i + 1];
+            const double x = a.c[p] - origin.c[p];
+            const double y = a.c[q] - origin.c[q];
+            sum += x * (b.c[q] - origin.c[q]) - y * (b.c[p] - origin.c[p]);
+            reach = std::max(reach, std::max(std::fabs(x), std::fabs(y)));
+            error = std::max(error, a.error);
+        }
+        const auto n = static_cast<double>(vertices.size());
+        facet.area += std::fabs(sum);
+        facet.slack += n * (8 * error * (reach + error) + n * 0x1p-48 * reach * reach);
+    };
+    if (part.fragment != nullptr) return add(part.fragment->vertices());
+    std::array<Approximation, 3> corners;
+    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(part.source->corner(part.facet, i));
+    add(corners);
+}
+
+// A corner that a part has is known by that name to facets that pass through.
+void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const {
+    std::array<bool, 3> near{};
+    for (int c = 0; c < 3; ++c)
+        near[u(c)] = (facet.corners >> c & 1) == 0 &&
+                     part.box().overlaps(Box::of(part.source->corner(part.facet, c)));
+    if (!near[0] && !near[1] && !near[2]) return;
+    if (part.fragment == nullptr) {
+        facet.corners = 7;
+        return;
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const AxisSide& before = sides_[i == 0 ? sides_.size() - 1 : i - 1];
+        const AxisSide& side = sides_[i];
+        std::array<std::optional<std::int64_t>, 2> at;
+        if (before.is_slanted && side.is_slanted) {
+            const auto& line = before.line;
+            const bool ends = line.to == side.line.from || line.to == side.line.to;
+            for (std::size_t k = 0; k < 2; ++k)
+                at[k] = (ends ? line.to[k] : line.from[k]) * wall_scale;
+        } else {
+            const AxisSide& straight = side.is_slanted ? before : side;
+            at[straight.axis] = straight.at;
+            at[1 - straight.axis] = end_of_side(straight, side.is_slanted ? side : before);
+        }
+        for (int c = 0; c < 3; ++c) {
+            if (!near[u(c)]) continue;
+            const LatticePoint& corner = part.source->corner(part.facet, c);
+            if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * wall_scale &&
+                at[1] == corner[static_cast<int>((axis + 2) % 3)] * wall_scale)
+                facet.corners |= static_cast<std::uint8_t>(1U << c);
+        }
+    }
+}
+
+void AxisFaces::judge() {
+    for (Sheet& s : sheets_) s.is_general = s.is_general || !s.outline.finish();
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        const Facet& f = facets_[i];
+        if (f.sheet < 0) continue;
+        Sheet& s = sheets_[u(f.sheet)];
+        s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
+    }
+    for (const Sheet& s : sheets_) part_count_ += s.is_general ? 0 : s.parts;
+    taken_.assign(facets_.size(), false);
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        taken_[i] = facets_[i].sheet >= 0 && !sheets_[u(facets_[i].sheet)].is_general;
+        taken_count_ += taken_[i] ? 1 : 0;
+    }
+    takes_all_ = taken_count_ == facets_.size();
+    if (taken_count_ == 0) passing_ = {};
+}
+
+// Surely: a part of it is missing, or an edge of it has a vertex inside.
+bool AxisFaces::has_changed(std::int32_t number) const {
+    const Facet& f = facets_[u(number)];
+    const BoundaryFacet& facet = parts_.facets[u(number)];
+    const Sheet& sheet = sheets_[u(f.sheet)];
+    if (f.is_cut) return true;
+    Facet all;
+    const PolygonRef whole{facet.source, nullptr, facet.facet, false, false};
+    add_area(whole, all, sheet.plane);
+    if (all.area - f.area > all.slack + f.slack) return true;
+    const bool faces_up = f.normal_is_up != facet.flipped;
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& from = facet.source->corner(facet.facet, i);
+        const LatticePoint& to = facet.source->corner(facet.facet, (i + 1) % 3);
+        for (std::uint8_t k = 0; k < 2; ++k) {
+            const auto across = static_cast<int>((sheet.plane.axis + 1 + k) % 3);
+            const auto along = static_cast<int>((sheet.plane.axis + 2 - k) % 3);
+            if (from[across] != to[across]) continue;
+            const std::int64_t low = std::min(from[along], to[along]);
+            const std::int64_t high = std::max(from[along], to[along]);
+            if (sheet.outline.turns_between(faces_up, k, from[across], low, high)) return true;
+        }
+    }
+    return false;
+}
+
+// --- Edges.
+
+void AxisFaces::note_vertices(std::span<const BoundaryEdge> edges) {
+    if (taken_count_ == 0) return;
+    for (const BoundaryEdge& e : edges) others_.push_back(e.from);
+}
+
+namespace {
+
+// Where a point is, if it is on the lattice. What names it need not say so.
+std::optional<LatticePoint> lattice_place(const Workbench& bench, PointId p) {
+    if (bench.is_lattice(p)) return bench.lattice(p);
+    const Approximation& a = bench.approximation(p);
+    std::array<std::int64_t, 3> near{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double c = std::nearbyint(a.c[k]);
+        if (std::fabs(c - a.c[k]) > 1.0000001 * a.error || std::fabs(c) > 0x1p53)
+            return std::nullopt;
+        near[k] = static_cast<std::int64_t>(c);
+    }
+    const LatticePoint place{near[0], near[1], near[2]};
+    for (const PlaneId plane : bench.planes_of(p))
+        if (side_of(place, bench.plane_at(plane)) != Side::On) return std::nullopt;
+    return place;
+}
+
+}  // namespace
+
+void AxisFaces::place_others() {
+    std::ranges::sort(others_);
+    others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+    std::size_t kept = 0;
+    for (const PointId p : others_) {
+        const auto place = lattice_place(parts_.bench, p);
+        if (!place) continue;
+        others_[kept++] = p;
+        places_.push_back(*place);
+    }
+    others_.resize(kept);
+}
+
+std::uint32_t AxisFaces::rank(std::size_t axis, std::int64_t at) const {
+    const auto& all = coordinates_[axis];
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(all, at) - all.begin());
+}
+
+AxisFaces::Ranks AxisFaces::ranks_of(const LatticePoint& p) const {
+    return {rank(0, p.x), rank(1, p.y), rank(2, p.z)};
+}
+
+// Corners of parts count as vertices even where all faces run straight on: a facet with one inside
+// an edge has changed, and whether facets are put together one by one must not show. Where none are
+// only those of facets that pass through count, and the others have a name to give.
+void AxisFaces::list_corners() {
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (!taken_[i]) continue;
+        const BoundaryFacet& f = parts_.facets[i];
+        for (int c = 0; c < 3; ++c)
+            if ((facets_[i].corners >> c & 1) != 0) corners_.push_back({f.source, f.facet, c});
+    }
+    first_passing_ = corners_.size();
+    for (const PolygonName& p : passing_)
+        for (int c = 0; c < 3; ++c) corners_.push_back({p.source, p.facet, c});
+    passing_ = {};
+}
+
+// Outlines turn where planes of other axes are, so their places need not be listed.
+void AxisFaces::rank_coordinates() {
+    const auto add = [&](const LatticePoint& p) {
+        for (std::size_t k = 0; k < 3; ++k) coordinates_[k].push_back(p[static_cast<int>(k)]);
+    };
+    for (const LatticePoint& p : places_) add(p);
+    for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));
+    for (const Sheet& s : sheets_)
+        coordinates_[s.plane.axis].push_back(s.plane.position / wall_scale);
+    for (std::size_t k = 0; k < 3; ++k) {
+        auto& all = coordinates_[k];
+        std::ranges::sort(all);
+        all.erase(std::unique(all.begin(), all.end()), all.end());
+        sheet_of_[k].assign(all.size(), -1);
+    }
+    for (std::size_t i = 0; i < sheets_.size(); ++i) {
+        const AxisPlane& p = sheets_[i].plane;
+        sheets_[i].rank = rank(p.axis, p.position / wall_scale);
+        sheet_of_[p.axis][sheets_[i].rank] = static_cast<std::int32_t>(i);
+    }
+    for (Sheet& s : sheets_)
+        if (!s.is_general) rank_places(s);
+}
+
+// Neighbours in an outline mostly have neighbouring ranks.
+void AxisFaces::rank_places(Sheet& sheet) {
+    std::array<std::uint32_t, 2> last{};
+    sheet.outline.rank_places([&](std::size_t i, std::int64_t place) {
+        const std::size_t axis = (sheet.plane.axis + 1 + i) % 3;
+        const auto& all = coordinates_[axis];
+        std::uint32_t& r = last[i];
+        if (all[r] != place && (++r >= all.size() || all[r] != place)) r = rank(axis, place);
+        TRISECT_EXPECTS(r < all.size() && all[r] == place, "an outline turns where no plane is");
+        return std::int64_t{r};
+    });
+}
+
+// A vertex is named by the corner of a source if there is one there: by the first.
+void AxisFaces::name_corners() {
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const Ranks at =
+            ranks_of(corners_[i].source->corner(corners_[i].facet, corners_[i].corner));
+        const bool is_new = corner_ids_.insert(key_of(at), static_cast<std::int32_t>(i)).second;
+        if (takes_all_ ? i >= first_passing_ : is_new) add_other(at);
+    }
+    for (const LatticePoint& p : places_) add_other(ranks_of(p));
+    for (auto& others : other_stops_) {
+        std::ranges::sort(others);
+        others.erase(std::unique(others.begin(), others.end()), others.end());
+    }
+}
+
+void AxisFaces::add_other(const Ranks& at) {
+    for (std::size_t k = 0; k < 3; ++k) other_stops_[k].push_back({line_at(k, at), at[k]});
+}
+
+AxisFaces::Ranks AxisFaces::line_of(const Sheet& sheet, const AxisStretch& stretch) {
+    Ranks at{};
+    at[sheet.plane.axis] = sheet.rank;
+    at[across_of(sheet, stretch)] = static_cast<std::uint32_t>(stretch.at);
+    return at;
+}
+
+void AxisFaces::make_stops() {
+    for (Sheet& s : sheets_)
+        if (!s.is_general) s.stops.resize(s.outline.stretches().size());
+    for (Sheet& s : sheets_) {
+        if (s.is_general) continue;
+        for (const AxisOutline::Run& run : s.outline.runs())
+            if (s.stops[run.first].end == 0) add_line(s, s.outline.stretches()[run.first]);
+    }
+}
+
+// All vertices on the line of a stretch, for all stretches there.
+void AxisFaces::add_line(Sheet& sheet, const AxisStretch& stretch) {
+    const std::size_t across = across_of(sheet, stretch);
+    const std::size_t along = along_of(sheet, stretch);
+    const Ranks at = line_of(sheet, stretch);
+    Sheet& beside = sheet_at_rank(across, at[across]);
+    std::array<Sheet*, 2> sheets{&sheet, beside.is_general ? nullptr : &beside};
+    std::array<LineRun, 4> runs;
+    std::size_t count = 0;
+    line_.clear();
+    for (Sheet* const s : sheets) {
+        if (s == nullptr) continue;
+        const std::size_t other = s == &sheet ? across : sheet.plane.axis;
+        const auto axis = static_cast<std::uint8_t>((other + 2 - s->plane.axis) % 3);
+        for (const bool faces_up : {false, true}) {
+            const std::size_t run = s->outline.run_at(faces_up, axis, at[other]);
+            if (run == s->outline.runs().size()) continue;
+            runs[count++] = {s, s->outline.runs()[run]};
+            for (const AxisStretch& t : runs[count - 1].stretches()) {
+                line_.push_back(static_cast<std::uint32_t>(t.low));
+                line_.push_back(static_cast<std::uint32_t>(t.high));
+            }
+        }
+    }
+    for (const Other& o : others_on(along, at)) line_.push_back(o.place);
+    std::ranges::sort(line_);
+    line_.erase(std::unique(line_.begin(), line_.end()), line_.end());
+    const auto first = static_cast<std::uint32_t>(stops_.size());
+    for (const std::uint32_t place : line_) stops_.push_back({place});
+    if (keeps_lines_) {
+        lines_[along].insert({line_at(along, at), 0}, static_cast<std::int32_t>(all_lines_.size()));
+        all_lines_.push_back({first, static_cast<std::uint32_t>(stops_.size())});
+    }
+    for (const LineRun& r : std::span(runs).first(count)) {
+        std::uint32_t i = 0;
+        for (std::uint32_t n = r.run.first; n < r.run.end; ++n) {
+            const AxisStretch& t = r.sheet->outline.stretches()[n];
+            while (line_[i] != t.low) ++i;
+            r.sheet->stops[n].first = first + i;
+            while (line_[i] != t.high) ++i;
+            r.sheet->stops[n].end = first + i + 1;
+        }
+    }
+}
+
+std::span<const AxisFaces::Other> AxisFaces::others_on(std::size_t along, const Ranks& line) const {
+    const std::vector<Other>& all = other_stops_[along];
+    const LineKey key = line_at(along, line);
+    const auto first = std::ranges::lower_bound(all, key, {}, &Other::line);
+    return {first, std::ranges::upper_bound(first, all.end(), key, {}, &Other::line)};
+}
+
+AxisFaces::Sheet& AxisFaces::sheet_at_rank(std::size_t axis, std::uint32_t rank) {
+    const std::int32_t sheet = sheet_of_[axis][rank];
+    TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane is");
+    return sheets_[u(sheet)];
+}
+
+PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
+    Sheet& s = sheet_at_rank(axis, rank);
+    if (s.id < 0) s.id = parts_.bench.plane(s.name);
+    return s.id;
+}
+
+PointId AxisFaces::point_at(const Ranks& ranks) {
+    const Key128 key = key_of(ranks);
+    if (const PointId known = point_ids_.find(key); known >= 0) return known;
+    return point_ids_.insert(key, make_point(ranks)).first;
+}
+
+PointId AxisFaces::make_point(const Ranks& ranks) {
+    if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
+        const CornerName& name = corners_[u(c)];
+        return parts_.bench.corner(name.source, name.facet, name.corner);
+    }
+    Approximation at;
+    for (std::size_t k = 0; k < 3; ++k) at.c[k] = static_cast<double>(coordinates_[k][ranks[k]]);
+    return parts_.bench.vertex({}, plane_of(0, ranks[0]), plane_of(1, ranks[1]),
+                               plane_of(2, ranks[2]), at);
+}
+
+void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
+    if (taken_count_ == 0) return;
+    keeps_lines_ = !others_.empty();
+    place_others();
+    list_corners();
+    rank_coordinates();
+    name_corners();
+    make_stops();
+    for (std::size_t i = 0; i < others_.size(); ++i)
+        (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
+    // In the order of their facets.
+    std::vector<std::pair<std::int32_t, std::size_t>> faces;
+    for (std::size_t i = 0; i < sheets_.size(); ++i)
+        for (const std::int32_t first : sheets_[i].first)
+            if (first >= 0 && !sheets_[i].is_general) faces.emplace_back(first, i);
+    std::ranges::sort(faces);
+    edges.reserve(edges.size() + count_edges());
+    for (const auto& [first, sheet] : faces) {
+        check_stop(sheets_[sheet].outline.stretches().size());
+        make_edges_of(sheets_[sheet], first == sheets_[sheet].first[1], edges);
+    }
+}
+
+std::size_t AxisFaces::count_edges() const {
+    std::size_t out = 0;
+    for (const Sheet& s : sheets_)
+        for (const Stops& stops : s.stops) out += stops.end - stops.first - 1;
+    return out;
+}
+
+void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges) {
+    const std::int32_t first = sheet.first[faces_up ? 1 : 0];
+    BoundaryFacet& f = parts_.facets[u(first)];
+    f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
+    f.parts = 1;
+    for (const std::uint32_t n : sheet.outline.loops(faces_up)) {
+        const AxisStretch& s = sheet.outline.stretches()[n];
+        const std::size_t across = across_of(sheet, s);
+        const std::size_t along = along_of(sheet, s);
+        Ranks at = line_of(sheet, s);
+        const Sheet& beside = sheet_at_rank(across, at[across]);
+        BoundaryEdge e{-1, -1, first, {}};
+        e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
+        const auto stops = std::span(stops_).subspan(sheet.stops[n].first,
+                                                     sheet.stops[n].end - sheet.stops[n].first);
+        for (std::size_t i = 0; i < stops.size(); ++i) {
+            Stop& stop = stops[s.runs_up() ? i : stops.size() - 1 - i];
+            at[along] = stop.place;
+            if (stop.point < 0) stop.point = point_at(at);
+            e.from = std::exchange(e.to, stop.point);
+            if (i != 0) edges.push_back(e);
+        }
+    }
+}
+
+// An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
+void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) {
+    const Workbench& bench = parts_.bench;
+    const auto support = axis_plane(bench.name(parts_.facets[u(edge.facet)].support));
+    const auto beside = axis_plane(bench.name(edge.line.plane));
+    if (!support || !beside) return;
+    Ranks at{};
+    for (const AxisPlane& p : {*support, *beside}) {
+        const std::int64_t place = p.position / wall_scale;
+        at[p.axis] = rank(p.axis, place);
+        if (p.position % wall_scale != 0 || at[p.axis] == coordinates_[p.axis].size() ||
+            coordinates_[p.axis][at[p.axis]] != place)
+            return;
+    }
+    const std::size_t along = 3 - support->axis - beside->axis;
+    const Approximation& from = bench.approximation(edge.from);
+    const Approximation& to = bench.approximation(edge.to);
+    const auto rank_at = [&](double c) {
+        return rank(along, static_cast<std::int64_t>(std::floor(c)));
+    };
+    const auto [low, high] = std::minmax(from.c[along], to.c[along]);
+    const double margin = 2 + from.error + to.error;
+    const std::uint32_t first = rank_at(low - margin);
+    const std::uint32_t last = rank_at(high + margin);
+    const auto add = [&](std::uint32_t place) {
+        if (place + 1 < first || place > last) return;
+        at[along] = place;
+        out.push_back(point_at(at));
+    };
+    if (const std::int32_t line = lines_[along].find({line_at(along, at), 0}); line >= 0) {
+        const Stops& on_line = all_lines_[u(line)];
+        for (std::uint32_t i = on_line.first; i < on_line.end; ++i) add(stops_[i].place);
+    } else {
+        for (const Other& o : others_on(along, at)) add(o.place);
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// AxisOutline: the outline of what polygons in one plane across an axis cover together, in
+// integers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/axis_grid.h>
+#include <trisect/bsp/cells/axis_polygon.h>
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+/// A side of a polygon across an axis. The two other axes come cyclically after that one: they are
+/// numbered 0 and 1.
+struct AxisSide {
+    bool is_slanted = false;
+    bool is_low = false;    ///< the polygon is on the higher side of it; not of slanted ones
+    std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
+    std::int64_t at = 0;    ///< in 1/256 lattice units
+    SlantedEdge line;       ///< of slanted ones
+};
+
+/// The sides of a polygon across `axis`, in its order, into `out`. False for sides that are slanted
+/// without being edges of the polygon's facet.
+[[nodiscard]] bool read_axis_sides(const PolygonRef& polygon, std::size_t axis,
+                                   std::vector<AxisSide>& out);
+
+/// Where a side ends at its neighbour in a polygon, along the other axis, in 1/256 lattice units;
+/// nothing when that is no integer.
+[[nodiscard]] std::optional<std::int64_t> end_of_side(const AxisSide& side,
+                                                      const AxisSide& neighbour);
+
+/// A straight stretch of an outline; the region that faces outwards is to its left, seen from
+/// outside.
+struct AxisStretch {
+    bool faces_up = false;  ///< the outside is on the higher side of the plane
+    std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
+    bool is_low = false;    ///< the region is on the higher side of it
+    std::int64_t at = 0;    ///< in lattice units, as are
+    std::int64_t low = 0;   ///< its ends along the other axis
+    std::int64_t high = 0;
+    [[nodiscard]] bool runs_up() const { return ((axis == 1) == is_low) == faces_up; }
+    [[nodiscard]] std::int64_t from() const { return runs_up() ? low : high; }
+    [[nodiscard]] std::int64_t to() const { return runs_up() ? high : low; }
+};
+
+/// Adds up the sides of polygons. What two of them have in common runs both ways and vanishes, be
+/// it on a wall of a cell or on a line that cut both. Slanted sides are left out: the caller knows
+/// that they cancel. O(n log n).
+class AxisOutline {
+public:
+    /// A polygon of which the outside is above the plane, or below. `turns_left`: its sides come
+    /// counter-clockwise seen from above.
+    void add(std::span<const AxisSide> sides, bool turns_left, bool faces_up);
+
+    /// What the bits of a layer of units cover.
+    struct Units {
+        UnitRows rows{};
+        std::uint8_t row_axis = 0;  ///< 0 or 1: rows lie along the other one
+        std::span<const std::int64_t> row_planes;
+        std::span<const std::int64_t> bit_planes;
+    };
+    void add(const Units& units, bool faces_up);
+
+    /// What is left, as maximal stretches, sorted by facing, axis, place and ends. False when
+    /// something covers a place twice, or an end is not on the lattice.
+    [[nodiscard]] bool finish();
+    [[nodiscard]] std::span<const AxisStretch> stretches() const { return stretches_; }
+    /// The stretches [first, end) are all that lie on one line with one facing, in their order.
+    struct Run {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
+    [[nodiscard]] std::span<const Run> runs() const { return runs_; }
+    /// The number of a run; runs().size() if there is none.
+    [[nodiscard]] std::size_t run_at(bool faces_up, std::uint8_t axis, std::int64_t at) const;
+    /// Whether a stretch of one facing ends strictly between two places of a line.
+    [[nodiscard]] bool turns_between(bool faces_up, std::uint8_t axis, std::int64_t at,
+                                     std::int64_t low, std::int64_t high) const;
+    /// Puts rank(i, place) for the places of all stretches, along axis i (0 or 1). The ranks are in
+    /// the order of the places.
+    template <class Rank>
+    void rank_places(Rank rank) {
+        for (AxisStretch& s : stretches_) {
+            s.at = rank(s.axis, s.at);
+            s.low = rank(1 - s.axis, s.low);
+            s.high = rank(1 - s.axis, s.high);
+        }
+    }
+    /// Numbers of all stretches with one facing, each behind the one that it continues, loop after
+    /// loop.
+    [[nodiscard]] std::vector<std::uint32_t> loops(bool faces_up) const;
+
+private:
+    // Where the number of polygons on the one side of a line less that on the other changes by one:
+    // line, place, and whether it grows. In one integer, as most of the time goes into sorting.
+    class Change {
+    public:
+        Change() = default;
+        Change(std::int64_t at, std::int64_t place, bool grows)
+            : key_((Int128{at + offset} << (bits + 1)) | (Int128{place + offset} << 1) |
+                   (grows ? 1 : 0)) {}
+        [[nodiscard]] std::int64_t at() const { return place_from(bits + 1); }
+        [[nodiscard]] std::int64_t place() const { return place_from(1); }
+        [[nodiscard]] int by() const { return (key_ & 1) != 0 ? 1 : -1; }
+        [[nodiscard]] bool is_on_line_of(const Change& o) const {
+            return key_ >> (bits + 1) == o.key_ >> (bits + 1);
+        }
+        [[nodiscard]] bool is_at_place_of(const Change& o) const {
+            return key_ >> 1 == o.key_ >> 1;
+        }
+        friend bool operator<(const Change& a, const Change& b) { return a.key_ < b.key_; }
+
+    private:
+        static constexpr int bits = 63;
+        static constexpr std::int64_t offset = std::int64_t{1} << (bits - 1);
+        static_assert(universe_limit < offset);
+        [[nodiscard]] std::int64_t place_from(int shift) const {
+            constexpr Int128 mask = (Int128{1} << bits) - 1;
+            return static_cast<std::int64_t>((key_ >> shift) & mask) - offset;
+        }
+        Int128 key_ = 0;
+    };
+    static constexpr std::size_t kind_of(bool faces_up, std::uint8_t axis) {
+        return (faces_up ? 2U : 0U) + axis;
+    }
+    void add_lines(const Units& units, bool faces_up);
+    [[nodiscard]] bool add_stretches(std::size_t kind);
+    [[nodiscard]] std::size_t next_of(const AxisStretch& s, const std::vector<bool>& used) const;
+    [[nodiscard]] bool add_stretch(std::size_t kind, const Change& from, std::int64_t to,
+                                   int cover);
+
+    std::array<std::vector<Change>, 4> changes_;  // by facing and axis
+    std::vector<AxisStretch> stretches_;
+    std::vector<Run> runs_;
+    std::array<std::size_t, 5> first_run_{};  // by facing and axis
+};
+
+}  // namespace trisect::detail

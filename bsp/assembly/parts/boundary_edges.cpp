@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A region is a 2-chain, its boundary a 1-chain: the boundary of a union of parts with disjoint
+// interiors is the sum of their directed edges, where opposite ones cancel. So joining needs no
+// geometry but the order of points on a line. A vertex matters only if some region turns there or
+// touches itself; walls of cells, lines of local cuts and the operands' own triangulation leave
+// vertices that no region turns at, and those go.
+//
+// Most regions have a handful of edges: everything works on runs of one flat array.
+
+#include <trisect/bsp/assembly/parts/boundary_edges.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+
+#include <trisect/bsp/assembly/parts/edge_chains.h>
+#include <trisect/bsp/assembly/parts/edge_splitter.h>
+#include <trisect/bsp/assembly/parts/vertex_turn.h>
+#include <trisect/bsp/assembly/parts/whole_facets.h>
+#include <trisect/bsp/cells/axis_polygon.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/stop_scope.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// The same for both directions.
+std::uint64_t ends_of(const BoundaryEdge& e) {
+    const auto [lo, hi] = std::minmax(e.from, e.to);
+    return (static_cast<std::uint64_t>(lo) << 32) | static_cast<std::uint32_t>(hi);
+}
+
+// Cancels opposite pairs of few edges, in place; keeps the order of what is left.
+std::size_t cancel_few(std::span<BoundaryEdge> edges) {
+    std::array<std::uint64_t, EdgeChains::few> way{};
+    const auto directed = [](PointId from, PointId to) {
+        return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
+    };
+    constexpr std::uint64_t gone = ~std::uint64_t{0};
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        way[i] = directed(edges[i].from, edges[i].to);
+        const std::uint64_t back = directed(edges[i].to, edges[i].from);
+        std::size_t j = 0;
+        while (j < i && way[j] != back) ++j;
+        if (j < i) way[j] = way[i] = gone;
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (way[i] != gone) edges[left++] = edges[i];
+    return left;
+}
+
+// The same for any number; what is left is ordered by (min, max, from).
+std::size_t cancel_many(std::span<BoundaryEdge> edges) {
+    std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& a, const BoundaryEdge& b) {
+        const std::uint64_t ka = ends_of(a);
+        const std::uint64_t kb = ends_of(b);
+        return ka != kb ? ka < kb : a.from < b.from;
+    });
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::uint64_t key = ends_of(edges[i]);
+        const PointId lo = std::min(edges[i].from, edges[i].to);
+        std::size_t j = i;
+        std::size_t up = 0;
+        for (; j < edges.size() && ends_of(edges[j]) == key; ++j)
+            if (edges[j].from == lo) ++up;
+        const std::size_t down = (j - i) - up;
+        // `up` edges come first.
+        for (std::size_t k = 0; up > down && k < up - down; ++k) edges[left++] = edges[i + k];
+        for (std::size_t k = 0; down > up && k < down - up; ++k) edges[left++] = edges[i + up + k];
+        i = j;
+    }
+    return left;
+}
+
+// Cancels opposite pairs within one region. Returns how many edges are left; they come first.
+std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
+    return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
+}
+
+// Where coincident facets of two operands meet at a wall because one of them dropped out of the
+// formula beyond it, each side knows only its own vertices on the wall.
+void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto on_wall = [&](const BoundaryEdge& e) {
+        return parts.bench.name(e.line.plane).is_wall();
+    };
+    if (std::none_of(edges.begin(), edges.end(), on_wall)) return;
+    std::vector<BoundaryEdge> walls;
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(walls), on_wall);
+    std::erase_if(edges, on_wall);
+    EdgeSplitter splitter(parts.bench, parts.facets);
+    for (const BoundaryEdge& e : walls) {
+        splitter.add_candidate(e.from);
+        splitter.add_candidate(e.to);
+    }
+    splitter.split(walls, edges);
+    sort_by_facet(parts, edges);
+}
+
+}  // namespace
+
+void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
+    if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
+    std::vector<std::size_t> fill(parts.facets.size() + 1, 0);
+    for (const BoundaryEdge& e : edges) ++fill[u(e.facet) + 1];
+    std::partial_sum(fill.begin(), fill.end(), fill.begin());
+    std::vector<BoundaryEdge> sorted(edges.size());
+    for (const BoundaryEdge& e : edges) sorted[fill[u(e.facet)]++] = e;
+    edges.swap(sorted);
+}
+
+void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    sort_by_facet(parts, edges);
+    std::vector<BoundaryEdge> out;
+    out.reserve(edges.size());
+    EdgeSplitter splitter(parts.bench, parts.facets);
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t j = i;
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        const std::span<BoundaryEdge> group = std::span(edges).subspan(i, j - i);
+        i = j;
+        check_stop(group.size());
+        const std::size_t first = out.size();
+        const bool conforms = !parts.facets[u(group[0].facet)].in_several_cells;
+        if (parts.facets[u(group[0].facet)].parts == 1) {  // nothing to join
+            out.insert(out.end(), group.begin(), group.end());
+        } else if (const auto left = group.first(cancel_opposites(group)); conforms) {
+            out.insert(out.end(), left.begin(), left.end());
+        } else {
+            splitter.clear();
+            for (const BoundaryEdge& e : left) {
+                splitter.add_candidate(e.from);
+                splitter.add_candidate(e.to);
+            }
+            splitter.split(left, out);
+            if (out.size() - first > left.size())
+                out.resize(first + cancel_opposites(std::span(out).subspan(first)));
+        }
+        EdgeChains::arrange(std::span(out).subspan(first));
+        for (const BoundaryEdge& e : std::span(out).subspan(first)) {
+            const PlaneName& n = parts.bench.name(e.line.plane);
+            if (n.is_wall() && std::abs(n.position()) >= universe_limit)
+                throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
+        }
+    }
+    edges.swap(out);
+    conform_walls(parts, edges);
+}
+
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
+    for (std::size_t i = 0; i < edges.size();) {
+        BoundaryFacet& f = parts.facets[u(edges[i].facet)];
+        std::size_t j = i;
+        bool own = !f.source->is_half_space();
+        for (; j < edges.size() && edges[j].facet == edges[i].facet; ++j) {
+            const PointId p = edges[j].from;
+            own = own && parts.bench.is_corner(p);
+            bool found = false;
+            for (int c = 0; own && c < 3; ++c)
+                found = found || parts.bench.lattice(p) == f.source->corner(f.facet, c);
+            own = own && found;
+        }
+        f.unchanged = own && j - i == 3;
+        i = j;
+    }
+}
+
+namespace {
+
+// Finds for every edge the one that runs the other way between the same ends, bounds the region on
+// its other side, and is joined with it.
+class CoplanarPairs {
+public:
+    CoplanarPairs(const BoundaryParts& parts, bool within_faces,
+                  const std::vector<BoundaryEdge>& edges)
+        : parts_(parts),
+          within_faces_(within_faces),
+          edges_(edges),
+          table_(std::bit_ceil(2 * edges.size() + 1), none),
+          gone_(edges.size(), false) {}
+
+    /// Calls join(f, g) for the facets of every pair.
+    template <class Join>
+    void run(Join&& join) {
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            if (parts_.facets[u(edges_[e].facet)].unchanged) continue;
+            std::size_t slot = mix64(ends_of(edges_[e])) & (table_.size() - 1);
+            for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
+                if (are_pair(edges_[table_[slot]], edges_[e]) && !gone_[table_[slot]]) break;
+            if (table_[slot] == none) {
+                table_[slot] = e;
+            } else {
+                gone_[e] = gone_[table_[slot]] = true;
+                join(edges_[table_[slot]].facet, edges_[e].facet);
+            }
+        }
+    }
+    [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge]; }
+
+private:
+    [[nodiscard]] bool are_pair(const BoundaryEdge& e, const BoundaryEdge& f) const {
+        return e.from == f.to && e.to == f.from && belong_together(e, f);
+    }
+    [[nodiscard]] bool belong_together(const BoundaryEdge& e, const BoundaryEdge& f) const {
+        const BoundaryFacet& a = parts_.facets[u(e.facet)];
+        const BoundaryFacet& b = parts_.facets[u(f.facet)];
+        // Where one's support cuts out the other's edge they cross.
+        if (e.line.plane == b.support || f.line.plane == a.support) return false;
+        if (!may_join(a, b, within_faces_)) return false;
+        const Plane& p = parts_.bench.plane_at(a.support);
+        const Plane& q = parts_.bench.plane_at(b.support);
+        return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
+    }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    const BoundaryParts& parts_;
+    bool within_faces_;
+    const std::vector<BoundaryEdge>& edges_;
+    std::vector<std::uint32_t> table_;  // of edges by their ends, open addressing
+    std::vector<bool> gone_;
+};
+
+// Edges of facets that were joined come one facet after the other.
+void arrange_all(std::span<BoundaryEdge> edges) {
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t j = i;
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        EdgeChains::arrange(edges.subspan(i, j - i));
+        i = j;
+    }
+}
+
+}  // namespace
+
+std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                                 std::vector<BoundaryEdge>& edges) {
+    check_stop(edges.size());
+    std::vector<std::int32_t> cluster(parts.facets.size());
+    std::iota(cluster.begin(), cluster.end(), 0);
+    const auto root = [&](std::int32_t f) {
+        while (cluster[u(f)] != f) f = cluster[u(f)] = cluster[u(cluster[u(f)])];
+        return f;
+    };
+    std::size_t joined = 0;
+    CoplanarPairs pairs(parts, within_faces, edges);
+    pairs.run([&](std::int32_t f, std::int32_t g) {
+        const std::int32_t x = root(f);
+        const std::int32_t y = root(g);
+        if (x != y) ++joined;
+        cluster[u(std::max(x, y))] = std::min(x, y);
+    });
+    if (joined != 0) {
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            if (pairs.is_gone(i)) continue;
+            edges[left] = edges[i];
+            edges[left].facet = root(edges[i].facet);
+            ++left;
+        }
+        edges.resize(left);
+    }
+    sort_by_facet(parts, edges);
+    if (joined != 0) arrange_all(edges);
+    for ([[maybe_unused]] const BoundaryEdge& e : edges)
+        TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
+                            "an edge on a cell wall survived joining");
+    return joined;
+}
+
+void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    FlatMap first_of_plane;
+    bool joined = false;
+    for (std::size_t i = 0; i < edges.size();) {
+        const std::int32_t number = edges[i].facet;
+        const BoundaryFacet& f = parts.facets[u(number)];
+        const auto plane = axis_plane(parts.bench.name(f.support));
+        std::int32_t first = number;
+        if (plane && !f.unchanged) {
+            const bool faces_up = (plane->sign > 0) != f.flipped;
+            const Key128 key{2 * plane->axis + (faces_up ? 1 : 0),
+                             static_cast<std::uint64_t>(plane->position)};
+            first = first_of_plane.insert(key, number).first;
+        }
+        joined = joined || first != number;
+        for (; i < edges.size() && edges[i].facet == number; ++i) edges[i].facet = first;
+    }
+    if (!joined) return;
+    sort_by_facet(parts, edges);
+    arrange_all(edges);
+}
+
+namespace {
+
+// Finds the vertices at which a region only runs straight on. The names of most vertices say that
+// some region turns there: of one where an edge pierces a facet, in the facets of that edge. Only
+// where no region's name says so turns are computed.
+class StraightRuns {
+public:
+    StraightRuns(const BoundaryParts& parts, bool keep_corners, std::span<const PointId> keep,
+                 const std::vector<BoundaryEdge>& edges)
+        : parts_(parts),
+          bench_(parts.bench),
+          keep_corners_(keep_corners),
+          edges_(edges),
+          keep_(bench_.point_count(), 0) {
+        for (const PointId p : keep) keep_[u(p)] = 1;
+    }
+
+    void look_at(std::size_t first, std::size_t end) {
+        const auto region = std::span(edges_).subspan(first, end - first);
+        if (!chains_.are_simple(region)) return look_at_any(first, end);
+        const PlaneId support = parts_.facets[u(region[0].facet)].support;
+        for_each_turn(region, [&](std::size_t in, std::size_t out) {
+            const PointId p = region[out].from;
+            if (keep_[u(p)] != 0) return;
+            if ((keep_corners_ && bench_.is_corner(p)) ||
+                name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
+                keep_[u(p)] = 1;
+            } else {
+                doubtful_.push_back({first + in, first + out});
+            }
+        });
+    }
+
+    /// Whether there are any.
+    [[nodiscard]] bool find() {
+        bool found = false;
+        for (const Passage& d : doubtful_) {
+            char& keep = keep_[u(edges_[d.out].from)];
+            if (keep != 0) continue;
+            if (!runs_straight(edges_[d.in], edges_[d.out])) {
+                keep = 1;
+                continue;
+            }
+            if (next_.empty()) next_.assign(edges_.size(), none);
+            next_[d.in] = d.out;
+        }
+        for (const Passage& d : doubtful_) found = found || keep_[u(edges_[d.out].from)] == 0;
+        return found;
+    }
+
+    // Loops that were in order stay so.
+    [[nodiscard]] std::vector<BoundaryEdge> joined() const {
+        std::vector<BoundaryEdge> out;
+        out.reserve(edges_.size());
+        for (std::size_t i = 0; i < edges_.size(); ++i) {
+            if (keep_[u(edges_[i].from)] == 0) continue;
+            BoundaryEdge run = edges_[i];
+            for (std::size_t at = i; keep_[u(run.to)] == 0;) {
+                at = next_[at];
+                run.to = edges_[at].to;
+            }
+            out.push_back(run);
+        }
+        return out;
+    }
+
+private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    using Ends = std::vector<std::pair<PointId, std::size_t>>;
+    // Edges that follow each other.
+    struct Passage {
+        std::size_t in = 0;
+        std::size_t out = 0;
+    };
+
+    void look_at_any(std::size_t first, std::size_t end) {
+        by_from_.clear();
+        by_to_.clear();
+        for (std::size_t i = first; i < end; ++i) {
+            by_from_.emplace_back(edges_[i].from, i);
+            by_to_.emplace_back(edges_[i].to, i);
+        }
+        std::sort(by_from_.begin(), by_from_.end());
+        std::sort(by_to_.begin(), by_to_.end());
+        const std::size_t n = by_from_.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto [p, out] = by_from_[k];
+            const auto [q, in] = by_to_[k];
+            TRISECT_EXPECTS(p == q, "boundary of a face is not closed");
+            const bool single = (k == 0 || by_from_[k - 1].first != p) &&
+                                (k + 1 == n || by_from_[k + 1].first != p);
+            if (!single || (keep_corners_ && bench_.is_corner(p))) {
+                keep_[u(p)] = 1;
+            } else if (keep_[u(p)] == 0) {
+                doubtful_.push_back({in, out});
+            }
+        }
+    }
+
+    [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
+        const BoundaryFacet& f = parts_.facets[u(in.facet)];
+        return turn_at_vertex(bench_, f.support, f.flipped, in.line, out.line) == 0;
+    }
+
+    const BoundaryParts& parts_;
+    const Workbench& bench_;
+    bool keep_corners_;
+    const std::vector<BoundaryEdge>& edges_;
+    std::vector<char> keep_;  // by point
+    std::vector<Passage> doubtful_;
+    std::vector<std::size_t> next_;  // of edges, where they run straight on
+    EdgeChains chains_;
+    Ends by_from_;
+    Ends by_to_;
+};
+
+}  // namespace
+
+void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
+                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges) {
+    StraightRuns runs(parts, keep_corners, keep, edges);
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t j = i;
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        runs.look_at(i, j);
+        i = j;
+    }
+    if (runs.find()) edges = runs.joined();
+}
+
+}  // namespace trisect::detail

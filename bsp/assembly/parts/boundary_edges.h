@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Joining: cancel what is inside a region, and drop the vertices that mean nothing.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/boundary_parts.h>
+
+namespace trisect::detail {
+
+/// Puts the edges into the order of their facets; those of one facet stay in theirs.
+void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
+/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish.
+/// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
+/// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
+/// of space (an unbounded face).
+void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
+/// Marks the facets whose edges are those of their source's facet: touched in vain. Whether such a
+/// facet has edges at all depends on the tree. \pre edges sorted by facet, straight vertices
+/// removed.
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges);
+
+/// Renumbers `facet` of every edge to the smallest facet of its face: facets in one oriented plane
+/// that share an edge are joined and the edge vanishes. With `within_faces` only facets of the same
+/// face of the same operand are, and facets marked as unchanged never. The edges come out sorted by
+/// facet. Returns how many facets became part of another one's face.
+std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
+                                 std::vector<BoundaryEdge>& edges);
+
+/// Renumbers `facet` of the edges in planes across an axis to the first facet of their plane and
+/// facing, so that a plane is one region whichever way its outline was found (axis_faces.h). Facets
+/// marked as unchanged stay. \pre sorted by facet; so they come out.
+void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
+/// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
+/// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by
+/// facet.
+void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
+                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges);
+
+}  // namespace trisect::detail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// BoundaryParts: the boundary of a result while it is put together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/assembly_stats.h>
+#include <trisect/bsp/assembly/parts/boundary_facet.h>
+#include <trisect/bsp/assembly/parts/facet_marks.h>
+#include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/flat_map.h>
+
+namespace trisect::detail {
+
+/// The boundary in pieces, conforming within each facet's cells but not yet joined.
+struct BoundaryParts {
+    Workbench bench;
+    std::vector<FacetMarks> sources;  ///< by serial
+    /// Number of a source, whose facets must be among the parts.
+    [[nodiscard]] std::size_t table_of(const Source* source) const {
+        return static_cast<std::size_t>(table_ids.find(key_of(source)));
+    }
+    static Key128 key_of(const Source* source) {
+        return {reinterpret_cast<std::uintptr_t>(source), 0};
+    }
+    FlatMap table_ids;
+    std::vector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
+    std::vector<BoundaryEdge> edges;    ///< of these facets
+    /// By point: the one that stands for all that equal it. Edges have no others.
+    std::vector<PointId> representatives;
+    /// The edges are those of whole faces, and no vertex is left that means nothing.
+    bool are_joined = false;
+    AssemblyStats stats;
+};
+
+}  // namespace trisect::detail

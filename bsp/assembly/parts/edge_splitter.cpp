@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every vertex against every edge would be quadratic. Candidates are sorted along one axis, an edge
+// looks at those between its ends, and doubles with bounds leave the few that may lie on it to the
+// exact predicates: on both planes of the edge's line, and between its ends along an axis.
+
+#include <trisect/bsp/assembly/parts/edge_splitter.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/bsp/cells/point_order.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+// The axis along which the ends of an edge are farthest apart.
+std::size_t longest_axis(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (std::fabs(a[k] - b[k]) > std::fabs(a[best] - b[best])) best = k;
+    return best;
+}
+
+// The certified doubles of an edge's ends, to tell points that are clearly not on it.
+class EdgeFilter {
+public:
+    /// `error`: of the ends and of a point together.
+    EdgeFilter(const std::array<double, 3>& a, const std::array<double, 3>& b, double error)
+        : a_(a), b_(b), error_(1.0000001 * error) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo_[k] = std::min(a[k], b[k]) - error_;
+            hi_[k] = std::max(a[k], b[k]) + error_;
+        }
+    }
+    [[nodiscard]] bool may_contain(const std::array<double, 3>& p) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (p[k] < lo_[k] || p[k] > hi_[k]) return false;
+        return may_be_on_line(p);
+    }
+
+private:
+    // A component of (p - a) × (b - a) is two products, their factors below m and off by at most
+    // `error` each; the last term pays for all roundings.
+    [[nodiscard]] bool may_be_on_line(const std::array<double, 3>& p) const {
+        const std::size_t axis = longest_axis(a_, b_);
+        const double m = std::fabs(b_[axis] - a_[axis]) + 2 * error_;
+        const double bound = 2 * (2 * m * error_ + error_ * error_ + 0x1p-50 * m * m);
+        const double along = p[axis] - a_[axis];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double cross = (p[k] - a_[k]) * (b_[axis] - a_[axis]) - along * (b_[k] - a_[k]);
+            if (k != axis && std::fabs(cross) > bound) return false;
+        }
+        return true;
+    }
+
+    const std::array<double, 3>& a_;
+    const std::array<double, 3>& b_;
+    double error_;
+    std::array<double, 3> lo_{}, hi_{};
+};
+
+// An axis along which the ends of an edge differ. Ends that are nearer to each other than doubles
+// can tell may be equal along the axis that looks longest: then an edge would never be split.
+int separating_axis(const Workbench& bench, PointId from, PointId to) {
+    const auto axis =
+        static_cast<int>(longest_axis(bench.approximation(from).c, bench.approximation(to).c));
+    for (int k = 0; k < 2; ++k)
+        if (const int candidate = (axis + k) % 3; compare_along(bench, from, to, candidate) != 0)
+            return candidate;
+    return (axis + 2) % 3;
+}
+
+// Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
+bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support,
+                 int along) {
+    if (bench.side(p, support) != 0 || bench.side(p, e.line.plane) != 0) return false;
+    const int from = compare_along(bench, e.from, p, along);
+    const int to = compare_along(bench, p, e.to, along);
+    return from == to && from != 0;
+}
+
+}  // namespace
+
+void EdgeSplitter::clear() {
+    for (const Candidate& c : candidates_) rank_[u(c.point)] = -1;
+    candidates_.clear();
+}
+
+void EdgeSplitter::add_candidate(PointId p) {
+    if (rank_.size() <= u(p)) rank_.resize(bench_.point_count(), -1);
+    if (rank_[u(p)] >= 0) return;
+    rank_[u(p)] = 0;
+    candidates_.push_back({bench_.approximation(p).c, p});
+}
+
+// Along the axis on which the candidates extend farthest; on another one all may be equal, and
+// every edge would look at all of them.
+void EdgeSplitter::sort_candidates() {
+    std::array<double, 3> lo;
+    std::array<double, 3> hi;
+    lo.fill(HUGE_VAL);
+    hi.fill(-HUGE_VAL);
+    widest_ = 0;
+    for (const Candidate& c : candidates_) {
+        widest_ = std::max(widest_, bench_.approximation(c.point).error);
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], c.c[k]);
+            hi[k] = std::max(hi[k], c.c[k]);
+        }
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    axis_ = axis;
+    std::sort(candidates_.begin(), candidates_.end(), [axis](const auto& a, const auto& b) {
+        return a.c[axis] != b.c[axis] ? a.c[axis] < b.c[axis] : a.point < b.point;
+    });
+    for (std::size_t i = 0; i < candidates_.size(); ++i)
+        rank_[u(candidates_[i].point)] = static_cast<std::int32_t>(i);
+}
+
+// What is between the ends along axis_ comes between them; what is farther out by no more than the
+// errors allow comes right before or after.
+void EdgeSplitter::find_inside(const BoundaryEdge& e) {
+    inside_.clear();
+    const Candidate* const first = candidates_.data();
+    const Candidate* const end = first + candidates_.size();
+    const Candidate* const from = first + rank_[u(e.from)];
+    const Candidate* const to = first + rank_[u(e.to)];
+    const Candidate* low = std::min(from, to);
+    const Candidate* high = std::max(from, to) + 1;
+    const double reach = 1.0000001 * (3 * widest_);
+    const double low_at = low->c[axis_] - reach;
+    const double high_at = high[-1].c[axis_] + reach;
+    while (low != first && low[-1].c[axis_] >= low_at) --low;
+    while (high != end && high->c[axis_] <= high_at) ++high;
+    if (high - low == 2) return;  // the ends
+    const EdgeFilter filter(from->c, to->c, 3 * widest_);
+    for (const Candidate* it = low; it != high; ++it) {
+        if (it == from || it == to || !filter.may_contain(it->c)) continue;
+        const int axis = separating_axis(bench_, e.from, e.to);
+        if (lies_inside(bench_, it->point, e, facets_[u(e.facet)].support, axis))
+            inside_.push_back(it->point);
+    }
+    if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));
+}
+
+void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis) {
+    const int direction = compare_along(bench_, e.from, e.to, axis);
+    std::sort(inside_.begin(), inside_.end(), [&](PointId p, PointId q) {
+        return p != q && compare_along(bench_, p, q, axis) == direction;
+    });
+}
+
+void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
+    sort_candidates();
+    for (const BoundaryEdge& e : edges) {
+        find_inside(e);
+        PointId from = e.from;
+        for (const PointId p : inside_) {
+            out.push_back({from, p, e.facet, e.line});
+            from = p;
+        }
+        out.push_back({from, e.to, e.facet, e.line});
+    }
+}
+
+}  // namespace trisect::detail

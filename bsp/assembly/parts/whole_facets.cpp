@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A B-rep with maximal faces has to ask of every pair of neighbours whether they are coplanar. For
+// facets that passed through, which are nearly all, that question needs no planes and no
+// workbench: the corner opposite to the common edge is off the plane of the other three, and
+// doubles can tell. Only facets that do join with a neighbour are turned into edges.
+
+#include <trisect/bsp/assembly/parts/whole_facets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace trisect::detail {
+
+namespace {
+
+using Index = BoundaryVertices::Index;
+
+std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+std::uint32_t face_of(const Source& source, std::uint32_t facet) { return source.face_of(facet); }
+
+// Whether doubles can tell that d is not on the plane of a, b, c. Differences, products and sums
+// are each rounded once: below 10 · 2^-53 of the sum of all products.
+bool is_clearly_off(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+                    const LatticePoint& d) {
+    const auto vector_to = [&](const LatticePoint& p) {
+        const LatticePoint v = p - a;
+        return std::array{static_cast<double>(v.x), static_cast<double>(v.y),
+                          static_cast<double>(v.z)};
+    };
+    const auto x = vector_to(b);
+    const auto y = vector_to(c);
+    const auto z = vector_to(d);
+    double det = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t k = (i + 2) % 3;
+        const double s = x[j] * y[k];
+        const double t = x[k] * y[j];
+        det += (s - t) * z[i];
+        sum += (std::fabs(s) + std::fabs(t)) * std::fabs(z[i]);
+    }
+    return std::fabs(det) > 0x1p-49 * sum;
+}
+
+class NeighbourFinder {
+public:
+    NeighbourFinder(const BoundaryParts& parts, std::span<const BoundaryEdge> edges,
+                    bool within_faces, BoundaryVertices& vertices, std::vector<WholeFacet>& whole)
+        : parts_(parts),
+          edges_(edges),
+          within_faces_(within_faces),
+          vertices_(vertices),
+          whole_(whole) {}
+
+    void run() {
+        sort_edges();
+        for (std::size_t v = 0; v + 1 < begin_.size(); ++v) {
+            const auto bucket = std::span(directed_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
+            std::sort(bucket.begin(), bucket.end(), [](const Directed& a, const Directed& b) {
+                return std::tie(a.far, a.name) < std::tie(b.far, b.name);
+            });
+            for (std::size_t i = 0; i < bucket.size();) {
+                std::size_t j = i + 1;
+                while (j < bucket.size() && bucket[j].far == bucket[i].far) ++j;
+                compare_all(bucket.subspan(i, j - i));
+                i = j;
+            }
+        }
+    }
+
+private:
+    // Edge `name` of the cut facets, or after those edge name % 3 of whole facet name / 3.
+    struct Directed {
+        Index far = 0;  // the larger of the two vertices
+        std::uint32_t name = 0;
+        bool up = false;  // from the smaller to the larger one
+    };
+
+    template <class Visit>
+    void for_each_edge(Visit&& visit) {
+        std::uint32_t name = 0;
+        for (const BoundaryEdge& e : edges_)
+            visit(vertices_.of_point(e.from), vertices_.of_point(e.to), name++);
+        for (const WholeFacet& w : whole_)
+            for (std::size_t i = 0; i < 3; ++i)
+                visit(w.corners[i], w.corners[i == 2 ? 0 : i + 1], name++);
+    }
+
+    void sort_edges() {
+        begin_.assign(vertices_.size() + 1, 0);
+        for_each_edge([&](Index a, Index b, std::uint32_t) { ++begin_[std::min(a, b) + 1]; });
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        directed_.resize(begin_.back());
+        std::vector<std::size_t> fill(begin_.begin(), begin_.end() - 1);
+        for_each_edge([&](Index a, Index b, std::uint32_t name) {
+            directed_[fill[std::min(a, b)]++] = {std::max(a, b), name, a < b};
+        });
+    }
+
+    void compare_all(std::span<const Directed> group) {
+        for (std::size_t i = 0; i < group.size(); ++i)
+            for (std::size_t j = i + 1; j < group.size(); ++j)
+                if (group[i].up != group[j].up) compare(group[i].name, group[j].name);
+    }
+
+    void compare(std::uint32_t a, std::uint32_t b) {
+        const auto n = static_cast<std::uint32_t>(edges_.size());
+        if (a < n && b < n) return;  // they have edges anyway
+        if (a >= n && b >= n) {
+            WholeFacet& f = whole_[(a - n) / 3];
+            WholeFacet& g = whole_[(b - n) / 3];
+            if (f.joins && g.joins) return;
+            if (within_faces_ && !may_join(named(f), named(g), true)) return;
+            if (is_clearly_off(f, (b - n) % 3, g)) return;
+            if (!is_same_oriented_plane(plane(f), f.flipped, plane(g), g.flipped)) return;
+            f.joins = g.joins = true;
+            return;
+        }
+        const BoundaryFacet& cut = parts_.facets[u(edges_[std::min(a, b)].facet)];
+        WholeFacet& f = whole_[(std::max(a, b) - n) / 3];
+        if (f.joins || !may_join(cut, named(f), within_faces_)) return;
+        if (is_same_oriented_plane(parts_.bench.plane_at(cut.support), cut.flipped, plane(f),
+                                   f.flipped))
+            f.joins = true;
+    }
+
+    [[nodiscard]] const Source& source(const WholeFacet& f) const {
+        return *parts_.sources[f.table].source();
+    }
+    [[nodiscard]] BoundaryFacet named(const WholeFacet& f) const {
+        return {&source(f), f.facet, f.flipped};
+    }
+    [[nodiscard]] Plane plane(const WholeFacet& f) const { return source(f).support(f.facet); }
+
+    // The corner of g across from its edge i; i counts in the order of the result's face.
+    bool is_clearly_off(const WholeFacet& f, std::uint32_t i, const WholeFacet& g) const {
+        const auto corner = (g.flipped ? 4 - i : i + 2) % 3;
+        return detail::is_clearly_off(source(f).corner(f.facet, 0), source(f).corner(f.facet, 1),
+                                      source(f).corner(f.facet, 2),
+                                      source(g).corner(g.facet, static_cast<int>(corner)));
+    }
+
+    static bool is_same_oriented_plane(const Plane& p, bool p_flipped, const Plane& q,
+                                       bool q_flipped) {
+        return is_same_plane(p, q) && same_orientation(p, q) == (p_flipped == q_flipped);
+    }
+
+    const BoundaryParts& parts_;
+    std::span<const BoundaryEdge> edges_;
+    bool within_faces_;
+    BoundaryVertices& vertices_;
+    std::vector<WholeFacet>& whole_;
+    std::vector<std::size_t> begin_;
+    std::vector<Directed> directed_;
+};
+
+}  // namespace
+
+bool may_join(const BoundaryFacet& a, const BoundaryFacet& b, bool within_faces) {
+    return !within_faces ||
+           (a.source == b.source && face_of(*a.source, a.facet) == face_of(*b.source, b.facet));
+}
+
+std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
+                                          std::span<const BoundaryEdge> edges, bool within_faces,
+                                          BoundaryVertices& vertices) {
+    std::vector<WholeFacet> whole;
+    whole.reserve(parts.stats.whole_facets);
+    for (const BoundaryEdge& e : edges) (void)vertices.of_point(e.from);
+    for (std::uint32_t t = 0; t < parts.sources.size(); ++t) {
+        const LatticeMesh& mesh = parts.sources[t].source()->mesh();
+        parts.sources[t].for_each_whole([&](std::uint32_t facet, bool flipped) {
+            WholeFacet& w = whole.emplace_back();
+            w.table = t;
+            w.facet = facet;
+            w.flipped = flipped;
+            const auto& corners = mesh.triangles[facet];
+            w.corners = {vertices.of_corner(t, corners[0]),
+                         vertices.of_corner(t, corners[flipped ? 2 : 1]),
+                         vertices.of_corner(t, corners[flipped ? 1 : 2])};
+        });
+    }
+    NeighbourFinder(parts, edges, within_faces, vertices, whole).run();
+    return whole;
+}
+
+void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& vertices,
+                        BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const std::size_t old_count = parts.facets.size();
+    for (const WholeFacet& w : whole) {
+        if (!w.joins) continue;
+        const Source* source = parts.sources[w.table].source();
+        const PolygonRef ref{source, nullptr, w.facet, w.flipped, false};
+        WorkPolygon shape = parts.bench.polygon(ref);
+        parts.bench.with_edges(shape, ref);
+        std::array<PointId, 3> points{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index v = w.corners[i == 0 ? 0 : (w.flipped ? 3 - i : i)];
+            if (vertices.point(v) < 0) vertices.set_point(v, shape.points[i]);
+            points[i] = vertices.point(v);
+        }
+        const auto facet = static_cast<std::int32_t>(parts.facets.size());
+        parts.facets.push_back({source, w.facet, w.flipped, shape.support, -1, false});
+        for (std::size_t i = 0; i < 3; ++i) {
+            PointId a = points[i];
+            PointId b = points[(i + 1) % 3];
+            if (w.flipped) std::swap(a, b);
+            edges.push_back({a, b, facet, shape.edges[i]});
+        }
+    }
+    if (parts.facets.size() == old_count) return;
+    std::vector<std::int32_t> order(parts.facets.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](std::int32_t i) {
+        const BoundaryFacet& f = parts.facets[u(i)];
+        return std::tuple(f.source->serial(), f.facet, f.flipped, i);
+    };
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    std::vector<std::int32_t> place(order.size());
+    std::vector<BoundaryFacet> sorted;
+    sorted.reserve(order.size());
+    for (const std::int32_t i : order) {
+        place[u(i)] = static_cast<std::int32_t>(sorted.size());
+        sorted.push_back(parts.facets[u(i)]);
+    }
+    parts.facets.swap(sorted);
+    for (BoundaryEdge& e : edges) e.facet = place[u(e.facet)];
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Traced facets: outlines of cut facets from the segments in which they cross others.
+#pragma once
+
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/bsp/cells/crossings.h>
+
+namespace trisect::detail {
+
+/// Appends the edges of the facets whose outlines follow from their crossings, and marks those
+/// facets as traced. All others are left as they are. O(n log n). \pre worked facets are numbered.
+void trace_facets(const Crossings& crossings, BoundaryParts& parts,
+                  std::vector<BoundaryEdge>& edges);
+
+}  // namespace trisect::detail

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/cells/axis_polygon.h>
+
+#include <algorithm>
+
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+namespace {
+
+std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
+
+// The axis across which a facet lies; 3 is none.
+std::size_t axis_of(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    std::size_t k = 0;
+    while (k < 3 && (at(a, k) != at(b, k) || at(a, k) != at(c, k))) ++k;
+    return k;
+}
+
+// Of the normal of (a, b, c), which lie in a plane across `axis`.
+int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+                   std::size_t axis) {
+    const std::size_t u = (axis + 1) % 3;
+    const std::size_t v = (axis + 2) % 3;
+    const Int128 s = Int128{at(b, u) - at(a, u)} * (at(c, v) - at(a, v));
+    const Int128 t = Int128{at(b, v) - at(a, v)} * (at(c, u) - at(a, u));
+    return s > t ? 1 : -1;
+}
+
+}  // namespace
+
+std::optional<AxisPlane> axis_plane(const PlaneName& name) {
+    if (name.is_wall()) return AxisPlane{name.facet, 1, name.position()};
+    const Source& source = *name.source();
+    if (source.is_half_space()) return std::nullopt;
+    const LatticePoint& a = source.corner(name.facet, 0);
+    const LatticePoint& b = source.corner(name.facet, 1);
+    const LatticePoint& c = source.corner(name.facet, 2);
+    std::size_t across = axis_of(a, b, c);
+    if (!name.is_edge()) {
+        if (across == 3) return std::nullopt;
+        return AxisPlane{across, sign_of_normal(a, b, c, across), at(a, across) * wall_scale};
+    }
+    // Through an edge and along the axis that the support lies across, or nearly so.
+    const auto i = static_cast<int>(name.kind);
+    const LatticePoint& from = source.corner(name.facet, i);
+    const LatticePoint& to = source.corner(name.facet, (i + 1) % 3);
+    const LatticePoint& third = source.corner(name.facet, (i + 2) % 3);
+    std::size_t along = 3;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (at(from, (k + 1) % 3) == at(to, (k + 1) % 3) &&
+            at(from, (k + 2) % 3) == at(to, (k + 2) % 3))
+            along = k;
+    if (along == 3) return std::nullopt;
+    if (across == 3) across = static_cast<std::size_t>(source.support(name.facet).dominant_axis());
+    const std::size_t axis = 3 - along - across;
+    // The facet lies below its edge planes.
+    const int sign = at(third, axis) < at(from, axis) ? 1 : -1;
+    return AxisPlane{axis, sign, at(from, axis) * wall_scale};
+}
+
+bool AxisPolygon::read(const PolygonRef& polygon) {
+    if (polygon.source->is_half_space()) return false;
+    const Corners corners{&polygon.source->corner(polygon.facet, 0),
+                          &polygon.source->corner(polygon.facet, 1),
+                          &polygon.source->corner(polygon.facet, 2)};
+    plane.axis = axis_of(*corners[0], *corners[1], *corners[2]);
+    if (plane.axis == 3) return false;
+    ref = polygon;
+    plane.sign = sign_of_normal(*corners[0], *corners[1], *corners[2], plane.axis);
+    plane.position = at(*corners[0], plane.axis) * wall_scale;
+    slanted_count = 0;
+    if (polygon.fragment != nullptr) return read_fragment(corners);
+    read_facet(corners);
+    return true;
+}
+
+// A separating line of two convex polygons runs along an edge of one of them.
+bool AxisPolygon::meets(const Cell& cell) const {
+    const std::size_t u = (plane.axis + 1) % 3;
+    const std::size_t v = (plane.axis + 2) % 3;
+    if (plane.position <= cell.lo[plane.axis] || plane.position >= cell.hi[plane.axis])
+        return false;
+    for (const std::size_t k : {u, v})
+        if (lo[k] >= cell.hi[k] || hi[k] <= cell.lo[k]) return false;
+    return std::ranges::all_of(slanted_edges(), [&](const SlantedEdge& e) {
+        const Int128 step_u = e.to[0] - e.from[0];
+        const Int128 step_v = e.to[1] - e.from[1];
+        // The corner of the cell that is farthest to the left.
+        const std::int64_t at_u = step_v > 0 ? cell.lo[u] : cell.hi[u];
+        const std::int64_t at_v = step_u > 0 ? cell.hi[v] : cell.lo[v];
+        return step_u * (at_v - e.from[1] * wall_scale) > step_v * (at_u - e.from[0] * wall_scale);
+    });
+}
+
+void AxisPolygon::read_facet(const Corners& corners) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] =
+            std::minmax({at(*corners[0], k), at(*corners[1], k), at(*corners[2], k)});
+        lo[k] = low * wall_scale;
+        hi[k] = high * wall_scale;
+    }
+    for (std::size_t i = 0; i < 3; ++i) add_slanted(*corners[i], *corners[i == 2 ? 0 : i + 1]);
+}
+
+void AxisPolygon::add_slanted(const LatticePoint& from, const LatticePoint& to) {
+    const std::size_t u = (plane.axis + 1) % 3;
+    const std::size_t v = (plane.axis + 2) % 3;
+    if (at(from, u) == at(to, u) || at(from, v) == at(to, v)) return;
+    SlantedEdge& e = slanted[slanted_count++];
+    e = {{at(from, u), at(from, v)}, {at(to, u), at(to, v)}};
+    if (plane.sign < 0) std::swap(e.from, e.to);
+}
+
+bool AxisPolygon::read_fragment(const Corners& corners) {
+    const Box& box = ref.fragment->box();
+    for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = box.lo[k] * wall_scale;
+        hi[k] = box.hi[k] * wall_scale;
+    }
+    lo[plane.axis] = hi[plane.axis] = plane.position;
+    for (const EdgeName& e : ref.fragment->edges()) {
+        if (const auto across = axis_plane(e.plane)) {
+            const bool is_low = e.above == (across->sign > 0);
+            std::int64_t& bound = is_low ? lo[across->axis] : hi[across->axis];
+            bound = is_low ? std::max(bound, across->position) : std::min(bound, across->position);
+        } else if (e.plane.is_edge() && e.plane.source() == ref.source &&
+                   e.plane.facet == ref.facet && !e.above) {
+            const std::size_t i = e.plane.kind;
+            add_slanted(*corners[i], *corners[i == 2 ? 0 : i + 1]);
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace trisect::detail

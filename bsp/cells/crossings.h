@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Crossings: where the boundaries of operands pass through each other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::detail {
+
+struct SolidState;
+
+/// Two whole facets of different operands that cross in a segment. Its ends are where an edge of
+/// one of them pierces the interior of the other; they come in the direction of the product of the
+/// normals, first × second, as the sources turn them.
+struct FacetCrossing {
+    struct End {
+        Approximation at;        ///< in lattice units
+        bool of_second = false;  ///< whose edge it is
+        std::int8_t edge = 0;    ///< from that corner to the next one
+    };
+    std::array<std::uint32_t, 2> facets{};  ///< numbers of Crossings, ascending
+    std::array<End, 2> ends;
+};
+
+/// What an evaluation of a union, an intersection or a difference of imported meshes has found out
+/// about whole facets; so assembly need not put together what the walls of cells have cut apart
+/// (traced_facets.h).
+///
+/// The facets of all operands are numbered, one operand after the other. Of a facet that is not
+/// `doubtful` all crossings are known, and nothing else of another boundary touches it.
+///
+/// In such a formula an operand bounds the result just where all others are *open*: where none of
+/// them has the value, inside for a union, that decides the formula by itself.
+struct Crossings {
+    struct Operand {
+        std::uint64_t serial = 0;   ///< of its source
+        std::uint32_t first = 0;    ///< number of its first facet
+        bool flipped = false;       ///< the operand is the complement of the source's solid
+        bool inside_above = false;  ///< where it bounds the result, that is above its facets
+        std::int8_t open = 0;       ///< its winding number where it leaves others open
+        [[nodiscard]] bool is_open_below() const { return (open == 1) != flipped; }
+    };
+    /// A facet with a part in a cell that an operand covers there without crossing it.
+    struct Cover {
+        std::uint32_t facet = 0;
+        std::uint32_t operand = 0;
+        friend auto operator<=>(const Cover&, const Cover&) = default;
+    };
+    std::vector<Operand> operands;        ///< by slot
+    std::vector<FacetCrossing> pairs;     ///< sorted by facets, each once
+    std::vector<std::uint32_t> doubtful;  ///< facets, sorted
+    std::vector<Cover> covers;            ///< until arrange()
+    std::vector<std::uint32_t> hidden;    ///< facets that no leaf has seen crossed, until arrange()
+    /// Made by arrange(): the pairs in the order of their second facets, and all facets of pairs
+    /// but hidden ones and those that lie within an operand that does not cross them.
+    std::vector<std::uint32_t> by_second;
+    std::vector<std::uint32_t> shown;
+
+    [[nodiscard]] std::uint32_t number_of(std::size_t slot, std::uint32_t facet) const {
+        return operands[slot].first + facet;
+    }
+    /// The operand that a facet belongs to.
+    [[nodiscard]] std::size_t operand_of(std::uint32_t number) const;
+
+    /// What another thread has found of the same operands; arrange() is due afterwards.
+    void append(const Crossings& part);
+    /// Sorts, and leaves one of each pair: it was found in every cell that its segment runs
+    /// through.
+    void arrange();
+
+private:
+    void sort_pairs();
+    void list_shown();
+};
+
+/// Crossings that an evaluation can collect, with the operands filled in: of different meshes as
+/// they were imported, every one of them once in a union, an intersection or a difference. Nothing
+/// for other formulas.
+[[nodiscard]] std::optional<Crossings> crossings_of(
+    const Residual& formula, std::span<const std::shared_ptr<const SolidState>> states);
+
+}  // namespace trisect::detail

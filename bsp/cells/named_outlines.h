@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// NamedOutlines: faces of a result by their edges, before any point of them is made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/cells/cell_tree.h>
+
+namespace trisect::detail {
+
+/// Faces that did not come out of their operands as they were, each named after one facet of its
+/// plane and bounded by edges between named points. Whoever keeps them keeps their sources.
+struct NamedOutlines {
+    /// The common point of three planes, or a corner of the facet whose support planes[0] is.
+    struct Vertex {
+        std::array<PlaneName, 3> planes;
+        int corner = -1;
+
+        [[nodiscard]] static Vertex corner_of(const Source* source, std::uint32_t facet, int i) {
+            return {{PlaneName::support(source, facet), {}, {}}, i};
+        }
+        [[nodiscard]] static Vertex meet(const PlaneName& p, const PlaneName& q,
+                                         const PlaneName& r) {
+            return {{p, q, r}, -1};
+        }
+    };
+    struct Face {
+        const Source* source = nullptr;
+        std::uint32_t facet = 0;
+        bool flipped = false;
+    };
+    /// The face is to its left, seen from outside.
+    struct Edge {
+        Vertex from;
+        Vertex to;
+        EdgeName line;
+        std::uint32_t face = 0;
+    };
+
+    std::vector<Face> faces;  ///< each has edges
+    std::vector<Edge> edges;  ///< with all vertices of the result that lie on them
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every point has an enclosure, its doubles with their error. Enclosures of equal points overlap
+// along all three axes. A hash table over the cells of a fine grid finds what may overlap: nearly
+// all points are alone in their cell, and most others have a few equal ones for company. Only where
+// many points share cells: sort along an axis and cut where a gap
+// shows; enclosures that chain together stay in one group. Go on with the next axis within each
+// group, until no axis cuts.
+//
+// A sweep along one axis alone compares every pair that overlaps there, which on models with axis
+// parallel faces, where a tenth of all vertices may share one x, is quadratic.
+
+#include <trisect/bsp/cells/near_points.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace trisect::detail {
+
+namespace {
+
+std::size_t u(PointId p) { return static_cast<std::size_t>(p); }
+
+// Somewhat wider than the error bound, for the rounding of its ends.
+double reach(const Approximation& a, std::size_t axis) {
+    return 1.0000001 * a.error + 0x1p-50 * std::fabs(a.c[axis]);
+}
+
+// Connects the points that share a cell of a grid. An enclosure belongs to all cells that it meets,
+// so those that overlap have a cell in common. Cells are some dozens of times larger than the
+// largest enclosure, so nearly all enclosures meet one cell, and still far smaller than what models
+// are made of, so that few points share one without need. Cells of equal hashes count as one; that
+// costs time only.
+class Neighbours {
+public:
+    explicit Neighbours(const Workbench& bench)
+        : bench_(bench), per_unit_(1 / size_of_cell(bench)), root_(bench.point_count()) {
+        entries_.reserve(bench.point_count() + bench.point_count() / 4);
+        for (std::size_t p = 0; p < bench.point_count(); ++p) add(static_cast<PointId>(p));
+        std::iota(root_.begin(), root_.end(), PointId{0});
+        connect();
+    }
+
+    /// The groups of two and more, one after the other, each in the order of ids.
+    [[nodiscard]] std::vector<PointId> grouped() {
+        std::vector<std::pair<PointId, PointId>> order;  // smallest of the group, point
+        for (std::size_t p = 0; p < root_.size(); ++p) {
+            const PointId r = root(static_cast<PointId>(p));
+            if (u(r) == p) continue;
+            order.emplace_back(r, static_cast<PointId>(p));
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<PointId> out;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (i == 0 || order[i].first != order[i - 1].first) out.push_back(order[i].first);
+            out.push_back(order[i].second);
+        }
+        return out;
+    }
+    /// The smallest point of a point's group.
+    [[nodiscard]] PointId root(PointId p) {
+        while (root_[u(p)] != p) p = root_[u(p)] = root_[u(root_[u(p)])];
+        return p;
+    }
+
+private:
+    struct Entry {
+        std::uint64_t cell = 0;  // hash
+        PointId point = -1;
+    };
+
+    static double size_of_cell(const Workbench& bench) {
+        double widest = 0;
+        for (std::size_t p = 0; p < bench.point_count(); ++p) {
+            const Approximation& a = bench.approximation(static_cast<PointId>(p));
+            for (std::size_t k = 0; k < 3; ++k) widest = std::max(widest, reach(a, k));
+        }
+        return widest > 0 ? 64 * widest : 1;
+    }
+
+    // The number of a cell along an axis; the one around zero is twice as wide. At most 2^44, as
+    // the largest coordinate reaches 2^-50 of it.
+    [[nodiscard]] std::int64_t cell_at(double c) const {
+        return static_cast<std::int64_t>(c * per_unit_);
+    }
+
+    void add(PointId p) {
+        const Approximation& a = bench_.approximation(p);
+        std::array<std::int64_t, 3> lo{};
+        std::array<std::int64_t, 3> hi{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = cell_at(a.c[k] - reach(a, k));
+            hi[k] = cell_at(a.c[k] + reach(a, k));
+        }
+        for (std::int64_t x = lo[0]; x <= hi[0]; ++x)
+            for (std::int64_t y = lo[1]; y <= hi[1]; ++y)
+                for (std::int64_t z = lo[2]; z <= hi[2]; ++z)
+                    entries_.push_back({hash(x, y, z), p});
+    }
+
+    static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
+        constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+        return mix64(static_cast<std::uint64_t>(x) +
+                     odd * (static_cast<std::uint64_t>(y) + odd * static_cast<std::uint64_t>(z)));
+    }
+
+    // The table holds numbers of entries, one for each cell.
+    void connect() {
+        std::vector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
+        for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+            std::size_t i = entries_[e].cell & (table.size() - 1);
+            while (table[i] != none && entries_[table[i]].cell != entries_[e].cell)
+                i = (i + 1) & (table.size() - 1);
+            if (table[i] == none) {
+                table[i] = e;
+            } else {
+                const PointId a = root(entries_[table[i]].point);
+                const PointId b = root(entries_[e].point);
+                root_[u(std::max(a, b))] = std::min(a, b);
+            }
+        }
+    }
+
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    const Workbench& bench_;
+    double per_unit_;
+    std::vector<Entry> entries_;
+    std::vector<PointId> root_;
+};
+
+struct Range {
+    double low = 0;
+    double high = 0;
+    PointId point = -1;
+};
+
+class Groups {
+public:
+    Groups(const Workbench& bench, const std::function<void(std::span<const PointId>)>& visit)
+        : bench_(bench), visit_(visit) {}
+
+    /// Points that may be equal only among themselves, in the order of ids.
+    void divide(std::span<const PointId> points) {
+        if (points.size() <= few) return visit_(points);
+        ranges_.clear();
+        for (const PointId p : points) ranges_.push_back({0, 0, p});
+        part(ranges_, 0, 0);
+    }
+
+private:
+    // `uncut`: how many axes before this one left the group as it is.
+    void part(std::span<Range> group, std::size_t axis, int uncut);
+    void measure(std::span<Range> group, std::size_t axis) const;
+    void emit(std::span<const Range> group);
+
+    static constexpr std::size_t few = 16;
+    const Workbench& bench_;
+    const std::function<void(std::span<const PointId>)>& visit_;
+    std::vector<Range> ranges_;
+    std::vector<PointId> points_;
+};
+
+void Groups::measure(std::span<Range> group, std::size_t axis) const {
+    for (Range& r : group) {
+        const Approximation& a = bench_.approximation(r.point);
+        r.low = a.c[axis] - reach(a, axis);
+        r.high = a.c[axis] + reach(a, axis);
+    }
+    std::sort(group.begin(), group.end(), [](const Range& a, const Range& b) {
+        return std::tie(a.low, a.point) < std::tie(b.low, b.point);
+    });
+}
+
+void Groups::part(std::span<Range> group, std::size_t axis, int uncut) {
+    if (group.size() < 2) return;
+    if (uncut == 3) return emit(group);
+    measure(group, axis);
+    for (std::size_t begin = 0; begin < group.size();) {
+        double high = group[begin].high;
+        std::size_t end = begin + 1;
+        for (; end < group.size() && group[end].low <= high; ++end)
+            high = std::max(high, group[end].high);
+        const bool whole = end - begin == group.size();
+        part(group.subspan(begin, end - begin), (axis + 1) % 3, whole ? uncut + 1 : 1);
+        begin = end;
+    }
+}
+
+void Groups::emit(std::span<const Range> group) {
+    points_.clear();
+    for (const Range& r : group) points_.push_back(r.point);
+    std::sort(points_.begin(), points_.end());
+    visit_(points_);
+}
+
+}  // namespace
+
+void for_each_near_group(const Workbench& bench,
+                         const std::function<void(std::span<const PointId>)>& visit) {
+    Neighbours neighbours(bench);
+    Groups groups(bench, visit);
+    const std::vector<PointId> points = neighbours.grouped();
+    for (std::size_t i = 0; i < points.size();) {
+        std::size_t j = i + 1;
+        while (j < points.size() && neighbours.root(points[j]) == points[i]) ++j;
+        groups.divide(std::span(points).subspan(i, j - i));
+        i = j;
+    }
+}
+
+}  // namespace trisect::detail

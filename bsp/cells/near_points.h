@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Groups of points of a workbench that may be equal: the few that exact comparison is spent on.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include <trisect/bsp/cells/workbench.h>
+
+namespace trisect::detail {
+
+/// Calls `visit` for every group of two points or more, each sorted by id. Points of equal value
+/// are always in one group; points of different value may be, when they are very close. The order
+/// of the groups depends on the points only. O(n log n).
+void for_each_near_group(const Workbench& bench,
+                         const std::function<void(std::span<const PointId>)>& visit);
+
+}  // namespace trisect::detail

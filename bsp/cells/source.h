@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Source: what the polygons of a cell tree refer to. A tree stores names (source, facet); corners
+// and planes are looked up here, and planes are made on demand, near the cuts only.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/lattice_mesh.h>
+#include <trisect/bsp/cells/cell.h>
+#include <trisect/kernel/plane.h>
+
+namespace trisect::detail {
+
+/// The facets of one imported mesh, or whole planes: the one unbounded facet of a half-space, or
+/// the planes of an exact boundary, of which only fragments are listed. Immutable.
+///
+/// `serial` orders sources by their time of creation. Reference-counted by the polygons that name
+/// it, so that a long chain of operations keeps exactly the sources that are still visible.
+class Source {
+public:
+    static std::shared_ptr<const Source> make(LatticeMesh mesh, std::uint32_t threads = 1);
+    /// The half-space below `plane`.
+    static std::shared_ptr<const Source> half_space(const Plane& plane, Lattice lattice);
+    /// One facet for each plane; all that is listed of them lies in the box.
+    static std::shared_ptr<const Source> planes(std::vector<Plane> planes, Lattice lattice,
+                                                const Box& box);
+    Source(const Source&) = delete;
+    Source& operator=(const Source&) = delete;
+
+    void retain() const { count_.fetch_add(1, std::memory_order_relaxed); }
+    void release() const {
+        if (count_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+    }
+
+    [[nodiscard]] std::uint64_t serial() const { return serial_; }
+    /// Whether the facets are planes, without corners and edges.
+    [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
+    /// Whether the box says nothing.
+    [[nodiscard]] bool is_unbounded() const { return box_.hi[0] == coordinate_limit; }
+    [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }
+    [[nodiscard]] const LatticeMesh& mesh() const { return mesh_; }
+    [[nodiscard]] std::uint32_t facet_count() const {
+        return static_cast<std::uint32_t>(is_half_space() ? planes_.size()
+                                                          : mesh_.triangles.size());
+    }
+    /// The face that a facet is a part of, by its number in what was imported.
+    [[nodiscard]] std::uint32_t face_of(std::uint32_t facet) const {
+        return is_half_space() ? facet : mesh_.face_of(facet);
+    }
+    [[nodiscard]] const LatticePoint& corner(std::uint32_t facet, int i) const {
+        return mesh_.points[mesh_.triangles[facet][static_cast<std::size_t>(i)]];
+    }
+    [[nodiscard]] std::uint32_t corner_index(std::uint32_t facet, int i) const {
+        return mesh_.triangles[facet][static_cast<std::size_t>(i)];
+    }
+    /// Made from the corners: stored boxes would be twice the size of the mesh itself, and writing
+    /// them would take as long as the rest of an import. Who needs many at a time packs them.
+    [[nodiscard]] Box facet_box(std::uint32_t facet) const {
+        if (is_half_space()) return box_;
+        Box b;
+        for (int i = 0; i < 3; ++i) b.add(corner(facet, i));
+        return b;
+    }
+    /// Contains all facets; of a mesh, the box of its points.
+    [[nodiscard]] const Box& box() const { return box_; }
+
+    [[nodiscard]] Plane support(std::uint32_t facet) const;
+    /// The plane through edge i (corner i to corner i+1) that is parallel to the dominant axis of
+    /// the support; the facet lies below it.
+    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const {
+        return edge_plane(facet, i, support(facet));
+    }
+    /// The same for a caller who has the support at hand.
+    [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i, const Plane& support) const;
+
+    /// The same facets under the same serial on the lattice of exponent `exponent`, which must be
+    /// finer. Names keep their meaning. \throw LimitError when coordinates leave the lattice's
+    /// range.
+    [[nodiscard]] std::shared_ptr<const Source> refined(int exponent) const;
+
+private:
+    Source() = default;
+    ~Source() = default;
+    static std::shared_ptr<const Source> share(Source* source);
+    [[nodiscard]] std::shared_ptr<const Source> refined_planes(int exponent, int shift) const;
+    static std::shared_ptr<const Source> numbered(std::shared_ptr<const Source> source,
+                                                  std::uint64_t serial);
+
+    LatticeMesh mesh_;
+    std::vector<Plane> planes_;
+    Box box_;
+    std::uint64_t serial_ = 0;
+    mutable std::atomic<std::uint32_t> count_{0};
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Widths of the exact stage. Reference points have 62 bits over 2^8; targets have xyz < 2^1056 and
+// w < 2^1000; planes have n < 2^109, d < 2^163. Then
+//   r = n·R + 2^8 d            < 2^175
+//   g = n·G + w d              < 2^1168
+//   crossing X = R g - G r     < 2^1233    W = 2^8 g - w r < 2^1178
+//   n·X + d W                  < 2^1345                               -> 22 limbs.
+
+#include <trisect/bsp/cells/trace.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/kernel/counters.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Huge = WideInt<22>;
+
+int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
+    Huge sum = multiply<22>(w, plane.offset());
+    for (int k = 0; k < 3; ++k)
+        sum += multiply<22>(x[static_cast<std::size_t>(k)], WideInt<2>(plane.normal(k)));
+    return sum.sign();
+}
+
+WideInt<4> value_at(const FinePoint& p, const Plane& plane) {
+    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
+    for (int k = 0; k < 3; ++k)
+        sum +=
+            multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
+    return sum;
+}
+
+WideInt<20> value_at(const TraceTarget::Exact& t, const Plane& plane) {
+    WideInt<20> sum = multiply<20>(t.w, plane.offset());
+    for (int k = 0; k < 3; ++k)
+        sum += multiply<20>(t.xyz[static_cast<std::size_t>(k)], WideInt<2>(plane.normal(k)));
+    return sum;
+}
+
+// Value of the plane's equation with the error bound of filtered_side.
+struct Bounded {
+    double value;
+    double error;
+};
+
+Bounded bounded_value(const Approximation& a, const Plane& plane) {
+    double value = plane.approx_offset();
+    double terms = std::fabs(value);
+    double normals = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double t = plane.approx_normal(k) * a.c[static_cast<std::size_t>(k)];
+        value += t;
+        terms += std::fabs(t);
+        normals += std::fabs(plane.approx_normal(k));
+    }
+    return {value, 0x1p-50 * terms + 1.0000001 * (a.error * normals)};
+}
+
+}  // namespace
+
+// The crossing in doubles: R + λ (G - R), λ = r / (r - g) with r and g of different signs.
+std::optional<Approximation> approximate_crossing(const Approximation& from,
+                                                  const Approximation& to, const Plane& plane) {
+    const Bounded r = bounded_value(from, plane);
+    const Bounded g = bounded_value(to, plane);
+    const double spread = std::fabs(r.value) + std::fabs(g.value);
+    const double error = r.error + g.error;
+    if (!(spread > 4 * error) || r.value * g.value >= 0) return std::nullopt;
+    const double lambda = std::fabs(r.value) / spread;
+    // |dλ| <= (er |g| + eg |r|) / (|r|+|g|)^2 to first order; the factor covers the rest.
+    const double lambda_error = 2 * error / spread + 0x1p-50;
+    Approximation x;
+    double largest = 0;
+    double span = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double step = to.c[k] - from.c[k];
+        x.c[k] = from.c[k] + lambda * step;
+        span = std::max(span, std::fabs(step));
+        largest = std::max({largest, std::fabs(from.c[k]), std::fabs(to.c[k])});
+    }
+    x.error = (span * lambda_error + from.error + to.error + largest * 0x1p-50) * 1.001;
+    return x;
+}
+
+TraceTarget::TraceTarget(const FinePoint& p) : approximation_(detail::approximate(p)), fine_(p) {}
+
+TraceTarget::TraceTarget(const Workbench& bench, const std::array<PointId, 3>& points,
+                         const std::array<std::int64_t, 3>& weights)
+    : bench_(&bench), points_(points), weights_(weights) {
+    const double total = static_cast<double>(weights[0] + weights[1] + weights[2]);
+    double largest = 0;
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Approximation& a = bench.approximation(points[i]);
+        error = std::max(error, a.error);
+        for (std::size_t k = 0; k < 3; ++k) {
+            approximation_.c[k] += static_cast<double>(weights[i]) * a.c[k] / total;
+            largest = std::max(largest, std::fabs(a.c[k]));
+        }
+    }
+    approximation_.error = 1.0000001 * error + largest * 0x1p-49;
+}
+
+const TraceTarget::Exact& TraceTarget::exact() const {
+    if (exact_) return *exact_;
+    Exact e;
+    if (bench_ == nullptr) {
+        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] = Wide(fine_.c[k]);
+        e.w = Wide(wall_scale);
+        exact_ = e;
+        return *exact_;
+    }
+    std::array<HomogeneousPoint, 3> h;
+    for (std::size_t i = 0; i < 3; ++i) h[i] = bench_->homogeneous(points_[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto others =
+            multiply<18>(multiply<12>(h[(i + 1) % 3].w, h[(i + 2) % 3].w), WideInt<1>(weights_[i]));
+        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] += multiply<18>(h[i].xyz[k], others);
+    }
+    const Wide w = multiply<18>(multiply<12>(h[0].w, h[1].w), h[2].w);
+    e.w = multiply<18>(w, WideInt<1>(weights_[0] + weights_[1] + weights_[2]));
+    exact_ = e;
+    return *exact_;
+}
+
+Approximation approximate(const FinePoint& p) {
+    Approximation a;
+    for (std::size_t k = 0; k < 3; ++k) {
+        a.c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+        a.error = std::max(a.error, std::fabs(a.c[k]) * 0x1p-53);
+    }
+    return a;
+}
+
+int side(const FinePoint& p, const Approximation& approximation, const Plane& plane) {
+    if (const auto s = filtered_side(approximation, plane)) {
+        ++predicate_counters().filtered;
+        return sign_of(*s);
+    }
+    ++predicate_counters().exact_wide;
+    return value_at(p, plane).sign();
+}
+
+int side(const TraceTarget& target, const Plane& plane) {
+    if (const auto s = filtered_side(target.approximation(), plane)) {
+        ++predicate_counters().filtered;
+        return sign_of(*s);
+    }
+    ++predicate_counters().exact_wide;
+    return value_at(target.exact(), plane).sign();
+}
+
+SupportCrossing::SupportCrossing(const FinePoint& reference, const Approximation& approximation,
+                                 const TraceTarget& target, const Plane& support)
+    : reference_(reference),
+      target_(target),
+      support_(support),
+      approximation_(approximate_crossing(approximation, target.approximation(), support)) {}
+
+int SupportCrossing::side_of(const Plane& edge) const {
+    if (approximation_) {
+        if (const auto s = filtered_side(*approximation_, edge)) {
+            ++predicate_counters().filtered;
+            return sign_of(*s);
+        }
+    }
+    ++predicate_counters().exact_wide;
+    const TraceTarget::Exact& t = target_.exact();
+    const WideInt<4> r = value_at(reference_, support_);
+    const WideInt<20> g = value_at(t, support_);
+    std::array<Huge, 3> x;
+    for (std::size_t k = 0; k < 3; ++k)
+        x[k] = multiply<22>(g, WideInt<1>(reference_.c[k])) - multiply<22>(t.xyz[k], r);
+    const Huge w = multiply<22>(g, WideInt<1>(wall_scale)) - multiply<22>(t.w, r);
+    const int s = sign_at(x, w, edge);
+    return w.is_negative() ? -s : s;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Workbench: the planes and points that one leaf arrangement or one assembly works on, by small
+// ids.
+//
+// Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
+// planes found to be the same point set share a class. Points are corners of sources or triples of
+// planes. A workbench belongs to one thread: planes are made when something asks for them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/point.h>
+#include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/few.h>
+#include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
+
+namespace trisect::detail {
+
+using PlaneId = std::int32_t;
+using PointId = std::int32_t;
+
+struct WorkEdge {
+    PlaneId plane = -1;
+    bool above = false;  ///< the polygon lies above the plane instead of below
+};
+
+/// A convex polygon in the making: `points[i]` is the start of edge i. Counter-clockwise seen from
+/// above the support, strictly convex.
+struct WorkPolygon {
+    PlaneId support = -1;
+    Few<WorkEdge> edges;
+    Few<PointId> points;
+    [[nodiscard]] bool is_empty() const { return points.empty(); }
+};
+
+class Workbench {
+public:
+    void clear();
+
+    PlaneId plane(const PlaneName& name);
+    /// Made when it is first asked for: of most names only the name is ever used.
+    [[nodiscard]] const Plane& plane_at(PlaneId id) const {
+        const std::int32_t at = planes_[u(id)].place;
+        return at >= 0 ? made_.at(at) : make_plane(id);
+    }
+    /// Of the plane of an edge: the support of its facet.
+    [[nodiscard]] PlaneId support_of(PlaneId edge) const { return planes_[u(edge)].support; }
+    [[nodiscard]] const PlaneName& name(PlaneId id) const { return planes_[u(id)].name; }
+    /// Records that two planes are the same point set.
+    void declare_same(PlaneId a, PlaneId b);
+    [[nodiscard]] PlaneId plane_class(PlaneId id) const {
+        while (planes_[u(id)].same != id) id = planes_[u(id)].same;
+        return id;
+    }
+
+    PointId corner(const Source* source, std::uint32_t facet, int i);
+    /// The common point of three planes. Found by name when it was made before: from the same three
+    /// planes, or as the point where the same edge of a source meets the same plane, an edge being
+    /// named by its own plane or by both of its facets. Equal points
+    /// may still have several names (see same_point). \pre the planes meet in one point.
+    PointId meet(PlaneId p, PlaneId q, PlaneId r);
+    [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+    [[nodiscard]] bool is_corner(PointId id) const { return points_[u(id)].planes[0] < 0; }
+    /// \pre is_corner(id)
+    [[nodiscard]] std::pair<const Source*, std::uint32_t> corner_name(PointId id) const {
+        return {points_[u(id)].source, points_[u(id)].vertex};
+    }
+    /// \pre is_lattice(id)
+    [[nodiscard]] LatticePoint lattice(PointId id) const { return points_[u(id)].lattice(); }
+    /// Whether its coordinates are known to be integers: of corners, and of points that planes name
+    /// but whose doubles came without an error.
+    [[nodiscard]] bool is_lattice(PointId id) const { return points_[u(id)].is_lattice; }
+    [[nodiscard]] const std::array<PlaneId, 3>& planes_of(PointId id) const {
+        return points_[u(id)].planes;
+    }
+    [[nodiscard]] const Approximation& approximation(PointId id) const {
+        return points_[u(id)].approximation;
+    }
+    [[nodiscard]] HomogeneousPoint homogeneous(PointId id) const;
+    [[nodiscard]] Point point(PointId id) const;
+    /// Correctly rounded coordinates in lattice units.
+    [[nodiscard]] std::array<double, 3> nearest(PointId id) const;
+    /// Exact equality.
+    [[nodiscard]] bool same_point(PointId a, PointId b) const;
+    /// Whether doubles leave it open that two points are the same.
+    [[nodiscard]] bool may_be_same(PointId a, PointId b) const;
+
+    /// -1 below, 0 on, 1 above: symbolic, filtered, exact.
+    [[nodiscard]] int side(PointId point, PlaneId plane) const {
+        // The filter first: it never says On, and far most points are off.
+        if (const auto s = filtered_side(approximation(point), plane_at(plane))) {
+            ++predicate_counters().filtered;
+            return sign_of(*s);
+        }
+        return unfiltered_side(point, plane);
+    }
+
+    /// The polygon that a reference names, unclipped. Edges of whole facets carry their planes only
+    /// after with_edges().
+    [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
+    void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
+    /// Of a fragment: where the lines of two of its edges meet, `at` being the doubles of that
+    /// vertex. Edges on planes of the fragment's own facet are told by their names.
+    PointId vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
+                   const Approximation& at);
+    /// Room for so many planes and points without growing on the way.
+    void reserve(std::size_t planes, std::size_t points);
+    /// No point will be named by planes any more: gives back what is only needed for that.
+    void end_points();
+    /// Gives back the planes that were made so far; they are made again where they are asked for.
+    /// Ends references to them.
+    void forget_made_planes();
+    [[nodiscard]] std::size_t made_plane_count() const { return made_.count(); }
+
+    /// The part of a strictly convex polygon on one side of a plane (`keep` -1 below, 1 above);
+    /// empty when that part has no area; moved from where nothing is cut. \pre the plane is not the
+    /// support's.
+    [[nodiscard]] WorkPolygon clipped(WorkPolygon polygon, PlaneId plane, int keep);
+    /// Sides of the polygon's points, in their order; scratch that the next call overwrites.
+    using Sides = std::vector<std::int8_t>;
+    const Sides& sides_of(const WorkPolygon& polygon, PlaneId plane);
+    /// Both parts. \pre `sides` are of the polygon and the plane, and there are points on both.
+    void split(const WorkPolygon& polygon, PlaneId plane, const Sides& sides, WorkPolygon& below,
+               WorkPolygon& above);
+    /// The part of the polygon in the closed cell; empty when it has no area. The polygon needs its
+    /// edges; one without points stands for the whole plane of its support.
+    [[nodiscard]] WorkPolygon clipped(WorkPolygon polygon, const Box& box, const Cell& cell);
+
+private:
+    struct PointRecord {
+        std::array<PlaneId, 3> planes{-1, -1, -1};
+        std::uint32_t vertex = 0;        // of a corner
+        const Source* source = nullptr;  // of a corner
+        Approximation approximation;
+        bool is_lattice = false;
+        // Lattice positions are doubles.
+        [[nodiscard]] LatticePoint lattice() const {
+            return {static_cast<std::int64_t>(approximation.c[0]),
+                    static_cast<std::int64_t>(approximation.c[1]),
+                    static_cast<std::int64_t>(approximation.c[2])};
+        }
+    };
+    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+    [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
+    [[nodiscard]] static bool has_vertex(const PlaneName& plane, const Source* source,
+                                         std::uint32_t vertex);
+    [[nodiscard]] static bool contains_edge(const PlaneName& plane, const PlaneName& edge);
+    [[nodiscard]] static bool contains_common_edge(const PlaneName& plane, const PlaneName& a,
+                                                   const PlaneName& b);
+    [[nodiscard]] static std::optional<std::array<std::uint32_t, 2>> common_edge(
+        const PlaneName& a, const PlaneName& b);
+    struct PlaneRecord {
+        PlaneName name;
+        PlaneId same = -1;     // on the way to the first of its class
+        PlaneId support = -1;  // of an edge plane: that of its facet
+        // Of an edge plane: the source's edge, -1 not looked up.
+        std::int32_t line = -1;
+        mutable std::int32_t place = -1;  // among the planes that were made
+    };
+    /// Planes that stay where they are while others are made.
+    class MadePlanes {
+    public:
+        [[nodiscard]] const Plane& at(std::int32_t i) const {
+            return (*blocks_[u(i) / block_size])[u(i) % block_size];
+        }
+        std::int32_t add(const Plane& plane) {
+            if (u(count_) == block_size * blocks_.size())
+                blocks_.push_back(std::make_unique<Block>());
+            (*blocks_[u(count_) / block_size])[u(count_) % block_size] = plane;
+            return count_++;
+        }
+        [[nodiscard]] std::size_t count() const { return u(count_); }
+        void clear() { count_ = 0; }
+        void free() {
+            clear();
+            blocks_.clear();
+        }
+
+    private:
+        static constexpr std::size_t block_size = 32;
+        using Block = std::array<Plane, block_size>;
+        std::vector<std::unique_ptr<Block>> blocks_;
+        std::int32_t count_ = 0;
+    };
+
+    PlaneId add_plane(const PlaneName& name, PlaneId support = -1);
+    const Plane& make_plane(PlaneId id) const;
+    [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
+    [[nodiscard]] std::uint64_t line_item(PlaneId p);
+    [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);
+    // `known`: its doubles, if the caller has them; better ones are made where they are blunt.
+    PointId point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId r,
+                        const Approximation* known);
+    PointId meet_on_edge(PlaneId support, PlaneId edge, PlaneId other, const Approximation* known);
+    void add_fragment(const PolygonRef& ref, WorkPolygon& out);
+    [[nodiscard]] bool is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
+                                     bool above) const;
+    [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
+
+    std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
+    mutable MadePlanes made_;
+    std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
+    FlatMap plane_ids_;
+    FlatMap corner_ids_;
+    FlatMap line_ids_;
+    FlatMap point_ids_;
+    bool names_points_ = true;
+    Sides sides_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/divide/choose_wall.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace trisect::detail {
+
+namespace {
+
+// Above so many operands the boxes are not compared pair by pair.
+constexpr std::size_t many_operands = 64;
+
+struct Extents {
+    PackedBox all;
+    PackedBox contested;
+};
+
+Extents extents(const CellTask& task) {
+    Extents e;
+    std::size_t bounded = 0;
+    for (const CellOperand& o : task.operands) {
+        if (o.unbounded || o.box.is_empty()) continue;
+        e.all.add(o.box);
+        ++bounded;
+    }
+    const bool alone = bounded == 1 || bounded > many_operands;
+    if (alone) {
+        e.contested = e.all;
+        return e;
+    }
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& a = task.operands[i];
+        if (a.unbounded || a.box.is_empty()) continue;
+        // What is in the box of the contested part by now adds nothing to it.
+        if (e.contested.contains(a.box)) continue;
+        if (!a.embedded) e.contested.add(a.box);
+        for (std::size_t j = i + 1; j < task.operands.size(); ++j) {
+            const CellOperand& b = task.operands[j];
+            if (b.unbounded || b.box.is_empty()) continue;
+            const PackedBox both = a.box.intersected(b.box);
+            if (!both.is_empty()) e.contested.add(both);
+        }
+    }
+    if (e.contested.is_empty()) e.contested = e.all;  // all disjoint: cut in the middle
+    return e;
+}
+
+}  // namespace
+
+int contested_extent(const CellTask& task) {
+    const PackedBox b = extents(task).contested;
+    int longest = 0;
+    if (b.is_empty()) return longest;
+    for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, b.high(k) - b.low(k));
+    return longest;
+}
+
+std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset) {
+    const Extents e = extents(task);
+    if (e.all.is_empty()) return std::nullopt;
+    const auto below = [&](std::size_t axis, int q) {
+        return Wall{static_cast<int>(axis), task.frame.last_below(axis, q) * wall_scale + offset};
+    };
+    std::optional<Wall> wall;
+    double best_peel = 0.3;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double extent = e.all.high(k) - e.all.low(k);
+        if (extent <= 0) continue;
+        const double low = (e.contested.low(k) - e.all.low(k)) / extent;
+        const double high = (e.all.high(k) - e.contested.high(k)) / extent;
+        if (low > best_peel) {
+            best_peel = low;
+            wall = below(k, e.contested.low(k));
+        }
+        if (high > best_peel) {
+            best_peel = high;
+            wall = below(k, e.contested.high(k) + 1);
+        }
+    }
+    if (wall) return wall;
+    int longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int extent = e.contested.high(k) - e.contested.low(k);
+        if (extent <= longest) continue;
+        longest = extent;
+        wall = below(k, e.contested.low(k) + (extent + 1) / 2);
+    }
+    return wall;
+}
+
+std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least, std::int64_t offset) {
+    const PackedBox contested = extents(task).contested;
+    if (contested.is_empty()) return std::nullopt;
+    // Polygons below and above the contested box, by axis.
+    std::array<std::array<std::size_t, 2>, 3> beyond{};
+    for (const CellOperand& o : task.operands)
+        for (const PackedBox& e : o.list())
+            for (std::size_t k = 0; k < 3; ++k) {
+                beyond[k][0] += e.high(k) < contested.low(k) ? 1 : 0;
+                beyond[k][1] += e.low(k) > contested.high(k) ? 1 : 0;
+            }
+    std::optional<Wall> wall;
+    std::size_t most = least - 1;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t side = 0; side < 2; ++side) {
+            if (beyond[k][side] <= most) continue;
+            most = beyond[k][side];
+            const int q = side == 0 ? contested.low(k) : contested.high(k) + 1;
+            wall = Wall{static_cast<int>(k), task.frame.last_below(k, q) * wall_scale + offset};
+        }
+    return wall;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A child of a cell needs a point off all polygons with the winding numbers of all operands there.
+// The parent's point is one child's too. For the other one the way leads straight through the wall:
+// so it meets little, and most lists have nothing near it. A tree that is cut along its own wall
+// knows a point itself. What is hit in an edge or a vertex gives up, and the next point is tried.
+
+#include <trisect/bsp/divide/reference_points.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <trisect/bsp/cells/axis_trace.h>
+#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/divide/refine_leaf.h>
+#include <trisect/kernel/support/flat_map.h>
+
+namespace trisect::detail {
+
+bool lies_outside(const FinePoint& p, const Box& box) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
+    return false;
+}
+
+const CellNode* unfolded(const CellNode* node) {
+    if (!node->is_leaf()) return node;
+    const CellNode* refinement = node->refinement();
+    return refinement != nullptr ? refinement : node;
+}
+
+std::optional<int> winding_in_tree(const CellNode& root, bool complemented, const Cell& cell,
+                                   const FinePoint& p) {
+    const CellNode* node = unfolded(&root);
+    Cell at = cell;
+    while (true) {
+        if (node->is_leaf() && node->reference() == p)
+            return complemented_winding(node->winding(), complemented);
+        if (node->is_leaf() && node->size() > 4 * refinable_leaf)
+            if (const CellNode* fine = refined(*node, at)) node = fine;
+        if (node->is_leaf()) break;
+        const std::size_t i = p.c[static_cast<std::size_t>(node->axis())] > node->wall() ? 1 : 0;
+        const CellRef& c = node->child(static_cast<int>(i));
+        at = i == 0 ? at.below(node->axis(), node->wall()) : at.above(node->axis(), node->wall());
+        complemented = complemented != c.complemented;
+        node = unfolded(c.node.get());
+    }
+    const std::vector<PolygonRef> refs(node->polygons().begin(), node->polygons().end());
+    const auto change = trace_winding(refs, false, node->reference(), p);
+    if (!change) return std::nullopt;
+    return complemented_winding(node->winding() + *change, complemented);
+}
+
+namespace {
+
+// The lattice positions that a segment comes near.
+Box box_around(const FinePoint& a, const FinePoint& b) {
+    Box segment;
+    for (std::size_t k = 0; k < 3; ++k) {
+        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> wall_bits) - 1;
+        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> wall_bits) + 2;
+    }
+    return segment;
+}
+
+std::optional<int> list_winding(const CellTask& task, const CellOperand& o, const FinePoint& p,
+                                std::optional<int> axis) {
+    if (o.count == 0) return o.winding;
+    const PackedReach near(PackedBox::of(task.frame, box_around(task.reference, p)));
+    // The way is in the cell, and what is in the list lies in that box as far as the cell goes.
+    if (!o.unbounded && !near.meets(o.box)) return o.winding;
+    if (axis) {
+        AxisTrace trace(task.reference, p, *axis);
+        for (const PackedBox& e : o.list())
+            if (near.meets(e)) trace.add(o.polygon(e.id));
+        const auto change = trace.change(o.complemented);
+        if (!change) return std::nullopt;
+        return o.winding + *change;
+    }
+    std::vector<PolygonRef> met;
+    for (const PackedBox& e : o.list())
+        if (near.meets(e)) met.push_back(o.polygon(e.id));
+    const auto change = trace_winding(met, o.complemented, task.reference, p);
+    if (!change) return std::nullopt;
+    return o.winding + *change;
+}
+
+// Winding numbers of all operands at p, which lies in the task's cell; `axis` when only that
+// coordinate differs from the reference.
+bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> axis, CellTask& out) {
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& o = task.operands[i];
+        const std::optional<int> w = o.is_list
+                                         ? list_winding(task, o, p, axis)
+                                         : winding_in_tree(*o.node, o.complemented, task.cell, p);
+        if (!w) return false;
+        out.operands[i].winding = *w;
+    }
+    out.reference = p;
+    return true;
+}
+
+// The same for a point straight behind a wall, on whose other side the reference lies. What meets
+// the way there reaches over to that side, unless the way passes a lattice position behind the
+// wall.
+bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
+               const CellTask& other_side, CellTask& out) {
+    const auto k = static_cast<std::size_t>(wall.axis);
+    if (p.c[k] >> wall_bits != wall.last_below() || p.c[k] % wall_scale == 0)
+        return windings_at(task, p, wall.axis, out);
+    for (std::size_t i = 0; i < task.operands.size(); ++i) {
+        const CellOperand& o = task.operands[i];
+        const std::optional<int> w = o.is_list
+                                         ? list_winding(task, other_side.operands[i], p, wall.axis)
+                                         : winding_in_tree(*o.node, o.complemented, task.cell, p);
+        if (!w) return false;
+        out.operands[i].winding = *w;
+    }
+    out.reference = p;
+    return true;
+}
+
+}  // namespace
+
+bool place_reference(const CellTask& task, const Wall& wall, int which, CellChildren& children) {
+    const auto k = static_cast<std::size_t>(wall.axis);
+    CellTask& out = children[static_cast<std::size_t>(which)];
+    const CellTask& other_side = children[static_cast<std::size_t>(1 - which)];
+    if (out.cell.contains(task.reference)) {
+        out.reference = task.reference;
+        for (std::size_t i = 0; i < task.operands.size(); ++i)
+            out.operands[i].winding = task.operands[i].winding;
+        return true;
+    }
+    // A tree that is cut along its own wall knows points on both sides, without a trace.
+    for (const CellOperand& o : out.operands) {
+        if (o.is_list) continue;
+        const CellNode* node = o.node;
+        while (!node->is_leaf()) node = node->child(which == 0 ? 1 : 0).node.get();
+        const FinePoint p = node->reference();
+        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
+        break;
+    }
+    // Straight through the wall; the segment hits little.
+    FinePoint p = task.reference;
+    for (const std::int64_t step : {3, 37, 59, 101}) {
+        p.c[k] = wall.position + (which == 0 ? -step : step);
+        if (out.cell.contains(p) && pass_wall(task, wall, p, other_side, out)) return true;
+    }
+    // Then anywhere near the polygons.
+    Box around;
+    for (const CellOperand& o : task.operands) {
+        if (!o.is_list || o.box.is_empty()) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            around.lo[axis] =
+                std::min(around.lo[axis], task.frame.last_below(axis, o.box.low(axis)) + 1);
+            around.hi[axis] =
+                std::max(around.hi[axis], task.frame.last_below(axis, o.box.high(axis) + 1));
+        }
+    }
+    if (around.is_empty()) around = out.cell.lattice_box();
+    for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // Near the polygons, or at the end of the cell that is nearest to them.
+            std::int64_t lo = std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * wall_scale);
+            std::int64_t hi = std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * wall_scale);
+            if (hi - lo < wall_scale / 2) {
+                const bool cell_is_above = (around.hi[axis] + 2) * wall_scale < out.cell.hi[axis];
+                lo = cell_is_above ? out.cell.lo[axis] + 1
+                                   : std::max(out.cell.lo[axis] + 1, out.cell.hi[axis] - 512);
+                hi = std::min(out.cell.hi[axis] - 1, lo + 512);
+            }
+            const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
+            const auto c = lo + static_cast<std::int64_t>(mix64(attempt * 3 + axis) % range);
+            p.c[axis] = (c & 1) != 0 ? c + 1 : c;
+        }
+        if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
+    }
+    return false;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A leaf is halved several times at once. What a visit of a facet costs is looking its corners up,
+// and a leaf that is halved because a small tool came to it is mostly halved again at once, around
+// the tool. So boxes are packed once (packed_box.h), and lists of those are divided for some levels
+// before they become leaves. Between rounded positions of the frame a comparison of packed boxes is
+// exact.
+//
+// The walls depend on the leaf and its cell alone. So it does not matter who asks first, nor
+// whether someone had everything refined before.
+
+#include <trisect/bsp/divide/refine_leaf.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <tbb/task_arena.h>
+
+#include <trisect/bsp/cells/axis_trace.h>
+#include <trisect/bsp/cells/packed_box.h>
+#include <trisect/kernel/support/stack_arena.h>
+#include <trisect/kernel/support/task_group.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::int64_t wall_offset = 83;
+// Levels made at once. More cost the first visitor more, fewer mean that corners are looked up more
+// often.
+constexpr int levels_at_once = 4;
+// Where boxes get this short in the frame a leaf is left for a frame of its own.
+constexpr int coarse_extent = 128;
+
+/// A point of a cell and the winding number there.
+struct KnownPoint {
+    FinePoint at;
+    int winding = 0;
+};
+
+/// Facets that may meet a cell, in the frame: those within it, and those that reach out of it.
+struct ListInCell {
+    Cell cell;
+    KnownPoint reference;
+    std::span<PackedBox> contained;
+    std::span<PackedBox> crossing;
+
+    [[nodiscard]] std::size_t size() const { return contained.size() + crossing.size(); }
+};
+
+/// Where a list is divided: below the rounded position `first_above`.
+struct Cut {
+    std::size_t axis = 0;
+    int first_above = 0;
+};
+
+/// Halves one leaf.
+class Halving {
+public:
+    Halving(const CellNode& leaf, const Cell& cell)
+        : leaf_(leaf),
+          source_(*leaf.polygons().whole_source()),
+          frame_(Frame::covering(source_.box().intersected(cell.lattice_box()))) {
+        root_.cell = cell;
+        root_.reference = {leaf.reference(), leaf.winding()};
+    }
+
+    /// A node with children; null when no wall parts the polygons.
+    [[nodiscard]] std::shared_ptr<const CellNode> halved() {
+        if (source_.box().intersected(root_.cell.lattice_box()).is_empty()) return nullptr;
+        list_facets();
+        return split(root_, 1);
+    }
+
+private:
+    void list_facets();
+    void list_all_facets();
+    [[nodiscard]] PackedBox packed_facet(std::uint32_t facet) const;
+    [[nodiscard]] std::optional<Cut> longest(const ListInCell& list, int shortest) const;
+    [[nodiscard]] std::optional<std::array<ListInCell, 2>> divided(const ListInCell& list,
+                                                                   const Cut& cut);
+    [[nodiscard]] std::optional<KnownPoint> reference_beyond(const ListInCell& list,
+                                                             const Cell& cell, int axis,
+                                                             std::int64_t wall,
+                                                             std::int64_t direction) const;
+    [[nodiscard]] std::shared_ptr<const CellNode> split(const ListInCell& list, int level);
+    [[nodiscard]] CellRef node_of(const ListInCell& list, int level);
+    [[nodiscard]] CellRef leaf_of(const ListInCell& list);
+
+    const CellNode& leaf_;
+    const Source& source_;
+    Frame frame_;
+    StackArena arena_;
+    ListInCell root_;
+    std::vector<PackedBox> cut_;  // of the list that is divided, what crosses the wall
+};
+
+PackedBox Halving::packed_facet(std::uint32_t facet) const {
+    PackedBox b = PackedBox::of(frame_, source_.facet_box(facet));
+    b.id = facet;
+    return b;
+}
+
+// Every corner of a mesh is rounded once.
+void Halving::list_all_facets() {
+    const LatticeMesh& mesh = source_.mesh();
+    const auto mark = arena_.mark();
+    auto* points = arena_.take<PackedBox>(mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        points[i] = packed_point(frame_, mesh.points[i]);
+    for (std::size_t f = 0; f < root_.contained.size(); ++f) {
+        const auto& t = mesh.triangles[f];
+        root_.contained[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+        root_.contained[f].id = static_cast<std::uint32_t>(f);
+    }
+    arena_.release(mark);
+}
+
+void Halving::list_facets() {
+    const PolygonList& polygons = leaf_.polygons();
+    const std::size_t contained = polygons.contained();
+    auto* entries = arena_.take<PackedBox>(polygons.size());
+    root_.contained = {entries, contained};
+    root_.crossing = {entries + contained, polygons.size() - contained};
+    if (polygons.has_all_facets()) return list_all_facets();
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+        entries[i] = packed_facet(polygons.facets()[i]);
+}
+
+// The middle of the longest extent; nothing when none is `shortest` positions long.
+std::optional<Cut> Halving::longest(const ListInCell& list, int shortest) const {
+    PackedBox all = box_of(list.contained.data(), list.contained.size());
+    all.add(box_of(list.crossing.data(), list.crossing.size()));
+    all = all.intersected(PackedBox::of(frame_, list.cell.lattice_box()));
+    std::optional<Cut> cut;
+    int extent = shortest - 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (all.high(k) - all.low(k) <= extent) continue;
+        extent = all.high(k) - all.low(k);
+        cut = Cut{k, all.low(k) + (extent + 1) / 2};
+    }
+    return cut;
+}
+
+// The list's reference moved through the wall, with the winding number there.
+std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, const Cell& cell,
+                                                    int axis, std::int64_t wall,
+                                                    std::int64_t direction) const {
+    const auto k = static_cast<std::size_t>(axis);
+    const KnownPoint& from = list.reference;
+    for (const std::int64_t step : {3, 37, 59, 101, 1001, 10001}) {
+        FinePoint p = from.at;
+        p.c[k] = wall + direction * step;
+        if (!cell.contains(p)) continue;
+        AxisTrace trace(from.at, p, axis);
+        Box segment;
+        for (std::size_t i = 0; i < 3; ++i) {
+            segment.lo[i] = (std::min(p.c[i], from.at.c[i]) >> wall_bits) - 1;
+            segment.hi[i] = (std::max(p.c[i], from.at.c[i]) >> wall_bits) + 2;
+        }
+        const PackedReach reach(PackedBox::of(frame_, segment));
+        for (const auto& part : {list.contained, list.crossing})
+            for (const PackedBox& e : part)
+                if (reach.meets(e) && source_.facet_box(e.id).overlaps(segment))
+                    trace.add({&source_, nullptr, e.id, leaf_.polygons().flipped(), false});
+        if (const auto change = trace.change(false)) return KnownPoint{p, from.winding + *change};
+    }
+    return std::nullopt;
+}
+
+// Both halves of a list; nothing when no reference point is found. Every contained entry is written
+// to the front and to the end of the room, which are advanced by the outcome of the comparisons.
+std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list, const Cut& cut) {
+    const auto q = static_cast<std::int16_t>(cut.first_above);
+    const auto minus_q = static_cast<std::int16_t>(-cut.first_above);
+    const auto is_below = [&](const PackedBox& e) { return e.lo[cut.axis] < q; };
+    const auto is_above = [&](const PackedBox& e) { return e.minus_hi[cut.axis] <= minus_q; };
+    const int axis = static_cast<int>(cut.axis);
+    const std::int64_t wall =
+        frame_.last_below(cut.axis, cut.first_above) * wall_scale + wall_offset;
+
+    std::array<ListInCell, 2> out;
+    out[0].cell = list.cell.below(axis, wall);
+    out[1].cell = list.cell.above(axis, wall);
+    for (std::size_t i = 0; i < 2; ++i) {
+        out[i].reference = list.reference;
+        if (out[i].cell.contains(list.reference.at)) continue;
+        const auto moved = reference_beyond(list, out[i].cell, axis, wall, i == 0 ? -1 : 1);
+        if (!moved) return std::nullopt;
+        out[i].reference = *moved;
+    }
+    cut_.clear();
+    auto* room = arena_.take<PackedBox>(list.contained.size());
+    auto* below = room;
+    auto* above = room + list.contained.size();
+    for (const PackedBox& e : list.contained) {
+        const bool b = is_below(e);
+        const bool a = is_above(e);
+        if (b && a) [[unlikely]] {
+            cut_.push_back(e);
+            continue;
+        }
+        copy(e, below);
+        copy(e, above - 1);
+        below += b ? 1 : 0;
+        above -= a ? 1 : 0;
+    }
+    out[0].contained = {room, below};
+    out[1].contained = {above, room + list.contained.size()};
+    for (std::size_t i = 0; i < 2; ++i) {
+        auto* entries = arena_.take<PackedBox>(cut_.size() + list.crossing.size());
+        auto* end = std::copy(cut_.begin(), cut_.end(), entries);
+        end = std::ranges::copy_if(list.crossing, end, [&](const PackedBox& e) {
+                  return i == 0 ? is_below(e) : is_above(e);
+              }).out;
+        arena_.shrink(end);
+        out[i].crossing = {entries, end};
+    }
+    return out;
+}
+
+std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level) {
+    const auto cut = longest(list, level == 1 ? 1 : coarse_extent);
+    if (!cut) return nullptr;
+    const auto mark = arena_.mark();
+    const auto halves = divided(list, *cut);
+    std::shared_ptr<const CellNode> node;
+    // Both halves nearly as large as the whole: a wall that parts nothing.
+    const std::size_t most = list.size() - list.size() / 16;
+    if (halves && ((*halves)[0].size() <= most || (*halves)[1].size() <= most)) {
+        const std::int64_t wall = (*halves)[0].cell.hi[cut->axis];
+        CellRef below = node_of((*halves)[0], level);
+        CellRef above = node_of((*halves)[1], level);
+        node =
+            CellNode::split(static_cast<int>(cut->axis), wall, std::move(below), std::move(above));
+    }
+    arena_.release(mark);
+    return node;
+}
+
+CellRef Halving::node_of(const ListInCell& list, int level) {
+    if (level < levels_at_once && list.size() >= refinable_leaf)
+        if (auto node = split(list, level + 1)) return {std::move(node), false};
+    return leaf_of(list);
+}
+
+CellRef Halving::leaf_of(const ListInCell& list) {
+    const auto mark = arena_.mark();
+    auto* facets = arena_.take<std::uint32_t>(list.size());
+    auto* end = facets;
+    for (const auto& part : {list.contained, list.crossing})
+        for (const PackedBox& e : part) *end++ = e.id;
+    PolygonList polygons = PolygonList::whole_facets(source_, leaf_.polygons().flipped(),
+                                                     {facets, end}, list.contained.size());
+    arena_.release(mark);
+    return {CellNode::leaf(std::move(polygons), list.reference.at, list.reference.winding,
+                           leaf_.is_mixed()),
+            false};
+}
+
+}  // namespace
+
+const CellNode* refined(const CellNode& leaf, const Cell& cell) {
+    if (const CellNode* done = leaf.refinement()) return done;
+    const PolygonList& polygons = leaf.polygons();
+    if (polygons.whole_source() == nullptr || polygons.whole_source()->is_half_space())
+        return nullptr;
+    return leaf.refine([&] { return Halving(leaf, cell).halved(); });
+}
+
+namespace {
+
+// Both halves of a large leaf are independent.
+void refine_below(const CellNode& node, const Cell& cell, bool parallel) {
+    const CellNode* at = &node;
+    if (at->is_leaf()) {
+        if (at->size() < refinable_leaf) return;
+        at = refined(*at, cell);
+        if (at == nullptr) return;
+    }
+    const auto below = [&](int i) {
+        const Cell c =
+            i == 0 ? cell.below(at->axis(), at->wall()) : cell.above(at->axis(), at->wall());
+        refine_below(*at->child(i).node, c, parallel);
+    };
+    if (parallel && at->size() > 64 * refinable_leaf) {
+        FirstFailure failure;
+        fork_join([&] { failure.guard(1, [&] { below(1); }); },
+                  [&] { failure.guard(0, [&] { below(0); }); });
+        failure.rethrow();
+    } else {
+        below(0);
+        below(1);
+    }
+}
+
+}  // namespace
+
+void refine_all(const CellRef& root, std::uint32_t threads) {
+    if (threads == 1) {
+        refine_below(*root.node, Cell{}, false);
+        return;
+    }
+    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
+    arena.execute([&] { refine_below(*root.node, Cell{}, true); });
+}
+
+}  // namespace trisect::detail

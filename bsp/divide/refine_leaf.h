@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Refinement of large leaves that belong to a solid, once and for all who use it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <trisect/bsp/cells/cell_tree.h>
+
+namespace trisect::detail {
+
+/// A leaf whose polygons outnumber those of the other operands is halved by itself; so a small tool
+/// does not decide where a large part is cut, and no part is cut twice. Halves that are still as
+/// large are halved at once, a few levels deep.
+inline constexpr std::size_t refinable_leaf = 512;
+
+/// The leaf's two halves as a node with children, made when first asked for and kept with the leaf.
+/// The walls depend on the leaf and its cell only. Nothing when halving does not part the polygons.
+/// Safe to call from several threads at once.
+[[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell);
+
+/// Refines all large leaves below a node, those of refinements too. `threads` as in
+/// EvaluateOptions.
+void refine_all(const CellRef& root, std::uint32_t threads);
+
+}  // namespace trisect::detail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From an expression over solids to a formula over numbered slots.
+#pragma once
+
+#include <vector>
+
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/expression.h>
+
+namespace trisect::detail {
+
+/// The formula over slots; equal solids share a slot.
+struct Translation {
+    Residual::Ref formula;
+    std::vector<Solid> slots;
+};
+
+/// \throw LimitError when the formula nests more than 4096 alternating operations.
+[[nodiscard]] Translation translate(const Expression& expression);
+
+}  // namespace trisect::detail

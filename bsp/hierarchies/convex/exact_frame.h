@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The integers behind a CommonFrame.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+
+#include <trisect/bsp/hierarchies/convex/common_frame.h>
+#include <trisect/kernel/number/bounded_double.h>
+
+namespace trisect::hierarchies {
+
+/// Places of both bodies are integers here: x -> M x + t. A distance in this space is `scale` times
+/// the one that was asked for.
+struct CommonFrame::Exact {
+    struct Map {
+        std::array<std::array<mpz_class, 3>, 3> m;
+        std::array<mpz_class, 3> t;
+    };
+    Map a;
+    Map b;
+    mpq_class scale;
+
+    [[nodiscard]] detail::Vector<mpz_class> place(Body body, const LatticePoint& p) const {
+        static_assert(sizeof(long) == sizeof(p.x), "GMP takes long");
+        const Map& map = body == Body::A ? a : b;
+        detail::Vector<mpz_class> r;
+        for (std::size_t i = 0; i < 3; ++i) {
+            r[i] = map.t[i];
+            r[i] += map.m[i][0] * static_cast<long>(p.x);
+            r[i] += map.m[i][1] * static_cast<long>(p.y);
+            r[i] += map.m[i][2] * static_cast<long>(p.z);
+        }
+        return r;
+    }
+};
+
+}  // namespace trisect::hierarchies

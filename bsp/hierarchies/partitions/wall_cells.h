@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// WallCells: a boundary cut by axis-parallel walls into cells of few polygons, above trees of face
+// planes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/interference/boxes/broad_phase.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/convex_polygon.h>
+#include <trisect/kernel/plane.h>
+
+namespace trisect::hierarchies {
+
+/// A tree of walls over a boundary. A wall is at an odd multiple of half a lattice unit, so no
+/// vertex and no polygon lies on it. There is area of the boundary on both sides of every wall; so
+/// every cell holds a part of it, and face planes alone tell inside from outside within a cell.
+///
+/// A tree of face planes is as deep as the solid makes it: a convex one's is a list. Under walls it
+/// is the depth of a balanced tree and the few planes of a cell.
+struct WallCells {
+    /// A wall by its number, or a cell.
+    using Ref = std::int32_t;
+    [[nodiscard]] static constexpr Ref cell_ref(std::size_t cell) {
+        return ~static_cast<Ref>(cell);
+    }
+
+    struct Wall {
+        Plane plane;
+        Ref below = 0;
+        Ref above = 0;
+        detail::BodyBox box_below;  ///< around all polygons there
+        detail::BodyBox box_above;
+    };
+    struct Cell {
+        std::vector<ConvexPolygon> polygons;   ///< of triangles, their parts within the cell
+        std::vector<std::uint32_t> triangles;  ///< of which each polygon is a part
+        std::vector<Plane> walls;              ///< the cell is below all of them
+        detail::BodyBox box;                   ///< around the polygons, where vertices are exact
+    };
+
+    std::vector<Wall> walls;  ///< the first one is the root
+    std::vector<Cell> cells;
+
+    [[nodiscard]] Ref root() const { return walls.empty() ? cell_ref(0) : 0; }
+
+    /// Cells of more than `most` polygons are divided, unless every wall leaves nearly all of them
+    /// on one side. O(n log n) exact cuts and signs. \pre all vertices of the model are lattice
+    /// points, and it is not empty.
+    [[nodiscard]] static WallCells over(const detail::InterferenceModelData& model,
+                                        std::size_t most);
+};
+
+}  // namespace trisect::hierarchies

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// FromWorld: points of the world as a placed solid sees them, in fractions.
+#pragma once
+
+#include <array>
+
+#include <trisect/bsp/interference/interference_certificate.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/pose.h>
+
+namespace trisect::detail {
+
+/// Keeps references to both. For those who look for certificates.
+class FromWorld {
+public:
+    FromWorld(const InterferenceModelData& model, const Pose& pose);
+
+    /// Where a point was before the pose, in the user's units.
+    [[nodiscard]] RationalPoint moved_back(const RationalPoint& p) const;
+    /// \pre not on the boundary
+    [[nodiscard]] bool is_inside(const RationalPoint& p) const;
+
+private:
+    const InterferenceModelData* model_;
+    const Pose* pose_;
+    std::array<RationalPoint, 3> columns_;  // of the inverse matrix
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vectors of GMP's fractions, for those who look for certificates.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+
+#include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/bsp/interference/certificate/find/proof_vector.h>
+#include <trisect/bsp/interference/interference_certificate.h>
+
+namespace trisect::detail {
+
+using GmpVector = std::array<mpq_class, 3>;
+
+using proof::cross;
+using proof::dot;
+using proof::minus;
+using proof::opposite;
+
+inline bool is_zero(const GmpVector& v) {
+    return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0;
+}
+inline RationalPoint rational(const GmpVector& v) {
+    return {from_gmp(v[0]), from_gmp(v[1]), from_gmp(v[2])};
+}
+
+}  // namespace trisect::detail

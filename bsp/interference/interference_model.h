@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// InterferenceModel: a solid prepared for questions about how it lies to others while it moves.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include <trisect/brep/brep.h>
+#include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/lattice.h>
+
+namespace trisect {
+
+namespace detail {
+struct InterferenceModelData;
+}
+
+/// What a model is like.
+struct InterferenceModelStats {
+    std::size_t faces = 0;
+    std::size_t triangles = 0;
+    std::size_t shells = 0;
+    std::size_t box_levels = 0;      ///< of the tree of oriented boxes
+    std::size_t bytes = 0;           ///< of triangles, positions and boxes, without the B-rep
+    double brep_seconds = 0;         ///< Solid::to_brep
+    double triangulate_seconds = 0;  ///< triangles of all faces
+    double boxes_seconds = 0;        ///< the tree of oriented boxes
+};
+
+/// The boundary of a solid with maximal faces, cut into triangles, with what queries under motion
+/// need beside it. All entities that such queries name (FaceId, EdgeId, VertexId) are those of
+/// `brep()`; its faces name their sources (Brep::source).
+///
+/// Poses are applied to the solid, never to the model: nothing in it ever moves.
+///
+/// Immutable value; copying shares. Safe to use from many threads. The empty solid is allowed: it
+/// is disjoint from everything, and a model that was moved from is that of the empty solid. Cost:
+/// Solid::to_brep and O(n log n).
+class InterferenceModel {
+public:
+    /// Of the empty solid.
+    InterferenceModel();
+    /// A solid imported under Embedding::Resolve is resolved first.
+    /// \throw UnsupportedError when the solid is unbounded; what evaluate() and Solid::to_brep
+    /// throw.
+    explicit InterferenceModel(const Solid& solid);
+    /// The same with an index that exists already; its B-rep is taken over where it has one.
+    explicit InterferenceModel(const BrepIndex& index);
+
+    [[nodiscard]] const Solid& solid() const;
+    [[nodiscard]] const Brep& brep() const;
+    /// Points and planes of the B-rep are in units of this lattice.
+    [[nodiscard]] Lattice lattice() const;
+    [[nodiscard]] bool is_empty() const;
+    [[nodiscard]] std::size_t triangle_count() const;
+    [[nodiscard]] InterferenceModelStats stats() const;
+    /// The index over the solid, without a B-rep unless the model was made with one. Made at the
+    /// first call, which others wait for.
+    [[nodiscard]] const BrepIndex& index() const;
+
+    /// For algorithms of the library: bsp/interference/relation/interference_model_data.h.
+    [[nodiscard]] const detail::InterferenceModelData& data() const {
+        return data_ != nullptr ? *data_ : *empty_data();
+    }
+
+private:
+    [[nodiscard]] static const std::shared_ptr<const detail::InterferenceModelData>& empty_data();
+
+    std::shared_ptr<const detail::InterferenceModelData> data_;
+};
+
+}  // namespace trisect

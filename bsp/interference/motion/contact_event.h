@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ContactEvent: a time at which two features of moving solids become coplanar and meet.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/number/real_root.h>
+
+namespace trisect::detail {
+
+/// A vertex, an edge or (with neither) a face. `face` is a face at the feature in any case.
+struct ContactFeature {
+    VertexId vertex;
+    EdgeId edge;
+    FaceId face;
+};
+
+struct FeaturePair {
+    ContactFeature a;
+    ContactFeature b;
+};
+
+/// All events at one time.
+struct EventsAtATime {
+    RealRoot time;
+    std::vector<FeaturePair> pairs;
+};
+
+/// The events at the first few of the times that were added.
+class EarliestEvents {
+public:
+    /// At so many times at most. Only events after `after`, if given, count.
+    explicit EarliestEvents(std::optional<RealRoot> after = std::nullopt, std::size_t times = 1);
+
+    void add(RealRoot s, const FeaturePair& pair);
+
+    [[nodiscard]] bool is_empty() const { return events_.empty(); }
+    /// There may be events after the last of these.
+    [[nodiscard]] bool is_full() const { return events_.size() == times_; }
+    /// In ascending order.
+    [[nodiscard]] std::vector<EventsAtATime>& events() { return events_; }
+    /// No event after this matters; beyond 1 when all do.
+    [[nodiscard]] double latest() const { return latest_; }
+    /// No event before this counts.
+    [[nodiscard]] double earliest() const { return earliest_; }
+
+private:
+    std::optional<RealRoot> after_;
+    std::size_t times_;
+    std::vector<EventsAtATime> events_;
+    double latest_ = 2;
+    double earliest_ = -1;
+};
+
+}  // namespace trisect::detail

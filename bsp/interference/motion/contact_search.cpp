@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Space and time are halved in turns. A pair of boxes much smaller than the sweep would be kept
+// whatever it is like, so boxes are divided only while they are larger; then time is. The pairs
+// left over, the front, are what both halves begin with, the earlier one first. Where it finds an
+// event the later one is never looked at: the first contact costs what lies before it.
+
+#include <trisect/bsp/interference/motion/contact_search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trisect::detail {
+
+namespace {
+
+// Intervals stay multiples of 2^-36, and their halves in PairEvents exact doubles.
+constexpr int max_depth = 36;
+// So few pairs of triangles are solved at once, however long the interval is.
+constexpr std::size_t few_pairs = 6;
+
+}  // namespace
+
+void ContactSearch::run(const BallMotion& over, EarliestEvents& events) {
+    search(over, {SweptWalk::Pair{}}, 0, events);
+}
+
+void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth,
+                           EarliestEvents& events) {
+    if (over.from > events.latest() || over.to < events.earliest()) return;
+    ++counters_.intervals;
+    const SweptMap swept = swept_map(over, b_.data().lo, b_.data().hi);
+    const ObbPose pose(a_.data().boxes, b_.data().boxes, swept.map, swept.sweep);
+    if (pose.is_apart()) return;
+    Pairs leaves;
+    Pairs coarse;
+    if (parting_ != nullptr) {
+        parting_->set(over, swept);
+        walk_.refine(pose, swept.sweep, front, leaves, coarse, *parting_);
+    } else {
+        walk_.refine(pose, swept.sweep, front, leaves, coarse);
+    }
+    if (leaves.empty() && coarse.empty()) return;
+
+    // Triangles that sweep farther than they are large had better wait for a shorter interval.
+    const bool worth_halving =
+        !coarse.empty() || (leaves.size() > few_pairs && walk_.are_long(pose, swept.sweep, leaves));
+    if (!worth_halving || depth == max_depth) {
+        solve(over, leaves, events);
+        if (coarse.empty()) return;
+    }
+    if (depth == max_depth) {
+        // Boxes smaller than the sweep of an interval this short: too small to be told apart.
+        leaves.clear();
+        walk_.refine(pose, 0, coarse, leaves, coarse);
+        solve(over, leaves, events);
+        return;
+    }
+    coarse.insert(coarse.end(), leaves.begin(), leaves.end());
+    leaves = {};
+    search(over.left_half(), coarse, depth + 1, events);
+    search(over.right_half(), coarse, depth + 1, events);
+}
+
+void ContactSearch::solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events) {
+    const ObbTree& ta = a_.data().boxes;
+    const ObbTree& tb = b_.data().boxes;
+    // What a triangle of B does on its way is worked out once for all its partners.
+    std::sort(leaves.begin(), leaves.end(), [](const SweptWalk::Pair& p, const SweptWalk::Pair& q) {
+        return p.b.index != q.b.index ? p.b.index < q.b.index : p.a.index < q.a.index;
+    });
+    for (const SweptWalk::Pair& p : leaves) {
+        const ObbChild la = ta.child(p.a);
+        const ObbChild lb = tb.child(p.b);
+        for (std::uint32_t j = 0; j < lb.count(); ++j)
+            for (std::uint32_t i = 0; i < la.count(); ++i) {
+                ++counters_.triangle_pairs;
+                pairs_.find(ta.order[la.first() + i], tb.order[lb.first() + j], over, events);
+            }
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ContactSearch: the first events of two moving solids, found by halving the interval of the
+// parameter and walking down two trees of boxes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trisect/bsp/interference/motion/ball_motion.h>
+#include <trisect/bsp/interference/motion/contact_event.h>
+#include <trisect/bsp/interference/motion/facing_cones.h>
+#include <trisect/bsp/interference/motion/pair_events.h>
+#include <trisect/bsp/interference/motion/swept_walk.h>
+
+namespace trisect::detail {
+
+/// What a search did.
+struct SearchCounters {
+    std::uint64_t intervals = 0;       ///< parts of the parameter's interval looked at
+    std::uint64_t box_tests = 0;       ///< one box against four, over an interval
+    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were asked for
+};
+
+class ContactSearch {
+public:
+    /// `parting`, if given, leaves out what moves apart: for the first contact of solids that are
+    /// apart at the beginning.
+    ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs,
+                  PartingFaces* parting = nullptr)
+        : a_(a), b_(b), pairs_(pairs), parting_(parting), walk_(a.data().boxes, b.data().boxes) {}
+
+    /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
+    void run(const BallMotion& over, EarliestEvents& events);
+
+    [[nodiscard]] SearchCounters counters() const {
+        SearchCounters r = counters_;
+        r.box_tests = walk_.box_tests();
+        return r;
+    }
+
+private:
+    using Pairs = SweptWalk::Pairs;
+
+    void search(const BallMotion& over, const Pairs& front, int depth, EarliestEvents& events);
+    void solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events);
+
+    const EventModel& a_;
+    const EventModel& b_;
+    PairEvents& pairs_;
+    PartingFaces* parting_;
+    SweptWalk walk_;
+    SearchCounters counters_;
+};
+
+}  // namespace trisect::detail

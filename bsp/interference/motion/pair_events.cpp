@@ -1,0 +1,552 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every condition is linear in one of the maps of the relative motion: the height of a vertex over
+// a plane, the height of a plane over a vertex, the product of two lines (Plücker). So are the
+// conditions of meeting: a vertex is beyond a side of a triangle when it is beyond the plane
+// through that side and the triangle's normal; edges miss each other when the ends of one are on
+// one side of the other one's line, seen along any axis. Their Bernstein coefficients over an
+// interval are sums of a few products in doubles with error bounds (Ball). An interval without a
+// root, or without meeting, is dropped; another one is halved, the numbers with it, down to a
+// thousandth part. What is left is decided by integer polynomials (feature_contact.h).
+
+#include <trisect/bsp/interference/motion/pair_events.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/bsp/interference/moving_points.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// How often an interval is halved before exact numbers decide.
+constexpr int max_halvings = 10;
+
+std::size_t after(std::size_t i) { return (i + 1) % 3; }
+
+BallVector normal_ball(const Plane& p) {
+    return {Ball::rounded(p.approx_normal(0)), Ball::rounded(p.approx_normal(1)),
+            Ball::rounded(p.approx_normal(2))};
+}
+
+// A plane in doubles.
+struct BallPlane {
+    BallVector normal;
+    Ball offset;
+};
+
+// The image of B's point, and its weight, at one Bernstein coefficient.
+BallVector moved_point(const BallMotion::Maps& m, const BallVector& x) {
+    return m.matrix * x + m.shift;
+}
+
+// B's plane over a point of A.
+Ball height_over(const BallMotion::Maps& m, const BallPlane& plane, const BallVector& x) {
+    return dot(m.plane_normal * plane.normal, x) +
+           (m.plane_offset * plane.offset - dot(m.plane_shift, plane.normal));
+}
+
+using Corners = std::array<BallVector, 3>;
+
+Corners corners_of(const EventModel& model, const ModelTriangle& t) {
+    return {model.position(t.vertex[0]), model.position(t.vertex[1]), model.position(t.vertex[2])};
+}
+
+// The plane through side i and the normal; inside is above.
+BallPlane side_plane(const Corners& c, const BallVector& normal, std::size_t i) {
+    const BallVector n = cross(normal, c[after(i)] - c[i]);
+    return {n, -dot(n, c[i])};
+}
+
+std::size_t dominant_axis(const BallVector& v) {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::abs(v[i].value) > std::abs(v[axis].value)) axis = i;
+    return axis;
+}
+
+// Points as integers over one common weight.
+struct ExactPoints {
+    std::vector<std::array<mpz_class, 3>> xyz;
+    mpz_class weight = 1;
+
+    void add(const Point& p) {
+        if (p.is_lattice()) {
+            const LatticePoint& l = p.lattice();
+            xyz.push_back({to_gmp(l.x) * weight, to_gmp(l.y) * weight, to_gmp(l.z) * weight});
+            return;
+        }
+        const HomogeneousPoint h = p.homogeneous();
+        const mpz_class w = to_gmp(h.w);
+        for (auto& v : xyz)
+            for (mpz_class& c : v) c *= w;
+        xyz.push_back(
+            {to_gmp(h.xyz[0]) * weight, to_gmp(h.xyz[1]) * weight, to_gmp(h.xyz[2]) * weight});
+        weight *= w;
+    }
+};
+
+using ExactVector = std::array<mpz_class, 3>;
+
+ExactVector difference(const ExactVector& a, const ExactVector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+PolynomialVector constant(const ExactVector& v) {
+    return {IntegerPolynomial(v[0]), IntegerPolynomial(v[1]), IntegerPolynomial(v[2])};
+}
+
+PolynomialVector times(const PolynomialMatrix& m, const ExactVector& v) {
+    PolynomialVector r;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) r[i].add_multiple(m[i][j], v[j]);
+    return r;
+}
+
+IntegerPolynomial dot(const PolynomialVector& a, const ExactVector& b) {
+    IntegerPolynomial r;
+    for (std::size_t i = 0; i < 3; ++i) r.add_multiple(a[i], b[i]);
+    return r;
+}
+
+ExactVector exact_normal(const Plane& p) {
+    return {to_gmp(p.normal(0)), to_gmp(p.normal(1)), to_gmp(p.normal(2))};
+}
+
+// Paths of points of B, and of points of A, over the common weight.
+PolynomialVector moving_path(const RelativeMotion& motion, const ExactPoints& points,
+                             std::size_t i) {
+    PolynomialVector r = times(motion.point.matrix, points.xyz[i]);
+    for (std::size_t k = 0; k < 3; ++k) r[k].add_multiple(motion.point.shift[k], points.weight);
+    return r;
+}
+
+PolynomialVector resting_path(const RelativeMotion& motion, const ExactPoints& points,
+                              std::size_t i) {
+    PolynomialVector r;
+    for (std::size_t k = 0; k < 3; ++k) r[k].add_multiple(motion.point.weight, points.xyz[i][k]);
+    return r;
+}
+
+struct MovingVertexAndTriangle {
+    PolynomialVector point;
+    MovingTriangle triangle;
+};
+
+// Point 0 against the triangle of points 1 to 3.
+MovingVertexAndTriangle vertex_and_triangle(const RelativeMotion& motion, const ExactPoints& points,
+                                            bool triangle_moves) {
+    MovingVertexAndTriangle r;
+    r.point = triangle_moves ? resting_path(motion, points, 0) : moving_path(motion, points, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        r.triangle.corners[i] = triangle_moves ? moving_path(motion, points, i + 1)
+                                               : resting_path(motion, points, i + 1);
+        const ExactVector d = difference(points.xyz[after(i) + 1], points.xyz[i + 1]);
+        r.triangle.directions[i] = triangle_moves ? times(motion.point.matrix, d) : constant(d);
+    }
+    return r;
+}
+
+ContactFeature feature_on(const ModelTriangle& t, const std::array<int, 3>& sides) {
+    ContactFeature f;
+    f.face = t.face;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (sides[i] != 0) continue;
+        if (sides[after(i)] == 0) {
+            f.vertex = t.vertex[after(i)];
+            return f;
+        }
+        if (sides[after(after(i))] != 0) f.edge = t.edge[i];
+    }
+    return f;
+}
+
+ContactFeature corner(const ModelTriangle& t, std::size_t i) { return {t.vertex[i], {}, t.face}; }
+ContactFeature side(const ModelTriangle& t, std::size_t i) { return {{}, t.edge[i], t.face}; }
+
+}  // namespace
+
+EventModel::EventModel(const InterferenceModelData& data) : data_(&data) {
+    owned_.resize(data.triangles.size());
+    std::vector<bool> vertex_done(data.positions.size());
+    std::vector<bool> edge_done(data.brep.edges().size());
+    for (std::size_t t = 0; t < data.triangles.size(); ++t) {
+        const ModelTriangle& triangle = data.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexId v = triangle.vertex[i];
+            const EdgeId e = triangle.edge[i];
+            if (!vertex_done[v.index]) owned_[t] |= static_cast<std::uint8_t>(1U << i);
+            vertex_done[v.index] = true;
+            if (!e.is_valid()) continue;
+            if (!edge_done[e.index]) owned_[t] |= static_cast<std::uint8_t>(1U << (3 + i));
+            edge_done[e.index] = true;
+        }
+    }
+}
+
+BallVector EventModel::position(VertexId v) const {
+    const std::array<double, 3>& p = data_->position(v);
+    const double e = data_->position_error;
+    return {Ball(p[0], e), Ball(p[1], e), Ball(p[2], e)};
+}
+
+// The coplanarity and the conditions of meeting over one interval.
+struct PairEvents::Scalars {
+    BallPolynomial coplanar;
+    std::array<BallPolynomial, 4> conditions;
+    std::size_t count = 3;
+
+    // Vertex and face: beyond a side for good. Two edges: conditions 0 and 1 are the ends of one
+    // seen from the other, 2 and 3 the other way round.
+    [[nodiscard]] bool never_meet(Kind kind, std::size_t degree) const {
+        if (kind != Kind::EdgeEdge)
+            return std::any_of(conditions.begin(), conditions.begin() + 3,
+                               [degree](const auto& c) { return constant_sign(c, degree) < 0; });
+        for (std::size_t i = 0; i < 4; i += 2) {
+            const int s = constant_sign(conditions[i], degree);
+            if (s != 0 && s == constant_sign(conditions[i + 1], degree)) return true;
+        }
+        return false;
+    }
+};
+
+// What the questions of all triangles of A have in common: a triangle of B on its way.
+struct PairEvents::Moved {
+    using Path = std::array<BallVector, BallPolynomial::max_degree + 1>;
+
+    std::uint32_t triangle = EntityId<void>::none;
+    double from = 0;
+    double to = 0;
+    Corners at_rest;
+    BallVector normal_at_rest;
+    std::array<Path, 3> corner;
+    Path normal;
+    std::array<Ball, BallPolynomial::max_degree + 1> offset;
+    // Of the sides.
+    std::array<Path, 3> direction;
+    std::array<Path, 3> moment;
+};
+
+// A triangle of A, which is the one at rest.
+struct PairEvents::Resting {
+    Corners corner;
+    BallVector normal;
+    Ball offset;
+
+    Resting(const EventModel& model, const ModelTriangle& t) : corner(corners_of(model, t)) {
+        const Plane& plane = model.data().brep.plane(t.face);
+        normal = normal_ball(plane);
+        offset = Ball::rounded(plane.approx_offset());
+    }
+};
+
+PairEvents::PairEvents(const EventModel& a, const EventModel& b, const RelativeMotion& motion)
+    : a_(a), b_(b), motion_(motion), moved_(std::make_unique<Moved>()) {}
+
+PairEvents::~PairEvents() = default;
+
+const PairEvents::Moved& PairEvents::moved(std::uint32_t triangle_b, const BallMotion& over) {
+    Moved& r = *moved_;
+    if (r.triangle == triangle_b && r.from == over.from && r.to == over.to) return r;
+    r.triangle = triangle_b;
+    r.from = over.from;
+    r.to = over.to;
+    const ModelTriangle& t = b_.triangle(triangle_b);
+    const Plane& plane = b_.data().brep.plane(t.face);
+    r.at_rest = corners_of(b_, t);
+    r.normal_at_rest = normal_ball(plane);
+    const Ball offset = Ball::rounded(plane.approx_offset());
+    for (std::size_t k = 0; k <= over.degree; ++k) {
+        const BallMotion::Maps& m = over.maps[k];
+        r.normal[k] = m.plane_normal * r.normal_at_rest;
+        r.offset[k] = m.plane_offset * offset - detail::dot(m.plane_shift, r.normal_at_rest);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const BallVector u = r.at_rest[after(i)] - r.at_rest[i];
+        const BallVector moment = detail::cross(r.at_rest[i], r.at_rest[after(i)]);
+        for (std::size_t k = 0; k <= over.degree; ++k) {
+            const BallMotion::Maps& m = over.maps[k];
+            r.corner[i][k] = moved_point(m, r.at_rest[i]);
+            if (!t.edge[i].is_valid()) continue;
+            r.direction[i][k] = m.line_direction * u;
+            r.moment[i][k] = m.line_moment * moment + m.line_lever * u;
+        }
+    }
+    return r;
+}
+
+void PairEvents::find(std::uint32_t triangle_a, std::uint32_t triangle_b, const BallMotion& over,
+                      EarliestEvents& events) {
+    if (over.from > events.latest()) return;
+    const Moved& b = moved(triangle_b, over);
+    const Resting a(a_, a_.triangle(triangle_a));
+
+    // All corners of one for good on one side of the plane of the other: nothing can happen.
+    std::array<BallPolynomial, 3> b_over_a;
+    std::array<BallPolynomial, 3> a_over_b;
+    std::array<int, 3> side_of_b{};
+    std::array<int, 3> side_of_a{};
+    const auto all_on_one_side = [](const std::array<int, 3>& s) {
+        return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            b_over_a[i].b[k] =
+                detail::dot(a.normal, b.corner[i][k]) + a.offset * over.maps[k].weight;
+        side_of_b[i] = constant_sign(b_over_a[i], over.degree);
+    }
+    if (all_on_one_side(side_of_b)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            a_over_b[i].b[k] = detail::dot(b.normal[k], a.corner[i]) + b.offset[k];
+        side_of_a[i] = constant_sign(a_over_b[i], over.degree);
+    }
+    if (all_on_one_side(side_of_a)) return;
+
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (b_.owns_vertex(triangle_b, i)) {
+            ++motion_counters().questions;
+            if (side_of_b[i] == 0)
+                vertex_of_b({Kind::VertexFace, triangle_a, triangle_b, 0, i}, a, b_over_a[i], over,
+                            events);
+            else
+                ++motion_counters().filtered;
+        }
+        if (a_.owns_vertex(triangle_a, i)) {
+            ++motion_counters().questions;
+            if (side_of_a[i] == 0)
+                vertex_of_a({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, a, a_over_b[i], over,
+                            events);
+            else
+                ++motion_counters().filtered;
+        }
+        if (!a_.owns_edge(triangle_a, i)) continue;
+        for (std::size_t j = 0; j < 3; ++j)
+            if (b_.owns_edge(triangle_b, j))
+                edges({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, a, over, events);
+    }
+}
+
+void PairEvents::find_exactly(std::uint32_t triangle_a, std::uint32_t triangle_b,
+                              const TimeInterval& interval, EarliestEvents& events) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (b_.owns_vertex(triangle_b, i))
+            decide({Kind::VertexFace, triangle_a, triangle_b, 0, i}, interval, events);
+        if (a_.owns_vertex(triangle_a, i))
+            decide({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, interval, events);
+        if (!a_.owns_edge(triangle_a, i)) continue;
+        for (std::size_t j = 0; j < 3; ++j)
+            if (b_.owns_edge(triangle_b, j))
+                decide({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, interval, events);
+    }
+}
+
+void PairEvents::vertex_of_b(const Features& f, const Resting& a, const BallPolynomial& height,
+                             const BallMotion& over, EarliestEvents& events) {
+    Scalars scalars;
+    scalars.coplanar = height;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const BallPlane s = side_plane(a.corner, a.normal, i);
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            scalars.conditions[i].b[k] =
+                detail::dot(s.normal, moved_->corner[f.j][k]) + s.offset * over.maps[k].weight;
+    }
+    narrow(f, over, scalars, events);
+}
+
+void PairEvents::vertex_of_a(const Features& f, const Resting& a, const BallPolynomial& height,
+                             const BallMotion& over, EarliestEvents& events) {
+    Scalars scalars;
+    scalars.coplanar = height;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const BallPlane s = side_plane(moved_->at_rest, moved_->normal_at_rest, i);
+        for (std::size_t k = 0; k <= over.degree; ++k)
+            scalars.conditions[i].b[k] = height_over(over.maps[k], s, a.corner[f.i]);
+    }
+    narrow(f, over, scalars, events);
+}
+
+void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& over,
+                       EarliestEvents& events) {
+    ++motion_counters().questions;
+    const Moved& b = *moved_;
+    const BallVector& a0 = a.corner[f.i];
+    const BallVector& a1 = a.corner[after(f.i)];
+    const BallVector ua = a1 - a0;
+    const BallVector ma = detail::cross(a0, a1);
+    const Moved::Path& direction = b.direction[f.j];
+    const Moved::Path& moment = b.moment[f.j];
+    Scalars scalars;
+    for (std::size_t k = 0; k <= over.degree; ++k)
+        scalars.coplanar.b[k] = detail::dot(ua, moment[k]) + detail::dot(ma, direction[k]);
+    if (constant_sign(scalars.coplanar, over.degree) != 0) {
+        ++motion_counters().filtered;
+        return;
+    }
+    scalars.count = 4;
+    const std::size_t axis = dominant_axis(detail::cross(ua, direction[0]));
+    for (std::size_t k = 0; k <= over.degree; ++k) {
+        scalars.conditions[0].b[k] = detail::cross(a0, direction[k])[axis] - moment[k][axis];
+        scalars.conditions[1].b[k] = detail::cross(a1, direction[k])[axis] - moment[k][axis];
+        const Ball lift = ma[axis] * over.maps[k].weight;
+        scalars.conditions[2].b[k] = detail::cross(b.corner[f.j][k], ua)[axis] - lift;
+        scalars.conditions[3].b[k] = detail::cross(b.corner[after(f.j)][k], ua)[axis] - lift;
+    }
+    narrow(f, over, scalars, events);
+}
+
+void PairEvents::narrow(const Features& f, const BallMotion& over, const Scalars& scalars,
+                        EarliestEvents& events) {
+    struct Part {
+        Scalars scalars;
+        double from = 0;
+        double to = 1;
+        int halvings = 0;
+    };
+    // What doubles leave over, neighbouring parts joined.
+    double left_from = 2;
+    double left_to = 0;
+    const auto decide_left = [&] {
+        if (left_from < left_to) decide(f, {mpq_class(left_from), mpq_class(left_to)}, events);
+        left_from = 2;
+    };
+    std::array<Part, max_halvings + 2> parts;
+    std::size_t size = 1;
+    parts[0] = {scalars, over.from, over.to, 0};
+    bool any = false;
+    while (size > 0) {
+        const Part part = parts[--size];
+        if (part.from > events.latest()) break;
+        if (part.to < events.earliest()) continue;
+        if (constant_sign(part.scalars.coplanar, over.degree) != 0 ||
+            part.scalars.never_meet(f.kind, over.degree))
+            continue;
+        any = true;
+        if (part.halvings == max_halvings) {
+            if (left_from < left_to && left_to != part.from) decide_left();
+            left_from = std::min(left_from, part.from);
+            left_to = part.to;
+            continue;
+        }
+        const double middle = (part.from + part.to) / 2;
+        Part& right = parts[size++];
+        Part& left = parts[size++];
+        halve(part.scalars.coplanar, over.degree, left.scalars.coplanar, right.scalars.coplanar);
+        for (std::size_t i = 0; i < part.scalars.count; ++i)
+            halve(part.scalars.conditions[i], over.degree, left.scalars.conditions[i],
+                  right.scalars.conditions[i]);
+        left.scalars.count = right.scalars.count = part.scalars.count;
+        left.from = part.from;
+        left.to = right.from = middle;
+        right.to = part.to;
+        left.halvings = right.halvings = part.halvings + 1;
+    }
+    if (left_from < left_to)
+        decide_left();
+    else if (!any)
+        ++motion_counters().filtered;
+}
+
+IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
+    const ModelTriangle& ta = a_.triangle(f.triangle_a);
+    const ModelTriangle& tb = b_.triangle(f.triangle_b);
+    const Brep& brep_a = a_.data().brep;
+    const Brep& brep_b = b_.data().brep;
+    ExactPoints points;
+    if (f.kind == Kind::VertexFace) {
+        points.add(brep_b.point(tb.vertex[f.j]));
+        const Plane& plane = brep_a.plane(ta.face);
+        IntegerPolynomial r = dot(moving_path(motion_, points, 0), exact_normal(plane));
+        r.add_multiple(motion_.point.weight, to_gmp(plane.offset()) * points.weight);
+        return r;
+    }
+    if (f.kind == Kind::FaceVertex) {
+        points.add(brep_a.point(ta.vertex[f.i]));
+        const Plane& plane = brep_b.plane(tb.face);
+        const ExactVector normal = exact_normal(plane);
+        IntegerPolynomial r = dot(times(motion_.plane_normal, normal), points.xyz[0]);
+        IntegerPolynomial offset = motion_.plane_offset * to_gmp(plane.offset());
+        offset -= dot(motion_.plane_shift, normal);
+        r.add_multiple(offset, points.weight);
+        return r;
+    }
+    points.add(brep_a.point(ta.vertex[f.i]));
+    points.add(brep_a.point(ta.vertex[after(f.i)]));
+    ExactPoints of_b;
+    of_b.add(brep_b.point(tb.vertex[f.j]));
+    of_b.add(brep_b.point(tb.vertex[after(f.j)]));
+    // The line through x / w and y / w: direction w (y - x), moment x × y, both times 1 / w^2.
+    const auto direction = [](const ExactPoints& p) {
+        ExactVector u = difference(p.xyz[1], p.xyz[0]);
+        for (mpz_class& c : u) c *= p.weight;
+        return u;
+    };
+    const ExactVector ub = direction(of_b);
+    const ExactVector mb = cross(of_b.xyz[0], of_b.xyz[1]);
+    PolynomialVector moment = times(motion_.line_moment, mb);
+    const PolynomialVector lever = times(motion_.line_lever, ub);
+    for (std::size_t i = 0; i < 3; ++i) moment[i] += lever[i];
+    return dot(moment, direction(points)) +
+           dot(times(motion_.line_direction, ub), cross(points.xyz[0], points.xyz[1]));
+}
+
+void PairEvents::decide(const Features& f, const TimeInterval& interval, EarliestEvents& events) {
+    MotionCounters& counters = motion_counters();
+    ++counters.exact;
+    const IntegerPolynomial p = coplanarity_of(f);
+    if (p.is_zero()) {
+        ++counters.coplanar;
+        return;
+    }
+    for (RealRoot& s : isolate_roots(p, interval.from, interval.to)) add_if_they_meet(f, s, events);
+}
+
+void PairEvents::add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents& events) {
+    const ModelTriangle& ta = a_.triangle(f.triangle_a);
+    const ModelTriangle& tb = b_.triangle(f.triangle_b);
+    const auto add_points = [](ExactPoints& points, const EventModel& model,
+                               const ModelTriangle& t) {
+        for (const VertexId v : t.vertex) points.add(model.data().brep.point(v));
+    };
+    ExactPoints points;
+    FeaturePair pair;
+    if (f.kind == Kind::EdgeEdge) {
+        const Brep& brep_a = a_.data().brep;
+        const Brep& brep_b = b_.data().brep;
+        points.add(brep_a.point(ta.vertex[f.i]));
+        points.add(brep_a.point(ta.vertex[after(f.i)]));
+        points.add(brep_b.point(tb.vertex[f.j]));
+        points.add(brep_b.point(tb.vertex[after(f.j)]));
+        const MovingEdge a{{resting_path(motion_, points, 0), resting_path(motion_, points, 1)},
+                           constant(difference(points.xyz[1], points.xyz[0]))};
+        const MovingEdge b{{moving_path(motion_, points, 2), moving_path(motion_, points, 3)},
+                           times(motion_.point.matrix, difference(points.xyz[3], points.xyz[2]))};
+        if (!cross_within_at(s, a, b)) return;
+        pair = {side(ta, f.i), side(tb, f.j)};
+    } else {
+        const bool of_b = f.kind == Kind::VertexFace;
+        const ModelTriangle& tv = of_b ? tb : ta;
+        const ModelTriangle& tf = of_b ? ta : tb;
+        const std::size_t i = of_b ? f.j : f.i;
+        points.add((of_b ? b_ : a_).data().brep.point(tv.vertex[i]));
+        add_points(points, of_b ? a_ : b_, tf);
+        const MovingVertexAndTriangle m = vertex_and_triangle(motion_, points, !of_b);
+        const std::array<int, 3> sides = sides_at(s, m.point, m.triangle);
+        if (std::any_of(sides.begin(), sides.end(), [](int v) { return v < 0; })) return;
+        pair = of_b ? FeaturePair{feature_on(tf, sides), corner(tv, i)}
+                    : FeaturePair{corner(tv, i), feature_on(tf, sides)};
+    }
+    ++motion_counters().contacts;
+    events.add(s, pair);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// DistanceSearch: the closest triangles of two posed models, by certified bounds.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <trisect/bsp/interference/boxes/obb_pose.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/relation/pair_distance.h>
+#include <trisect/kernel/pose.h>
+
+namespace trisect::detail {
+
+/// What a search did.
+struct DistanceCounters {
+    std::uint64_t node_tests = 0;      ///< bounds of one box against four
+    std::uint64_t triangle_pairs = 0;  ///< distances of triangles in doubles
+};
+
+/// For one thread; models must outlive it. Distances are in the user's units.
+class DistanceSearch {
+public:
+    /// \pre both models have triangles.
+    DistanceSearch(const InterferenceModelData& a, const Pose& pose_a,
+                   const InterferenceModelData& b, const Pose& pose_b);
+
+    using Candidate = DistanceCandidate;
+    /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
+    /// `stop` the search ends as soon as something is certainly nearer. Triangles of an earlier
+    /// answer may be given as a start.
+    void run(double limit = std::numeric_limits<double>::infinity(), bool stop = false,
+             std::optional<std::array<std::uint32_t, 2>> start = {});
+
+    /// Bounds on the distance, if it is below the limit. `lower` is infinite when nothing was
+    /// found.
+    [[nodiscard]] double lower() const { return lower_; }
+    [[nodiscard]] double upper() const { return upper_; }
+    /// All pairs that may be the closest, the one with the least upper bound first.
+    [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+    [[nodiscard]] const DistanceCounters& counters() const { return counters_; }
+
+private:
+    struct Entry {
+        float bound;
+        ObbId a;
+        ObbId b;
+    };
+    [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const {
+        return pairs_->compare(a, b, std::min(upper_, limit_));
+    }
+    void note(const Candidate& c);
+    void expand(const Entry& e);
+    void push(float bound, ObbId a, ObbId b);
+    void finish();
+
+    const InterferenceModelData* a_;
+    const InterferenceModelData* b_;
+    std::optional<PairDistance> pairs_;
+    std::optional<ObbPose> pose_;
+    double unit_ = 0;  // gaps of boxes to lower bounds in the world
+    double limit_ = 0;
+    double lower_ = 0;
+    double upper_ = 0;
+    std::vector<Entry> heap_;
+    std::vector<Candidate> candidates_;
+    DistanceCounters counters_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// InterferenceModelData: the arrays behind an InterferenceModel, as algorithms see them.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/interference/boxes/obb_tree.h>
+#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/inside_balls.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect::detail {
+
+/// A triangle of a face, counter-clockwise seen from outside. 28 bytes.
+struct ModelTriangle {
+    std::array<VertexId, 3> vertex;
+    /// Side i runs from vertex i to vertex i + 1. Invalid for a diagonal within the face. Of an
+    /// edge that was taken apart it is the copy that bounds this face.
+    std::array<EdgeId, 3> edge;
+    FaceId face;
+};
+
+/// The triangles of one face of a B-rep, which fill it exactly. No corner of the face lies within
+/// a side.
+void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles);
+
+/// Immutable once built, except for the index, which is made when first asked for.
+struct InterferenceModelData {
+    explicit InterferenceModelData(const Solid& s);
+    explicit InterferenceModelData(const BrepIndex& i);
+    /// Of a boundary alone. `index()` may not be asked for.
+    explicit InterferenceModelData(const Brep& b);
+
+    Solid solid;
+    Brep brep;
+
+    /// In order of their faces.
+    std::vector<ModelTriangle> triangles;
+    /// Triangles of face f: first_triangle[f] .. first_triangle[f + 1].
+    std::vector<std::uint32_t> first_triangle{0};
+
+    /// For each vertex, in lattice units: its coordinates are within `position_error` of these.
+    std::vector<std::array<double, 3>> positions;
+    /// 0 where all vertices are lattice points, whose coordinates are doubles.
+    double position_error = 0;
+    /// The largest magnitude of a coordinate of a position.
+    double largest = 0;
+    /// Whether all vertices are lattice points.
+    bool all_lattice = true;
+    /// Bounds of the solid, exact where all vertices are lattice points, otherwise outward; in
+    /// lattice units. Of an empty model lo = hi = 0.
+    std::array<double, 3> lo{};
+    std::array<double, 3> hi{};
+
+    /// The smallest id of all vertices at the same place as the vertex, for each vertex.
+    std::vector<VertexId> place;
+    /// A vertex of each shell.
+    std::vector<VertexId> shell_vertex;
+
+    /// Oriented boxes around the triangles; named by their numbers in `triangles`.
+    ObbTree boxes;
+
+    double brep_seconds = 0;
+    double triangulate_seconds = 0;
+    double boxes_seconds = 0;
+
+    [[nodiscard]] bool is_empty() const { return triangles.empty(); }
+    [[nodiscard]] const std::array<double, 3>& position(VertexId v) const {
+        return positions[v.index];
+    }
+    [[nodiscard]] std::span<const ModelTriangle> triangles_of(FaceId f) const {
+        return std::span(triangles).subspan(first_triangle[f.index],
+                                            first_triangle[f.index + 1] - first_triangle[f.index]);
+    }
+    [[nodiscard]] ShellId shell_of(const ModelTriangle& t) const { return brep.shell(t.face); }
+    /// For walks. \pre not empty
+    [[nodiscard]] BoxedTriangles boxed() const {
+        return {&boxes, positions, position_error, largest};
+    }
+    /// Safe to call from several threads.
+    [[nodiscard]] const BrepIndex& index() const;
+    /// Balls inside, made after some questions, since making them takes as long as many of these;
+    /// null before. Safe to call from several threads. \pre the index may be asked for
+    [[nodiscard]] const InsideBalls* balls_in_time() const;
+    /// The same, made at once.
+    [[nodiscard]] const InsideBalls& balls() const;
+    /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that
+    /// the B-rep knows: a corner in a face, say. Found out at the first call (pairs of near
+    /// triangles). Safe to call from several threads. In self_contact.cpp.
+    [[nodiscard]] bool touches_itself() const;
+    /// Whether a triangle meets others in common corners and sides only. Where two clear triangles
+    /// of two solids cross, the solids overlap. Where one is not clear they need not: an edge of
+    /// the same boundary may lie in it just there, with the solid on both sides. Found out when
+    /// asked and kept; some microseconds. Safe to call from several threads. In self_contact.cpp.
+    [[nodiscard]] bool is_clear(std::uint32_t triangle) const;
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    void build();
+
+    mutable std::once_flag index_once_;
+    mutable std::optional<BrepIndex> index_;
+    mutable std::once_flag self_contact_once_;
+    mutable bool touches_itself_ = false;
+    mutable std::vector<std::atomic<std::uint8_t>> clear_;
+    mutable std::once_flag balls_once_;
+    mutable std::atomic<std::uint32_t> questions_{0};
+    mutable InsideBalls balls_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Distances are those of the user's space, boxes are in A's lattice. A difference d there is L d in
+// the world, L the matrix of A's pose times the unit; |L d| >= σ |d| with σ² at least the least
+// eigenvalue of L^T L, which a row's diagonal entry minus the others bounds (Gershgorin); for a
+// rotation that is 1 up to rounding. For a matrix far from that σ >= |det| / |L|² serves.
+//
+// Triangles are compared in the world's directions about a corner r of A's: L (p - r) and L (m q +
+// t - r). With row sums of |L| at most R, entries known within 2^-50 of themselves, differences at
+// most g, and δ the error of a difference: errors are below R (δ + u g) + R g (2^-50 + 3 u) < R
+// (1.01 δ + 2^-49 g).
+
+#include <trisect/bsp/interference/relation/pair_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/bsp/interference/boxes/triangle_filter.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// A lower bound of |L d| / |d|.
+double least_stretch_of(const std::array<Double3, 3>& l) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double diagonal = 0;
+        double rest = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            double g = 0;
+            for (std::size_t k = 0; k < 3; ++k) g += l[k][i] * l[k][j];
+            (i == j ? diagonal : rest) += std::abs(g);
+        }
+        least = std::min(least, diagonal - rest);
+        most = std::max(most, diagonal + rest);
+    }
+    const double det = std::abs(dot(l[0], cross(l[1], l[2])));
+    const double by_det = most > 0 ? (det - 0x1p-45 * most * std::sqrt(most)) / most : 0;
+    return std::max(
+        {0.0, least > 0 ? std::sqrt(least) * (1 - 0x1p-40) : 0.0, by_det * (1 - 0x1p-40)});
+}
+
+}  // namespace
+
+PairDistance::PairDistance(const InterferenceModelData& a, const Pose& pose_a,
+                           const InterferenceModelData& b, const Pose& pose_b)
+    : a_(&a), b_(&b), map_(approximate_map(pose_a, a.brep.lattice(), pose_b, b.brep.lattice())) {
+    if (!map_.is_usable()) {
+        const RelativePose exact =
+            relative_pose(pose_a, a.brep.lattice(), pose_b, b.brep.lattice());
+        if (exact.has_doubles()) map_ = approximate_map(exact);
+        if (!map_.is_usable()) throw LimitError("distances need poses within the range of doubles");
+    }
+    const auto m = pose_a.approximate();
+    for (std::size_t i = 0; i < 3; ++i) {
+        double row = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            stretch_[i][j] = std::ldexp(m[4 * i + j], a.brep.lattice().exponent);
+            row += std::abs(stretch_[i][j]);
+        }
+        row_ = std::max(row_, row * (1 + 0x1p-48));
+    }
+    error_ = a.position_error + map_.error_below(b.largest, b.position_error);
+    least_stretch_ = least_stretch_of(stretch_);
+}
+
+DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double nearest) const {
+    TriangleCorners p;
+    TriangleCorners q;
+    for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = a_->position(a_->triangles[i].vertex[k]);
+        q[k] = map_(b_->position(b_->triangles[j].vertex[k]));
+    }
+    const Double3 r = p[0];
+    double g = 0;
+    const auto placed = [&](const Double3& x) {
+        const Double3 d = minus(x, r);
+        for (const double c : d) g = std::max(g, std::abs(c));
+        return Double3{dot(stretch_[0], d), dot(stretch_[1], d), dot(stretch_[2], d)};
+    };
+    TriangleCorners in_world_p;
+    TriangleCorners in_world_q;
+    for (std::size_t k = 0; k < 3; ++k) {
+        in_world_p[k] = placed(p[k]);
+        in_world_q[k] = placed(q[k]);
+    }
+    const double error = row_ * (1.01 * error_ + 0x1p-49 * g);
+    DistanceCandidate c;
+    c.a = i;
+    c.b = j;
+    if (are_certainly_farther(in_world_p, in_world_q, nearest, error)) {
+        c.bounds = {nearest * (1 + 0x1p-50), std::numeric_limits<double>::infinity()};
+        return c;
+    }
+    c.closest = closest_points(in_world_p, in_world_q);
+    c.bounds = certify(in_world_p, in_world_q, c.closest, error);
+    if (c.bounds.lower <= 0 && compare_triangles(p, q, error_) == PairVerdict::Crossing) {
+        c.crossing = true;
+        c.bounds = {0, 0};
+    }
+    return c;
+}
+
+}  // namespace trisect::detail

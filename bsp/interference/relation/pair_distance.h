@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// PairDistance: the distance of two triangles of posed models, by certified bounds and exactly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/brep/exact_rational.h>
+#include <trisect/bsp/interference/boxes/approximate_map.h>
+#include <trisect/bsp/interference/boxes/moved_triangle_pair.h>
+#include <trisect/bsp/interference/boxes/triangle_distance.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/pose.h>
+
+namespace trisect::detail {
+
+/// A pair of triangles that may be the closest. Distances are in the user's units.
+struct DistanceCandidate {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    DistanceBounds bounds;
+    ClosestPoints closest;
+    bool crossing = false;  ///< certainly: the distance is 0
+};
+
+/// Compares triangles of posed models in doubles. Models must outlive it.
+class PairDistance {
+public:
+    /// \throw LimitError when the poses are beyond the range of doubles.
+    PairDistance(const InterferenceModelData& a, const Pose& pose_a, const InterferenceModelData& b,
+                 const Pose& pose_b);
+
+    /// What is certainly farther than `nearest` gets an infinite upper bound and no closest points.
+    [[nodiscard]] DistanceCandidate compare(std::uint32_t a, std::uint32_t b, double nearest) const;
+    /// From B's lattice into A's.
+    [[nodiscard]] const ApproximateMap& map() const { return map_; }
+    /// A distance in A's lattice is in the world at least this many times as long.
+    [[nodiscard]] double least_stretch() const { return least_stretch_; }
+
+private:
+    const InterferenceModelData* a_;
+    const InterferenceModelData* b_;
+    ApproximateMap map_;
+    std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
+    double row_ = 0;                                  // largest sum of a row's magnitudes
+    double error_ = 0;                                // of a position of A and one of moved B
+    double least_stretch_ = 0;
+};
+
+/// The exact squared distance of two triangles of posed models, in the user's units.
+[[nodiscard]] ExactRational exact_squared_distance(const InterferenceModelData& a,
+                                                   const Pose& pose_a, std::uint32_t triangle_a,
+                                                   const InterferenceModelData& b,
+                                                   const Pose& pose_b, std::uint32_t triangle_b);
+
+/// The same with the features of the closest points: of each pair of points that is a corner of the
+/// convex set of all closest pairs, the smallest features that the points are on; some twice.
+/// Without features where the triangles meet.
+struct ExactClosest {
+    ExactRational squared;
+    std::vector<MeetingPoint> features;
+};
+[[nodiscard]] ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
+                                         std::uint32_t triangle_a, const InterferenceModelData& b,
+                                         const Pose& pose_b, std::uint32_t triangle_b);
+
+}  // namespace trisect::detail

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bounds. The value of a plane at a point is the determinant of Shewchuk ("Adaptive precision
+// floating-point arithmetic", 1997, orient3d), developed along the row of the point: it errs by at
+// most (7 + 56 ε) ε times the permanent, ε = 2^-53, rounded differences included. Here 8 ε times
+// the permanent for the farthest point that the leaf has. A point that is off by e changes the
+// value by at most e times the sum of the normal's components, whose magnitudes the minors'
+// permanents bound.
+
+#include <trisect/bsp/leaf/doubles/plain_facets.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+namespace trisect::detail {
+
+namespace {
+
+// Differences of lattice positions up to this are exact.
+constexpr double exact_limit = 0x1p53;
+
+// Corners lie anywhere in memory: they are asked for well before their turn. The names of their
+// points are already there, since all of the leaf's were asked for at first.
+void look_ahead(std::span<const PolygonRef> polygons) {
+    constexpr std::size_t near = 6;
+    if (polygons.size() <= near) return;
+    const LatticeMesh& mesh = polygons[near].source->mesh();
+    for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
+        __builtin_prefetch(&mesh.points[v]);
+}
+
+// How many polygons a leaf has, if all can be held in doubles; asks for their triangles ahead.
+std::optional<std::size_t> plain_polygons(const LeafProblem& leaf) {
+    std::size_t count = 0;
+    for (const LeafOperand& o : leaf.operands) {
+        if (!o.embedded) return std::nullopt;
+        count += o.polygons.size();
+        for (const PolygonRef& r : o.polygons) {
+            if (r.source->is_half_space()) return std::nullopt;
+            if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
+                return std::nullopt;
+            __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
+void PlainFacets::set_origin(const LatticePoint& origin) {
+    const Cell& cell = problem_->cell;
+    origin_ = {origin.x, origin.y, origin.z};
+    reference_.error = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto from_origin = [&](std::int64_t fine) {
+            return static_cast<double>(fine - origin_[k] * wall_scale) *
+                   (1.0 / static_cast<double>(wall_scale));
+        };
+        wall_lo_[k] = from_origin(cell.lo[k]);
+        wall_hi_[k] = from_origin(cell.hi[k]);
+        reference_.c[k] = from_origin(problem_->reference.c[k]);
+        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * 0x1p-53);
+        const auto inner = [&](std::int64_t c) {
+            return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
+        };
+        inner_lo_[k] = inner((cell.lo[k] >> wall_bits) + 1);
+        inner_hi_[k] = inner(cell.hi[k] >> wall_bits);
+        outer_lo_[k] = inner_lo_[k] - 1;
+        outer_hi_[k] = inner_hi_[k] + 1;
+    }
+}
+
+bool PlainFacets::list(const LeafProblem& leaf) {
+    problem_ = &leaf;
+    facets_.clear();
+    outlines_.clear();
+    fragments_ = 0;
+    sheets_.clear();
+    const std::optional<std::size_t> count = plain_polygons(leaf);
+    if (!count) return false;
+    facets_.reserve(*count);
+    const auto first = std::ranges::find_if(
+        leaf.operands, [](const LeafOperand& o) { return !o.polygons.empty(); });
+    reaches_.assign(leaf.operands.size(), {});
+    if (first == leaf.operands.end()) return true;
+    set_origin(first->polygons[0].source->corner(first->polygons[0].facet, 0));
+    // Of all points that a plane is asked about.
+    Vector3 low = reference_.c;
+    Vector3 high = reference_.c;
+    bool small = true;
+    const Vector3 inner_lo = inner_lo_;
+    const Vector3 inner_hi = inner_hi_;
+    const Vector3 outer_lo = outer_lo_;
+    const Vector3 outer_hi = outer_hi_;
+    for (std::size_t o = 0; o < leaf.operands.size(); ++o) {
+        const LeafOperand& operand = leaf.operands[o];
+        const auto number = static_cast<LeafIndex>(o);
+        const Source* source = nullptr;
+        LeafIndex sheet = -1;
+        Reach& reach = reaches_[o];
+        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
+            const PolygonRef& ref = operand.polygons[i];
+            look_ahead(operand.polygons.subspan(i));
+            if (ref.source != source) {
+                source = ref.source;
+                sheet = sheets_
+                            .insert({reinterpret_cast<std::uintptr_t>(source),
+                                     static_cast<std::uint32_t>(o)},
+                                    static_cast<LeafIndex>(sheets_.size()))
+                            .first;
+            }
+            add(ref, operand, number, sheet);
+            PlainFacet& f = facets_.back();
+            const Vector3 lo = f.lo;
+            const Vector3 hi = f.hi;
+            bool contained = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], lo[k]);
+                high[k] = std::max(high[k], hi[k]);
+                contained &= lo[k] >= inner_lo[k];
+                contained &= hi[k] <= inner_hi[k];
+                f.lo[k] = std::max(lo[k], outer_lo[k]);
+                f.hi[k] = std::min(hi[k], outer_hi[k]);
+                reach.lo[k] = std::min(reach.lo[k], f.lo[k]);
+                reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
+            }
+            f.contained = contained;
+            if (f.is_whole()) continue;
+            if (!contained) f.contained = is_contained_but_for_walls(f.walls, lo, hi);
+            // Planes are asked about points from their first corner on. What doubles hold of a
+            // fragment's facet need not be near the fragment.
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], f.corners[0][k]);
+                high[k] = std::max(high[k], f.corners[0][k]);
+                for (std::size_t c = 1; c < 3; ++c)
+                    small = small && std::fabs(f.corners[c][k]) < exact_limit;
+            }
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        small = small && low[k] > -exact_limit && high[k] < exact_limit;
+        extent_[k] = high[k] - low[k] + 1;
+    }
+    return small;
+}
+
+void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
+                      LeafIndex sheet) {
+    PlainFacet& f = facets_.emplace_back();
+    f.ref = ref;
+    f.ref.flipped = ref.flipped != operand.flipped;
+    f.orientation = f.ref.flipped ? -1 : 1;
+    f.operand = number;
+    f.sheet = sheet;
+    const LatticeMesh& mesh = ref.source->mesh();
+    f.vertices = mesh.triangles[ref.facet];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const LatticePoint& p = mesh.points[f.vertices[i]];
+        f.corners[i] = {static_cast<double>(p.x - origin_[0]),
+                        static_cast<double>(p.y - origin_[1]),
+                        static_cast<double>(p.z - origin_[2])};
+    }
+    if (!f.is_whole()) {
+        add_box(f);
+        return;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.lo[k] = std::min({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
+        f.hi[k] = std::max({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
+    }
+}
+
+void PlainFacets::add_box(PlainFacet& f) {
+    const Fragment& fragment = *f.ref.fragment;
+    ++fragments_;
+    f.size = static_cast<std::uint8_t>(fragment.edges().size());
+    f.walls = walls_of(fragment);
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.lo[k] = static_cast<double>(fragment.box().lo[k] - origin_[k]);
+        f.hi[k] = static_cast<double>(fragment.box().hi[k] - origin_[k]);
+    }
+}
+
+// Whether a box reaches beyond those walls of the cell only at which its fragment ends.
+bool PlainFacets::is_contained_but_for_walls(unsigned walls, const Vector3& lo,
+                                             const Vector3& hi) const {
+    for (std::size_t k = 0; k < 3; ++k, walls >>= 2)
+        if ((lo[k] < inner_lo_[k] && (walls & 1U) == 0) ||
+            (hi[k] > inner_hi_[k] && (walls & 2U) == 0))
+            return false;
+    return true;
+}
+
+// Of a fragment: its corners from the leaf's origin, with the rounding that this takes.
+void PlainFacets::add_outline(PlainFacet& f) {
+    f.outline = static_cast<std::uint32_t>(outlines_.size());
+    const std::span<const Approximation> vertices = f.ref.fragment->vertices();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Approximation a = vertices[i];
+        if (const int corner = f.mesh_corner(i); corner >= 0) {
+            a = {f.corners[static_cast<std::size_t>(corner)], 0.0};
+        } else {
+            double largest = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                a.c[k] -= static_cast<double>(origin_[k]);
+                largest = std::max(largest, std::fabs(a.c[k]));
+            }
+            a.error = 1.0001 * a.error + 0x1p-51 * largest;
+        }
+        outlines_.push_back(a);
+    }
+}
+
+// At which walls of the cell a fragment ends: with its edge on the wall it is on one side of that.
+std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
+    const Cell& cell = problem_->cell;
+    unsigned walls = 0;
+    for (const EdgeName& e : fragment.edges()) {
+        if (!e.plane.is_wall()) continue;
+        const std::size_t k = e.plane.facet;
+        if (e.above && e.plane.position() == cell.lo[k]) walls |= 1U << 2 * k;
+        if (!e.above && e.plane.position() == cell.hi[k]) walls |= 2U << 2 * k;
+    }
+    return static_cast<std::uint8_t>(walls);
+}
+
+PlainPlane PlainFacets::plane_of(const std::array<Vector3, 3>& corners, const Vector3& extent) {
+    Vector3 u;
+    Vector3 v;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = corners[1][k] - corners[0][k];
+        v[k] = corners[2][k] - corners[0][k];
+    }
+    PlainPlane p;
+    p.origin = corners[0];
+    double permanent = 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        const double s = u[i] * v[j];
+        const double t = u[j] * v[i];
+        p.normal[k] = s - t;
+        const double minor = std::fabs(s) + std::fabs(t);
+        permanent += minor * extent[k];
+        sum += minor;
+    }
+    p.bound = 0x1p-50 * permanent;
+    p.slope = 1.0001 * sum;
+    return p;
+}
+
+int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+    Vector3 p;
+    Vector3 q;
+    Vector3 r;
+    for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = a[k] - d[k];
+        q[k] = b[k] - d[k];
+        r[k] = c[k] - d[k];
+    }
+    double sum = 0;
+    double permanent = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        const double s = q[i] * r[j];
+        const double t = q[j] * r[i];
+        sum += p[k] * (s - t);
+        permanent += std::fabs(p[k]) * (std::fabs(s) + std::fabs(t));
+    }
+    const double error = 0x1p-50 * permanent;
+    return sum > error ? 1 : (sum < -error ? -1 : 0);
+}
+
+std::optional<int> exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c,
+                                     const Vector3& d) {
+    // Minors are below 2^83, the sum of their three products with a difference below 2^126.
+    constexpr double limit = 0x1p41;
+    std::array<std::array<Int128, 3>, 3> m;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::size_t row = 0;
+        for (const Vector3* p : {&a, &b, &c}) {
+            const double difference = (*p)[k] - d[k];
+            if (std::fabs(difference) > limit) return std::nullopt;
+            m[row++][k] = static_cast<std::int64_t>(difference);
+        }
+    }
+    Int128 sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        sum += m[0][k] * (m[1][i] * m[2][j] - m[1][j] * m[2][i]);
+    }
+    return sum > 0 ? 1 : (sum < 0 ? -1 : 0);
+}
+
+}  // namespace trisect::detail

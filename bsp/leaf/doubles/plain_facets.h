@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Polygons of a leaf in doubles, for leaves whose polygons are in general position (plain_leaf.h).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/stamp_map.h>
+
+namespace trisect::detail {
+
+using Vector3 = std::array<double, 3>;
+
+/// The support of a facet: points p with normal · (p - origin) = 0. Exact points of the leaf have a
+/// value within `bound` of the computed one; points with an error add `slope` times that.
+struct PlainPlane {
+    Vector3 origin;
+    Vector3 normal;
+    double slope;
+    double bound = -1;  ///< -1: not made yet, and nothing else is set
+
+    [[nodiscard]] double value(const Vector3& p) const {
+        return (normal[0] * (p[0] - origin[0]) + normal[1] * (p[1] - origin[1])) +
+               normal[2] * (p[2] - origin[2]);
+    }
+    [[nodiscard]] double error(const Approximation& p) const { return bound + slope * p.error; }
+    /// -1 below, 1 above; 0 when doubles cannot tell.
+    [[nodiscard]] int sign(const Approximation& p) const {
+        const double v = value(p.c);
+        const double e = error(p);
+        return v > e ? 1 : (v < -e ? -1 : 0);
+    }
+};
+
+/// A facet of an embedded operand, whole or a fragment of it. Its corners are lattice points, taken
+/// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
+/// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
+struct PlainFacet {
+    /// Fragments with more corners are left to the long way.
+    static constexpr std::size_t max_outline = 20;
+    static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
+
+    // Without this an item is filled with zeros before it is filled with what it has.
+    PlainFacet() {}  // NOLINT(modernize-use-equals-default)
+
+    PolygonRef ref;
+    LeafIndex operand = 0;
+    LeafIndex sheet = 0;  ///< one number for each operand and source in it
+    std::int8_t orientation = 1;
+    std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot tell, 2: not computed
+    bool contained = false;             ///< lies in the cell
+    std::uint8_t size = 3;              ///< corners of the outline
+    std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
+                             ///< ends at that wall of the cell by name
+    std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
+    /// Bit i: corner i of the outline lies in the support of some item of another operand whose box
+    /// meets that of this one, so perhaps on that item.
+    std::uint32_t resting = 0;
+    // What PlainFacets::list() always sets.
+    std::array<std::uint32_t, 3> vertices;  ///< of the whole facet
+    std::array<Vector3, 3> corners;         ///< of the whole facet
+    Vector3 lo;                             ///< of the box, within the cell
+    Vector3 hi;
+    PlainPlane plane;
+
+    [[nodiscard]] bool is_whole() const { return ref.fragment == nullptr; }
+    /// The plane of an edge, from a corner of the outline to the next one.
+    [[nodiscard]] EdgeName edge(std::size_t e) const {
+        if (is_whole()) return {PlaneName::edge(ref.source, ref.facet, static_cast<int>(e)), false};
+        return ref.fragment->edges()[e];
+    }
+    /// Which edge of the whole facet an edge of the outline lies in; -1 where something cut.
+    [[nodiscard]] int mesh_edge(std::size_t e) const {
+        if (is_whole()) return static_cast<int>(e);
+        const PlaneName& name = ref.fragment->edges()[e].plane;
+        return name.is_edge() && name.facet == ref.facet && name.source() == ref.source
+                   ? static_cast<int>(name.kind)
+                   : -1;
+    }
+    /// Which corner of the whole facet a corner of the outline is; -1 when it was constructed.
+    [[nodiscard]] int mesh_corner(std::size_t c) const {
+        if (is_whole()) return static_cast<int>(c);
+        const int from = mesh_edge(c == 0 ? size - 1U : c - 1);
+        const int to = mesh_edge(c);
+        return from >= 0 && to >= 0 && to == (from + 1) % 3 ? to : -1;
+    }
+
+    [[nodiscard]] bool has_vertex(std::uint32_t v) const {
+        return v == vertices[0] || v == vertices[1] || v == vertices[2];
+    }
+    [[nodiscard]] bool meets(const Vector3& low, const Vector3& high) const {
+        return lo[0] <= high[0] && low[0] <= hi[0] && lo[1] <= high[1] && low[1] <= hi[1] &&
+               lo[2] <= high[2] && low[2] <= hi[2];
+    }
+};
+
+/// The polygons of one leaf after the other; keeps its memory.
+class PlainFacets {
+public:
+    /// False when something else than facets of embedded operands and fragments of such is listed,
+    /// or the leaf is too large for doubles.
+    [[nodiscard]] bool list(const LeafProblem& leaf);
+
+    [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
+    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[LeafWork::u(i)]; }
+    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const {
+        return facets_[LeafWork::u(i)];
+    }
+    [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
+        PlainFacet& f = facets_[LeafWork::u(i)];
+        if (f.plane.bound < 0) {
+            f.plane = plane_of(f.corners, extent_);
+            make_outline(i);
+        }
+        return f.plane;
+    }
+    /// The plane of three points of a leaf of that extent.
+    [[nodiscard]] static PlainPlane plane_of(const std::array<Vector3, 3>& corners,
+                                             const Vector3& extent);
+    /// Most fragments are never asked for their corners.
+    void make_outline(LeafIndex i) {
+        PlainFacet& f = facets_[LeafWork::u(i)];
+        if (!f.is_whole() && f.outline == PlainFacet::no_outline) add_outline(f);
+    }
+    /// A corner of an item's outline. \pre an item of which plane() or make_outline() was called
+    [[nodiscard]] Approximation corner(const PlainFacet& f, std::size_t i) const {
+        return f.is_whole() ? Approximation{f.corners[i], 0.0} : outlines_[f.outline + i];
+    }
+    /// All of them, of a fragment.
+    [[nodiscard]] const Approximation* outline(const PlainFacet& f) const {
+        return &outlines_[f.outline];
+    }
+    /// How many fragments are listed.
+    [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
+    [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
+    [[nodiscard]] std::size_t operand_count() const { return problem_->operands.size(); }
+    /// The box of all items of an operand.
+    struct Reach {
+        static constexpr double infinity = std::numeric_limits<double>::infinity();
+        Vector3 lo{infinity, infinity, infinity};
+        Vector3 hi{-infinity, -infinity, -infinity};
+    };
+    [[nodiscard]] const Reach& reach(std::size_t operand) const { return reaches_[operand]; }
+    /// Whether a lattice point lies in the cell.
+    [[nodiscard]] bool in_cell(const Vector3& p) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (p[k] < inner_lo_[k] || p[k] > inner_hi_[k]) return false;
+        return true;
+    }
+    /// The lattice positions next to the cell's walls, inside of them; exact as far as corners go.
+    [[nodiscard]] const Vector3& inner_lo() const { return inner_lo_; }
+    [[nodiscard]] const Vector3& inner_hi() const { return inner_hi_; }
+    /// The walls themselves, rounded.
+    [[nodiscard]] const Vector3& wall_lo() const { return wall_lo_; }
+    [[nodiscard]] const Vector3& wall_hi() const { return wall_hi_; }
+    [[nodiscard]] const Approximation& reference() const { return reference_; }
+    /// How far apart whole facets' corners, the origin and the reference point are along each axis,
+    /// and at least 1.
+    [[nodiscard]] const Vector3& extent() const { return extent_; }
+    /// From where coordinates of this leaf count, in lattice units.
+    [[nodiscard]] const std::array<std::int64_t, 3>& origin() const { return origin_; }
+
+    /// A point of the leaf in the lattice's coordinates.
+    [[nodiscard]] Approximation in_lattice(Approximation at) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto origin = static_cast<double>(origin_[k]);
+            at.c[k] += origin;
+            at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
+        }
+        return at;
+    }
+
+private:
+    void set_origin(const LatticePoint& origin);
+    void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);
+    void add_box(PlainFacet& f);
+    void add_outline(PlainFacet& f);
+    [[nodiscard]] bool is_contained_but_for_walls(unsigned walls, const Vector3& lo,
+                                                  const Vector3& hi) const;
+    [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
+
+    const LeafProblem* problem_ = nullptr;
+    std::vector<PlainFacet> facets_;
+    std::vector<Approximation> outlines_;  // of fragments, one after the other
+    std::vector<Reach> reaches_;           // by operand
+    std::size_t fragments_ = 0;
+    StampMap sheets_;
+    std::array<std::int64_t, 3> origin_{};
+    Approximation reference_;
+    Vector3 inner_lo_{};
+    Vector3 inner_hi_{};
+    // A cell without lattice points still has an inside: boxes keep one unit around it.
+    Vector3 outer_lo_{};
+    Vector3 outer_hi_{};
+    Vector3 wall_lo_{};
+    Vector3 wall_hi_{};
+    Vector3 extent_{};  // of all facets, unclipped, and the reference point
+};
+
+/// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot tell.
+[[nodiscard]] int orientation(const Vector3& a, const Vector3& b, const Vector3& c,
+                              const Vector3& d);
+
+/// The same, exact; nothing when corners are so far apart that 128 bits do not hold it.
+[[nodiscard]] std::optional<int> exact_orientation(const Vector3& a, const Vector3& b,
+                                                   const Vector3& c, const Vector3& d);
+
+/// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot tell.
+[[nodiscard]] inline int compare_along(std::size_t axis, const Approximation& a,
+                                       const Approximation& b) {
+    const double gap = b.c[axis] - a.c[axis];
+    const double error = 1.0001 * (a.error + b.error);
+    return gap > error ? -1 : (gap < -error ? 1 : 0);
+}
+
+/// The direction of the line in which two supports meet, the product of their normals: the axis
+/// along which it is longest, and the sign there, 0 when doubles cannot tell. The left of it in the
+/// first support is what is below the second one: n × (n × m) = -m within the support of n.
+struct LineDirection {
+    std::size_t axis = 0;
+    int sign = 0;
+
+    LineDirection(const PlainPlane& first, const PlainPlane& second) {
+        const Vector3& n = first.normal;
+        const Vector3& m = second.normal;
+        const Vector3 d{n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],
+                        n[0] * m[1] - n[1] * m[0]};
+        for (std::size_t k = 1; k < 3; ++k)
+            if (std::fabs(d[k]) > std::fabs(d[axis])) axis = k;
+        // Components err by less than 8 · 2^-53 times the slopes, which bound them.
+        if (std::fabs(d[axis]) > 0x1p-47 * first.slope * second.slope) sign = d[axis] > 0 ? 1 : -1;
+    }
+    /// -1, 0, 1: the order of two points of the line; 0 when doubles cannot tell.
+    [[nodiscard]] int order(const Approximation& a, const Approximation& b) const {
+        return sign * compare_along(axis, a, b);
+    }
+};
+
+/// The point between u and w where a linear function is 0. Its values there are known up to
+/// `error` in sum and have different signs. False when that says too little.
+[[nodiscard]] inline bool interpolate(const Approximation& u, double at_u, const Approximation& w,
+                                      double at_w, double error, Approximation& x) {
+    const double spread = std::fabs(at_u) + std::fabs(at_w);
+    if (!(spread > 4 * error)) return false;
+    const double lambda = std::fabs(at_u) / spread;
+    // See approximate_crossing() in trace.cpp for the bound.
+    const double lambda_error = 2 * error / spread + 0x1p-50;
+    double span = 0;
+    double largest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double step = w.c[k] - u.c[k];
+        x.c[k] = u.c[k] + lambda * step;
+        span = std::max(span, std::fabs(step));
+        largest = std::max({largest, std::fabs(u.c[k]), std::fabs(w.c[k])});
+    }
+    x.error = (span * lambda_error + u.error + w.error + largest * 0x1p-50) * 1.001;
+    return true;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What leaf_arrangement.cpp does, for the common case that needs no more than doubles. There every
+// facet gets planes in wide integers, its points get names in hash tables, and every question may
+// end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
+// points exactly, pairs of facets by orientations of corners, and constructed points by doubles
+// with a bound. A point on a line that was cut before is known to be on it by name
+// (plain_cutting.cpp), and single signs are asked exactly where that is likely to help, such as
+// those of corners on other facets (plain_pair_relation.cpp); every other sign that doubles cannot
+// tell ends the attempt, and the leaf is arranged the long way. So the short way never decides
+// anything that it does not know; leaves with coincident facets, or with edges along others, lose
+// the attempt, which mostly ends at the first such pair.
+//
+// Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
+// and whose edges name the planes that cut them out. So they are items like whole facets, of up to
+// twenty corners, and what is constructed from them is known by names as well. Along a chain of
+// cuts nearly all leaves hold some.
+//
+// EvaluateStats::plain_leaves counts the leaves that it served, plain_fragments their fragments.
+
+#include <trisect/bsp/leaf/doubles/plain_leaf.h>
+
+#include <algorithm>
+
+#include <trisect/bsp/cells/polygon_in_cell.h>
+
+namespace trisect::detail {
+
+bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
+                        std::vector<PolygonRef>& out) {
+    return try_to_arrange(problem, nullptr, stats, out);
+}
+
+std::optional<std::size_t> PlainLeaf::arrange_uncrossed(const LeafProblem& problem,
+                                                        EvaluateStats& stats,
+                                                        std::vector<PolygonRef>& out,
+                                                        Crossings& crossings,
+                                                        std::vector<std::uint32_t>& seen) {
+    const std::size_t covers = crossings.covers.size();
+    const std::size_t seen_before = seen.size();
+    seen_ = &seen;
+    if (!try_to_arrange(problem, &crossings, stats, out)) {
+        crossings.covers.resize(covers);
+        seen.resize(seen_before);
+        return std::nullopt;
+    }
+    pairs_.add_to(crossings, facets_);
+    return crossed_;
+}
+
+bool PlainLeaf::try_to_arrange(const LeafProblem& problem, Crossings* crossings,
+                               EvaluateStats& stats, std::vector<PolygonRef>& out) {
+    if (!facets_.list(problem)) return false;
+    // Crossings are of whole facets.
+    if (crossings != nullptr && facets_.fragment_count() != 0) return false;
+    const EvaluateStats before = stats;
+    bool done = false;
+    const auto undo = [&] {
+        stats = before;
+        end_fragments(out);  // those made so far
+        out.clear();
+    };
+    try {
+        done = arrange_listed(crossings, stats, out);
+    } catch (...) {
+        undo();
+        throw;
+    }
+    if (!done) undo();
+    return done;
+}
+
+bool PlainLeaf::arrange_listed(Crossings* crossings, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out) {
+    if (!pairs_.relate_all(facets_, crossings != nullptr, stats)) return false;
+    windings_.start(facets_, pairs_);
+    formula_.start(facets_.problem());
+    crossed_ = 0;
+    start_covers(crossings);
+    cutting_.start(facets_, pairs_, windings_, formula_, open_, stats);
+    for (LeafIndex i = 0; i < facets_.size(); ++i) {
+        const bool crossed = !pairs_.contacts(i).empty();
+        if (crossed && crossings != nullptr) {
+            ++crossed_;
+            if (!add_covers(i, *crossings, *seen_)) return false;
+            continue;
+        }
+        if (crossed) {
+            facets_[i].ref.touched = true;
+        } else if (!facets_[i].ref.touched) {
+            ++stats.untouched_polygons;
+        }
+        const PlainCutting::Result result = crossed ? cutting_.cut(i) : cutting_.whole(i);
+        if (result.kind == PlainCutting::Remains::Doubtful) return false;
+        emit(i, result, out);
+    }
+    ++stats.mixed_leaves;
+    ++stats.plain_leaves;
+    stats.plain_fragments += facets_.fragment_count();
+    return true;
+}
+
+// Whether a crossing surely has an end in the cell.
+bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
+    const auto contacts = pairs_.contacts(item);
+    return std::ranges::any_of(contacts, [&](const PlainContact& c) {
+        return std::ranges::any_of(pairs_.crossing(c.crossing).ends, [&](const PlainEnd& end) {
+            for (std::size_t k = 0; k < 3; ++k)
+                if (end.at.c[k] - end.at.error < facets_.inner_lo()[k] ||
+                    end.at.c[k] + end.at.error > facets_.inner_hi()[k])
+                    return false;
+            return true;
+        });
+    });
+}
+
+void PlainLeaf::start_covers(const Crossings* crossings) {
+    open_.clear();
+    slots_.clear();
+    if (crossings == nullptr) return;
+    for (std::size_t o = 0; o < facets_.operand_count(); ++o) {
+        open_.push_back(crossings->operands[slot_of(o)].open);
+        slots_.push_back(static_cast<std::uint32_t>(slot_of(o)));
+    }
+}
+
+// Notes a facet that something crosses, and the operands that it lies in here, of those that do not
+// cross it. One whose part in the cell is empty is somebody else's.
+bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
+    if (crossings.operands.size() == 2) return true;
+    const std::size_t own = LeafWork::u(facets_[item].operand);
+    const std::uint32_t number = crossings.number_of(slots_[own], facets_[item].ref.facet);
+    const auto contacts = pairs_.contacts(item);
+    // They come operand by operand.
+    std::size_t crossing = 0;
+    LeafIndex last = -1;
+    for (const PlainContact& c : contacts) {
+        const LeafIndex operand = facets_[c.other].operand;
+        crossing += operand != last ? 1 : 0;
+        last = operand;
+    }
+    if (crossing + 1 == open_.size() && is_crossed_inside(item)) {
+        seen.push_back(number);
+        return true;
+    }
+    const auto windings = cutting_.windings_on(item);
+    if (!windings) return false;
+    if (windings->empty()) return true;
+    seen.push_back(number);
+    for (std::size_t o = 0; o < open_.size(); ++o) {
+        if ((*windings)[o] == open_[o] || o == own) continue;
+        const bool crosses = std::ranges::any_of(contacts, [&](const PlainContact& c) {
+            return LeafWork::u(facets_[c.other].operand) == o;
+        });
+        if (!crosses) crossings.covers.push_back({number, slots_[o]});
+    }
+    return true;
+}
+
+// The outside faces upwards, unless flipped.
+void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result,
+                     std::vector<PolygonRef>& out) {
+    const auto add = [&](PolygonRef ref, bool inside_above) {
+        ref.flipped = inside_above;
+        out.push_back(ref);
+    };
+    if (result.kind == PlainCutting::Remains::Uncut) {
+        // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a facet
+        // within the cell stays whole.
+        const bool part = !pairs_.contacts(item).empty() && cutting_.was_clipped();
+        make_room(out);
+        add(part ? cutting_.fragment(cutting_.clipped()) : facets_[item].ref, result.inside_above);
+    } else if (result.kind == PlainCutting::Remains::Parts) {
+        for (const PlainPart& p : cutting_.parts()) {
+            if (p.state != PlainPart::State::Kept) continue;
+            make_room(out);
+            add(cutting_.fragment(p), p.inside_above);
+        }
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two facets in general position meet in a segment or not at all. Both meet the common line of
+// their supports in an interval, if their corners are on both sides of the other one's support.
+// With the corners numbered so that the first one is alone on its side, every end of an interval is
+// where an edge from that corner pierces the other support, and the order of two such points, one
+// of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
+// triangle-triangle overlap test using orientation predicates", 2003). Four orientations tell
+// whether the intervals overlap and which points are the ends of what they share. No plane in
+// integers is made for that. Of whole facets of more than two operands, single precision decides
+// as much for four pairs at once (facet_row_relation.cpp), and what it leaves open comes here.
+//
+// Chains of cuts by one tool bring more: where a symmetric tool moves by equal steps along two axes
+// four of its facets have a point in common, so corners of fragments lie on the next tool's facets
+// at every step. With the sides of such corners known exactly the rest is the same: an interval may
+// begin at a corner, or be a single point. Two polygons with no more than a point in common do not
+// change each other's winding numbers; but at a corner on another operand there are none, so such
+// corners are marked (PlainFacet::resting). An edge in another support is left to the long way.
+
+#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace trisect::detail {
+
+namespace {
+
+// Corners of one facet with respect to the support of another one.
+struct Sides {
+    std::array<double, 3> value{};
+    double bound = 0;
+    int above = 0;
+    int below = 0;
+
+    Sides(const PlainPlane& plane, const std::array<Vector3, 3>& corners) : bound(plane.bound) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            value[i] = plane.value(corners[i]);
+            above += value[i] > bound ? 1 : 0;
+            below += value[i] < -bound ? 1 : 0;
+        }
+    }
+    [[nodiscard]] bool is_off() const { return above == 3 || below == 3; }
+    [[nodiscard]] bool is_sure() const { return above + below == 3; }
+    /// The corner that is alone on its side. \pre is_sure() and not is_off()
+    [[nodiscard]] std::size_t lonely() const {
+        const bool up = above == 1;
+        return (value[0] > 0) == up ? 0 : ((value[1] > 0) == up ? 1 : 2);
+    }
+};
+
+// A facet's corners, the lonely one first, and turned over if need be so that the other facet's
+// lonely corner is above it.
+struct Numbered {
+    std::array<std::size_t, 3> corner;
+    const std::array<Vector3, 3>& points;
+
+    Numbered(const std::array<Vector3, 3>& all, std::size_t lonely, bool turned) : points(all) {
+        corner = {lonely, (lonely + 1) % 3, (lonely + 2) % 3};
+        if (turned) std::swap(corner[1], corner[2]);
+    }
+    [[nodiscard]] const Vector3& operator[](std::size_t i) const { return points[corner[i]]; }
+    /// The edge between the lonely corner and another one.
+    [[nodiscard]] std::int8_t edge_to(std::size_t i) const {
+        const std::size_t a = corner[0];
+        const std::size_t b = corner[i];
+        return static_cast<std::int8_t>(b == (a + 1) % 3 ? a : b);
+    }
+};
+
+Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
+
+// Where the edge from the lonely corner to corner i pierces the other support.
+bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation& x) {
+    return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
+                       sides.value[t.corner[i]], 2 * sides.bound, x);
+}
+
+// The corner of a triangle that is alone on its side of a plane, and the edges that go through that
+// upwards and downwards.
+class Lonely {
+public:
+    /// \pre bit i: corner i is above; one or two are
+    explicit Lonely(unsigned above) : is_above_(above == 1 || above == 2 || above == 4) {
+        constexpr std::array<std::uint8_t, 8> corner{0, 0, 1, 2, 2, 1, 0, 0};
+        corner_ = corner[above];
+    }
+    [[nodiscard]] std::size_t corner() const { return corner_; }
+    /// The other end of that edge.
+    [[nodiscard]] std::size_t other(bool up) const {
+        constexpr std::array<std::uint8_t, 3> next{1, 2, 0};
+        return up == is_above_ ? next[next[corner_]] : next[corner_];
+    }
+    [[nodiscard]] std::int8_t edge(bool up) const {
+        return static_cast<std::int8_t>(up == is_above_ ? other(up) : corner_);
+    }
+
+private:
+    std::size_t corner_;
+    bool is_above_;
+};
+
+unsigned bits_at(const std::array<unsigned, 3>& bits, unsigned i) {
+    return (bits[0] >> i & 1U) | (bits[1] >> i & 1U) << 1 | (bits[2] >> i & 1U) << 2;
+}
+
+// Where one of those edges pierces the plane. False when doubles say too little.
+bool pierce(const std::array<Vector3, 3>& corners, const PlainPlane& plane, const Lonely& lonely,
+            bool up, Approximation& x) {
+    const Vector3& from = corners[lonely.corner()];
+    const Vector3& to = corners[lonely.other(up)];
+    return interpolate({from, 0.0}, plane.value(from), {to, 0.0}, plane.value(to), 2 * plane.bound,
+                       x);
+}
+
+// -1, 0, 1: on which side of a plane a corner of an item's outline is. Exact.
+int exact_side(const PlainFacet& f, std::size_t i, const Plane& plane) {
+    const PolygonRef& ref = f.ref;
+    if (const int corner = f.mesh_corner(i); corner >= 0)
+        return sign_of(side_of(ref.source->corner(ref.facet, corner), plane));
+    return sign_of(side_of(ref.fragment->vertices()[i], ref.source->support(ref.facet),
+                           f.edge(i == 0 ? f.size - 1U : i - 1).plane.plane(),
+                           f.edge(i).plane.plane(), plane));
+}
+
+// Without a call, which std::has_single_bit is on the oldest processors of the family.
+bool is_single(std::uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
+
+// A polygon and the side of another one's support on which its corners are.
+class Across {
+public:
+    Across(const PlainFacets& facets, const PlainFacet& f, const PlainPlane& plane)
+        : facets_(facets), f_(f) {
+        const auto add = [&](std::size_t i, double value, double error) {
+            value_[i] = value;
+            error_[i] = error;
+            above_ |= (value > error ? 1U : 0U) << i;
+            below_ |= (value < -error ? 1U : 0U) << i;
+        };
+        if (f.is_whole()) {
+            for (std::size_t i = 0; i < 3; ++i) add(i, plane.value(f.corners[i]), plane.bound);
+        } else {
+            const Approximation* const corners = facets.outline(f);
+            for (std::size_t i = 0; i < f.size; ++i)
+                add(i, plane.value(corners[i].c), plane.error(corners[i]));
+        }
+        on_ = ((1U << f.size) - 1) & ~(above_ | below_);
+    }
+    /// Corners of which doubles do not tell count as being on the support until this is called.
+    [[nodiscard]] bool is_sure() const { return on_ == 0; }
+    void make_sure(const PlainFacet& other) {
+        const Plane plane = other.ref.source->support(other.ref.facet);
+        for (std::uint32_t rest = on_; rest != 0; rest &= rest - 1) {
+            const std::uint32_t bit = rest & (~rest + 1);
+            const int side =
+                exact_side(f_, static_cast<std::size_t>(std::countr_zero(rest)), plane);
+            if (side == 0) continue;
+            (side > 0 ? above_ : below_) |= bit;
+            on_ &= ~bit;
+        }
+    }
+    [[nodiscard]] bool is_off() const { return on_ == 0 && (above_ == 0 || below_ == 0); }
+    [[nodiscard]] bool crosses() const { return above_ != 0 && below_ != 0; }
+    [[nodiscard]] std::uint32_t above() const { return above_; }
+    [[nodiscard]] std::uint32_t on() const { return on_; }
+    /// The edges that go up and down through the support, or to a corner on it; false unless there
+    /// is one of each, or an edge lies in it. \pre not is_off()
+    [[nodiscard]] bool find_edges() {
+        if ((on_ & next_of(on_)) != 0) return false;
+        const std::uint32_t upper = above_ != 0 ? above_ : on_;
+        const std::uint32_t up = next_of(upper) & ~upper;
+        const std::uint32_t down = upper & ~next_of(upper);
+        up_ = static_cast<std::size_t>(std::countr_zero(up));
+        down_ = static_cast<std::size_t>(std::countr_zero(down));
+        return is_single(up) && is_single(down);
+    }
+    [[nodiscard]] std::size_t edge(bool up) const { return up ? up_ : down_; }
+    /// Where one of these edges is in the support. False when doubles tell too little.
+    [[nodiscard]] bool pierce(bool up, Approximation& x) const {
+        const std::size_t i = edge(up);
+        const std::size_t next = i + 1U < f_.size ? i + 1 : 0;
+        for (const std::size_t end : {i, next}) {
+            if ((on_ >> end & 1U) == 0) continue;
+            x = facets_.corner(f_, end);
+            return true;
+        }
+        return interpolate(facets_.corner(f_, i), value_[i], facets_.corner(f_, next), value_[next],
+                           error_[i] + error_[next], x);
+    }
+
+private:
+    // What is said of a corner, said of the one before it.
+    [[nodiscard]] std::uint32_t next_of(std::uint32_t corners) const {
+        return corners >> 1 | (corners & 1U) << (f_.size - 1U);
+    }
+
+    const PlainFacets& facets_;
+    const PlainFacet& f_;
+    std::array<double, PlainFacet::max_outline> value_;
+    std::array<double, PlainFacet::max_outline> error_;
+    std::uint32_t above_ = 0;
+    std::uint32_t below_ = 0;
+    std::uint32_t on_ = 0;
+    std::size_t up_ = 0;
+    std::size_t down_ = 0;
+};
+
+// The point `at` where an edge of a pierces the support of b, upwards or downwards: 1 on the inner
+// side of an edge of b, -1 on the outer one, 0 on it. Exact.
+int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approximation& at,
+                 const PlainFacets& facets, const PlainFacet& b, std::size_t edge_b) {
+    const int mesh_a = a.mesh_edge(edge_a);
+    const int mesh_b = b.mesh_edge(edge_b);
+    if (mesh_a >= 0 && mesh_b >= 0) {
+        const auto end = [](const PlainFacet& f, int i) -> const Vector3& {
+            return f.corners[static_cast<std::size_t>(i % 3)];
+        };
+        // For a line that goes up through p, det(w - u, p - u, q - u) > 0 where it passes on the
+        // left of the way from p to q.
+        const auto s = exact_orientation(end(a, mesh_a + 1), end(b, mesh_b), end(b, mesh_b + 1),
+                                         end(a, mesh_a));
+        if (s) return up ? *s : -*s;
+    }
+    const EdgeName edge = b.edge(edge_b);
+    const PlaneName from = a.edge(edge_a).plane;
+    if (from == edge.plane) return 0;
+    const int s =
+        sign_of(side_of(facets.in_lattice(at), a.ref.source->support(a.ref.facet), from.plane(),
+                        b.ref.source->support(b.ref.facet), edge.plane.plane()));
+    return edge.above ? s : -s;
+}
+
+// Surely: a segment on a wall is not.
+bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double low = facets.wall_lo()[k];
+        const double high = facets.wall_hi()[k];
+        const double slack = 2 * (a.error + b.error) + 0x1p-50 * (std::fabs(low) + std::fabs(high));
+        if (std::max(a.c[k], b.c[k]) + slack < low || std::min(a.c[k], b.c[k]) - slack > high)
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool PlainPairs::add_pair(PlainFacets& facets, LeafIndex s, LeafIndex t) {
+    const Relation r = relate(facets, std::min(s, t), std::max(s, t), found_);
+    // Outside the cell is as good as nowhere.
+    if (r == Relation::Crossing && !is_outside_cell(facets, found_.ends[0].at, found_.ends[1].at))
+        crossings_.push_back(found_);
+    return r != Relation::Doubtful;
+}
+
+// A pair of which the crossing is known but for where its ends are; `i`: its place among four.
+bool PlainPairs::add_crossing(const PlainFacets& facets, LeafIndex s, LeafIndex t,
+                              const FacetRows::Relation& relation, unsigned i) {
+    PlainCrossing& out = found_;
+    const std::size_t first = s < t ? 0 : 1;
+    out.items[first] = s;
+    out.items[1 - first] = t;
+    out.above[first] = bits_at(relation.above[0], i);
+    out.above[1 - first] = bits_at(relation.above[1], i);
+    out.on = {};
+    const auto set_end = [&](PlainEnd& end, bool second, bool up) {
+        end.of_second = (first == 0) == second;
+        const std::size_t side = end.of_second ? 1 : 0;
+        const Lonely lonely(out.above[side]);
+        end.edge = lonely.edge(up);
+        end.other_edge = -1;
+        return pierce(facets[out.items[side]].corners, facets[out.items[1 - side]].plane, lonely,
+                      up, end.at);
+    };
+    const bool starts = (relation.starts >> i & 1U) != 0;
+    const bool ends = (relation.ends >> i & 1U) != 0;
+    if (!set_end(out.ends[first], starts, !starts) || !set_end(out.ends[1 - first], ends, ends))
+        return false;
+    if (facets[s].contained || facets[t].contained ||
+        !is_outside_cell(facets, out.ends[0].at, out.ends[1].at))
+        crossings_.push_back(out);
+    return true;
+}
+
+PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                        PlainCrossing& out) const {
+    if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
+    const PlainFacet& a = facets[s];
+    const PlainFacet& b = facets[t];
+    const Sides of_b(facets.plane(s), b.corners);
+    if (of_b.is_off()) return Relation::Apart;
+    const Sides of_a(facets.plane(t), a.corners);
+    if (of_a.is_off()) return Relation::Apart;
+    if (!of_a.is_sure() || !of_b.is_sure()) return relate_outlines(facets, s, t, out);
+    const std::size_t lonely_a = of_a.lonely();
+    const std::size_t lonely_b = of_b.lonely();
+    const bool turned_a = of_b.value[lonely_b] < 0;
+    const bool turned_b = of_a.value[lonely_a] < 0;
+    const Numbered p(a.corners, lonely_a, turned_a);
+    const Numbered q(b.corners, lonely_b, turned_b);
+    // In the direction of the normals' product, as both are turned now, the interval of a runs from
+    // its edge to corner 2 to that to corner 1, the one of b from 1 to 2. order(i, j) > 0: b's edge
+    // to corner j comes before a's to corner i.
+    const auto order = [&](std::size_t i, std::size_t j) {
+        return orientation(p[0], p[i], q[0], q[j]);
+    };
+    const int start_of_b = order(1, 1);
+    if (start_of_b < 0) return Relation::Apart;
+    const int start_of_a = order(2, 2);
+    if (start_of_a > 0) return Relation::Apart;
+    const int starts = order(2, 1);
+    const int ends = order(1, 2);
+    if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0)
+        return relate_outlines(facets, s, t, out);
+    out.items = {s, t};
+    out.above = out.on = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.above[0] |= (of_a.value[i] > 0 ? 1U : 0U) << i;
+        out.above[1] |= (of_b.value[i] > 0 ? 1U : 0U) << i;
+    }
+    const auto set_end = [&](PlainEnd& end, bool of_second, std::size_t corner) {
+        end.of_second = of_second;
+        end.edge = (of_second ? q : p).edge_to(corner);
+        end.other_edge = -1;
+        return of_second ? pierce(q, of_b, corner, end.at) : pierce(p, of_a, corner, end.at);
+    };
+    // The later start and the earlier end.
+    const std::size_t start = turned_a != turned_b ? 1 : 0;
+    const bool sure = set_end(out.ends[start], starts < 0, starts < 0 ? 1 : 2) &&
+                      set_end(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
+    return sure ? Relation::Crossing : Relation::Doubtful;
+}
+
+PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
+                                                 PlainCrossing& out) const {
+    const PlainPlane& plane_s = facets.plane(s);
+    const PlainPlane& plane_t = facets.plane(t);
+    Across b(facets, facets[t], plane_s);
+    if (b.is_off()) return Relation::Apart;
+    Across a(facets, facets[s], plane_t);
+    if (a.is_off()) return Relation::Apart;
+    if (!a.is_sure() || !b.is_sure()) {
+        if (edges_apart_) return Relation::Doubtful;
+        a.make_sure(facets[t]);
+        b.make_sure(facets[s]);
+        if (a.is_off() || b.is_off()) return Relation::Apart;
+        facets[s].resting |= a.on();
+        facets[t].resting |= b.on();
+    }
+    if (!a.find_edges() || !b.find_edges()) return Relation::Doubtful;
+    const LineDirection direction(plane_s, plane_t);
+    if (direction.sign == 0) return Relation::Doubtful;
+    // In the direction of the normals' product, what is below a support is to the left of the line
+    // in the other one's plane, if that comes first, and to the right if it comes second. So a
+    // begins with the edge that goes up, b with the one that goes down.
+    std::array<Approximation, 2> ends_a;
+    std::array<Approximation, 2> ends_b;
+    if (!a.pierce(true, ends_a[0]) || !a.pierce(false, ends_a[1]) || !b.pierce(false, ends_b[0]) ||
+        !b.pierce(true, ends_b[1]))
+        return Relation::Doubtful;
+    // -1: end i of a comes before end j of b.
+    bool edges_meet = false;
+    const auto order = [&](std::size_t i, std::size_t j) {
+        const int o = direction.order(ends_a[i], ends_b[j]);
+        if (o != 0) return o;
+        const int side = side_of_edge(facets[s], a.edge(i == 0), i == 0, ends_a[i], facets,
+                                      facets[t], b.edge(j == 1));
+        edges_meet = edges_meet || side == 0;
+        // Within b as far as that edge goes: behind its start, before its end.
+        return j == 0 ? side : -side;
+    };
+    const bool apart = order(1, 0) <= 0 || order(0, 1) >= 0;
+    const int starts = apart ? 0 : order(0, 0);
+    const int ends = apart ? 0 : order(1, 1);
+    if (edges_meet) {
+        if (edges_apart_) return Relation::Doubtful;
+        facets[s].ref.touched = facets[t].ref.touched = true;
+    }
+    if (apart) return Relation::Apart;
+    if (!a.crosses() || !b.crosses()) {
+        // A corner of one of them lies within the other one.
+        facets[s].ref.touched = facets[t].ref.touched = true;
+        return Relation::Apart;
+    }
+    out.items = {s, t};
+    out.above = {a.above(), b.above()};
+    out.on = {a.on(), b.on()};
+    // The later start and the earlier end.
+    const auto end_of = [&](int which, std::size_t i) {
+        const bool of_b = which > 0;
+        const auto edge_a = static_cast<std::int8_t>(a.edge(i == 0));
+        const auto edge_b = static_cast<std::int8_t>(b.edge(i == 1));
+        PlainEnd end{of_b, of_b ? edge_b : edge_a, -1, (of_b ? ends_b : ends_a)[i]};
+        if (which == 0) end.other_edge = edge_b;
+        return end;
+    };
+    out.ends = {end_of(-starts, 0), end_of(ends, 1)};
+    return Relation::Crossing;
+}
+
+}  // namespace trisect::detail

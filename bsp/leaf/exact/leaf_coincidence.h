@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Polygons of a leaf that cover each other: who speaks for them.
+#pragma once
+
+#include <trisect/bsp/leaf/leaf_work.h>
+
+namespace trisect::detail {
+
+/// Drops the pieces from `first` on for which another item speaks, and gives the others the step of
+/// winding numbers across all that coincides there. \pre they are the pieces of one item.
+void resolve_coincidence(LeafWork& work, std::size_t first);
+
+/// Whether a piece lies in a polygon of the same plane. \pre the polygon has its edges.
+[[nodiscard]] bool covered_by(const Workbench& bench, const WorkPolygon& piece,
+                              const WorkPolygon& cover);
+
+/// Of two coincident items, which one speaks for both?
+[[nodiscard]] bool speaks_before(const LeafWork& work, LeafIndex a, LeafIndex b);
+
+}  // namespace trisect::detail

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cutting a polygon of a leaf into convex pieces.
+#pragma once
+
+#include <trisect/bsp/leaf/leaf_work.h>
+
+namespace trisect::detail {
+
+/// Clips an item to the cell and splits it along its cutters and the edges of what covers it. The
+/// pieces are appended to the work's list; each is on one side of everything else in the leaf.
+void make_pieces(LeafWork& work, LeafIndex item);
+
+}  // namespace trisect::detail

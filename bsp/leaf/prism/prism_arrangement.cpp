@@ -1,0 +1,525 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A plate with ten thousand engraved stars is one arrangement of segments in a plane for each layer
+// between two covers' positions. Cut into cells it is thousands of small arrangements in which
+// nothing is whole any more: the plate's upper side becomes half a million convex pieces, only to
+// be put together again.
+//
+// Walls that end in a common edge make outlines, and outlines are walked along. What is inside
+// beside a wall changes where another wall crosses it and nowhere else, so it is looked up once for
+// each outline: one sweep over all of them counts the walls that a straight way out of the figure
+// crosses. From then on it is a matter of turning over one operand at each crossing.
+//
+// What bounds the result can be read off beside the walls. In the plane of a cover it is bounded
+// where the layers below and above differ, so the region's outline is made of the stretches of
+// walls with a difference on one side only; what is in the middle of it need not be known. Covers
+// of one operand that hang together, a sheet, come out whole if all that bounds them bounds the
+// region in the same way and no outline of the region lies within; for that the walk knows which
+// sheets are around it. Of walls that bound the result as a whole nothing is written either.
+//
+// All vertices on a wall at a position are where what is on its two sides, below and above,
+// changes. All four faces that meet there are divided in the same places.
+
+#include <trisect/bsp/leaf/prism/prism_arrangement.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+bool PrismArrangement::arrange(const LeafProblem& problem, EvaluateStats& stats) {
+    whole_.clear();
+    cover_edges_.clear();
+    outlines_ = {};
+    if (!facets_.list(problem) || !crossings_.find(problem, facets_.walls(), stats)) return false;
+    if (!has_few_layers() || !sheets_.list(problem, facets_)) return false;
+    formula_.start(problem);
+    row_size_ = formula_.row_size();
+    const std::size_t layers = facets_.positions().size() + 1;
+    rows_.assign(layers * row_size_, 0);
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+        std::ranges::copy(facets_.outside(), row(layer).begin());
+        formula_.fill(row(layer));
+    }
+    changed_.clear();
+    is_changed_.assign(problem.operands.size(), false);
+    odd_.assign(sheets_.size(), 0);
+    find_chains();
+    if (!walk_chains(problem, stats)) return false;
+    finish_covers();
+    return true;
+}
+
+// Every wall is looked at in each of its layers, and every crossing turns over as many.
+bool PrismArrangement::has_few_layers() const {
+    constexpr std::size_t few = 16;
+    std::size_t looked_at = 0;
+    std::size_t all = 0;
+    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i) {
+        const std::size_t places = 1 + crossings_.of(i).size();
+        looked_at += places * (wall(i).end_layer - wall(i).first_layer);
+        all += places;
+    }
+    return looked_at <= few * all && facets_.positions().size() <= few * facets_.walls().size();
+}
+
+// --- Outlines.
+
+void PrismArrangement::find_chains() {
+    const auto walls = static_cast<LeafIndex>(facets_.walls().size());
+    // Ends of walls by their edges along the axis, as lists.
+    std::vector<std::int32_t> first(sheets_.edge_count(), -1);
+    std::vector<std::int32_t> next(2 * facets_.walls().size());
+    for (std::int32_t end = 2 * walls; end-- > 0;) {
+        std::int32_t& head = first[sheets_.edge_at(end / 2, u(end) % 2)];
+        next[u(end)] = head;
+        head = end;
+    }
+    std::vector<bool> walked(facets_.walls().size(), false);
+    steps_.clear();
+    chain_begin_.clear();
+    for (LeafIndex i = 0; i < walls; ++i) {
+        if (walked[u(i)]) continue;
+        chain_begin_.push_back(steps_.size());
+        for (Step step{i, false}; step.wall >= 0;) {
+            steps_.push_back(step);
+            walked[u(step.wall)] = true;
+            std::int32_t end = first[sheets_.edge_at(step.wall, step.backwards ? 0 : 1)];
+            while (end >= 0 && walked[u(end / 2)]) end = next[u(end)];
+            step = end < 0 ? Step{-1, false} : Step{end / 2, end % 2 == 1};
+        }
+    }
+    chain_begin_.push_back(steps_.size());
+}
+
+// False where too many walls lie across the lines of chains, as in PrismCrossings.
+bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
+    const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
+    const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
+    std::vector<std::pair<std::int64_t, LeafIndex>> walls;  // by their lower ends
+    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i)
+        if (low(i) != high(i)) walls.emplace_back(low(i), i);
+    std::ranges::sort(walls);
+    const auto start = [&](std::size_t chain) -> const FlatPoint& {
+        return wall(steps_[chain_begin_[chain]].wall).from;
+    };
+    std::vector<std::pair<std::int64_t, std::size_t>> chains;
+    for (std::size_t c = 0; c + 1 < chain_begin_.size(); ++c) chains.emplace_back(start(c)[1], c);
+    std::ranges::sort(chains);
+    std::vector<std::pair<std::int64_t, LeafIndex>> across;  // the line of the start: upper ends
+    std::vector<LeafIndex> crossed;
+    auto next = walls.begin();
+    std::size_t looked_at = 0;
+    for (const auto& [v, chain] : chains) {
+        check_budget(*problem.options, stats);
+        if (looked_at > PrismCrossings::most_per_wall * walls.size()) return false;
+        for (; next != walls.end() && next->first <= v; ++next)
+            across.emplace_back(high(next->second), next->second);
+        std::erase_if(across, [v = v](const auto& w) { return w.first <= v; });
+        crossed.clear();
+        looked_at += across.size();
+        for (const auto& w : across)
+            if (crosses_way(wall(w.second), start(chain))) crossed.push_back(w.second);
+        const std::size_t begin = chain_begin_[chain];
+        walk_chain(std::span(steps_).subspan(begin, chain_begin_[chain + 1] - begin), crossed);
+        ++stats.traces;
+    }
+    return true;
+}
+
+// All walls of a chain are in the same layers, and bound the same two sheets.
+void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crossed) {
+    const PrismWall& w = wall(chain[0].wall);
+    layers_here_ = w.end_layer - w.first_layer + 2;
+    const std::array<std::int32_t, 2> own = sheets_.of_wall(chain[0].wall);
+    around_.clear();
+    met_.clear();
+    for (const LeafIndex c : crossed) {
+        for (const std::int32_t sheet : sheets_.of_wall(c)) {
+            odd_[u(sheet)] ^= 1U;
+            met_.push_back(sheet);
+        }
+        turn_over(wall(c), w);
+    }
+    for (const std::int32_t sheet : met_) {
+        if (odd_[u(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
+        odd_[u(sheet)] = 0;
+    }
+    for (const Step& step : chain) {
+        walk_wall(step);
+        judge_wall(step.wall);
+    }
+    for (const LeafIndex operand : changed_) {
+        for (std::size_t i = 0; i < layers_here_; ++i)
+            formula_.set(row(w.first_layer - 1 + i), u(operand), facets_.outside()[u(operand)]);
+        is_changed_[u(operand)] = false;
+    }
+    changed_.clear();
+}
+
+// Sheets in the planes of other layers do no harm: nothing asks for them.
+void PrismArrangement::enter_sheet(std::int32_t sheet) {
+    const auto at = std::ranges::find(around_, sheet);
+    if (at == around_.end()) {
+        around_.push_back(sheet);
+    } else {
+        *at = around_.back();
+        around_.pop_back();
+    }
+}
+
+void PrismArrangement::set_row(std::size_t layer, LeafIndex operand, bool in) {
+    formula_.set(row(layer), u(operand), in ? 1 : 0);
+    if (is_changed_[u(operand)]) return;
+    is_changed_[u(operand)] = true;
+    changed_.push_back(operand);
+}
+
+// What a wall's operand is on its other side, in the layers of another wall and next to them.
+void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) {
+    const std::size_t first = std::max(crossed.first_layer, by.first_layer - 1);
+    const std::size_t end = std::min(crossed.end_layer, by.end_layer + 1);
+    for (std::size_t layer = first; layer < end; ++layer)
+        set_row(layer, crossed.operand, row(layer)[u(crossed.operand)] == 0);
+}
+
+// --- Along a wall.
+
+void PrismArrangement::walk_wall(const Step& step) {
+    const PrismWall& w = wall(step.wall);
+    begins_.clear();
+    insides_.clear();
+    for (std::size_t end = 0; end < 2; ++end) {
+        const bool beyond = row(end == 0 ? w.first_layer - 1 : w.end_layer)[u(w.operand)] != 0;
+        cover_is_left_[end] = beyond != w.inside_is_left;
+    }
+    look(w, step.backwards ? at_to : at_from);
+    const auto all = crossings_.of(step.wall);
+    const auto place = [&](std::size_t i) -> const PrismCrossing& {
+        return all[step.backwards ? all.size() - 1 - i : i];
+    };
+    for (std::size_t i = 0; i < all.size();) {
+        const std::size_t first = i;
+        Bound name = place(i).wall;
+        do {
+            const LeafIndex other = place(i).wall;
+            name = std::min(name, other);
+            turn_over(wall(other), w);
+            for (const std::int32_t sheet : sheets_.of_wall(other)) enter_sheet(sheet);
+            ++i;
+        } while (i < all.size() && crossings_.compare(place(first), place(i)) == 0);
+        look(w, name);
+    }
+    if (step.backwards) turn_stretches();
+}
+
+// Begins a stretch, unless all is as it was before.
+void PrismArrangement::look(const PrismWall& w, Bound begin) {
+    const std::size_t first = w.first_layer - 1;
+    const std::size_t before = insides_.size();
+    for (std::size_t i = 0; i < layers_here_; ++i) {
+        const auto value = [&] { return formula_.value(row(first + i)) == 1; };
+        Inside here;
+        if (w.is_in(first + i)) {
+            set_row(first + i, w.operand, w.inside_is_left);
+            here.left = value();
+            set_row(first + i, w.operand, !w.inside_is_left);
+            here.right = value();
+        } else {
+            here.left = here.right = value();
+        }
+        insides_.push_back(here);
+    }
+    const auto here = std::span(insides_).subspan(before);
+    for (const std::int32_t s : around_) {
+        PrismSheets::Sheet& sheet = sheets_[s];
+        if (sheet.position < first || sheet.position >= w.end_layer) continue;
+        const auto [left, right] = bounds(here, sheet.position - first);
+        sheet.whole = sheet.whole && left == right;
+    }
+    if (!begins_.empty() && std::ranges::equal(here, stretch(begins_.size() - 1))) {
+        insides_.resize(before);
+    } else {
+        begins_.push_back(begin);
+    }
+}
+
+// What begins where the walk began ends there.
+void PrismArrangement::turn_stretches() {
+    const std::size_t n = begins_.size();
+    std::reverse(begins_.begin() + 1, begins_.end());
+    begins_[0] = at_from;
+    for (std::size_t i = 0; i < n / 2; ++i)
+        std::swap_ranges(
+            insides_.begin() + static_cast<std::ptrdiff_t>(i * layers_here_),
+            insides_.begin() + static_cast<std::ptrdiff_t>((i + 1) * layers_here_),
+            insides_.begin() + static_cast<std::ptrdiff_t>((n - 1 - i) * layers_here_));
+}
+
+// On both sides: 1 where only the layer below position i (of those here) is inside, -1 where only
+// the one above it is.
+std::array<int, 2> PrismArrangement::bounds(std::span<const Inside> layers, std::size_t i) {
+    const auto sign = [](bool below, bool above) { return (below ? 1 : 0) - (above ? 1 : 0); };
+    return {sign(layers[i].left, layers[i + 1].left), sign(layers[i].right, layers[i + 1].right)};
+}
+
+// --- What bounds the result.
+
+void PrismArrangement::judge_wall(LeafIndex i) {
+    const WallState state = state_of(i);
+    faces_here_ = {-1, -1};
+    add_whole_halves(wall(i), state);
+    add_horizontal_edges(i, state);
+    if (state.outlined == both_halves) {
+        add_vertical_edges(i, state);
+    } else if (state.outlined != 0) {
+        add_half(i, state);
+    }
+}
+
+PrismArrangement::WallState PrismArrangement::state_of(LeafIndex i) const {
+    const PrismWall& w = wall(i);
+    WallState out;
+    out.facing = facing(insides_[1]);
+    for (std::size_t s = 0; s < begins_.size(); ++s)
+        for (const Inside& in : stretch(s).subspan(1, layers_here_ - 2))
+            if (facing(in) != out.facing) return {0, both_halves, Facing::None};
+    if (out.facing == Facing::None) return out;
+    for (std::size_t half = 0; half < 2; ++half)
+        (is_unbroken(is_low(w, half) ? 0 : layers_here_ - 2) ? out.whole : out.outlined) |= 1U
+                                                                                            << half;
+    return out;
+}
+
+// Whether a half of a wall has its edge across the axis at the lower end.
+bool PrismArrangement::is_low(const PrismWall& w, std::size_t half) const {
+    const PolygonRef& f = w.facets[half];
+    const int third = (facets_.upright_edge(w, half).edge + 2) % 3;
+    return f.source->corner(f.facet, third)[static_cast<int>(facets_.axis())] == w.lo;
+}
+
+bool PrismArrangement::is_unbroken(std::size_t position) const {
+    for (std::size_t s = 1; s < begins_.size(); ++s)
+        if (!is_same_beside(position, 0, s)) return false;
+    return true;
+}
+
+// Whether two stretches have the same on all four sides of a position (of those here).
+bool PrismArrangement::is_same_beside(std::size_t position, std::size_t s, std::size_t t) const {
+    return std::ranges::equal(stretch(s).subspan(position, 2), stretch(t).subspan(position, 2));
+}
+
+void PrismArrangement::add_whole_halves(const PrismWall& w, const WallState& state) {
+    for (std::size_t half = 0; half < 2; ++half) {
+        if ((state.whole >> half & 1U) == 0) continue;
+        PolygonRef ref = w.facets[half];
+        ref.flipped = (state.facing == Facing::InsideLeft) == w.above_is_left[half];
+        whole_.push_back(ref);
+    }
+}
+
+void PrismArrangement::add_horizontal_edges(LeafIndex i, const WallState& state) {
+    const PrismWall& w = wall(i);
+    for (std::size_t p = 0; p + 1 < layers_here_; ++p) {
+        const bool is_end = p == 0 || p + 2 == layers_here_;
+        bool wanted = state.outlined == both_halves;
+        for (std::size_t half = 0; half < 2; ++half)
+            wanted = wanted || ((state.outlined >> half & 1U) != 0 &&
+                                p == (is_low(w, half) ? 0 : layers_here_ - 2));
+        const bool unbroken = is_unbroken(p);
+        for (std::size_t s = 0; s < begins_.size();) {
+            std::size_t t = s + 1;
+            while (t < begins_.size() && is_same_beside(p, s, t)) ++t;
+            if (is_end) note_sheet(i, p, bounds(stretch(s), p), unbroken);
+            add_cover_edges(i, p, s, t);
+            if (wanted) add_wall_edges(i, p, s, t, state);
+            s = t;
+        }
+    }
+}
+
+void PrismArrangement::note_sheet(LeafIndex i, std::size_t p, std::array<int, 2> bounds,
+                                  bool unbroken) {
+    const std::size_t end = p == 0 ? 0 : 1;
+    PrismSheets::Sheet& sheet = sheets_[sheets_.of_wall(i)[end]];
+    const std::size_t side = cover_is_left_[end] ? 0 : 1;
+    const int here = bounds[side];
+    sheet.whole = sheet.whole && unbroken && here != 0 && here != bounds[1 - side] &&
+                  (sheet.bounds == 0 || sheet.bounds == here);
+    sheet.bounds = here;
+}
+
+// Of the faces in the plane of the position, to the left and to the right of stretches [s, t).
+void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t) {
+    const PrismWall& w = wall(i);
+    const std::size_t position = w.first_layer - 1 + p;
+    const auto beside = bounds(stretch(s), p);
+    if (beside[0] == beside[1]) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (beside[side] == 0) continue;
+        const bool up = beside[side] > 0;
+        const bool left = side == 0;
+        CoverEdge out;
+        for (std::size_t end = 0; end < 2; ++end)
+            if (p == (end == 0 ? 0 : layers_here_ - 2) && cover_is_left_[end] == left)
+                out.sheet = sheets_.of_wall(i)[end];
+        out.edge.from = vertex(i, begins_[s], position);
+        out.edge.to = vertex(i, end_of_stretch(t - 1), position);
+        if (left != up) std::swap(out.edge.from, out.edge.to);
+        out.edge.line = {support_of(i), left == w.above_is_left[0]};
+        out.edge.face = static_cast<std::uint32_t>(2 * position + (up ? 1 : 0));
+        cover_edges_.push_back(out);
+    }
+}
+
+// Where stretches [s, t) of the wall begin or end to bound the result, along the axis.
+void PrismArrangement::add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
+                                      const WallState& state) {
+    const PrismWall& w = wall(i);
+    const std::size_t position = w.first_layer - 1 + p;
+    const Facing below = facing(stretch(s)[p]);
+    const Facing above = facing(stretch(s)[p + 1]);
+    if (below == above) return;
+    const bool upper_is_above = facets_.faces_up(facets_.cover_at(position));
+    for (const Facing f : {below, above}) {
+        if (f == Facing::None) continue;
+        const bool is_above = f == above;
+        NamedOutlines::Edge e;
+        e.from = vertex(i, begins_[s], position);
+        e.to = vertex(i, end_of_stretch(t - 1), position);
+        if ((f == Facing::InsideLeft) != is_above) std::swap(e.from, e.to);
+        e.line = {plane_at(position), is_above == upper_is_above};
+        e.face = face_of_wall(i, f, state);
+        outlines_.edges.push_back(e);
+    }
+}
+
+void PrismArrangement::add_vertical_edges(LeafIndex i, const WallState& state) {
+    for (std::size_t layer = 1; layer + 1 < layers_here_; ++layer)
+        for (std::size_t s = 0; s < begins_.size();) {
+            const Facing f = facing(stretch(s)[layer]);
+            std::size_t t = s + 1;
+            while (t < begins_.size() && facing(stretch(t)[layer]) == f) ++t;
+            if (f != Facing::None) {
+                add_upright(i, begins_[s], true, layer, layer + 1, f, state);
+                add_upright(i, end_of_stretch(t - 1), false, layer, layer + 1, f, state);
+            }
+            s = t;
+        }
+}
+
+// The edge in which a face of the wall begins (or ends, seen from `from` to `to`), in layers
+// [first, end) of those here.
+void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_t first,
+                                   std::size_t end, Facing f, const WallState& state) {
+    const std::size_t below = wall(i).first_layer - 2;  // the position below layer 0 of those here
+    NamedOutlines::Edge e;
+    e.from = vertex(i, b, below + first);
+    e.to = vertex(i, b, below + end);
+    if ((f == Facing::InsideLeft) == begins) std::swap(e.from, e.to);
+    e.line = side_of_bound(i, b, begins);
+    e.face = face_of_wall(i, f, state);
+    outlines_.edges.push_back(e);
+}
+
+// One half of a wall that bounds the result as a whole: vertices lie in the edge that it ends with.
+void PrismArrangement::add_half(LeafIndex i, const WallState& state) {
+    const PrismWall& w = wall(i);
+    const std::size_t half = state.outlined == 1 ? 0 : 1;
+    add_upright(i, half == 0 ? at_from : at_to, half == 0, 1, layers_here_ - 1, state.facing,
+                state);
+    // From corner (k + 1) to corner (k + 2) or from there to corner k, the upright edge being from
+    // corner k to the next one.
+    const PolygonRef& f = w.facets[half];
+    const PrismFacets::Upright upright = facets_.upright_edge(w, half);
+    const bool third_is_low = is_low(w, half);
+    const bool first_is_low = upright.edge == upright.low;
+    const int k = first_is_low == third_is_low ? upright.edge + 1 : upright.edge + 2;
+    NamedOutlines::Edge e;
+    e.from = NamedOutlines::Vertex::corner_of(f.source, f.facet, k % 3);
+    e.to = NamedOutlines::Vertex::corner_of(f.source, f.facet, (k + 1) % 3);
+    if ((state.facing == Facing::InsideLeft) == w.above_is_left[half]) std::swap(e.from, e.to);
+    e.line = {PlaneName::edge(f.source, f.facet, k % 3), false};
+    e.face = face_of_wall(i, state.facing, state);
+    outlines_.edges.push_back(e);
+}
+
+// Named after the half that is outlined, or the first one.
+std::uint32_t PrismArrangement::face_of_wall(LeafIndex i, Facing f, const WallState& state) {
+    const PrismWall& w = wall(i);
+    const bool left = f == Facing::InsideLeft;
+    std::int32_t& face = faces_here_[left ? 0 : 1];
+    if (face < 0) {
+        std::size_t half = w.facets[0].facet < w.facets[1].facet ? 0 : 1;
+        if (state.outlined != both_halves) half = state.outlined == 1 ? 0 : 1;
+        face = static_cast<std::int32_t>(outlines_.faces.size());
+        outlines_.faces.push_back(
+            {w.facets[half].source, w.facets[half].facet, left == w.above_is_left[half]});
+    }
+    return static_cast<std::uint32_t>(face);
+}
+
+NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t position) const {
+    using Vertex = NamedOutlines::Vertex;
+    if (b >= 0) return Vertex::meet(support_of(i), support_of(b), plane_at(position));
+    const PrismWall& w = wall(i);
+    const std::size_t end = b == at_from ? 0 : 1;
+    const PolygonRef& f = w.facets[end];
+    const PrismFacets::Upright upright = facets_.upright_edge(w, end);
+    if (position + 1 == w.first_layer) return Vertex::corner_of(f.source, f.facet, upright.low);
+    if (position + 1 == w.end_layer) return Vertex::corner_of(f.source, f.facet, upright.high);
+    return Vertex::meet(support_of(i), PlaneName::edge(f.source, f.facet, upright.edge),
+                        plane_at(position));
+}
+
+// The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the wall's `to`.
+EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) const {
+    const PrismWall& w = wall(i);
+    if (b < 0) {
+        const std::size_t end = b == at_from ? 0 : 1;
+        const PolygonRef& f = w.facets[end];
+        return {PlaneName::edge(f.source, f.facet, facets_.upright_edge(w, end).edge), false};
+    }
+    const PrismWall& other = wall(b);
+    const bool left = flat_turn(other.from, other.to, keeps_to ? w.to : w.from) > 0;
+    return {support_of(b), left == other.above_is_left[0]};
+}
+
+// --- Covers.
+
+void PrismArrangement::finish_covers() {
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> first(facets_.positions().size(), none);  // that is not whole
+    const auto covers = facets_.covers();
+    for (std::size_t c = 0; c < covers.size(); ++c) {
+        const PrismSheets::Sheet& sheet = sheets_[sheets_.of_cover(c)];
+        if (!sheet.whole) {
+            first[sheet.position] = std::min(first[sheet.position], c);
+            continue;
+        }
+        PolygonRef ref = covers[c].ref;
+        ref.flipped = (sheet.bounds > 0) != facets_.faces_up(ref);
+        whole_.push_back(ref);
+    }
+    std::vector<std::int32_t> faces(2 * first.size(), -1);
+    for (const CoverEdge& c : cover_edges_) {
+        if (c.sheet >= 0 && sheets_[c.sheet].whole) continue;
+        std::int32_t& face = faces[c.edge.face];
+        if (face < 0) {
+            TRISECT_EXPECTS(first[c.edge.face / 2] != none,
+                            "an outline where all sheets are whole");
+            const PolygonRef& ref = covers[first[c.edge.face / 2]].ref;
+            const bool up = c.edge.face % 2 == 1;
+            face = static_cast<std::int32_t>(outlines_.faces.size());
+            outlines_.faces.push_back({ref.source, ref.facet, up != facets_.faces_up(ref)});
+        }
+        outlines_.edges.push_back(c.edge);
+        outlines_.edges.back().face = static_cast<std::uint32_t>(face);
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// PrismArrangement: a formula over prisms along one axis, any number of them, arranged as a whole.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/leaf/leaf_formula.h>
+#include <trisect/bsp/leaf/prism/prism_crossings.h>
+#include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/bsp/leaf/prism/prism_sheets.h>
+
+namespace trisect::detail {
+
+/// Like PrismLeaf, but for what is left of facets it makes outlines instead of convex pieces, so
+/// its time is near linear in walls, crossings and layers together. \pre each operand is all facets
+/// of one source.
+class PrismArrangement {
+public:
+    /// False, and nothing is said, when the operands are of another kind, walls touch or coincide,
+    /// or there are so many layers, or walls beside each other, that cells are the better way.
+    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats);
+
+    /// Facets that bound the result as they are, without a vertex in their edges.
+    [[nodiscard]] std::vector<PolygonRef>& whole() { return whole_; }
+    /// The rest of its boundary.
+    [[nodiscard]] NamedOutlines& outlines() { return outlines_; }
+
+private:
+    // Where a stretch of a wall ends: at the wall of that number, which crosses it, or with the
+    // wall itself.
+    using Bound = LeafIndex;
+    static constexpr Bound at_from = -1;
+    static constexpr Bound at_to = -2;
+    /// What is inside in a layer: to the left of a wall, and to its right.
+    struct Inside {
+        bool left = false;
+        bool right = false;
+        friend bool operator==(const Inside&, const Inside&) = default;
+    };
+    /// A wall in the walk around its outline.
+    struct Step {
+        LeafIndex wall = 0;
+        bool backwards = false;  // from its `to` to its `from`
+    };
+    using Chain = std::span<const Step>;
+    /// What a wall's face is in one layer.
+    enum class Facing : std::uint8_t { None, InsideLeft, InsideRight };
+    static Facing facing(const Inside& i) {
+        return i.left == i.right ? Facing::None
+                                 : (i.left ? Facing::InsideLeft : Facing::InsideRight);
+    }
+    struct CoverEdge {
+        NamedOutlines::Edge edge;
+        std::int32_t sheet = -1;  // of whose facets it is an edge if they are whole
+    };
+    /// How much of a wall bounds the result: bits for its two halves.
+    struct WallState {
+        unsigned whole = 0;
+        unsigned outlined = 0;
+        Facing facing = Facing::None;
+    };
+    static constexpr unsigned both_halves = 3;
+
+    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
+    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[u(i)]; }
+    [[nodiscard]] bool has_few_layers() const;
+    void find_chains();
+    [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);
+    void walk_chain(Chain chain, std::span<const LeafIndex> crossed);
+    void enter_sheet(std::int32_t sheet);
+    void set_row(std::size_t layer, LeafIndex operand, bool in);
+    void turn_over(const PrismWall& crossed, const PrismWall& by);
+
+    void walk_wall(const Step& step);
+    void look(const PrismWall& w, Bound begin);
+    void turn_stretches();
+    [[nodiscard]] std::span<const Inside> stretch(std::size_t i) const {
+        return std::span(insides_).subspan(i * layers_here_, layers_here_);
+    }
+    [[nodiscard]] Bound end_of_stretch(std::size_t i) const {
+        return i + 1 < begins_.size() ? begins_[i + 1] : at_to;
+    }
+    [[nodiscard]] static std::array<int, 2> bounds(std::span<const Inside> layers, std::size_t i);
+
+    void judge_wall(LeafIndex i);
+    [[nodiscard]] WallState state_of(LeafIndex i) const;
+    [[nodiscard]] bool is_low(const PrismWall& w, std::size_t half) const;
+    [[nodiscard]] bool is_unbroken(std::size_t position) const;
+    [[nodiscard]] bool is_same_beside(std::size_t position, std::size_t s, std::size_t t) const;
+    void add_whole_halves(const PrismWall& w, const WallState& state);
+    void add_horizontal_edges(LeafIndex i, const WallState& state);
+    void note_sheet(LeafIndex i, std::size_t p, std::array<int, 2> bounds, bool unbroken);
+    void add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t);
+    void add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
+                        const WallState& state);
+    void add_vertical_edges(LeafIndex i, const WallState& state);
+    void add_upright(LeafIndex i, Bound b, bool begins, std::size_t first, std::size_t end,
+                     Facing f, const WallState& state);
+    void add_half(LeafIndex i, const WallState& state);
+    void finish_covers();
+
+    [[nodiscard]] std::uint32_t face_of_wall(LeafIndex i, Facing f, const WallState& state);
+    [[nodiscard]] NamedOutlines::Vertex vertex(LeafIndex i, Bound b, std::size_t position) const;
+    [[nodiscard]] EdgeName side_of_bound(LeafIndex i, Bound b, bool keeps_to) const;
+    [[nodiscard]] PlaneName support_of(LeafIndex i) const {
+        const PolygonRef& f = wall(i).facets[0];
+        return PlaneName::support(f.source, f.facet);
+    }
+    [[nodiscard]] PlaneName plane_at(std::size_t position) const {
+        const PolygonRef& f = facets_.cover_at(position);
+        return PlaneName::support(f.source, f.facet);
+    }
+    [[nodiscard]] std::span<int> row(std::size_t layer) {
+        return std::span(rows_).subspan(layer * row_size_, row_size_);
+    }
+
+    PrismFacets facets_;
+    PrismCrossings crossings_;
+    PrismSheets sheets_;
+    LeafFormula formula_;
+    std::vector<Step> steps_;
+    std::vector<std::size_t> chain_begin_;
+    // Where the walk is: a row of the formula for each layer; operands that differ from what is far
+    // away; sheets around it, of any operand but the wall's own.
+    std::size_t row_size_ = 0;
+    std::vector<int> rows_;
+    std::vector<LeafIndex> changed_;
+    std::vector<bool> is_changed_;
+    std::vector<std::int32_t> around_;
+    std::vector<std::uint8_t> odd_;  // by sheet
+    std::vector<std::int32_t> met_;
+    // Of the wall that the walk is at, from its `from` on: where its stretches begin, and what is
+    // beside them, from the layer below it to the one above it.
+    std::vector<Bound> begins_;
+    std::vector<Inside> insides_;
+    std::size_t layers_here_ = 0;
+    // Of the same wall: where the covers are that end it, below and above, and its faces by facing.
+    std::array<bool, 2> cover_is_left_{};
+    std::array<std::int32_t, 2> faces_here_{};
+
+    std::vector<PolygonRef> whole_;
+    std::vector<CoverEdge> cover_edges_;  // their faces: twice the position, one more if it is up
+    NamedOutlines outlines_;
+};
+
+}  // namespace trisect::detail

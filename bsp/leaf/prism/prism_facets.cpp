@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/leaf/prism/prism_facets.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace trisect::detail {
+
+namespace {
+
+std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
+
+auto wall_key(const PrismWall& w) {
+    return std::tuple(w.operand, w.from, w.to, w.lo, w.hi, w.facets[0].source != nullptr ? 0 : 1);
+}
+
+bool same_rectangle(const PrismWall& a, const PrismWall& b) {
+    return a.operand == b.operand && a.from == b.from && a.to == b.to && a.lo == b.lo &&
+           a.hi == b.hi;
+}
+
+}  // namespace
+
+FlatPoint PrismFacets::flat(const LatticePoint& p) const {
+    return {at(p, (axis_ + 1) % 3), at(p, (axis_ + 2) % 3)};
+}
+
+bool PrismFacets::faces_up(const PolygonRef& cover) const {
+    const auto corner = [&](int i) { return flat(cover.source->corner(cover.facet, i)); };
+    return flat_turn(corner(0), corner(1), corner(2)) > 0;
+}
+
+PrismFacets::Upright PrismFacets::upright_edge(const PrismWall& wall, std::size_t end) const {
+    const PolygonRef& ref = wall.facets[end];
+    const auto corner = [&](int i) -> const LatticePoint& {
+        return ref.source->corner(ref.facet, i % 3);
+    };
+    int i = 0;
+    while (flat(corner(i)) != flat(corner(i + 1))) ++i;
+    const bool up = at(corner(i), axis_) < at(corner(i + 1), axis_);
+    return {up ? i : (i + 1) % 3, up ? (i + 1) % 3 : i, i};
+}
+
+// Two of its corners have two coordinates in common, or all three have one.
+bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
+    if (polygon.fragment != nullptr || polygon.source->is_half_space()) return false;
+    std::array<int, 3> equal{};  // by axis: sides along which it does not change
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& a = polygon.source->corner(polygon.facet, i);
+        const LatticePoint& b = polygon.source->corner(polygon.facet, (i + 1) % 3);
+        int here = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (at(a, k) == at(b, k)) {
+                ++equal[k];
+                ++here;
+            }
+        if (here == 2) return true;
+    }
+    return std::ranges::any_of(equal, [](int n) { return n == 3; });
+}
+
+bool PrismFacets::list(const LeafProblem& problem) {
+    for (const LeafOperand& o : problem.operands)
+        if (!o.embedded || (!o.polygons.empty() && !(may_be_of_prism(o.polygons.front()) &&
+                                                     may_be_of_prism(o.polygons.back()))))
+            return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (list_along(problem, axis)) return true;
+    return false;
+}
+
+bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
+    axis_ = axis;
+    walls_.clear();
+    covers_.clear();
+    for (std::size_t o = 0; o < problem.operands.size(); ++o)
+        for (const PolygonRef& ref : problem.operands[o].polygons) {
+            if (ref.fragment != nullptr || ref.source->is_half_space() ||
+                !add(ref, static_cast<LeafIndex>(o), problem.operands[o].flipped) ||
+                !problem.cell.contains(ref.box()))
+                return false;
+        }
+    // Where everything is across an axis other ways are shorter.
+    const bool is_grid = std::ranges::all_of(
+        walls_, [](const PrismWall& w) { return w.from[0] == w.to[0] || w.from[1] == w.to[1]; });
+    if (is_grid || !join_halves() || !find_layers()) return false;
+    find_outside(problem);
+    return true;
+}
+
+bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
+    std::array<FlatPoint, 3> corners;
+    std::array<std::int64_t, 3> height{};
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& p = ref.source->corner(ref.facet, i);
+        corners[static_cast<std::size_t>(i)] = flat(p);
+        height[static_cast<std::size_t>(i)] = at(p, axis_);
+    }
+    if (height[0] == height[1] && height[0] == height[2]) {
+        covers_.push_back({operand, ref, 0});
+        return true;
+    }
+    // The edge along the axis.
+    std::size_t i = 0;
+    while (i < 3 && corners[i] != corners[(i + 1) % 3]) ++i;
+    if (i == 3) return false;
+    const std::size_t third = (i + 2) % 3;
+    const auto [lo, hi] = std::minmax(height[i], height[(i + 1) % 3]);
+    if (height[third] != lo && height[third] != hi) return false;
+    PrismWall w;
+    w.operand = operand;
+    w.lo = lo;
+    w.hi = hi;
+    w.from = corners[i];
+    w.to = corners[third];
+    const bool turned = w.to < w.from;
+    if (turned) std::swap(w.from, w.to);
+    // Up along the axis and then away from it: the normal is to the left of that way.
+    const bool up = height[i] < height[(i + 1) % 3];
+    const std::size_t half = turned ? 1 : 0;
+    w.facets[half] = ref;
+    w.above_is_left[half] = up != turned;
+    const bool outside_above = ref.flipped == flipped;
+    w.inside_is_left = outside_above != w.above_is_left[half];
+    walls_.push_back(w);
+    return true;
+}
+
+bool PrismFacets::join_halves() {
+    if (walls_.size() % 2 != 0) return false;
+    std::sort(walls_.begin(), walls_.end(),
+              [](const PrismWall& a, const PrismWall& b) { return wall_key(a) < wall_key(b); });
+    for (std::size_t i = 0; i < walls_.size(); i += 2) {
+        PrismWall& a = walls_[i];
+        const PrismWall& b = walls_[i + 1];
+        if (!same_rectangle(a, b) || a.facets[0].source == nullptr ||
+            b.facets[1].source == nullptr || a.inside_is_left != b.inside_is_left)
+            return false;
+        a.facets[1] = b.facets[1];
+        a.above_is_left[1] = b.above_is_left[1];
+        walls_[i / 2] = a;
+    }
+    walls_.resize(walls_.size() / 2);
+    for (std::size_t i = 1; i < walls_.size(); ++i)
+        if (same_rectangle(walls_[i - 1], walls_[i])) return false;
+    return true;
+}
+
+bool PrismFacets::find_layers() {
+    const auto height = [&](const PolygonRef& ref) {
+        return at(ref.source->corner(ref.facet, 0), axis_);
+    };
+    positions_.clear();
+    for (const PrismCover& c : covers_) positions_.push_back(height(c.ref));
+    std::ranges::sort(positions_);
+    positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
+    const auto index = [&](std::int64_t p) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(positions_, p) -
+                                        positions_.begin());
+    };
+    for (PrismWall& w : walls_) {
+        w.first_layer = index(w.lo) + 1;
+        w.end_layer = index(w.hi) + 1;
+        // Ends where nothing covers it.
+        if (w.end_layer > positions_.size() || positions_[w.first_layer - 1] != w.lo ||
+            positions_[w.end_layer - 1] != w.hi)
+            return false;
+    }
+    named_.assign(positions_.size(), PolygonRef{});
+    for (PrismCover& c : covers_) {
+        c.position = index(height(c.ref));
+        if (named_[c.position].source == nullptr) named_[c.position] = c.ref;
+    }
+    const auto key = [](const PrismCover& c) {
+        return std::tuple(c.position, c.operand, c.ref.source->serial(), c.ref.facet);
+    };
+    std::sort(covers_.begin(), covers_.end(),
+              [&](const PrismCover& a, const PrismCover& b) { return key(a) < key(b); });
+    return true;
+}
+
+// From the reference straight to where nothing is, within its layer.
+void PrismFacets::find_outside(const LeafProblem& problem) {
+    outside_.clear();
+    for (const LeafOperand& o : problem.operands)
+        outside_.push_back(is_inside(o.winding, problem.options->winding) ? 1 : 0);
+    const FinePoint& r = problem.reference;
+    const auto layer = static_cast<std::size_t>(
+        std::ranges::partition_point(positions_,
+                                     [&](std::int64_t p) { return p * wall_scale <= r.c[axis_]; }) -
+        positions_.begin());
+    const FlatPoint point{r.c[(axis_ + 1) % 3], r.c[(axis_ + 2) % 3]};
+    for (const PrismWall& w : walls_) {
+        if (!w.is_in(layer)) continue;
+        const FlatPoint from{w.from[0] * wall_scale, w.from[1] * wall_scale};
+        const FlatPoint to{w.to[0] * wall_scale, w.to[1] * wall_scale};
+        if ((from[1] > point[1]) == (to[1] > point[1])) continue;
+        if ((flat_turn(from, to, point) > 0) == (to[1] > from[1]))
+            outside_[LeafWork::u(w.operand)] ^= 1;
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Facets of prisms: across one axis or along it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+/// A lattice point as it is seen along the prisms' axis.
+using FlatPoint = std::array<std::int64_t, 2>;
+
+/// Twice the area of a triangle, positive when it runs counter-clockwise. Below 2^110.
+[[nodiscard]] inline Int128 flat_turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
+    return Int128{b[0] - a[0]} * (c[1] - a[1]) - Int128{b[1] - a[1]} * (c[0] - a[0]);
+}
+
+/// A rectangle along the axis: two facets with a common diagonal.
+struct PrismWall {
+    LeafIndex operand = 0;
+    FlatPoint from{};
+    FlatPoint to{};
+    std::int64_t lo = 0;  ///< along the axis
+    std::int64_t hi = 0;
+    std::array<PolygonRef, 2> facets;  ///< the first one has an edge at `from`, the other at `to`
+    std::array<bool, 2> above_is_left{};  ///< above a facet's support, seen from `from` to `to`
+    bool inside_is_left = false;          ///< of the operand
+    std::size_t first_layer = 0;          ///< see PrismFacets
+    std::size_t end_layer = 0;
+
+    [[nodiscard]] bool is_in(std::size_t layer) const {
+        return layer >= first_layer && layer < end_layer;
+    }
+};
+
+/// Whether the way from p along the first of the two coordinates, upwards, crosses a wall. Its ends
+/// count as above the way.
+[[nodiscard]] inline bool crosses_way(const PrismWall& w, const FlatPoint& p) {
+    if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
+    return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
+}
+
+/// Leaves of prisms may be so many times as large as others.
+inline constexpr std::uint64_t prism_leaf_factor = 40;
+
+/// A facet across the axis.
+struct PrismCover {
+    LeafIndex operand = 0;
+    PolygonRef ref;
+    std::size_t position = 0;  ///< see PrismFacets
+};
+
+/// The facets of a leaf whose operands are all unions of prisms along one axis. The covers'
+/// positions divide the space into layers, in which nothing depends on the axis: layer i ends at
+/// position i.
+class PrismFacets {
+public:
+    /// False when some polygon is neither across the axis nor one of the two halves of a rectangle
+    /// along it, is cut, or is not all within the cell; or when an operand may meet itself.
+    [[nodiscard]] bool list(const LeafProblem& problem);
+    /// False for polygons that are of no prism along any axis.
+    [[nodiscard]] static bool may_be_of_prism(const PolygonRef& polygon);
+
+    [[nodiscard]] std::span<const PrismWall> walls() const { return walls_; }
+    /// By position, operand, source and facet.
+    [[nodiscard]] std::span<const PrismCover> covers() const { return covers_; }
+    [[nodiscard]] std::span<const std::int64_t> positions() const { return positions_; }
+    /// A facet across the axis there.
+    [[nodiscard]] const PolygonRef& cover_at(std::size_t position) const {
+        return named_[position];
+    }
+    /// Whether a cover's support has its upper side towards greater positions.
+    [[nodiscard]] bool faces_up(const PolygonRef& cover) const;
+    [[nodiscard]] std::size_t axis() const { return axis_; }
+    /// The edge along the axis of the half of a wall that has one at its `from` (end 0) or `to`
+    /// (end 1): numbers of the facet's corners. `edge` is that of the edge.
+    struct Upright {
+        int low = 0;
+        int high = 0;
+        int edge = 0;
+    };
+    [[nodiscard]] Upright upright_edge(const PrismWall& wall, std::size_t end) const;
+    [[nodiscard]] FlatPoint flat(const LatticePoint& p) const;
+    /// Winding numbers of the operands far away from all of them.
+    [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }
+
+private:
+    [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis);
+    [[nodiscard]] bool add(const PolygonRef& ref, LeafIndex operand, bool flipped);
+    [[nodiscard]] bool join_halves();
+    [[nodiscard]] bool find_layers();
+    void find_outside(const LeafProblem& problem);
+
+    std::size_t axis_ = 0;
+    std::vector<PrismWall> walls_;
+    std::vector<PrismCover> covers_;
+    std::vector<std::int64_t> positions_;
+    std::vector<PolygonRef> named_;
+    std::vector<std::uint8_t> outside_;
+};
+
+}  // namespace trisect::detail

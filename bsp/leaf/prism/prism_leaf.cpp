@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Gears side by side, plates with holes, a stack of profiles: operands that are prisms along one
+// axis, and many of them begin and end in the same planes. Compared facet by facet all covers
+// coincide, every wall ends in every cover's plane, and nothing is in general position. Yet there
+// is no more to it than an arrangement of segments in a plane, one for each layer between two
+// covers' positions.
+//
+// So nothing is compared but walls, as segments. Along a wall the operands that are inside on its
+// two sides change only where other walls cross it; with the order of these places, fractions of
+// integers, the stretches that bound the result are read off. In the plane of a cover the result is
+// bounded where the layers below and above it differ; of several operands with a cover there the
+// first one speaks. How that region is divided among its speakers shows on the walls' stretches,
+// too: on the two sides of a stretch other operands speak. A cover is cut along the stretches that
+// bound its operand's share and no others, hence n coincident covers make n small sets of parts and
+// not n² ones.
+//
+// Where walls touch or overlap instead of crossing the leaf is arranged the long way.
+
+#include <trisect/bsp/leaf/prism/prism_leaf.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/split_piece.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::size_t left = 0;
+constexpr std::size_t right = 1;
+
+// crosses_way() from a point in doubles; nothing when they cannot tell.
+std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
+    const double from_v = static_cast<double>(w.from[1]) - p[1];
+    const double to_v = static_cast<double>(w.to[1]) - p[1];
+    const double slack = 1.001 * error + 0x1p-52 * (std::fabs(from_v) + std::fabs(to_v));
+    if ((from_v > slack && to_v > slack) || (from_v < -slack && to_v < -slack)) return false;
+    if (std::fabs(from_v) <= slack || std::fabs(to_v) <= slack) return std::nullopt;
+    const double du = static_cast<double>(w.to[0] - w.from[0]);
+    const double dv = static_cast<double>(w.to[1] - w.from[1]);
+    const double s = du * -from_v;
+    const double t = dv * (p[0] - static_cast<double>(w.from[0]));
+    const double bound =
+        0x1p-50 * (std::fabs(s) + std::fabs(t)) + 1.001 * error * (std::fabs(du) + std::fabs(dv));
+    if (std::fabs(s - t) <= bound) return std::nullopt;
+    return (s > t) == (dv > 0);
+}
+
+}  // namespace
+
+bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
+                        std::vector<PolygonRef>& out) {
+    if (!facets_.list(problem)) return false;
+    // Fragments that nobody has taken end here, whatever is thrown or given up.
+    struct EndCovers {
+        std::vector<PolygonRef>& covers;
+        ~EndCovers() {
+            if (!covers.empty()) end_fragments(covers);
+        }
+    } const end_covers{covers_};
+    const EvaluateStats before = stats;
+    if (!arrange_listed(problem, stats)) {
+        stats = before;
+        return false;
+    }
+    for (std::size_t i = 0; i < wall_parts_.size();) {
+        std::size_t j = i + 1;
+        while (j < wall_parts_.size() && wall_parts_[j].stretch.wall == wall_parts_[i].stretch.wall)
+            ++j;
+        emit_wall(i, j, out);
+        i = j;
+    }
+    out.insert(out.end(), covers_.begin(), covers_.end());
+    stats.pieces += wall_parts_.size() + covers_.size();
+    covers_.clear();
+    ++stats.mixed_leaves;
+    ++stats.prism_leaves;
+    return true;
+}
+
+bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats) {
+    stats_ = &stats;
+    if (!crossings_.find(problem, facets_.walls(), stats)) return false;
+    bench_.clear();
+    formula_.start(problem);
+    operands_ = problem.operands.size();
+    row_size_ = formula_.row_size();
+    rows_.assign(4 * row_size_, 0);
+    insides_.assign(4 * operands_, 0);
+    wall_parts_.clear();
+    covers_.clear();
+    outlines_.resize(operands_);
+    const auto walls = static_cast<LeafIndex>(facets_.walls().size());
+    auto cover = facets_.covers().begin();
+    for (std::size_t position = 0; position < facets_.positions().size(); ++position) {
+        for (auto& stretches : outlines_) stretches.clear();
+        for (LeafIndex i = 0; i < walls; ++i) {
+            const PrismWall& w = facets_.walls()[LeafWork::u(i)];
+            if (!w.is_in(position) && !w.is_in(position + 1)) continue;
+            check_budget(*problem.options, stats);
+            walk(i, position);
+        }
+        for (; cover != facets_.covers().end() && cover->position == position; ++cover) {
+            check_budget(*problem.options, stats);
+            if (!cut_cover(*cover)) return false;
+        }
+    }
+    std::stable_sort(
+        wall_parts_.begin(), wall_parts_.end(),
+        [](const WallPart& a, const WallPart& b) { return a.stretch.wall < b.stretch.wall; });
+    return true;
+}
+
+// --- Along a wall.
+
+void PrismLeaf::walk(LeafIndex i, std::size_t position) {
+    const PrismWall& wall = facets_.walls()[LeafWork::u(i)];
+    start_walk(wall, position);
+    Stretch stretch{i, open, open};
+    Sides now = sides();
+    const auto crossings = crossings_.of(i);
+    for (std::size_t c = 0; c < crossings.size();) {
+        const std::size_t first = c;
+        bool changed = false;
+        do {
+            const PrismWall& other = facets_.walls()[LeafWork::u(crossings[c].wall)];
+            for (std::size_t layer = 0; layer < 2; ++layer) {
+                if (!other.is_in(position + layer)) continue;
+                cross(other.operand, layer);
+                changed = true;
+            }
+            ++c;
+        } while (c < crossings.size() && crossings_.compare(crossings[first], crossings[c]) == 0);
+        if (!changed) continue;
+        const Sides next = sides();
+        if (next == now) continue;
+        stretch.end = crossings[first].wall;
+        add_stretch(stretch, now, position);
+        stretch.begin = stretch.end;
+        now = next;
+    }
+    stretch.end = open;
+    add_stretch(stretch, now, position);
+}
+
+// What is where the wall begins. On its own operand's side there it is known without looking.
+void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
+    for (std::size_t layer = 0; layer < 2; ++layer) {
+        std::uint8_t* in = insides(layer, left);
+        std::copy(facets_.outside().begin(), facets_.outside().end(), in);
+        for (const PrismWall& w : facets_.walls())
+            if (w.is_in(position + layer) && crosses_way(w, wall.from))
+                in[LeafWork::u(w.operand)] ^= 1;
+        std::uint8_t* other = insides(layer, right);
+        std::copy_n(in, operands_, other);
+        if (wall.is_in(position + layer)) {
+            in[LeafWork::u(wall.operand)] = wall.inside_is_left ? 1 : 0;
+            other[LeafWork::u(wall.operand)] = wall.inside_is_left ? 0 : 1;
+        }
+        for (const std::size_t side : {left, right}) {
+            const std::span<int> r = row(layer, side);
+            std::copy_n(insides(layer, side), operands_, r.begin());
+            formula_.fill(r);
+        }
+    }
+    for (const std::size_t side : {left, right}) {
+        covered_[side].assign(operands_ / 64 + 1, 0);
+        for (std::size_t o = 0; o < operands_; ++o)
+            if (insides(0, side)[o] != insides(1, side)[o])
+                covered_[side][o / 64] |= std::uint64_t{1} << o % 64;
+    }
+}
+
+void PrismLeaf::cross(LeafIndex operand, std::size_t layer) {
+    const std::size_t o = LeafWork::u(operand);
+    for (const std::size_t side : {left, right}) {
+        std::uint8_t& in = insides(layer, side)[o];
+        in ^= 1;
+        formula_.set(row(layer, side), o, in);
+        covered_[side][o / 64] ^= std::uint64_t{1} << o % 64;
+    }
+}
+
+PrismLeaf::Sides PrismLeaf::sides() const {
+    Sides out;
+    for (const std::size_t side : {left, right}) {
+        const auto value = [&](std::size_t layer) {
+            return formula_.value(
+                std::span(rows_).subspan((2 * layer + side) * row_size_, row_size_));
+        };
+        out[side].below = value(0);
+        out[side].above = value(1);
+        if (!out[side].bounds()) continue;
+        std::size_t word = 0;
+        while (covered_[side][word] == 0) ++word;
+        out[side].speaker = static_cast<LeafIndex>(
+            64 * word + static_cast<std::size_t>(std::countr_zero(covered_[side][word])));
+    }
+    return out;
+}
+
+void PrismLeaf::add_stretch(const Stretch& stretch, const Sides& s, std::size_t position) {
+    if (s[left].below != s[right].below) {
+        const bool inside_left = s[left].below == 1;
+        WallPart* last = wall_parts_.empty() ? nullptr : &wall_parts_.back();
+        if (last != nullptr && last->stretch.wall == stretch.wall && last->layer == position &&
+            last->inside_left == inside_left && last->stretch.end == stretch.begin &&
+            stretch.begin != open) {
+            last->stretch.end = stretch.end;
+        } else {
+            wall_parts_.push_back({stretch, position, inside_left});
+        }
+    }
+    const auto share = [](const Side& side) {
+        return side.bounds() ? 2 * side.speaker + side.below : -1;
+    };
+    if (share(s[left]) == share(s[right])) return;
+    for (const std::size_t side : {left, right})
+        if (s[side].bounds() &&
+            (side == left || !s[left].bounds() || s[left].speaker != s[right].speaker))
+            outlines_[LeafWork::u(s[side].speaker)].push_back(stretch);
+}
+
+// --- Covers.
+
+// A wall along a stretch: its support, and the planes that end it.
+WorkPolygon PrismLeaf::cutter_of(const Stretch& stretch) {
+    const PrismWall& wall = facets_.walls()[LeafWork::u(stretch.wall)];
+    WorkPolygon out;
+    out.support = bench_.plane(PlaneName::support(wall.facets[0].source, wall.facets[0].facet));
+    const auto bound = [&](Bound b, std::size_t end) {
+        const FlatPoint& kept = end == 0 ? wall.to : wall.from;
+        if (b != open) {
+            const PrismWall& other = facets_.walls()[LeafWork::u(b)];
+            const PolygonRef& f = other.facets[0];
+            out.edges.push_back({bench_.plane(PlaneName::support(f.source, f.facet)),
+                                 is_left(b, kept) == other.above_is_left[0]});
+            return;
+        }
+        const PolygonRef& f = wall.facets[end];
+        int i = 0;
+        const auto corner = [&](int k) { return facets_.flat(f.source->corner(f.facet, k % 3)); };
+        while (corner(i) != corner(i + 1)) ++i;
+        out.edges.push_back({bench_.plane(PlaneName::edge(f.source, f.facet, i)), false});
+    };
+    bound(stretch.begin, 0);
+    bound(stretch.end, 1);
+    return out;
+}
+
+bool PrismLeaf::is_left(LeafIndex wall, const FlatPoint& p) const {
+    const PrismWall& w = facets_.walls()[LeafWork::u(wall)];
+    return flat_turn(w.from, w.to, p) > 0;
+}
+
+bool PrismLeaf::cut_cover(const PrismCover& cover) {
+    parts_.clear();
+    cover_parts_.clear();
+    keep_bench_small();
+    WorkPolygon whole = bench_.polygon(cover.ref);
+    bench_.with_edges(whole, cover.ref);
+    parts_.push_back(whole);
+    for (const Stretch& s : outlines_[LeafWork::u(cover.operand)]) {
+        const WorkPolygon cutter = cutter_of(s);
+        const std::size_t end = parts_.size();
+        for (std::size_t i = 0; i < end; ++i) {
+            WorkPolygon above;
+            if (split_along(bench_, parts_[i], cutter.support, cutter, false, above))
+                parts_.push_back(std::move(above));
+        }
+    }
+    bool all = true;
+    for (WorkPolygon& p : parts_) {
+        const auto side = side_of_middle(p, cover.position);
+        if (!side) return false;
+        const bool kept = side->bounds() && side->speaker == cover.operand;
+        all = all && kept;
+        if (kept) cover_parts_.push_back({std::move(p), side->below == 1});
+    }
+    const bool whole_cover = all && std::ranges::all_of(cover_parts_, [&](const CoverPart& p) {
+                                 return p.inside_below == cover_parts_[0].inside_below;
+                             });
+    if (whole_cover) cover_parts_.resize(1);
+    for (const CoverPart& p : cover_parts_) emit_cover(cover, p, whole_cover);
+    return true;
+}
+
+// Most points of a cut cover are of parts that were cut further or dropped: what thousands of
+// covers leave would be most of the memory of a leaf. \pre nothing holds numbers of points or
+// planes.
+void PrismLeaf::keep_bench_small() {
+    constexpr std::size_t most_points = 1024;
+    if (bench_.point_count() > most_points) bench_.clear();
+}
+
+// A part is on one side of whatever divides its cover's shares, so any point of it will do.
+std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part,
+                                                         std::size_t position) {
+    ++stats_->traces;
+    const std::size_t u_axis = (facets_.axis() + 1) % 3;
+    const std::size_t v_axis = (facets_.axis() + 2) % 3;
+    for (unsigned attempt = 0; attempt < 4; ++attempt) {
+        std::array<double, 2> middle{};
+        double weights = 0;
+        double error = 0;
+        for (std::size_t i = 0; i < part.points.size(); ++i) {
+            const Approximation& a = bench_.approximation(part.points[i]);
+            const double weight = 1.0 + static_cast<double>((attempt * (i + 1) * 5) % 7);
+            middle[0] += weight * a.c[u_axis];
+            middle[1] += weight * a.c[v_axis];
+            weights += weight;
+            error = std::max(error, a.error);
+        }
+        for (double& c : middle) c /= weights;
+        error += 0x1p-48 * (std::fabs(middle[0]) + std::fabs(middle[1]) + 1);
+        bool sure = true;
+        for (std::size_t layer = 0; layer < 2; ++layer)
+            std::copy(facets_.outside().begin(), facets_.outside().end(), insides(layer, left));
+        for (const PrismWall& w : facets_.walls()) {
+            if (!w.is_in(position) && !w.is_in(position + 1)) continue;
+            const auto crosses = crosses_way(w, middle, error);
+            sure = crosses.has_value();
+            if (!sure) break;
+            if (!*crosses) continue;
+            for (std::size_t layer = 0; layer < 2; ++layer)
+                if (w.is_in(position + layer)) insides(layer, left)[LeafWork::u(w.operand)] ^= 1;
+        }
+        if (!sure) continue;
+        Side out;
+        for (std::size_t o = operands_; o-- > 0;)
+            if (insides(0, left)[o] != insides(1, left)[o]) out.speaker = static_cast<LeafIndex>(o);
+        for (std::size_t layer = 0; layer < 2; ++layer) {
+            const std::span<int> r = row(layer, left);
+            std::copy_n(insides(layer, left), operands_, r.begin());
+            formula_.fill(r);
+            (layer == 0 ? out.below : out.above) = formula_.value(r);
+        }
+        return out;
+    }
+    return std::nullopt;
+}
+
+// --- What bounds the result.
+
+// The parts of one wall.
+void PrismLeaf::emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out) {
+    keep_bench_small();
+    const auto parts = std::span(wall_parts_).subspan(first, last - first);
+    const PrismWall& wall = facets_.walls()[LeafWork::u(parts[0].stretch.wall)];
+    const bool whole = parts.size() == wall.end_layer - wall.first_layer &&
+                       std::ranges::all_of(parts, [&](const WallPart& p) {
+                           return p.stretch.begin == open && p.stretch.end == open &&
+                                  p.inside_left == parts[0].inside_left;
+                       });
+    if (!whole) {
+        for (const WallPart& p : parts) emit_wall_part(p, out);
+        return;
+    }
+    for (std::size_t half = 0; half < 2; ++half) {
+        PolygonRef ref = wall.facets[half];
+        ref.flipped = parts[0].inside_left == wall.above_is_left[half];
+        ref.touched = true;
+        out.push_back(ref);
+    }
+}
+
+void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& out) {
+    const PrismWall& wall = facets_.walls()[LeafWork::u(part.stretch.wall)];
+    for (std::size_t half = 0; half < 2; ++half) {
+        const PolygonRef& ref = wall.facets[half];
+        WorkPolygon shape = bench_.polygon(ref);
+        bench_.with_edges(shape, ref);
+        const auto clip = [&](const PolygonRef& by, bool above) {
+            if (shape.is_empty()) return;
+            shape = bench_.clipped(std::move(shape),
+                                   bench_.plane(PlaneName::support(by.source, by.facet)),
+                                   above ? 1 : -1);
+        };
+        const auto clip_at = [&](Bound b, const FlatPoint& kept) {
+            if (b == open) return;
+            const PrismWall& other = facets_.walls()[LeafWork::u(b)];
+            clip(other.facets[0], is_left(b, kept) == other.above_is_left[0]);
+        };
+        clip_at(part.stretch.begin, wall.to);
+        clip_at(part.stretch.end, wall.from);
+        if (part.layer > wall.first_layer) {
+            const PolygonRef& cover = facets_.cover_at(part.layer - 1);
+            clip(cover, facets_.faces_up(cover));
+        }
+        if (part.layer + 1 < wall.end_layer) {
+            const PolygonRef& cover = facets_.cover_at(part.layer);
+            clip(cover, !facets_.faces_up(cover));
+        }
+        if (shape.is_empty()) continue;
+        make_room(out);
+        out.push_back(make_fragment(bench_, ref, shape));
+        out.back().flipped = part.inside_left == wall.above_is_left[half];
+    }
+}
+
+void PrismLeaf::emit_cover(const PrismCover& cover, const CoverPart& part, bool whole) {
+    make_room(covers_);
+    covers_.push_back(whole ? cover.ref : make_fragment(bench_, cover.ref, part.shape));
+    covers_.back().touched = covers_.back().touched || whole;
+    covers_.back().flipped = part.inside_below != facets_.faces_up(cover.ref);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Leaves of prisms along one axis: gears, plates with holes, extruded outlines.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/workbench.h>
+#include <trisect/bsp/leaf/leaf_formula.h>
+#include <trisect/bsp/leaf/prism/prism_crossings.h>
+#include <trisect/bsp/leaf/prism/prism_facets.h>
+
+namespace trisect::detail {
+
+/// Arranges a leaf in which all operands are unions of prisms along a common axis and no walls
+/// touch or coincide; covers may coincide as they like. Such leaves may be much larger than others.
+/// Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
+class PrismLeaf {
+public:
+    /// False, and nothing is done, when the leaf is of another kind.
+    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
+                               std::vector<PolygonRef>& out);
+
+private:
+    // Where a stretch of a wall begins or ends: at the crossing wall, or with the wall itself.
+    using Bound = LeafIndex;
+    static constexpr Bound open = -1;
+    struct Stretch {
+        LeafIndex wall = 0;
+        Bound begin = open;
+        Bound end = open;
+    };
+    // A stretch that bounds the result within a layer.
+    struct WallPart {
+        Stretch stretch;
+        std::size_t layer = 0;
+        bool inside_left = false;
+    };
+    // What is on one side of a stretch, in the layers below and above a position.
+    struct Side {
+        int below = 0;
+        int above = 0;
+        LeafIndex speaker = -1;  // the first operand of which a cover is there
+        [[nodiscard]] bool bounds() const { return below != above; }
+        friend bool operator==(const Side&, const Side&) = default;
+    };
+    using Sides = std::array<Side, 2>;  // left and right of a wall
+    struct CoverPart {
+        WorkPolygon shape;
+        bool inside_below = false;
+    };
+    [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats);
+    void walk(LeafIndex wall, std::size_t position);
+    // Sets what is on both sides of the wall at its beginning.
+    void start_walk(const PrismWall& wall, std::size_t position);
+    void cross(LeafIndex operand, std::size_t layer);
+    [[nodiscard]] Sides sides() const;
+    void add_stretch(const Stretch& stretch, const Sides& sides, std::size_t position);
+    [[nodiscard]] bool cut_cover(const PrismCover& cover);
+    void keep_bench_small();
+    [[nodiscard]] std::optional<Side> side_of_middle(const WorkPolygon& part, std::size_t position);
+    [[nodiscard]] WorkPolygon cutter_of(const Stretch& stretch);
+    [[nodiscard]] bool is_left(LeafIndex wall, const FlatPoint& p) const;
+
+    void emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out);
+    void emit_wall_part(const WallPart& part, std::vector<PolygonRef>& out);
+    void emit_cover(const PrismCover& cover, const CoverPart& part, bool whole);
+
+    [[nodiscard]] std::span<int> row(std::size_t layer, std::size_t side) {
+        return std::span(rows_).subspan((2 * layer + side) * row_size_, row_size_);
+    }
+    [[nodiscard]] std::uint8_t* insides(std::size_t layer, std::size_t side) {
+        return insides_.data() + (2 * layer + side) * operands_;
+    }
+
+    EvaluateStats* stats_ = nullptr;
+    PrismFacets facets_;
+    PrismCrossings crossings_;
+    LeafFormula formula_;
+    Workbench bench_;
+    std::size_t operands_ = 0;
+    std::size_t row_size_ = 0;
+    // By layer (below or above the position) and side (left or right of the wall).
+    std::vector<int> rows_;
+    std::vector<std::uint8_t> insides_;
+    std::array<std::vector<std::uint64_t>, 2> covered_;  // by side: a bit for each operand
+    std::vector<WallPart> wall_parts_;
+    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it speaks for
+    std::vector<CoverPart> cover_parts_;          // of one cover
+    std::vector<PolygonRef> covers_;              // what of all of them bounds the result
+    std::vector<WorkPolygon> parts_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/leaf/prism/prism_sheets.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace trisect::detail {
+
+std::uint32_t PrismSheets::root(std::uint32_t v) {
+    while (root_[v] != v) v = root_[v] = root_[root_[v]];
+    return v;
+}
+
+void PrismSheets::join(std::uint32_t v, std::uint32_t w) {
+    const auto [low, high] = std::minmax({root(v), root(w)});
+    root_[high] = low;
+}
+
+bool PrismSheets::list(const LeafProblem& problem, const PrismFacets& facets) {
+    first_.clear();
+    std::uint32_t points = 0;
+    for (const LeafOperand& o : problem.operands) {
+        first_.push_back(points);
+        points += static_cast<std::uint32_t>(o.polygons[0].source->mesh().points.size());
+    }
+    root_.resize(points);
+    std::iota(root_.begin(), root_.end(), 0U);
+    const auto point = [&](LeafIndex operand, const PolygonRef& ref, int i) {
+        return first_[LeafWork::u(operand)] + ref.source->corner_index(ref.facet, i);
+    };
+    for (const PrismCover& c : facets.covers()) {
+        const std::uint32_t v = point(c.operand, c.ref, 0);
+        for (int i = 1; i < 3; ++i) join(v, point(c.operand, c.ref, i));
+    }
+    sheets_.clear();
+    number_.assign(points, -1);
+    of_cover_.clear();
+    for (const PrismCover& c : facets.covers()) {
+        std::int32_t& n = number_[root(point(c.operand, c.ref, 0))];
+        if (n < 0) {
+            n = static_cast<std::int32_t>(sheets_.size());
+            sheets_.push_back({c.position});
+        }
+        of_cover_.push_back(n);
+    }
+    of_wall_.clear();
+    edges_.clear();
+    for (const PrismWall& w : facets.walls()) {
+        std::array<std::uint32_t, 2> low{};
+        std::array<std::uint32_t, 2> high{};
+        for (std::size_t end = 0; end < 2; ++end) {
+            const PrismFacets::Upright at = facets.upright_edge(w, end);
+            low[end] = point(w.operand, w.facets[end], at.low);
+            high[end] = point(w.operand, w.facets[end], at.high);
+        }
+        edges_.push_back(low);
+        of_wall_.push_back({number_[root(low[0])], number_[root(high[0])]});
+        if (of_wall_.back()[0] < 0 || of_wall_.back()[1] < 0) return false;
+    }
+    return true;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sheets: what hangs together of an operand's covers in one plane.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/leaf/prism/prism_facets.h>
+
+namespace trisect::detail {
+
+/// Covers of one operand in one plane that have corners in common. The walls that end at one of its
+/// corners bound it. In the result a sheet is whole, or not known to be.
+class PrismSheets {
+public:
+    struct Sheet {
+        std::size_t position = 0;
+        bool whole = true;  ///< so far
+        int bounds = 0;     ///< 1: the result is below it, -1: above it; 0: not known yet
+    };
+
+    /// False when a wall ends where its operand has no cover. \pre each operand is all facets of
+    /// one source.
+    [[nodiscard]] bool list(const LeafProblem& problem, const PrismFacets& facets);
+    [[nodiscard]] std::size_t size() const { return sheets_.size(); }
+    [[nodiscard]] Sheet& operator[](std::int32_t i) { return sheets_[static_cast<std::size_t>(i)]; }
+    /// That a wall bounds with its lower end, and with its upper one.
+    [[nodiscard]] const std::array<std::int32_t, 2>& of_wall(LeafIndex wall) const {
+        return of_wall_[static_cast<std::size_t>(wall)];
+    }
+    /// By the number of the cover.
+    [[nodiscard]] std::int32_t of_cover(std::size_t cover) const { return of_cover_[cover]; }
+    /// A number for the edge along the axis at an end of a wall (0: `from`, 1: `to`): walls of one
+    /// outline have one in common.
+    [[nodiscard]] std::uint32_t edge_at(LeafIndex wall, std::size_t end) const {
+        return edges_[static_cast<std::size_t>(wall)][end];
+    }
+    /// One more than the greatest such number.
+    [[nodiscard]] std::size_t edge_count() const { return root_.size(); }
+
+private:
+    [[nodiscard]] std::uint32_t root(std::uint32_t v);
+    void join(std::uint32_t v, std::uint32_t w);
+
+    std::vector<std::uint32_t> first_;  // by operand: of its source's points, numbered in a row
+    std::vector<std::uint32_t> root_;   // by point
+    std::vector<std::int32_t> number_;  // of sheets, by root
+    std::vector<Sheet> sheets_;
+    std::vector<std::array<std::int32_t, 2>> of_wall_;
+    std::vector<std::int32_t> of_cover_;
+    std::vector<std::array<std::uint32_t, 2>> edges_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Splitting a polygon of a leaf where another one runs through it.
+#pragma once
+
+#include <array>
+
+#include <trisect/bsp/cells/workbench.h>
+
+namespace trisect::detail {
+
+/// Does the line `line` ∩ support, restricted to the convex polygon `cutter`, run through the
+/// interior of the piece? A cutter that ends along that line counts as if it went on.
+/// \pre both polygons have their edges; `line` is not the piece's support.
+/// `ends`: of the common segment, or of part of the line that contains it.
+[[nodiscard]] bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
+                                          const WorkPolygon& cutter, std::array<PointId, 2>& ends);
+
+/// Splits a piece along a line if the cutter runs through its interior there: `piece` is then the
+/// part below and `above` the other one. False when nothing was split. `sure`: it does.
+bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
+                 bool sure, WorkPolygon& above);
+
+}  // namespace trisect::detail

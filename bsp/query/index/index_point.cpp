@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/query/index/index_point.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Bits behind the point that the homogeneous form has room for, and the coordinates' limit:
+// 2^54 · 2^320 stays below the 2^384 of HomogeneousPoint.
+constexpr int homogeneous_bits = 320;
+constexpr double homogeneous_limit = 0x1p54;
+
+// The double as mantissa · 2^exponent with an odd mantissa (0 for 0).
+struct Scaled {
+    std::int64_t mantissa = 0;
+    int exponent = 0;
+};
+
+Scaled scaled(double v) {
+    if (v == 0) return {};
+    int e = 0;
+    const double m = std::frexp(v, &e);
+    auto i = static_cast<std::int64_t>(std::ldexp(m, 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(i));
+    return {i >> zeros, e - 53 + zeros};
+}
+
+// Bits behind the point of the finest coordinate.
+int fraction_bits(const std::array<double, 3>& c) {
+    int bits = 0;
+    for (const double v : c)
+        if (v != 0) bits = std::max(bits, -scaled(v).exponent);
+    return bits;
+}
+
+double largest(const std::array<double, 3>& c) {
+    return std::max({std::fabs(c[0]), std::fabs(c[1]), std::fabs(c[2])});
+}
+
+template <int N>
+ExactRational fraction(const WideInt<N>& numerator, const WideInt<6>& denominator) {
+    return ExactRational(numerator) / ExactRational(denominator);
+}
+
+}  // namespace
+
+void IndexPoint::set_huge() {
+    if (!(std::isfinite(c_[0]) && std::isfinite(c_[1]) && std::isfinite(c_[2])))
+        throw UsageError("a point with a coordinate that is not finite");
+    rational_ = Rational{ExactRational::from_double(c_[0]), ExactRational::from_double(c_[1]),
+                         ExactRational::from_double(c_[2])};
+    for (double& x : c_) x = std::clamp(x, -0x1p600, 0x1p600);
+    error_ = HUGE_VAL;
+    fits_ = false;
+}
+
+IndexPoint::IndexPoint(const Point& p) : c_(p.approximation().c), error_(p.approximation().error) {
+    if (p.is_lattice()) {
+        error_ = 0;
+        return;
+    }
+    homogeneous_ = p.homogeneous();
+}
+
+IndexPoint::IndexPoint(const FinePoint& p) {
+    bool rounded = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        c_[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+        if (static_cast<std::int64_t>(c_[k] * static_cast<double>(wall_scale)) == p.c[k]) continue;
+        rounded = true;
+        error_ = std::max(error_, std::fabs(c_[k]) * 0x1p-52);
+    }
+    if (!rounded) return;
+    homogeneous_ = {{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
+                    WideInt<6>(wall_scale)};
+}
+
+IndexPoint::IndexPoint(Rational p) : fits_(false) {
+    const Approximation a = detail::approximate(p);
+    c_ = a.c;
+    error_ = a.error;
+    for (const double x : c_)
+        if (!(x < 0x1p600 && x > -0x1p600)) error_ = HUGE_VAL;
+    for (double& x : c_) x = std::clamp(x, -0x1p600, 0x1p600);
+    if (error_ == 0) {
+        fits_ = true;  // doubles after all
+        return;
+    }
+    rational_ = std::move(p);
+}
+
+IndexPoint IndexPoint::from_user_slowly(const Vector& p, Lattice lattice) {
+    for (const double x : p)
+        if (!std::isfinite(x)) throw UsageError("a point with a coordinate that is not finite");
+    Rational r;
+    for (std::size_t k = 0; k < 3; ++k)
+        r[k] = ExactRational::from_double(p[k]).scaled(-lattice.exponent);
+    return IndexPoint(std::move(r));
+}
+
+// From the bits of the doubles; the functions of the library are calls.
+void IndexPoint::find_small() const {
+    small_known_ = true;
+    if (!is_doubles()) return;
+    struct Parts {
+        std::int64_t mantissa;  // signed, times 2^exponent
+        int exponent;
+    };
+    std::array<Parts, 3> parts{};
+    int bits = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (c_[k] == 0) continue;
+        constexpr std::uint64_t hidden = std::uint64_t{1} << 52U;
+        const auto v = std::bit_cast<std::uint64_t>(c_[k]);
+        const auto biased = static_cast<int>(v >> 52U & 0x7ffU);
+        if (biased == 0) return;  // far below 2^-62
+        const std::uint64_t m = (v & (hidden - 1)) | hidden;
+        const int zeros = std::countr_zero(m);
+        const auto odd = static_cast<std::int64_t>(m >> zeros);
+        parts[k] = {c_[k] < 0 ? -odd : odd, biased - 1075 + zeros};
+        bits = std::max(bits, -parts[k].exponent);
+    }
+    if (bits > 62) return;
+    Small s;
+    s.bits = bits;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t m = parts[k].mantissa;
+        if (m == 0) continue;
+        const int shift = parts[k].exponent + bits;
+        const auto size = static_cast<std::uint64_t>(m < 0 ? -m : m);
+        if (static_cast<int>(std::bit_width(size)) + shift > 62) return;
+        s.c[k] = m * (std::int64_t{1} << shift);
+    }
+    small_ = s;
+}
+
+const HomogeneousPoint* IndexPoint::homogeneous() const {
+    if (homogeneous_) return &*homogeneous_;
+    if (!fits_) return nullptr;
+    const int bits = fraction_bits(c_);
+    if (bits > homogeneous_bits || largest(c_) >= homogeneous_limit) return nullptr;
+    HomogeneousPoint h;
+    h.w = WideInt<6>(1).shifted_left(bits);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Scaled s = scaled(c_[k]);
+        h.xyz[k] = WideInt<7>(s.mantissa).shifted_left(s.exponent + bits);
+    }
+    homogeneous_ = h;
+    return &*homogeneous_;
+}
+
+const IndexPoint::Rational& IndexPoint::rational() const {
+    if (rational_) return *rational_;
+    Rational r;
+    for (std::size_t k = 0; k < 3; ++k)
+        r[k] = is_doubles() ? ExactRational::from_double(c_[k])
+                            : fraction(homogeneous_->xyz[k], homogeneous_->w);
+    rational_ = std::move(r);
+    return *rational_;
+}
+
+int IndexPoint::side_of(const Plane& plane) const {
+    if (const auto s = filtered_side(approximation(), plane)) {
+        ++predicate_counters().filtered;
+        return sign_of(*s);
+    }
+    if (const HomogeneousPoint* h = homogeneous()) return sign_of(trisect::side_of(*h, plane));
+    ++predicate_counters().exact_wide;
+    return value_at(rational(), plane).sign();
+}
+
+int IndexPoint::compare_slowly(std::size_t k, double position) const {
+    const double d = c_[k] - position;  // its rounding is below the error
+    if (d > 2 * error_) return 1;
+    if (d < -2 * error_) return -1;
+    return (rational()[k] - ExactRational::from_double(position)).sign();
+}
+
+int IndexPoint::compare_fine(std::size_t k, std::int64_t position) const {
+    const double at = static_cast<double>(position) * (1.0 / static_cast<double>(wall_scale));
+    const double d = c_[k] - at;
+    const double slack = 2 * error_ + std::fabs(at) * 0x1p-52;
+    if (d > slack) return 1;
+    if (d < -slack) return -1;
+    return (rational()[k].scaled(wall_bits) - ExactRational(position)).sign();
+}
+
+ExactRational value_at(const IndexPoint::Rational& p, const Plane& plane) {
+    ExactRational sum(plane.offset());
+    for (int k = 0; k < 3; ++k)
+        sum += p[static_cast<std::size_t>(k)] * ExactRational(WideInt<2>(plane.normal(k)));
+    return sum;
+}
+
+Approximation approximate(const IndexPoint::Rational& p) {
+    Approximation a;
+    for (std::size_t k = 0; k < 3; ++k) {
+        a.c[k] = p[k].to_double();
+        if (std::isfinite(a.c[k]) && ExactRational::from_double(a.c[k]) == p[k]) continue;
+        a.error = std::max(a.error, std::max(std::fabs(a.c[k]) * 0x1p-52, 0x1p-1000));
+    }
+    return a;
+}
+
+}  // namespace trisect::detail

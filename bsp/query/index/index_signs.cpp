@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// For a triangle a, b, c everything is a determinant of three differences:
+//
+//   s(x) = N · (x - a), N = (b - a) × (c - a)          side of x
+//   e(a, b) = det(r - p, a - p, b - p)                  on which side of a→b the line p r passes
+//
+// The segment from r to p meets the triangle's interior when s(r) and s(p) differ in sign and the
+// three e agree. Signs come from doubles first. Differences of doubles carry one rounding; with L
+// the largest component of the edges, D of the third vector, a minor is within 8u L^2 of its exact
+// value, u = 2^-53, and the sum of three products, each at most 2 L^2 D, within 48u L^2 D (8u L^2 D
+// a term from the minor, as much again from the vector, the product and the sums). 2^-47 leaves a
+// quarter of it for second-order terms and the rounding of the bound itself. An error of the
+// point itself moves a component of a difference by that much, hence the determinant by at most
+// 6 L^2 error.
+//
+// When doubles cannot tell, every one of these determinants is linear in p: n · (p - x) with a
+// normal n made of lattice points and the reference alone, of at most 2^126. So the exact stage is
+// one dot product: in 128 bits when p has few bits, which is the common case for points that lie
+// exactly on something, in 576 bits for what a HomogeneousPoint holds, in rationals otherwise.
+
+#include <trisect/bsp/query/index/index_signs.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+#include <trisect/kernel/counters.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+using Normal = std::array<Int128, 3>;
+using Fine = std::array<std::int64_t, 3>;
+
+constexpr double relative_bound = 0x1p-47;
+
+Vector to_doubles(const LatticePoint& p) {
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+double largest(const Vector& a) {
+    return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
+}
+
+int bit_length(Int128 v) {
+    const Uint128 m =
+        v < 0 ? static_cast<Uint128>(0) - static_cast<Uint128>(v) : static_cast<Uint128>(v);
+    const auto high = static_cast<std::uint64_t>(m >> 64);
+    return high != 0 ? 128 - std::countl_zero(high)
+                     : 64 - std::countl_zero(static_cast<std::uint64_t>(m));
+}
+int bit_length(const Normal& n) {
+    return std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])});
+}
+
+// The sign of n · (2^base_bits p - base). \pre |n| < 2^126, |base| < 2^63, base_bits <= 8.
+int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base_bits) {
+    if (const auto& small = p.small()) {
+        // |c| < 2^62: c 2^8 and base 2^62 fit 128 bits.
+        std::array<Int128, 3> x{};
+        int bits = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            x[k] = (Int128{small->c[k]} << base_bits) - (Int128{base[k]} << small->bits);
+            bits = std::max(bits, bit_length(x[k]));
+        }
+        if (bit_length(n) + bits <= 125) {
+            ++predicate_counters().exact_narrow;
+            const Int128 sum = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+            return sum > 0 ? 1 : (sum < 0 ? -1 : 0);
+        }
+    }
+    ++predicate_counters().exact_wide;
+    if (const HomogeneousPoint* h = p.homogeneous()) {
+        WideInt<9> sum;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const WideInt<8> x = WideInt<8>(h->xyz[k]).shifted_left(base_bits) -
+                                 multiply<8>(h->w, WideInt<1>(base[k]));
+            sum += multiply<9>(x, WideInt<2>(n[k]));
+        }
+        return sum.sign();
+    }
+    ExactRational sum;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum += ExactRational(WideInt<2>(n[k])) *
+               (p.rational()[k].scaled(base_bits) - ExactRational(base[k]));
+    return sum.sign();
+}
+
+Fine coordinates(const LatticePoint& p) { return {p.x, p.y, p.z}; }
+Fine fine_coordinates(const LatticePoint& p) {
+    return {p.x * wall_scale, p.y * wall_scale, p.z * wall_scale};
+}
+
+Normal cross(const Fine& u, const Fine& v) {
+    const auto minor = [&](std::size_t j, std::size_t l) {
+        return Int128{u[j]} * v[l] - Int128{u[l]} * v[j];
+    };
+    return {minor(1, 2), minor(2, 0), minor(0, 1)};
+}
+Fine difference(const Fine& a, const Fine& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Normal triangle_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    return cross(difference(coordinates(b), coordinates(a)),
+                 difference(coordinates(c), coordinates(a)));
+}
+
+int sign(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
+
+int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
+               const LatticePoint& c) {
+    return sign_linear(p, triangle_normal(a, b, c), coordinates(a), 0);
+}
+
+// Component k of (a - p) × (b - p): which way p, a, b turn seen along axis k.
+int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b, std::size_t k) {
+    const std::size_t j = (k + 1) % 3;
+    const std::size_t l = (k + 2) % 3;
+    const Fine e = difference(coordinates(b), coordinates(a));
+    Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
+    n[l] = e[j];
+    n[j] = -Int128{e[l]};
+    return sign_linear(p, n, coordinates(a), 0);
+}
+
+// det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
+int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoint& a,
+                       const LatticePoint& b) {
+    Normal n = cross(difference(fine_coordinates(a), r.c), difference(fine_coordinates(b), r.c));
+    for (Int128& x : n) x = -x;
+    if (const int s = sign_linear(p, n, r.c, wall_bits); s != 0) return s;
+    ++predicate_counters().symbolic;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (const int s = exact_turn(p, a, b, k); s != 0) return s;
+    return 0;
+}
+
+int exact_reference_side(const FinePoint& r, const LatticePoint& a, const LatticePoint& b,
+                         const LatticePoint& c) {
+    const Normal n = triangle_normal(a, b, c);
+    const Fine d = difference(r.c, fine_coordinates(a));
+    ++predicate_counters().exact_narrow;
+    WideInt<4> sum;  // 109 + 63 + 2 bits
+    for (std::size_t k = 0; k < 3; ++k) sum += multiply<4>(WideInt<2>(n[k]), WideInt<1>(d[k]));
+    if (const int s = sum.sign(); s != 0) return s;
+    for (const Int128 x : n)
+        if (x != 0) return sign(x);
+    return 0;
+}
+
+// For a point in the plane of the triangle.
+bool is_in_triangle(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
+                    const LatticePoint& c) {
+    const Normal n = triangle_normal(a, b, c);
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (bit_length(n[i]) > bit_length(n[k])) k = i;
+    const int turn = sign(n[k]);
+    // Doubles reject most: a point outside the box of the triangle.
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto axis = static_cast<int>(i);
+        const double lo = static_cast<double>(std::min({a[axis], b[axis], c[axis]}));
+        const double hi = static_cast<double>(std::max({a[axis], b[axis], c[axis]}));
+        if (p[i] + p.error() < lo || p[i] - p.error() > hi) return false;
+    }
+    return exact_turn(p, a, b, k) * turn >= 0 && exact_turn(p, b, c, k) * turn >= 0 &&
+           exact_turn(p, c, a, k) * turn >= 0;
+}
+
+// Whether a point is on a triangle, in integers of two words where these are enough; nothing
+// otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
+std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
+                                 const LatticePoint& c, const Vector& normal) {
+    const auto& small = p.small();
+    if (!small) return std::nullopt;
+    const auto bits = static_cast<unsigned>(small->bits);
+    const std::array<const LatticePoint*, 3> corner{&a, &b, &c};
+    std::array<Fine, 3> edge;
+    std::array<Fine, 3> way;  // to the point, in its finest bits
+    double longest_edge = 0;
+    double longest_way = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const LatticePoint& from = *corner[i];
+        const LatticePoint& to = *corner[(i + 1) % 3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto axis = static_cast<int>(k);
+            const auto start = static_cast<double>(from[axis]);
+            edge[i][k] = to[axis] - from[axis];
+            longest_edge = std::max(longest_edge, std::fabs(static_cast<double>(to[axis]) - start));
+            longest_way = std::max(longest_way, std::fabs(p[k] - start));
+            // What overflows on the way comes back.
+            way[i][k] = static_cast<std::int64_t>(static_cast<std::uint64_t>(small->c[k]) -
+                                                  (static_cast<std::uint64_t>(from[axis]) << bits));
+        }
+    }
+    longest_way *= static_cast<double>(std::uint64_t{1} << bits);
+    const double longest_normal = largest(normal) + 0x1p-40 * longest_edge * longest_edge;
+    if (!(longest_way < 0x1p61) || !(longest_normal * longest_way < 0x1p124)) return std::nullopt;
+    ++predicate_counters().exact_narrow;
+    const Normal n = cross(edge[0], edge[1]);
+    if (n[0] * way[0][0] + n[1] * way[0][1] + n[2] * way[0][2] != 0) return false;
+    // Seen along the axis in which the normal is largest.
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(normal[i]) > std::fabs(normal[k])) k = i;
+    if (n[k] == 0) return std::nullopt;
+    predicate_counters().exact_narrow += 3;
+    const std::size_t j = (k + 1) % 3;
+    const std::size_t l = (k + 2) % 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Int128 turn = Int128{edge[i][j]} * way[i][l] - Int128{edge[i][l]} * way[i][j];
+        if (n[k] < 0 ? turn > 0 : turn < 0) return false;
+    }
+    return true;
+}
+
+// Polygons that are no triangles ------------------------------------------------------------------
+
+int filtered_sign(const Reference& r, const Plane& plane) {
+    const auto s = filtered_side(Approximation{r.c, r.error}, plane);
+    return s ? sign_of(*s) : 0;
+}
+
+WideInt<4> exact_value(const FinePoint& r, const Plane& plane) {
+    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
+    for (int k = 0; k < 3; ++k)
+        sum +=
+            multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
+    return sum;
+}
+
+int first_sign(const Plane& plane) {
+    for (int k = 0; k < 3; ++k)
+        if (plane.normal(k) != 0) return plane.normal(k) > 0 ? 1 : -1;
+    return 0;
+}
+
+int reference_side(const Reference& r, const Plane& plane) {
+    if (const int s = filtered_sign(r, plane); s != 0) {
+        ++predicate_counters().filtered;
+        return s;
+    }
+    ++predicate_counters().exact_wide;
+    const int s = exact_value(r.fine, plane).sign();
+    return s != 0 ? s : first_sign(plane);
+}
+
+// On which side of an edge the segment meets the support: with values s and e of the planes of
+// support and edge at the two ends, e at the meeting point is (e_r s_p - e_p s_r) / (s_p - s_r).
+int edge_side_exact(const IndexPoint& p, const Reference& r, const Plane& support,
+                    const Plane& edge, int p_side) {
+    ++predicate_counters().exact_wide;
+    const auto& x = p.rational();
+    const ExactRational s_p = value_at(x, support);
+    const ExactRational e_p = value_at(x, edge);
+    const ExactRational s_r(exact_value(r.fine, support));
+    const ExactRational e_r(exact_value(r.fine, edge));
+    // s_p - s_r has the sign of s_p.
+    if (const int s = (e_r * s_p - e_p * s_r).sign(); s != 0) return s * p_side;
+    for (int k = 0; k < 3; ++k) {
+        const ExactRational moved = ExactRational(WideInt<2>(edge.normal(k))) * s_p -
+                                    e_p * ExactRational(WideInt<2>(support.normal(k)));
+        if (const int s = moved.sign(); s != 0) return s * p_side;
+    }
+    return 0;
+}
+
+Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p,
+                       const Reference& r) {
+    const Plane support = polygons.support(id);
+    const int p_side = p.side_of(support);
+    if (p_side == 0) return is_on(polygons, id, p) ? Passing::On : Passing::None;
+    if (reference_side(r, support) == p_side) return Passing::None;
+    for (const Plane& edge : polygons.edges(id)) {
+        // Ends on one side of the edge decide without the meeting point.
+        const auto a = filtered_side(p.approximation(), edge);
+        const int b = filtered_sign(r, edge);
+        if (a && b == sign_of(*a)) {
+            ++predicate_counters().filtered;
+            if (b > 0) return Passing::None;
+            continue;
+        }
+        if (edge_side_exact(p, r, support, edge, p_side) > 0) return Passing::None;
+    }
+    return p_side < 0 ? Passing::Entering : Passing::Leaving;
+}
+
+}  // namespace
+
+void Reference::set_error() {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (static_cast<std::int64_t>(c[k] * static_cast<double>(wall_scale)) != fine.c[k])
+            error = std::max(error, std::fabs(c[k]) * 0x1p-52);
+}
+
+Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+                const IndexPoint& p, const Reference& r) {
+    const Vector fa = to_doubles(a);
+    const Vector fb = to_doubles(b);
+    const Vector fc = to_doubles(c);
+    const Vector u = minus(fb, fa);
+    const Vector v = minus(fc, fa);
+    const Vector n = cross(u, v);
+    const double edge = std::max(largest(u), largest(v));
+    auto& counters = predicate_counters();
+
+    const Vector w = minus(p.approximate(), fa);
+    const double at_p = dot(n, w);
+    const double p_bound = edge * edge * (relative_bound * largest(w) + 8 * p.error());
+    int p_side = 0;
+    if (at_p > p_bound) {
+        p_side = 1;
+    } else if (at_p < -p_bound) {
+        p_side = -1;
+    } else {
+        p_side = exact_side(p, a, b, c);
+        if (p_side == 0) return is_in_triangle(p, a, b, c) ? Passing::On : Passing::None;
+    }
+    const Vector q = minus(r.c, fa);
+    const double at_r = dot(n, q);
+    const double r_bound = edge * edge * (relative_bound * largest(q) + 8 * r.error);
+    int r_side = 0;
+    if (at_r > r_bound) {
+        r_side = 1;
+    } else if (at_r < -r_bound) {
+        r_side = -1;
+    } else {
+        r_side = exact_reference_side(r.fine, a, b, c);
+    }
+    counters.filtered += 2;
+    if (r_side == p_side) return Passing::None;
+
+    const Vector d = minus(r.c, p.approximate());
+    const Vector pa = minus(fa, p.approximate());
+    const Vector pb = minus(fb, p.approximate());
+    const Vector pc = minus(fc, p.approximate());
+    const double m =
+        std::max(std::max(largest(d), largest(pa)), std::max(largest(pb), largest(pc)));
+    const double bound = m * m * (relative_bound * m + 18 * (p.error() + r.error));
+    const std::array<double, 3> e{dot(d, cross(pa, pb)), dot(d, cross(pb, pc)),
+                                  dot(d, cross(pc, pa))};
+    const std::array<const LatticePoint*, 4> corner{&a, &b, &c, &a};
+    counters.filtered += 3;
+    // All three have the sign of their sum d · N, which is that of s(r) - s(p).
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (e[i] * r_side > bound) continue;
+        if (e[i] * r_side < -bound) return Passing::None;
+        if (exact_passing_side(p, r.fine, *corner[i], *corner[i + 1]) != r_side)
+            return Passing::None;
+    }
+    return p_side < 0 ? Passing::Entering : Passing::Leaving;
+}
+
+Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p,
+                const Reference& r) {
+    if (!polygons.is_triangle(id)) return passing_convex(polygons, id, p, r);
+    const Source& s = polygons.source(id);
+    const std::uint32_t f = polygons.facet(id);
+    return passing(s.corner(f, 0), s.corner(f, 1), s.corner(f, 2), p, r);
+}
+
+bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p) {
+    if (polygons.is_triangle(id)) {
+        const Source& s = polygons.source(id);
+        const std::uint32_t f = polygons.facet(id);
+        const LatticePoint& a = s.corner(f, 0);
+        const LatticePoint& b = s.corner(f, 1);
+        const LatticePoint& c = s.corner(f, 2);
+        const Vector fa = to_doubles(a);
+        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_doubles(b) ||
+                               p.approximate() == to_doubles(c))) {
+            ++predicate_counters().symbolic;
+            return true;
+        }
+        const Vector u = minus(to_doubles(b), fa);
+        const Vector v = minus(to_doubles(c), fa);
+        const Vector w = minus(p.approximate(), fa);
+        const double edge = std::max(largest(u), largest(v));
+        const double bound = edge * edge * (relative_bound * largest(w) + 8 * p.error());
+        const Vector n = cross(u, v);
+        if (std::fabs(dot(n, w)) > bound) {
+            ++predicate_counters().filtered;
+            return false;
+        }
+        if (const auto on = is_on_narrow(p, a, b, c, n)) return *on;
+        return exact_side(p, a, b, c) == 0 && is_in_triangle(p, a, b, c);
+    }
+    if (p.side_of(polygons.support(id)) != 0) return false;
+    for (const Plane& edge : polygons.edges(id))
+        if (p.side_of(edge) > 0) return false;
+    return true;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The signs that point location asks for: on which side of a polygon is a point, is it on the
+// polygon, does the segment to a reference point cross it?
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <trisect/bsp/cells/cell.h>
+#include <trisect/bsp/query/index/index_point.h>
+#include <trisect/bsp/query/index/index_polygons.h>
+
+namespace trisect::detail {
+
+/// A point off the boundary whose membership is known. References that an index makes are doubles
+/// exactly.
+struct Reference {
+    explicit Reference(const FinePoint& p) : fine(p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+            if (!(c[k] < 0x1p45 && c[k] > -0x1p45)) set_error();
+        }
+    }
+
+    FinePoint fine;
+    std::array<double, 3> c{};  // lattice units
+    double error = 0;
+
+private:
+    void set_error();
+};
+
+/// What a segment from a reference to a point does at a polygon.
+enum class Passing : std::int8_t {
+    Entering = 1,  ///< from above the source's facet to below it
+    Leaving = -1,
+    None = 0,
+    On = 2  ///< the point lies on the polygon
+};
+
+/// Exact. The reference counts as moved by (e, e^2, e^3) for an infinitely small e > 0: it is on no
+/// polygon, so this changes no winding number, and the segment never runs through an edge or a
+/// vertex (symbolic perturbation of one end; Edelsbrunner and Mücke 1990 perturb everything).
+/// \pre the reference is not on the polygon.
+[[nodiscard]] Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id,
+                              const IndexPoint& point, const Reference& reference);
+
+/// The same for a triangle.
+[[nodiscard]] Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
+                              const IndexPoint& point, const Reference& reference);
+
+/// Whether a point lies on a closed polygon.
+[[nodiscard]] bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id,
+                         const IndexPoint& point);
+
+}  // namespace trisect::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// IndexHandles: from polygons and leaves of an index to the faces, edges and vertices of the B-rep.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/query/index/index_core.h>
+
+namespace trisect::detail {
+
+/// A polygon belongs to one face: both are connected, and a face is a union of polygons. So faces
+/// are a table by polygon. Edges and vertices are listed by the leaves that they reach into, as the
+/// polygons are; a leaf holds few of them.
+///
+/// Immutable.
+class IndexHandles {
+public:
+    /// Assembles the B-rep of maximal faces. \throw what Solid::to_brep throws.
+    explicit IndexHandles(const IndexBase& base);
+
+    [[nodiscard]] const Brep& brep() const { return brep_; }
+    [[nodiscard]] double seconds() const { return seconds_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+    [[nodiscard]] FaceId face_of(PolygonId id) const { return faces_[id]; }
+    [[nodiscard]] std::span<const PolygonId> polygons_of(FaceId face) const {
+        return std::span(polygons_).subspan(
+            polygons_begin_[face.index],
+            polygons_begin_[face.index + 1] - polygons_begin_[face.index]);
+    }
+    /// Sets the handle that belongs to the place's location. `on` lists the polygons that contain
+    /// the point.
+    void name(const IndexCore& core, Place& place, std::span<const PolygonId> on,
+              const IndexPoint& point) const;
+
+    [[nodiscard]] std::span<const EdgeId> edges_in(std::uint32_t leaf) const {
+        return std::span(edges_).subspan(edges_begin_[leaf],
+                                         edges_begin_[leaf + 1] - edges_begin_[leaf]);
+    }
+    [[nodiscard]] std::span<const VertexId> vertices_in(std::uint32_t leaf) const {
+        return std::span(vertices_).subspan(vertices_begin_[leaf],
+                                            vertices_begin_[leaf + 1] - vertices_begin_[leaf]);
+    }
+
+private:
+    void find_faces(const IndexBase& base);
+    void list_edges(const IndexBase& base);
+    void list_vertices(const IndexBase& base);
+    [[nodiscard]] EdgeId edge_at(const IndexTree& tree, const IndexPoint& point) const;
+    [[nodiscard]] VertexId vertex_at(const IndexTree& tree, const IndexPoint& point) const;
+    [[nodiscard]] bool is_on(EdgeId edge, const IndexPoint& point) const;
+
+    Brep brep_;
+    std::vector<FaceId> faces_;  // by polygon
+    std::vector<PolygonId> polygons_;
+    std::vector<std::uint32_t> polygons_begin_;  // by face
+    std::vector<EdgeId> edges_;
+    std::vector<std::uint32_t> edges_begin_;  // by mixed leaf
+    std::vector<VertexId> vertices_;
+    std::vector<std::uint32_t> vertices_begin_;
+    double seconds_ = 0;
+};
+
+/// -1, 0, 1: coordinate k of one point before, equal to, behind that of the other.
+[[nodiscard]] int compare_coordinate(const IndexPoint& a, const IndexPoint& b, std::size_t k);
+[[nodiscard]] bool is_same(const IndexPoint& a, const IndexPoint& b);
+
+}  // namespace trisect::detail

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A line o + t d against a triangle a, b, c: with the determinants e = d · ((a - o) × (b - o)) and
+// so on around the triangle, the line meets its interior when all three have one sign, and then
+// t = N · (a - o) / N · d. Bounds as in index_signs.cpp: a determinant of differences with largest
+// components M, M and D errs by less than 2^-47 M^2 D.
+//
+// What doubles cannot tell is asked of planes in rationals: a line meets a convex polygon where it
+// meets the support between its edges, or, when it runs in the support, from the last edge that it
+// enters by to the first one that it leaves by. Such a parameter is where the line meets a plane.
+
+#include <trisect/bsp/query/lines/index_line.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <trisect/kernel/counters.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+ExactRational exact_coordinate(double v, int exponent) {
+    return ExactRational::from_double(v).scaled(-exponent);
+}
+
+}  // namespace
+
+RayParameter::RayParameter(const Ray& ray, int exponent, const Plane& plane)
+    : form_(Form::Ray),
+      exponent_(exponent),
+      origin_(ray.origin),
+      towards_(ray.direction),
+      plane_(plane) {
+    approximate_value();
+}
+
+RayParameter::RayParameter(const Segment& segment, int exponent, const Plane& plane)
+    : form_(Form::Segment),
+      exponent_(exponent),
+      origin_(segment.from),
+      towards_(segment.to),
+      plane_(plane) {
+    approximate_value();
+}
+
+void RayParameter::approximate_value() {
+    // t = -(n · o + d) / (n · direction), in the user's units: n · (o 2^-e) and so on.
+    const double scale = exponent_ == 0 ? 1.0 : std::ldexp(1.0, -exponent_);
+    double at = plane_.approx_offset();
+    double at_terms = std::fabs(at);
+    double slope = 0;
+    double slope_terms = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double n = plane_.approx_normal(static_cast<int>(k));
+        const double o = n * (origin_[k] * scale);
+        const double step = form_ == Form::Ray ? towards_[k] : towards_[k] - origin_[k];
+        const double d = n * (step * scale);
+        at += o;
+        at_terms += std::fabs(o);
+        slope += d;
+        slope_terms += std::fabs(d);
+    }
+    const double at_error = 0x1p-50 * at_terms;
+    const double slope_error = 0x1p-50 * slope_terms;
+    const double safe = std::fabs(slope) - slope_error;
+    value_ = -at / slope;
+    error_ = ((at_error + std::fabs(value_) * slope_error) / safe) * 1.0001 +
+             std::fabs(value_) * 0x1p-52;
+    if (!(safe > 0.75 * std::fabs(slope)) || !(error_ < HUGE_VAL) ||
+        !(scale > 0x1p-900 && scale < 0x1p900)) {
+        const ExactRational t = exact();
+        value_ = t.to_double();
+        error_ = std::fabs(value_) * 0x1p-52 + 0x1p-1000;
+        if (!std::isfinite(value_)) {
+            value_ = std::copysign(std::numeric_limits<double>::max(), value_);
+            error_ = HUGE_VAL;
+        }
+    }
+}
+
+RayParameter RayParameter::infinite() {
+    RayParameter t;
+    t.value_ = std::numeric_limits<double>::infinity();
+    t.form_ = Form::Infinite;
+    return t;
+}
+
+ExactRational RayParameter::exact() const {
+    if (form_ == Form::Number) return ExactRational::from_double(value_);
+    ExactRational at(plane_.offset());
+    ExactRational slope;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ExactRational n(WideInt<2>(plane_.normal(static_cast<int>(k))));
+        const ExactRational o = exact_coordinate(origin_[k], exponent_);
+        ExactRational step = exact_coordinate(towards_[k], exponent_);
+        if (form_ == Form::Segment) step -= o;
+        at += n * o;
+        slope += n * step;
+    }
+    return -at / slope;
+}
+
+double RayParameter::nearest() const { return error_ == 0 ? value_ : exact().to_double(); }
+
+std::strong_ordering operator<=>(const RayParameter& a, const RayParameter& b) {
+    if (a.is_infinite() || b.is_infinite()) return a.is_infinite() <=> b.is_infinite();
+    const double d = a.value_ - b.value_;
+    const double slack = (a.error_ + b.error_) * 1.0001;
+    if (d > slack) return std::strong_ordering::greater;
+    if (d < -slack) return std::strong_ordering::less;
+    if (slack == 0) return std::strong_ordering::equal;
+    if (a.form_ == b.form_ && a.plane_ == b.plane_ && a.origin_ == b.origin_ &&
+        a.towards_ == b.towards_)
+        return std::strong_ordering::equal;
+    return a.exact() <=> b.exact();
+}
+
+namespace detail {
+
+namespace {
+
+using Id = IndexPolygons::Id;
+
+constexpr double relative_bound = 0x1p-47;
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+double largest(const Vector& a) {
+    return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
+}
+Vector to_doubles(const LatticePoint& p) {
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+const Ray& checked(const Ray& ray) {
+    bool moves = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::isfinite(ray.origin[k]) || !std::isfinite(ray.direction[k]))
+            throw UsageError("a ray with a coordinate that is not finite");
+        moves = moves || ray.direction[k] != 0;
+    }
+    if (!moves) throw UsageError("a ray without direction");
+    return ray;
+}
+
+// What a line does at a plane: its equation's value at the origin and along the direction.
+struct Course {
+    ExactRational at;
+    ExactRational slope;
+};
+
+Course course(const IndexLine& line, const Plane& plane) {
+    Course c{value_at(line.origin().rational(), plane), ExactRational()};
+    for (std::size_t k = 0; k < 3; ++k)
+        c.slope += line.exact_direction()[k] *
+                   ExactRational(WideInt<2>(plane.normal(static_cast<int>(k))));
+    return c;
+}
+
+LineContact enclosed(LineContact::Kind kind, const ExactRational& enter,
+                     const ExactRational& leave) {
+    const double lo = enter.to_double();
+    const double hi = leave.to_double();
+    const double infinite = std::numeric_limits<double>::infinity();
+    return {kind, std::nextafter(lo, -infinite), std::nextafter(hi, infinite)};
+}
+
+// The part of a line in a convex polygon. The planes at its two ends; null for the line's own.
+struct ExactPart {
+    bool exists = false;
+    bool in_plane = false;
+    ExactRational enter;
+    ExactRational leave;
+    bool infinite = false;
+    const Plane* enter_plane = nullptr;
+    const Plane* leave_plane = nullptr;
+};
+
+ExactPart exact_part(const IndexLine& line, const Plane& support, std::span<const Plane> edges) {
+    ++predicate_counters().exact_wide;
+    ExactPart part;
+    const Course s = course(line, support);
+    if (s.slope.sign() != 0) {
+        const ExactRational t = -s.at / s.slope;
+        if (t.sign() < 0 || (line.is_segment() && t > ExactRational(1))) return part;
+        for (const Plane& edge : edges) {
+            const Course e = course(line, edge);
+            if ((e.at + t * e.slope).sign() > 0) return part;
+        }
+        part.exists = true;
+        part.enter = t;
+        part.leave = t;
+        part.enter_plane = &support;
+        part.leave_plane = &support;
+        return part;
+    }
+    if (s.at.sign() != 0) return part;
+    part.in_plane = true;
+    part.infinite = !line.is_segment();
+    if (line.is_segment()) part.leave = ExactRational(1);
+    for (const Plane& edge : edges) {
+        const Course e = course(line, edge);
+        const int slope = e.slope.sign();
+        if (slope == 0) {
+            if (e.at.sign() > 0) return part;
+            continue;
+        }
+        ExactRational t = -e.at / e.slope;
+        if (slope > 0) {
+            if (part.infinite || t < part.leave) {
+                part.leave = std::move(t);
+                part.leave_plane = &edge;
+                part.infinite = false;
+            }
+        } else if (t > part.enter) {
+            part.enter = std::move(t);
+            part.enter_plane = &edge;
+        }
+    }
+    part.exists = part.infinite || part.enter <= part.leave;
+    return part;
+}
+
+LineContact meet_exactly(const IndexPolygons& polygons, Id id, const IndexLine& line) {
+    std::array<Plane, 3> storage;
+    const auto edges = polygons.edges(id, storage);
+    const Plane support = polygons.support(id);
+    const ExactPart part = exact_part(line, support, edges);
+    if (!part.exists) return {};
+    if (!part.in_plane) return enclosed(LineContact::Kind::Point, part.enter, part.enter);
+    LineContact c =
+        enclosed(LineContact::Kind::Interval, part.enter, part.infinite ? part.enter : part.leave);
+    if (part.infinite) c.hi = std::numeric_limits<double>::infinity();
+    return c;
+}
+
+// Range of a quotient of two doubles with errors; nothing when the divisor may be 0.
+struct Range {
+    double lo = 0;
+    double hi = 0;
+    bool known = false;
+};
+
+Range quotient(double n, double n_error, double d, double d_error) {
+    const double safe = std::fabs(d) - d_error;
+    if (!(safe > 0.5 * std::fabs(d))) return {};
+    const double t = n / d;
+    const double e = (n_error + std::fabs(t) * d_error) / safe * 1.0001 + std::fabs(t) * 0x1p-51;
+    return {t - e, t + e, e < HUGE_VAL};
+}
+
+// -1: misses; 0: doubles cannot tell; 1: crosses in `contact`.
+int meet_triangle(const Vector& a, const Vector& b, const Vector& c, const IndexLine& line,
+                  LineContact& contact) {
+    const Vector& d = line.direction();
+    const Vector& o = line.origin().approximate();
+    const Vector oa = minus(a, o);
+    const Vector ob = minus(b, o);
+    const Vector oc = minus(c, o);
+    const double m = std::max(std::max(largest(oa), largest(ob)), largest(oc));
+    const double dm = largest(d);
+    const double o_error = line.origin().error();
+    const double bound =
+        m * m * (relative_bound * dm + 6 * line.direction_error()) + 12 * m * dm * o_error;
+    const double e1 = dot(d, cross(oa, ob));
+    const double e2 = dot(d, cross(ob, oc));
+    const double e3 = dot(d, cross(oc, oa));
+    const double lo = std::min(std::min(e1, e2), e3);
+    const double hi = std::max(std::max(e1, e2), e3);
+    if (lo < -bound && hi > bound) return -1;
+    if (!(lo > bound) && !(hi < -bound)) return 0;
+    const Vector u = minus(b, a);
+    const Vector v = minus(c, a);
+    const Vector n = cross(u, v);
+    const double l = std::max(largest(u), largest(v));
+    const double l2 = l * l;
+    const Range t = quotient(dot(n, oa), l2 * (relative_bound * largest(oa) + 8 * o_error),
+                             dot(n, d), l2 * (relative_bound * dm + 6 * line.direction_error()));
+    if (!t.known) return 0;
+    if (t.hi < 0 || t.lo > line.limit()) return -1;
+    if (t.lo < 0 || t.hi > line.limit()) return 0;
+    contact = {LineContact::Kind::Crossing, t.lo, t.hi};
+    return 1;
+}
+
+struct Bounded {
+    double value = 0;
+    double error = 0;
+};
+
+Bounded value_of(const Plane& plane, const IndexPoint& p) {
+    double value = plane.approx_offset();
+    double terms = std::fabs(value);
+    double normals = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double t = plane.approx_normal(k) * p[static_cast<std::size_t>(k)];
+        value += t;
+        terms += std::fabs(t);
+        normals += std::fabs(plane.approx_normal(k));
+    }
+    return {value, 0x1p-50 * terms + 1.0000001 * p.error() * normals};
+}
+
+Bounded slope_of(const Plane& plane, const IndexLine& line) {
+    double value = 0;
+    double terms = 0;
+    double normals = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double t = plane.approx_normal(k) * line.direction()[static_cast<std::size_t>(k)];
+        value += t;
+        terms += std::fabs(t);
+        normals += std::fabs(plane.approx_normal(k));
+    }
+    return {value, 0x1p-50 * terms + 1.0000001 * line.direction_error() * normals};
+}
+
+int meet_convex(const Plane& support, std::span<const Plane> edges, const IndexLine& line,
+                LineContact& contact) {
+    const Bounded at = value_of(support, line.origin());
+    const Bounded slope = slope_of(support, line);
+    const Range t = quotient(-at.value, at.error, slope.value, slope.error);
+    if (!t.known) return 0;
+    if (t.hi < 0 || t.lo > line.limit()) return -1;
+    bool sure = t.lo >= 0 && t.hi <= line.limit();
+    const double mid = 0.5 * (t.lo + t.hi);
+    const double half = 0.5 * (t.hi - t.lo) * 1.001 + std::fabs(mid) * 0x1p-51;
+    for (const Plane& edge : edges) {
+        const Bounded e = value_of(edge, line.origin());
+        const Bounded s = slope_of(edge, line);
+        const double value = e.value + mid * s.value;
+        const double error =
+            (e.error + std::fabs(mid) * s.error + half * (std::fabs(s.value) + s.error) +
+             (std::fabs(e.value) + std::fabs(mid * s.value)) * 0x1p-51) *
+            1.001;
+        if (value > error) return -1;
+        if (!(value < -error)) sure = false;
+    }
+    if (!sure) return 0;
+    contact = {LineContact::Kind::Crossing, t.lo, t.hi};
+    return 1;
+}
+
+}  // namespace
+
+IndexLine::IndexLine(const Ray& ray, Lattice lattice)
+    : lattice_(lattice),
+      ray_(checked(ray)),
+      origin_(IndexPoint::from_user(ray.origin, lattice)),
+      limit_(std::numeric_limits<double>::infinity()) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        parallel_[k] = ray.direction[k] == 0;
+        direction_[k] = std::ldexp(ray.direction[k], -lattice.exponent);
+        if (!std::isfinite(direction_[k]) ||
+            std::ldexp(direction_[k], lattice.exponent) != ray.direction[k])
+            direction_error_ = HUGE_VAL;
+    }
+}
+
+IndexLine::IndexLine(const Segment& segment, Lattice lattice)
+    : lattice_(lattice),
+      segment_(segment),
+      origin_(IndexPoint::from_user(segment.from, lattice)),
+      limit_(1) {
+    if (segment.from == segment.to) throw UsageError("a segment whose ends are the same point");
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::isfinite(segment.to[k]))
+            throw UsageError("a segment with a coordinate that is not finite");
+        parallel_[k] = segment.from[k] == segment.to[k];
+        const double d = segment.to[k] - segment.from[k];
+        direction_[k] = std::ldexp(d, -lattice.exponent);
+        if (!std::isfinite(direction_[k]) || std::ldexp(direction_[k], lattice.exponent) != d) {
+            direction_error_ = HUGE_VAL;
+        } else {
+            direction_error_ =
+                std::max(direction_error_, std::fabs(direction_[k]) * 0x1p-53 + 0x1p-1000);
+        }
+    }
+}
+
+bool IndexLine::is_moderate() const {
+    const double d = largest(direction_);
+    return direction_error_ < HUGE_VAL && origin_.error() < HUGE_VAL && d > 0x1p-300 && d < 0x1p300;
+}
+
+const IndexPoint::Rational& IndexLine::exact_direction() const {
+    if (!exact_direction_) {
+        IndexPoint::Rational d;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (segment_) {
+                d[k] = exact_coordinate(segment_->to[k], lattice_.exponent) -
+                       exact_coordinate(segment_->from[k], lattice_.exponent);
+            } else {
+                d[k] = exact_coordinate(ray_.direction[k], lattice_.exponent);
+            }
+        }
+        exact_direction_ = std::move(d);
+    }
+    return *exact_direction_;
+}
+
+RayParameter IndexLine::meet(const Plane& plane) const {
+    return segment_ ? RayParameter(*segment_, lattice_.exponent, plane)
+                    : RayParameter(ray_, lattice_.exponent, plane);
+}
+
+IndexPoint IndexLine::at(const ExactRational& t) const {
+    IndexPoint::Rational p = origin_.rational();
+    for (std::size_t k = 0; k < 3; ++k) p[k] += t * exact_direction()[k];
+    return IndexPoint(std::move(p));
+}
+
+LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
+    LineContact contact;
+    int known = 0;
+    if (polygons.is_triangle(id)) {
+        known =
+            meet_triangle(to_doubles(polygons.corner(id, 0)), to_doubles(polygons.corner(id, 1)),
+                          to_doubles(polygons.corner(id, 2)), line, contact);
+    } else {
+        known = meet_convex(polygons.support(id), polygons.edges(id), line, contact);
+    }
+    if (known != 0) {
+        predicate_counters().filtered += 3;
+        return contact;
+    }
+    return meet_exactly(polygons, id, line);
+}
+
+ContactEnds ends_of(const IndexPolygons& polygons, Id id, const IndexLine& line,
+                    const LineContact& contact) {
+    const Plane support = polygons.support(id);
+    if (contact.kind != LineContact::Kind::Interval) {
+        const RayParameter t = line.meet(support);
+        return {t, t};
+    }
+    std::array<Plane, 3> storage;
+    const ExactPart part = exact_part(line, support, polygons.edges(id, storage));
+    ContactEnds ends{line.begin(), line.end()};
+    if (part.enter_plane != nullptr) ends.enter = line.meet(*part.enter_plane);
+    if (part.leave_plane != nullptr) ends.leave = line.meet(*part.leave_plane);
+    if (part.infinite) ends.leave = RayParameter::infinite();
+    return ends;
+}
+
+}  // namespace detail
+
+}  // namespace trisect

@@ -1,0 +1,619 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nearest points, by branch and bound in doubles and a decision among the few that are left in
+// rationals.
+//
+// For a convex set C, the hull of corners c_i, and any point q of it, |p - q| bounds the distance
+// of p from above, and with g = p - q the smallest g · (p - c_i) / |g| bounds it from below: all of
+// C lies behind the plane through the nearest such corner. That holds however q was found, so q
+// may come from plain floating-point arithmetic; a bad one only leaves more work to the rationals.
+// The same serves polygons, edges (two corners) and corners (one).
+//
+// Rounding of bounds: q is a combination of the corners with weights that are not negative and sum
+// to 1 up to 2^-50; differences and products err relative to the largest difference M of
+// coordinates involved, 2^-44 M covers all of it amply.
+
+#include <trisect/bsp/query/lines/index_nearest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <trisect/bsp/query/index/index_cells.h>
+#include <trisect/bsp/query/lines/index_handles.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+using Exact = IndexPoint::Rational;
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double largest(const Vector& a) {
+    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
+Exact minus(const Exact& a, const Exact& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+ExactRational dot(const Exact& a, const Exact& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+ExactRational squared_distance(const Exact& a, const Exact& b) {
+    const Exact d = minus(a, b);
+    return dot(d, d);
+}
+
+// The nearest point to the origin of the triangle a, b, c, up to rounding: a combination of the
+// corners with weights >= 0.
+Vector nearest_on_segment(const Vector& a, const Vector& b) {
+    const Vector e = minus(b, a);
+    const double ee = dot(e, e);
+    const double t = ee > 0 ? std::clamp(-dot(a, e) / ee, 0.0, 1.0) : 0.0;
+    Vector q{};
+    for (std::size_t k = 0; k < 3; ++k) q[k] = (1 - t) * a[k] + t * b[k];
+    return q;
+}
+
+Vector between(const Vector& a, const Vector& b, double t) {
+    return {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1], (1 - t) * a[2] + t * b[2]};
+}
+
+// By the region of a corner, an edge or the middle that the origin is in (Ericson 2005, 5.1.5).
+Vector nearest_on_triangle(const Vector& a, const Vector& b, const Vector& c) {
+    const Vector u = minus(b, a);
+    const Vector v = minus(c, a);
+    const double ua = -dot(u, a);
+    const double va = -dot(v, a);
+    if (ua <= 0 && va <= 0) return a;
+    const double ub = -dot(u, b);
+    const double vb = -dot(v, b);
+    if (ub >= 0 && vb <= ub) return b;
+    const double uc = -dot(u, c);
+    const double vc = -dot(v, c);
+    if (vc >= 0 && uc <= vc) return c;
+    const double of_c = ua * vb - ub * va;
+    if (of_c <= 0 && ua > 0 && ub < 0) return between(a, b, ua / (ua - ub));
+    const double of_b = uc * va - ua * vc;
+    if (of_b <= 0 && va > 0 && vc < 0) return between(a, c, va / (va - vc));
+    const double of_a = ub * vc - uc * vb;
+    const double from_b = vb - ub;
+    const double from_c = uc - vc;
+    if (of_a <= 0 && from_b > 0 && from_c > 0) return between(b, c, from_b / (from_b + from_c));
+    const double sum = of_a + of_b + of_c;
+    if (of_a >= 0 && of_b >= 0 && of_c >= 0 && sum > 0) {
+        Vector q{};
+        for (std::size_t k = 0; k < 3; ++k)
+            q[k] = (of_a / sum) * a[k] + (of_b / sum) * b[k] + (of_c / sum) * c[k];
+        return q;
+    }
+    // Rounding made no region of it.
+    Vector best = nearest_on_segment(a, b);
+    for (const Vector& q : {nearest_on_segment(b, c), nearest_on_segment(c, a)})
+        if (dot(q, q) < dot(best, best)) best = q;
+    return best;
+}
+
+struct Bounds {
+    double lo = 0;
+    double hi = HUGE_VAL;
+};
+
+// Of the distance from the origin to the hull of the corners, which are known within `error`.
+Bounds bounds_of(std::span<const Vector> corners, double error) {
+    double m = 0;
+    for (const Vector& c : corners) m = std::max(m, largest(c));
+    if (!(m < 0x1p500)) return {};
+    Vector q = corners[0];
+    if (corners.size() == 2) q = nearest_on_segment(corners[0], corners[1]);
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+        const Vector r = nearest_on_triangle(corners[0], corners[i - 1], corners[i]);
+        if (i == 2 || dot(r, r) < dot(q, q)) q = r;
+    }
+    const double length = std::sqrt(dot(q, q));
+    const double slack = m * 0x1p-44 + 4 * error;
+    Bounds b{0, length + slack};
+    if (length > 4 * slack) {
+        double least = HUGE_VAL;
+        for (const Vector& c : corners) least = std::min(least, dot(q, c));
+        // |g| is within slack of exact; so is each g · c / |g| times a few.
+        b.lo = std::max(0.0, least / length - 8 * slack * (1 + m / length));
+    }
+    return b;
+}
+
+// Something that may hold the nearest point: a polygon, an edge or a corner.
+struct Feature {
+    PolygonId polygon = 0;
+    std::int32_t edge = -1;
+    std::int32_t corner = -1;
+    Bounds bounds;
+};
+
+// What of a triangle is nearest to the origin.
+struct NearestPart {
+    enum class Kind : std::uint8_t { Unsure, Corner, Edge, Face };
+    Kind kind = Kind::Unsure;
+    std::size_t number = 0;  // of the corner, or of the edge from there to the next one
+};
+
+// Corners are within 2^-52 M + error, M their largest coordinate. Ways along edges, products of two
+// differences below 2 M and M, err by less than 2^-46 M^2 + 16 M error; the sides of edges,
+// products of four such, by less than 2^-41 M^4 + 2^8 M^3 error.
+NearestPart surely_nearest(const std::array<Vector, 3>& c, double error) {
+    double m = 0;
+    for (const Vector& v : c) m = std::max(m, largest(v));
+    if (!(m < 0x1p200)) return {};
+    const double way_bound = 0x1p-46 * m * m + 16 * m * error;
+    const double side_bound = 0x1p-41 * m * m * m * m + 0x1p8 * m * m * m * error;
+    std::array<Vector, 3> edge{};
+    for (std::size_t i = 0; i < 3; ++i) edge[i] = minus(c[(i + 1) % 3], c[i]);
+    const Vector& u = edge[0];
+    const Vector& v = edge[1];
+    const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    unsigned inside = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector& e = edge[i];
+        const double from_start = -dot(e, c[i]);
+        const double from_end = dot(e, c[(i + 1) % 3]);
+        // Neither edge leads from the corner to what is nearer.
+        if (from_start < -way_bound && dot(edge[(i + 2) % 3], c[i]) < -way_bound)
+            return {NearestPart::Kind::Corner, i};
+        const Vector out{e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2],
+                         e[0] * n[1] - e[1] * n[0]};
+        const double side = -dot(out, c[i]);
+        if (side > side_bound && from_start > way_bound && from_end > way_bound)
+            return {NearestPart::Kind::Edge, i};
+        if (side < -side_bound) ++inside;
+    }
+    return inside == 3 ? NearestPart{NearestPart::Kind::Face, 0} : NearestPart{};
+}
+
+class Search {
+public:
+    Search(const IndexCore& core, const IndexPoint& point, NearestKind kind)
+        : core_(core), polygons_(core.polygons()), p_(point), kind_(kind) {}
+
+    [[nodiscard]] std::optional<Nearest> run() {
+        walk(0, root_cell());
+        std::sort(features_.begin(), features_.end(),
+                  [](const Feature& a, const Feature& b) { return a.bounds.lo < b.bounds.lo; });
+        for (const Feature& f : features_) {
+            if (f.bounds.lo > limit_) break;
+            decide(f);
+        }
+        if (!found_) return std::nullopt;
+        return finished();
+    }
+
+    // The distance in doubles only.
+    [[nodiscard]] std::optional<NearestBounds> run_in_doubles() {
+        only_bounds_ = true;
+        walk(0, root_cell());
+        if (best_ == IndexPolygons::none) return std::nullopt;
+        const int e = core_.base->solid.lattice().exponent;
+        return NearestBounds{polygons_.face_source(best_), std::ldexp(std::min(least_, limit_), e),
+                             std::ldexp(limit_, e)};
+    }
+
+private:
+    struct Pending {
+        std::uint32_t node = 0;
+        DoubleBox cell;
+        double distance = 0;
+    };
+
+    // The distance from the point to a cell, rounded down a little.
+    [[nodiscard]] double distance_to(const DoubleBox& cell) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double lo = std::max(cell.lo[k], core_.tree().lo()[k]);
+            const double hi = std::min(cell.hi[k], core_.tree().hi()[k]);
+            const double d = std::max({0.0, lo - p_[k], p_[k] - hi});
+            sum += d * d;
+        }
+        const double d = std::sqrt(sum) * (1 - 0x1p-48) - 2 * p_.error();
+        return d > 0 ? d : 0;  // also for what is no number
+    }
+
+    struct NearCell {
+        double squared = 0;
+        std::array<std::uint32_t, 3> at{};
+    };
+
+    // Squared distances from the point to the slabs of a block along an axis.
+    void slab_distances(const DoubleBox& whole, const IndexBlock& block, std::size_t k,
+                        std::span<double> out) const {
+        for (std::uint32_t i = 0; i < block.n[k]; ++i) {
+            const double lo = i == 0 ? whole.lo[k] : block.wall(k, i);
+            const double hi = i + 1 == block.n[k] ? whole.hi[k] : block.wall(k, i + 1);
+            const double d = std::max({0.0, std::max(lo, core_.tree().lo()[k]) - p_[k],
+                                       p_[k] - std::min(hi, core_.tree().hi()[k])});
+            out[i] = d * d;
+        }
+    }
+    // Whether what is so far away, squared and up to rounding, cannot be the nearest.
+    [[nodiscard]] bool is_beyond(double squared) const {
+        const double limit = (limit_ + 2 * p_.error()) * (1 + 0x1p-44);
+        return squared > limit * limit;
+    }
+
+    void walk(std::uint32_t node, const DoubleBox& cell) {
+        const IndexTree& tree = core_.tree();
+        std::vector<Pending> pending{{node, cell, 0}};
+        while (!pending.empty()) {
+            const Pending at = pending.back();
+            pending.pop_back();
+            if (at.distance > limit_) continue;
+            const IndexTree::Node& n = tree.node(at.node);
+            if (n.is_grid()) {
+                walk_grid(tree.grid(n), at.cell);
+                continue;
+            }
+            if (n.is_leaf()) {
+                if (n.is_mixed()) visit_leaf(n.next);
+                continue;
+            }
+            Pending near{n.next, child_cell(at.cell, n, false), 0};
+            Pending far{n.next + 1, child_cell(at.cell, n, true), 0};
+            near.distance = distance_to(near.cell);
+            far.distance = distance_to(far.cell);
+            if (far.distance < near.distance ||
+                (far.distance == near.distance && p_[n.axis()] > n.rounded_wall()))
+                std::swap(near, far);
+            pending.push_back(far);
+            pending.push_back(near);
+        }
+    }
+
+    void visit_leaf(std::uint32_t leaf) {
+        const auto listed = core_.tree().listed(core_.tree().leaf(leaf));
+        if (const Source* source = polygons_.only_source()) {
+            for (const PolygonId id : listed)
+                for (int i = 0; i < 3; ++i) __builtin_prefetch(&source->corner(id, i));
+        }
+        for (const PolygonId id : listed) visit(id);
+    }
+
+    // What is in a cell of a grid: of a brick the near cells first.
+    void walk_slot(const IndexGrid& g, std::uint32_t slot, const std::array<std::uint32_t, 3>& low,
+                   int level, const DoubleBox& whole) {
+        if (IndexSlot::is_empty(slot)) return;
+        if (!IndexSlot::is_brick(slot)) {
+            visit_leaf(slot);
+            return;
+        }
+        const IndexTree& tree = core_.tree();
+        const IndexBrick& brick = tree.brick(slot);
+        const IndexBlock block = g.brick(low, level);
+        struct Near {
+            double squared = 0;
+            unsigned bit = 0;
+        };
+        std::array<std::array<double, 4>, 3> slab{};
+        for (std::size_t k = 0; k < 3; ++k) slab_distances(whole, block, k, slab[k]);
+        std::array<Near, 64> near;
+        std::size_t count = 0;
+        for (std::uint64_t left = brick.mixed; left != 0; left &= left - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(left));
+            const double d = slab[0][bit & 3U] + slab[1][bit >> 2U & 3U] + slab[2][bit >> 4U];
+            if (!is_beyond(d)) near[count++] = {d, bit};
+        }
+        std::sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count),
+                  [](const Near& a, const Near& b) { return a.squared < b.squared; });
+        const unsigned shift = 2U * static_cast<unsigned>(level - 1);
+        for (std::size_t i = 0; i < count && !is_beyond(near[i].squared); ++i) {
+            const unsigned bit = near[i].bit;
+            const std::array at{bit & 3U, bit >> 2U & 3U, bit >> 4U};
+            walk_slot(
+                g, tree.slot(brick.slot(bit)),
+                {low[0] + (at[0] << shift), low[1] + (at[1] << shift), low[2] + (at[2] << shift)},
+                level - 1, block_cell(whole, block, at[0], at[1], at[2]));
+        }
+    }
+
+    // Shell by shell around the cell that the point is in or next to. A shell of number r is at
+    // least r - 2 cells away (one for rounding).
+    void walk_grid(const IndexGrid& g, const DoubleBox& whole) {
+        const IndexBlock block = g.block();
+        const double least = std::min({block.size[0], block.size[1], block.size[2]});
+        std::array<std::int64_t, 3> middle{};
+        std::int64_t last = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = block.clamped(k, p_[k]);
+            last = std::max<std::int64_t>(
+                {last, middle[k], static_cast<std::int64_t>(g.n[k]) - 1 - middle[k]});
+        }
+        const auto range = [&](std::size_t k, std::int64_t r) {
+            return std::pair{std::max<std::int64_t>(0, middle[k] - r),
+                             std::min<std::int64_t>(g.n[k] - 1, middle[k] + r)};
+        };
+        std::array<std::vector<double>, 3>& slab = slabs_;
+        for (std::size_t k = 0; k < 3; ++k) {
+            slab[k].resize(g.n[k]);
+            slab_distances(whole, block, k, slab[k]);
+        }
+        const auto number = [](std::int64_t i) { return static_cast<std::uint32_t>(i); };
+        const auto squared = [&](std::size_t k, std::int64_t i) {
+            return slab[k][static_cast<std::size_t>(i)];
+        };
+        // Of a shell the near cells first. Most are empty, and that is one look.
+        std::vector<NearCell>& shell = shell_;
+        const auto note = [&](std::int64_t x, std::int64_t y, std::int64_t z, double row) {
+            if (core_.tree().is_empty(g, g.cell(number(x), number(y), number(z)))) return;
+            const double d = row + squared(0, x);
+            if (!is_beyond(d)) shell.push_back({d, {number(x), number(y), number(z)}});
+        };
+        const auto walk_cell = [&](const std::array<std::uint32_t, 3>& at) {
+            const unsigned shift = g.shift();
+            walk_slot(g, core_.tree().slot(g, g.cell(at[0], at[1], at[2])),
+                      {at[0] << shift, at[1] << shift, at[2] << shift}, g.levels,
+                      block_cell(whole, block, at[0], at[1], at[2]));
+        };
+        for (std::int64_t r = 0; r <= last; ++r) {
+            if (static_cast<double>(r - 2) * least > limit_) return;
+            shell.clear();
+            const auto [z0, z1] = range(2, r);
+            const auto [y0, y1] = range(1, r);
+            const auto [x0, x1] = range(0, r);
+            for (std::int64_t z = z0; z <= z1; ++z) {
+                if (is_beyond(squared(2, z))) continue;
+                for (std::int64_t y = y0; y <= y1; ++y) {
+                    const double row = squared(2, z) + squared(1, y);
+                    if (is_beyond(row)) continue;
+                    const bool face = std::abs(z - middle[2]) == r || std::abs(y - middle[1]) == r;
+                    if (face) {
+                        for (std::int64_t x = x0; x <= x1; ++x) note(x, y, z, row);
+                        continue;
+                    }
+                    if (middle[0] - r >= 0) note(middle[0] - r, y, z, row);
+                    if (r != 0 && middle[0] + r < static_cast<std::int64_t>(g.n[0]))
+                        note(middle[0] + r, y, z, row);
+                }
+            }
+            std::sort(shell.begin(), shell.end(),
+                      [](const NearCell& a, const NearCell& b) { return a.squared < b.squared; });
+            for (const NearCell& near : shell) {
+                if (is_beyond(near.squared)) break;
+                walk_cell(near.at);
+            }
+        }
+    }
+
+    [[nodiscard]] std::array<Vector, 3> relative_triangle(PolygonId id) const {
+        std::array<Vector, 3> out{};
+        for (int i = 0; i < 3; ++i) {
+            const LatticePoint& c = polygons_.corner(id, i);
+            out[static_cast<std::size_t>(i)] = minus(
+                {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)},
+                p_.approximate());
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::vector<Vector> relative_corners(PolygonId id, double& error) const {
+        std::vector<Vector> out;
+        error = p_.error();
+        if (polygons_.is_triangle(id)) {
+            const auto c = relative_triangle(id);
+            return {c.begin(), c.end()};
+        }
+        for (const Point& c : polygons_.corners(id)) {
+            out.push_back(minus(c.approximation().c, p_.approximate()));
+            error = std::max(error, p_.error() + c.approximation().error);
+        }
+        return out;
+    }
+
+    // Whether the box of a triangle is surely farther than what is known.
+    [[nodiscard]] bool is_box_beyond(const std::array<Vector, 3>& c) const {
+        double sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double lo = std::min(std::min(c[0][k], c[1][k]), c[2][k]);
+            const double hi = std::max(std::max(c[0][k], c[1][k]), c[2][k]);
+            const double d = std::max(std::max(lo, -hi), 0.0);
+            sum += d * d;
+        }
+        return is_beyond(sum);
+    }
+
+    void visit(PolygonId id) {
+        if (polygons_.is_unbounded(id)) {
+            if (kind_ == NearestKind::Boundary) offer({id, -1, -1, {}});
+            return;
+        }
+        if (kind_ == NearestKind::Boundary && polygons_.is_triangle(id)) {
+            // Neighbouring cells list the same triangles.
+            PolygonId& recent = recent_[id % recent_.size()];
+            if (recent == id) return;
+            recent = id;
+            const std::array<Vector, 3> c = relative_triangle(id);
+            if (!is_box_beyond(c)) offer({id, -1, -1, bounds_of(c, p_.error())});
+            return;
+        }
+        double error = 0;
+        const std::vector<Vector> c = relative_corners(id, error);
+        if (kind_ == NearestKind::Boundary) {
+            offer({id, -1, -1, bounds_of(c, error)});
+            return;
+        }
+        for (std::size_t i = 0; i < c.size(); ++i) {
+            const auto number = static_cast<std::int32_t>(i);
+            offer({id, -1, number, bounds_of(std::span(c).subspan(i, 1), error)});
+            if (kind_ != NearestKind::Edge) continue;
+            const std::array<Vector, 2> ends{c[i], c[(i + 1) % c.size()]};
+            offer({id, number, -1, bounds_of(ends, error)});
+        }
+    }
+
+    void offer(const Feature& f) {
+        if (f.bounds.lo > limit_) return;
+        if (only_bounds_) {
+            least_ = std::min(least_, f.bounds.lo);
+            if (f.bounds.hi < limit_ || best_ == IndexPolygons::none) best_ = f.polygon;
+        }
+        if (kind_ == NearestKind::Boundary) {
+            limit_ = std::min(limit_, f.bounds.hi);
+        } else if (f.bounds.hi < limit_) {
+            // Only what is an edge or vertex of the set limits the search.
+            decide(f);
+            return;
+        }
+        if (!only_bounds_) features_.push_back(f);
+    }
+
+    // The exact point of a feature, and whether it is the best so far.
+    void decide(const Feature& f) {
+        Exact q = nearest_of(f);
+        ExactRational d = squared_distance(q, p_.rational());
+        if (found_) {
+            const auto order = d <=> squared_;
+            if (order > 0) return;
+            if (order == 0 && !(q < q_) && !(q == q_)) return;
+            if (order == 0 && q == q_) {
+                on_.push_back(f.polygon);
+                return;
+            }
+        }
+        if (kind_ != NearestKind::Boundary) {
+            std::vector<PolygonId> on;
+            const IndexPoint at{Exact(q)};
+            Location l = locate_polygons(*core_.base, at, on);
+            if (l == Location::OnFace) l = place_on(polygons_, on).location;
+            if (l != Location::OnVertex && (kind_ != NearestKind::Edge || l != Location::OnEdge))
+                return;
+        }
+        found_ = true;
+        q_ = std::move(q);
+        squared_ = std::move(d);
+        on_.assign(1, f.polygon);
+        const double root = std::sqrt(squared_.to_double());
+        limit_ = std::min(limit_, root * (1 + 0x1p-50) + 0x1p-500);
+    }
+
+    [[nodiscard]] Exact nearest_of(const Feature& f) const {
+        if (f.corner >= 0)
+            return IndexPoint(polygons_.corners(f.polygon)[static_cast<std::size_t>(f.corner)])
+                .rational();
+        std::vector<Exact> c;
+        if (!polygons_.is_unbounded(f.polygon))
+            for (const Point& p : polygons_.corners(f.polygon))
+                c.push_back(IndexPoint(p).rational());
+        const auto on_edge = [&](std::size_t i) {
+            const Exact& a = c[i];
+            const Exact e = minus(c[(i + 1) % c.size()], a);
+            ExactRational t = dot(minus(p_.rational(), a), e) / dot(e, e);
+            if (t.sign() < 0) t = ExactRational();
+            if (t > ExactRational(1)) t = ExactRational(1);
+            return Exact{a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]};
+        };
+        if (f.edge >= 0) return on_edge(static_cast<std::size_t>(f.edge));
+        const NearestPart part = polygons_.is_triangle(f.polygon)
+                                     ? surely_nearest(relative_triangle(f.polygon), p_.error())
+                                     : NearestPart{};
+        if (part.kind == NearestPart::Kind::Corner) return c[part.number];
+        if (part.kind == NearestPart::Kind::Edge) return on_edge(part.number);
+        // The foot of the perpendicular, if it is in the polygon; else some edge has the nearest.
+        const Plane support = polygons_.support(f.polygon);
+        Exact n;
+        for (int k = 0; k < 3; ++k)
+            n[static_cast<std::size_t>(k)] = ExactRational(WideInt<2>(support.normal(k)));
+        const ExactRational t = value_at(p_.rational(), support) / dot(n, n);
+        Exact foot = p_.rational();
+        for (std::size_t k = 0; k < 3; ++k) foot[k] -= t * n[k];
+        if (part.kind == NearestPart::Kind::Face) return foot;
+        std::array<Plane, 3> storage;
+        const auto edges = polygons_.edges(f.polygon, storage);
+        if (std::all_of(edges.begin(), edges.end(),
+                        [&](const Plane& e) { return value_at(foot, e).sign() <= 0; }))
+            return foot;
+        Exact best = on_edge(0);
+        ExactRational least = squared_distance(best, p_.rational());
+        for (std::size_t i = 1; i < c.size(); ++i) {
+            Exact q = on_edge(i);
+            ExactRational d = squared_distance(q, p_.rational());
+            if (d < least) {
+                least = std::move(d);
+                best = std::move(q);
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] Nearest finished() {
+        const IndexPoint at{Exact(q_)};
+        if (kind_ != NearestKind::Boundary) (void)locate_polygons(*core_.base, at, on_);
+        std::sort(on_.begin(), on_.end());
+        on_.erase(std::unique(on_.begin(), on_.end()), on_.end());
+        Nearest out;
+        out.place = place_on(polygons_, on_, at);
+        if (core_.handles) core_.handles->name(core_, out.place, on_, at);
+        const int e = core_.base->solid.lattice().exponent;
+        for (std::size_t k = 0; k < 3; ++k) out.point[k] = q_[k].scaled(e);
+        out.squared_distance = squared_.scaled(2 * e);
+        out.squared_rounded = out.squared_distance.to_double();
+        out.distance = nearest_root(out.squared_distance);
+        return out;
+    }
+
+    const IndexCore& core_;
+    const IndexPolygons& polygons_;
+    const IndexPoint& p_;
+    NearestKind kind_;
+    double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
+    std::vector<Feature> features_;
+    std::array<std::vector<double>, 3> slabs_;
+    std::vector<NearCell> shell_;
+    bool only_bounds_ = false;
+    double least_ = HUGE_VAL;
+    PolygonId best_ = IndexPolygons::none;
+    std::array<PolygonId, 256> recent_ = [] {
+        std::array<PolygonId, 256> none{};
+        none.fill(IndexPolygons::none);
+        return none;
+    }();
+    bool found_ = false;
+    Exact q_;
+    ExactRational squared_;
+    std::vector<PolygonId> on_;
+};
+
+}  // namespace
+
+double nearest_root(const ExactRational& square) {
+    const double s = square.to_double();
+    double r = std::sqrt(s);
+    if (!std::isfinite(r) || s < 0x1p-900) return r;
+    // Compare with the middles between r and its neighbours; sqrt of the rounded square is at most
+    // one step off.
+    const auto middle = [](double a, double b) {
+        return (ExactRational::from_double(a) + ExactRational::from_double(b)) / ExactRational(2);
+    };
+    const auto even = [](double v) {
+        int e = 0;
+        return std::fmod(std::ldexp(std::frexp(v, &e), 53), 2.0) == 0;
+    };
+    const double up = std::nextafter(r, HUGE_VAL);
+    const ExactRational high = middle(r, up);
+    const auto above = square <=> high * high;
+    if (above > 0 || (above == 0 && even(up))) return up;
+    const double down = std::nextafter(r, 0.0);
+    const ExactRational low = middle(down, r);
+    const auto below = square <=> low * low;
+    if (below < 0 || (below == 0 && even(down))) return down;
+    return r;
+}
+
+std::optional<NearestBounds> distance(const IndexCore& core, const IndexPoint& point) {
+    return Search(core, point, NearestKind::Boundary).run_in_doubles();
+}
+
+std::optional<Nearest> nearest(const IndexCore& core, const IndexPoint& point, NearestKind kind) {
+    return Search(core, point, kind).run();
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What kind of boundary point it is, the normals of the polygons that contain it tell: in one plane
+// a face, planes through one line an edge, else a vertex. Near the point the boundary is a cone
+// over these polygons, so this is a property of the set.
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/bsp/query/index/index_core.h>
+#include <trisect/kernel/predicates.h>
+
+namespace trisect::detail {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+bool are_parallel(const Plane& a, const Plane& b) {
+    for (int k = 0; k < 3; ++k)
+        if (sign_of_cross(a, b, k) != 0) return false;
+    return true;
+}
+
+Vector cross(const Vector& u, const Vector& v) {
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+double largest(const Vector& v) {
+    return std::max(std::max(std::fabs(v[0]), std::fabs(v[1])), std::fabs(v[2]));
+}
+
+// A triangle's normal, its largest component 1, in doubles: within 2^-40, or not known.
+bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector& n) {
+    if (!polygons.is_triangle(id)) return false;
+    std::array<Vector, 3> c{};
+    for (int i = 0; i < 3; ++i) {
+        const LatticePoint& p = polygons.corner(id, i);
+        c[static_cast<std::size_t>(i)] = {static_cast<double>(p.x), static_cast<double>(p.y),
+                                          static_cast<double>(p.z)};
+    }
+    const Vector u{c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]};
+    const Vector v{c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
+    n = cross(u, v);
+    // Each component is within 2^-50 of the product of the largest ones of u and v.
+    const double size = largest(n);
+    if (!(0x1p-50 * largest(u) * largest(v) < 0x1p-42 * size)) return false;
+    for (double& x : n) x /= size;
+    return true;
+}
+
+// Polygons whose normals are linearly independent, up to three: each one that is not a combination
+// of those before. Doubles tell mostly.
+class Independent {
+public:
+    explicit Independent(const IndexPolygons& polygons) : polygons_(polygons) {}
+    [[nodiscard]] std::size_t rank() const { return rank_; }
+    void add(PolygonId id) {
+        Vector n{};
+        const bool known = find_normal(polygons_, id, n);
+        if (!is_independent(id, known, n)) return;
+        if (rank_ == 1) both_ = cross(first_, n);
+        if (rank_ == 0) first_ = n;
+        sure_ = sure_ && known;
+        id_[rank_++] = id;
+    }
+
+private:
+    [[nodiscard]] bool is_independent(PolygonId id, bool known, const Vector& n) const {
+        if (rank_ == 0) return true;
+        // Components of a cross product are within 2^-38, a determinant within 2^-35.
+        const double turn = rank_ == 1
+                                ? largest(cross(first_, n))
+                                : std::fabs(both_[0] * n[0] + both_[1] * n[1] + both_[2] * n[2]);
+        if (known && sure_ && turn > 0x1p-30) return true;
+        const Plane p = polygons_.support(id);
+        const Plane first = polygons_.support(id_[0]);
+        if (rank_ == 1) return !are_parallel(first, p);
+        return sign_of_det(first, polygons_.support(id_[1]), p) != 0;
+    }
+
+    const IndexPolygons& polygons_;
+    std::array<PolygonId, 3> id_{};
+    std::size_t rank_ = 0;
+    bool sure_ = true;  // the normals below are good
+    Vector first_{};
+    Vector both_{};
+};
+
+}  // namespace
+
+Location location_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
+    Independent chosen(polygons);
+    for (const PolygonId id : on) {
+        chosen.add(id);
+        if (chosen.rank() == 3) return Location::OnVertex;
+    }
+    return chosen.rank() == 1 ? Location::OnFace : Location::OnEdge;
+}
+
+Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
+    if (on.size() > 1)
+        std::sort(on.begin(), on.end(),
+                  [&](PolygonId a, PolygonId b) { return polygons.name(a) < polygons.name(b); });
+    Place place;
+    Independent chosen(polygons);
+    for (const PolygonId id : on) {
+        if (chosen.rank() == 3) break;
+        const std::size_t before = chosen.rank();
+        chosen.add(id);
+        if (chosen.rank() != before) place.faces[before] = polygons.face_source(id);
+    }
+    const std::size_t rank = chosen.rank();
+    place.face_count = static_cast<std::uint8_t>(rank);
+    place.location = rank == 1   ? Location::OnFace
+                     : rank == 2 ? Location::OnEdge
+                                 : Location::OnVertex;
+    return place;
+}
+
+Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on, const IndexPoint& point) {
+    Place place = place_on(polygons, on);
+    if (place.location != Location::OnVertex || !point.is_doubles()) return place;
+    for (const PolygonId id : on) {
+        const Source& s = polygons.source(id);
+        if (s.is_half_space()) continue;
+        for (int i = 0; i < 3; ++i) {
+            const LatticePoint& c = s.corner(polygons.facet(id), i);
+            if (static_cast<double>(c.x) != point[0] || static_cast<double>(c.y) != point[1] ||
+                static_cast<double>(c.z) != point[2])
+                continue;
+            const CornerSource name{static_cast<std::uint32_t>(s.serial()),
+                                    s.corner_index(polygons.facet(id), i)};
+            if (!place.corner.is_valid() || name < place.corner) place.corner = name;
+        }
+    }
+    return place;
+}
+
+}  // namespace trisect::detail

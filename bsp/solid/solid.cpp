@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/solid.h>
+
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/measure.h>
+#include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/divide/refine_leaf.h>
+
+namespace trisect {
+
+namespace {
+
+using detail::CellNode;
+using detail::FinePoint;
+using detail::PolygonList;
+using detail::SolidState;
+
+std::shared_ptr<const SolidState> constant_state(bool inside) {
+    auto s = std::make_shared<SolidState>();
+    s->root = {CellNode::leaf(PolygonList(), FinePoint{}, inside ? 1 : 0, false), false};
+    s->lattice_matters = false;
+    s->far_out = inside ? 1 : 0;
+    return s;
+}
+
+bool is_constant(const SolidState& s, bool inside) {
+    const CellNode& n = *s.root.node;
+    return s.outlined == nullptr && n.is_leaf() && n.size() == 0 &&
+           ((n.winding() > 0) != s.root.complemented) == inside;
+}
+
+// Only sets made of half-spaces alone do not know it; the boundary tells. What it leaves to whole
+// space and the empty set their trees know.
+bool is_unbounded(const Solid& solid) {
+    if (solid.state()->far_out >= 0) return solid.state()->far_out != 0;
+    const Brep brep = solid.to_brep();
+    return brep.is_empty() ? solid.is_whole_space() : exact_volume(brep).sign() < 0;
+}
+
+Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
+    if (mesh.triangles.empty()) return {};
+    const bool embedded =
+        embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
+    const Lattice lattice = mesh.lattice;
+    const auto source = detail::Source::make(std::move(mesh), threads);
+    auto state = std::make_shared<SolidState>();
+    state->lattice = lattice;
+    state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
+    state->embedded = embedded;
+    state->source = source->serial();
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t threads) {
+    if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
+    if (imported.report.inside_out && embedding == Embedding::Assume)
+        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
+    if (imported.mesh.triangles.empty()) return {};
+    const bool t_edges = imported.report.t_edges != 0;
+    Solid s = of_lattice_mesh(std::move(imported.mesh), embedding, threads);
+    if (!t_edges) return s;
+    // Corners inside edges: every facet may have vertices in its edges.
+    auto state = std::make_shared<SolidState>(*s.state());
+    const CellNode& n = *s.state()->root.node;
+    std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
+    for (detail::PolygonRef& r : refs) r.touched = true;
+    state->root = {CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true),
+                   false};
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+}  // namespace
+
+const std::shared_ptr<const SolidState>& Solid::empty_state() {
+    // Never destroyed, nor is whole space: solids may be made after main().
+    static const auto& empty = *new auto(constant_state(false));
+    return empty;
+}
+
+Solid::Solid() : state_(empty_state()) {}
+
+Solid Solid::whole_space() {
+    static const auto& whole = *new auto(constant_state(true));
+    return Solid(whole);
+}
+
+Solid Solid::half_space(const Plane& plane, Lattice lattice) {
+    if (!plane.is_valid()) throw UsageError("half-space of a plane without normal");
+    const auto source = detail::Source::half_space(plane, lattice);
+    // Some point that is not on the plane.
+    FinePoint p;
+    int s = 0;
+    for (std::int64_t k = 1; s == 0; ++k) {
+        p.c = {2 * k, 6 * k * k, 10 * k * k * k};
+        s = sign_of(side_of({{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
+                             WideInt<6>(detail::wall_scale)},
+                            plane));
+    }
+    auto state = std::make_shared<SolidState>();
+    state->lattice = lattice;
+    state->root = {CellNode::fresh(*source, p, s < 0 ? 1 : 0, false), false};
+    state->far_out = -1;
+    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+}
+
+Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
+    return of_lattice_mesh(std::move(mesh), embedding, 1);
+}
+
+Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
+    ImportOptions import = options.import;
+    import.require_closed = true;
+    return of_import(import_mesh(mesh, import), options.embedding, import.threads);
+}
+
+Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
+    return of_import(std::move(imported), embedding, 1);
+}
+
+void Solid::refine(std::uint32_t threads) const {
+    detail::refine_all(detail::cut_state(*this)->root, threads);
+}
+
+Lattice Solid::lattice() const { return state()->lattice; }
+bool Solid::is_empty() const { return is_constant(*state(), false); }
+bool Solid::is_whole_space() const { return is_constant(*state(), true); }
+std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state()->source); }
+
+Brep Solid::to_brep(const AssembleOptions& options) const {
+    return detail::assemble_brep(*detail::cut_state(*this), options);
+}
+
+PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
+    if (is_unbounded(*this))
+        throw UnsupportedError("the set is unbounded: its mesh would be read as another set");
+    return detail::assemble_mesh(*state(), nullptr, true, threads);
+}
+
+}  // namespace trisect

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/two_meshes/cube_grid.h>
+
+#include <memory>
+
+namespace trisect::detail {
+
+CubeGrid::CubeGrid(const Box& box, int slabs) {
+    double longest = 0;
+    std::array<double, 3> extent{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        origin_[k] = box.lo[k];
+        extent[k] = static_cast<double>(box.hi[k] - box.lo[k] + 1);
+        longest = std::max(longest, extent[k]);
+    }
+    scale_ = slabs / longest;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto inner = static_cast<std::int32_t>(extent[k] * scale_);
+        last_[k] = std::min(inner, slabs - 1) + 2;
+    }
+    row_stride_ = last(1) + 2;
+}
+
+namespace {
+
+// Nearly all facets go over at most two slabs along each axis. A bit at the least cube, in a set
+// for each of the eight shapes, is then all that has to be written or read of one, without a
+// branch.
+constexpr std::size_t shapes = CubeRange::large;
+
+// The rows of a grid for each shape, with some more so that the next one along z is always there.
+struct ShapeRows {
+    std::size_t count;
+    std::size_t padded;
+    std::array<std::size_t, 3> next;  // along each axis
+    std::vector<std::uint64_t> rows;
+
+    explicit ShapeRows(const CubeGrid& grid)
+        : count(grid.row_count()),
+          padded(count + grid.row_stride()),
+          next{0, 1, grid.row_stride()},
+          rows(shapes * padded) {}
+    [[nodiscard]] std::uint64_t* of(std::size_t shape) { return &rows[shape * padded]; }
+};
+
+// The cubes that boxes of all shapes meet, from those where they begin.
+CubeSet all_met(ShapeRows begins) {
+    for (std::size_t k = 3; k-- > 0;)
+        for (std::size_t shape = 0; shape < std::size_t{1} << k; ++shape) {
+            const std::uint64_t* const two = begins.of(shape | std::size_t{1} << k);
+            std::uint64_t* const one = begins.of(shape);
+            for (std::size_t row = 0; row < begins.count; ++row) {
+                one[row] |= two[row];
+                if (k == 0) {
+                    one[row] |= two[row] << 1;
+                } else {
+                    one[row + begins.next[k]] |= two[row];
+                }
+            }
+        }
+    begins.rows.resize(begins.count);
+    return CubeSet(std::move(begins.rows));
+}
+
+// The cubes where boxes begin that meet a set.
+ShapeRows all_that_meet(const CubeGrid& grid, const CubeSet& cubes) {
+    ShapeRows begins(grid);
+    std::copy_n(&cubes.row(0), begins.count, begins.of(0));
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t shape = 0; shape < std::size_t{1} << k; ++shape) {
+            const std::uint64_t* const one = begins.of(shape);
+            std::uint64_t* const two = begins.of(shape | std::size_t{1} << k);
+            for (std::size_t row = 0; row < begins.count; ++row)
+                two[row] = one[row] | (k == 0 ? one[row] >> 1 : one[row + begins.next[k]]);
+        }
+    return begins;
+}
+
+}  // namespace
+
+OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
+    : grid_(grid),
+      triangles_(mesh.triangles),
+      of_points_(std::make_unique_for_overwrite<CubeGrid::Cube[]>(mesh.points.size())),
+      places_(std::make_unique_for_overwrite<std::uint32_t[]>(mesh.triangles.size())) {
+    const CubeGrid by_value = grid;  // nothing that is written may be a part of it
+    CubeGrid::Cube* out = of_points_.get();
+    for (const LatticePoint& p : mesh.points) *out++ = by_value.cube_of(p);
+    is_useful_ = mark_facets();
+    bytes_ = mesh.points.size() * sizeof(CubeGrid::Cube) +
+             mesh.triangles.size() * sizeof(std::uint32_t) +
+             occupied_.size() * sizeof(std::uint64_t);
+}
+
+bool OccupiedCubes::mark_facets() {
+    ShapeRows begins(grid_);
+    std::vector<std::uint32_t> large;
+    const CubeGrid::Cube* const of_points = of_points_.get();
+    std::uint64_t* const rows = begins.of(0);
+    const CubeGrid grid = grid_;
+    const std::size_t of_shape = begins.padded;
+    std::uint32_t* place = places_.get();
+    for (const auto& t : triangles_) {
+        const CubeRange range(of_points[t[0]], of_points[t[1]], of_points[t[2]]);
+        const unsigned shape = range.shape();
+        *place++ = range.lo | shape << 24;
+        if (shape == CubeRange::large) [[unlikely]] {
+            large.push_back(static_cast<std::uint32_t>(place - places_.get() - 1));
+            continue;
+        }
+        rows[shape * of_shape + grid.row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
+    }
+    occupied_ = all_met(std::move(begins));
+    std::size_t rows_left = 16 * triangles_.size() + 4096;
+    for (const std::uint32_t f : large) {
+        const bool few = range_of(f).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
+            occupied_.row(row) |= bits;
+            return --rows_left != 0;
+        });
+        if (!few) return false;
+    }
+    return true;
+}
+
+std::vector<std::uint32_t> OccupiedCubes::facets_in(const CubeSet& cubes) const {
+    ShapeRows begins = all_that_meet(grid_, cubes);
+    const CubeGrid grid = grid_;
+    const std::size_t of_shape = begins.padded;
+    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(triangles_.size() + 1);
+    std::uint32_t* end = found.get();
+    const std::uint64_t* const rows = begins.of(0);
+    std::uint32_t number = 0;
+    for (const std::uint32_t place : std::span(places_.get(), triangles_.size())) {
+        const std::size_t shape = place >> 24;
+        const CubeGrid::Cube lo = place & 0xffffff;
+        bool meets = false;
+        if (shape == CubeRange::large) [[unlikely]] {
+            meets = !range_of(number).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
+                return (cubes.row(row) & bits) == 0;
+            });
+        } else {
+            meets = (rows[shape * of_shape + grid.row(lo)] >> CubeGrid::x(lo) & 1U) != 0;
+        }
+        *end = number++;
+        end += meets ? 1 : 0;
+    }
+    return {found.get(), end};
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cubes without facets of the other mesh that lie side by side are on the same side of it, and so
+// is whatever facets lie in them: nine of ten facets know their side from that. What hangs together
+// by facets that nothing crosses is on one side as well, so the others know theirs from their
+// neighbours, or from a corner in such a cube. Sides themselves come from the crossings: an edge
+// that pierces one facet, and no other, has its ends on the two sides of it. And what reaches out
+// of the grid is far outside.
+
+#include <trisect/bsp/two_meshes/facet_sides.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numeric>
+
+namespace trisect::detail {
+
+FacetSides::FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
+                       const CubeSet& other, std::span<const std::uint32_t> near)
+    : grid_(grid),
+      mesh_(mesh),
+      cubes_(cubes),
+      other_(other),
+      near_(near),
+      is_crossed_(near.size()),
+      nodes_(mesh.points.size()) {
+    list_runs();
+}
+
+void FacetSides::list_runs() {
+    const std::uint64_t all = ~std::uint64_t{0} >> (CubeGrid::side - 1 - grid_.last(0));
+    const std::size_t stride = grid_.row_stride();
+    first_run_.assign(grid_.row_count() + 1, 0);
+    for (std::size_t row = 0; row < grid_.row_count(); ++row) {
+        first_run_[row] = static_cast<std::uint32_t>(runs_.size());
+        if (row % stride > grid_.last(1)) continue;
+        for (std::uint64_t rest = all & ~other_.row(row); rest != 0;) {
+            // The lowest ones in a sequence: what adding the lowest bit carries away.
+            const std::uint64_t above = rest + (rest & (~rest + 1));
+            runs_.push_back({rest & ~above, row});
+            rest &= above;
+        }
+    }
+    first_run_.back() = static_cast<std::uint32_t>(runs_.size());
+    parents_.resize(runs_.size());
+    std::iota(parents_.begin(), parents_.end(), 0U);
+    for (std::size_t row = 0; row < grid_.row_count(); ++row) {
+        if (row != 0) join_runs(row, row - 1);  // the one before the first slab has no runs
+        if (row >= stride) join_runs(row, row - stride);
+    }
+}
+
+void FacetSides::join_runs(std::size_t row, std::size_t other_row) {
+    for (std::uint32_t i = first_run_[row]; i < first_run_[row + 1]; ++i)
+        for (std::uint32_t j = first_run_[other_row]; j < first_run_[other_row + 1]; ++j)
+            if ((runs_[i].bits & runs_[j].bits) != 0) join(i, j);
+}
+
+std::uint32_t FacetSides::node_of(std::uint32_t point) {
+    std::uint32_t& node = nodes_[point];
+    if (node != 0) return node - 1;
+    const CubeGrid::Cube cube = cubes_.cube_of(point);
+    if (other_.has(grid_, cube)) {
+        parents_.push_back(static_cast<std::uint32_t>(parents_.size()));
+        node = static_cast<std::uint32_t>(parents_.size());
+        return node - 1;
+    }
+    std::uint32_t run = first_run_[grid_.row(cube)];
+    while ((runs_[run].bits >> CubeGrid::x(cube) & 1U) == 0) ++run;
+    node = run + 1;
+    return run;
+}
+
+std::uint32_t FacetSides::root(std::uint32_t node) {
+    while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
+    return node;
+}
+
+void FacetSides::join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    // Runs stay ahead of points.
+    if (a < b) {
+        parents_[b] = a;
+    } else {
+        parents_[a] = b;
+    }
+}
+
+// False where it was known to be the other one.
+bool FacetSides::set_side(std::uint32_t node, Side side) {
+    Side& known = sides_[root(node)];
+    if (known != Side::Unknown) return known == side;
+    known = side;
+    return true;
+}
+
+void FacetSides::mark_crossed(const Crossings& crossings, std::size_t operand) {
+    const std::uint32_t first = crossings.operands[operand].first;
+    auto shown = std::ranges::lower_bound(crossings.shown, first);
+    for (std::size_t i = 0; i < near_.size() && shown != crossings.shown.end(); ++i) {
+        if (first + near_[i] != *shown) continue;
+        is_crossed_[i] = 1;
+        ++shown;
+    }
+}
+
+void FacetSides::join_uncrossed() {
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        if (is_crossed_[i] != 0) continue;
+        const auto& t = mesh_.triangles[near_[i]];
+        const std::uint32_t a = node_of(t[0]);
+        join(a, node_of(t[1]));
+        join(a, node_of(t[2]));
+    }
+}
+
+// Such a run ends nowhere, and the other mesh does.
+bool FacetSides::look_at_outer_runs(Side side) {
+    const std::uint64_t ends = std::uint64_t{1} | std::uint64_t{1} << grid_.last(0);
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+        const std::size_t y = runs_[i].row % grid_.row_stride();
+        const std::size_t z = runs_[i].row / grid_.row_stride();
+        const bool is_outer = y == 0 || y == grid_.last(1) || z == 0 || z == grid_.last(2) ||
+                              (runs_[i].bits & ends) != 0;
+        if (is_outer && !set_side(i, side)) return false;
+    }
+    return true;
+}
+
+// Ends of a crossing come in the direction of the product of the normals. So an edge of the first
+// facet goes up through the second one's support where it is the start, an edge of the second one
+// down through the first one's (plain_pair_relation.cpp). All that pierces a facet's edges crosses
+// it.
+bool FacetSides::look_at_pierced_edges(const Crossings& crossings, std::size_t operand) {
+    const std::uint32_t first = crossings.operands[operand].first;
+    const auto& pairs = crossings.pairs;
+    struct Pierced {
+        unsigned often = 0;
+        bool up = false;
+    };
+    const auto is_own = [&](const FacetCrossing::End& end) {
+        return end.of_second == (operand == 1);
+    };
+    const auto look_at = [&](std::uint32_t facet, const std::array<Pierced, 3>& edges) {
+        const auto& t = mesh_.triangles[facet - first];
+        for (std::size_t e = 0; e < 3; ++e) {
+            if (edges[e].often != 1) continue;
+            const std::uint32_t below = node_of(t[edges[e].up ? e : (e + 1) % 3]);
+            const std::uint32_t above = node_of(t[edges[e].up ? (e + 1) % 3 : e]);
+            sides_.resize(parents_.size(), Side::Unknown);
+            if (!set_side(below, Side::Below) || !set_side(above, Side::Above)) return false;
+        }
+        return true;
+    };
+    std::array<Pierced, 3> edges;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto pair = [&](std::size_t k) -> const FacetCrossing& {
+            return operand == 0 ? pairs[k] : pairs[crossings.by_second[k]];
+        };
+        const FacetCrossing& c = pair(i);
+        const std::uint32_t facet = c.facets[operand];
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (!is_own(c.ends[k])) continue;
+            Pierced& edge = edges[static_cast<std::size_t>(c.ends[k].edge)];
+            ++edge.often;
+            edge.up = (k == 0) == (operand == 0);
+        }
+        if (i + 1 < pairs.size() && pair(i + 1).facets[operand] == facet) continue;
+        if (!look_at(facet, edges)) return false;
+        edges = {};
+    }
+    return true;
+}
+
+std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings& crossings,
+                                                                std::size_t operand,
+                                                                bool outer_below, bool below) {
+    mark_crossed(crossings, operand);
+    join_uncrossed();
+    sides_.assign(parents_.size(), Side::Unknown);
+    if (!look_at_outer_runs(outer_below ? Side::Below : Side::Above) ||
+        !look_at_pierced_edges(crossings, operand))
+        return std::nullopt;
+    CubeSet wanted(std::vector<std::uint64_t>(grid_.row_count()));
+    CubeSet unknown(std::vector<std::uint64_t>(grid_.row_count()));
+    const Side side = below ? Side::Below : Side::Above;
+    for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+        const std::size_t row = runs_[i].row;
+        const Side known = sides_[root(i)];
+        if (known == side) wanted.row(row) |= runs_[i].bits;
+        if (known == Side::Unknown) unknown.row(row) |= runs_[i].bits & cubes_.cubes().row(row);
+    }
+    const bool any_unknown = unknown.is_any();
+    const auto facets = std::make_unique_for_overwrite<std::uint32_t[]>(mesh_.triangles.size() + 1);
+    std::uint32_t* end = facets.get();
+    bool is_known = true;
+    const auto add_far = [&, grid = grid_](std::uint32_t begin, std::uint32_t last) {
+        std::uint32_t* to = end;
+        for (std::uint32_t f = begin; f < last; ++f) {
+            *to = f;
+            to += wanted.has(grid, cubes_.cube_of_facet(f)) ? 1 : 0;
+        }
+        end = to;
+        for (std::uint32_t f = begin; any_unknown && f < last; ++f)
+            is_known = is_known && !unknown.has(grid, cubes_.cube_of_facet(f));
+    };
+    std::uint32_t next = 0;
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        add_far(next, near_[i]);
+        next = near_[i] + 1;
+        if (is_crossed_[i] != 0) continue;
+        const Side known = sides_[root(node_of(mesh_.triangles[near_[i]][0]))];
+        if (known == side) *end++ = near_[i];
+        is_known = is_known && known != Side::Unknown;
+    }
+    add_far(next, static_cast<std::uint32_t>(mesh_.triangles.size()));
+    if (!is_known) return std::nullopt;
+    return std::vector<std::uint32_t>(facets.get(), end);
+}
+
+}  // namespace trisect::detail

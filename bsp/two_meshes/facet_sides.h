@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// FacetSides: on which side of another mesh the facets of a mesh are, without a tree.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/two_meshes/cube_grid.h>
+
+namespace trisect::detail {
+
+/// A mesh beside another one that it crosses, both embedded. All pairs of facets that cross are
+/// known, and nothing else of them touches.
+class FacetSides {
+public:
+    /// `cubes` are those of the mesh, `other` the occupied ones of the other mesh, `near` the
+    /// facets whose boxes meet these, in order.
+    FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
+               const CubeSet& other, std::span<const std::uint32_t> near);
+
+    /// The facets that nothing crosses and that lie below the other mesh's facets, where `below`,
+    /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
+    /// one is below the other mesh's facets. Nothing when the side of a facet is not known: where
+    /// no edge of a part of the mesh, or of space, is pierced just once.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> uncrossed(const Crossings& crossings,
+                                                                      std::size_t operand,
+                                                                      bool outer_below, bool below);
+
+private:
+    enum class Side : std::uint8_t { Unknown, Above, Below };
+    /// Cubes in a row of which none is occupied, none before it, none behind it.
+    struct Run {
+        std::uint64_t bits;
+        std::size_t row;
+    };
+
+    void list_runs();
+    void join_runs(std::size_t row, std::size_t other_row);
+    [[nodiscard]] std::uint32_t node_of(std::uint32_t point);
+    [[nodiscard]] std::uint32_t root(std::uint32_t node);
+    void join(std::uint32_t a, std::uint32_t b);
+    [[nodiscard]] bool set_side(std::uint32_t node, Side side);
+    void mark_crossed(const Crossings& crossings, std::size_t operand);
+    void join_uncrossed();
+    [[nodiscard]] bool look_at_outer_runs(Side side);
+    [[nodiscard]] bool look_at_pierced_edges(const Crossings& crossings, std::size_t operand);
+
+    const CubeGrid& grid_;
+    const LatticeMesh& mesh_;
+    const OccupiedCubes& cubes_;
+    const CubeSet& other_;
+    std::span<const std::uint32_t> near_;
+    std::vector<std::uint8_t> is_crossed_;  // of the near facets
+    std::vector<Run> runs_;
+    std::vector<std::uint32_t> first_run_;  // by row
+    // Nodes are the runs, then points of near facets in occupied cubes.
+    std::vector<std::uint32_t> parents_;
+    std::vector<Side> sides_;           // of roots
+    std::vector<std::uint32_t> nodes_;  // by point: its node and 1, or 0
+};
+
+}  // namespace trisect::detail

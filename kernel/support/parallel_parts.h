@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A range of numbers in consecutive parts on several threads, with an outcome that does not depend
+// on them.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/task_group.h>
+
+namespace trisect::detail {
+
+/// How many threads may work at once here, at most.
+[[nodiscard]] inline std::size_t threads_here() {
+    return std::min(static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()),
+                    oneapi::tbb::global_control::active_value(
+                        oneapi::tbb::global_control::max_allowed_parallelism));
+}
+
+/// Returns work(n), n being 1 if `threads` is 1 and 0 otherwise: that many threads, or as many as
+/// there are where work() runs, which are at most `threads` unless that is 0. For callers who
+/// start several parts one after the other.
+template <class Work>
+auto on_threads(std::uint32_t threads, const Work& work) {
+    if (threads <= 1) return work(threads);
+    oneapi::tbb::task_arena arena(static_cast<int>(threads));
+    return arena.execute([&] { return work(std::uint32_t{0}); });
+}
+
+/// The numbers below `size`, in parts of nearly the same length, none shorter than `least`. A few
+/// parts for each thread even out what they take; few numbers are one part. `threads` = 0 takes as
+/// many as there are.
+class ParallelParts {
+public:
+    ParallelParts(std::size_t size, std::uint32_t threads, std::size_t least = 512)
+        : size_(size), threads_(threads), count_(parts_of(size, threads, least)) {}
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+    /// Calls work(part, begin, end) for each part; in their order if there is one thread. The
+    /// calling thread takes part, and does no work of others while it waits. Throws what the first
+    /// part that fails throws, and CancelledError when the StopScope of the calling thread was
+    /// cancelled before a part began.
+    template <class Work>
+    void for_each(const Work& work) const {
+        const auto one = [&](std::size_t part) {
+            work(part, size_ * part / count_, size_ * (part + 1) / count_);
+        };
+        if (count_ == 1) {
+            check_flag(cancel_of_thread());
+            one(0);
+            return;
+        }
+        on_threads(threads_, [&](std::uint32_t) { share(one); });
+    }
+
+private:
+    // Each thread takes the next part until there is none.
+    template <class One>
+    void share(const One& one) const {
+        std::atomic<std::size_t> next{0};
+        FirstFailure failure;
+        const std::atomic<bool>* const cancel = cancel_of_thread();
+        const auto take_parts = [&] {
+            for (std::size_t part = next++; part < count_; part = next++)
+                failure.guard(part, [&] {
+                    check_flag(cancel);
+                    one(part);
+                });
+        };
+        oneapi::tbb::this_task_arena::isolate([&] {
+            TaskGroup group;
+            for (std::size_t i = std::min(threads_here(), count_); i > 1; --i)
+                group.run(take_parts);
+            take_parts();
+            group.wait();
+        });
+        failure.rethrow();
+    }
+
+    static std::size_t parts_of(std::size_t size, std::uint32_t threads, std::size_t least) {
+        if (threads == 1 || size < 2 * least) return 1;
+        const std::size_t slots = threads != 0 ? threads : threads_here();
+        return slots == 1 ? 1 : std::clamp(size / least, std::size_t{1}, 8 * slots);
+    }
+
+    std::size_t size_;
+    std::uint32_t threads_;
+    std::size_t count_;
+};
+
+/// Resizes a vector of simple values. Memory that is touched for the first time is made ready by
+/// the system page by page, which takes longer than all else; so several threads touch some of it.
+template <class T>
+void resize_on_threads(std::vector<T>& values, std::size_t size, std::uint32_t threads) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    constexpr std::size_t page = 4096;
+    constexpr std::size_t least_pages = 64;
+    values.reserve(size);
+    auto* const begin = reinterpret_cast<std::byte*>(values.data() + values.size());
+    auto* const end = reinterpret_cast<std::byte*>(values.data() + size);
+    if (begin < end) {
+        const ParallelParts parts(static_cast<std::size_t>(end - begin) / page, threads,
+                                  least_pages);
+        if (parts.count() > 1)
+            parts.for_each([&](std::size_t, std::size_t first, std::size_t last) {
+                // Nothing lives there yet.
+                for (std::size_t i = first; i < last; ++i) begin[i * page] = std::byte{0};
+            });
+    }
+    values.resize(size);
+}
+
+}  // namespace trisect::detail

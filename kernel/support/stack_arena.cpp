@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/kernel/support/stack_arena.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::size_t small_page = 4096;
+constexpr std::size_t huge_page = std::size_t{1} << 21;
+
+class Pool {
+public:
+    /// The smallest one that is large enough and no more than four times that; empty if there is
+    /// none.
+    MemoryBlock take(std::size_t bytes) {
+        const std::lock_guard lock(mutex_);
+        auto best = blocks_.end();
+        for (auto b = blocks_.begin(); b != blocks_.end(); ++b)
+            if (b->size >= bytes && b->size / 4 <= bytes &&
+                (best == blocks_.end() || b->size < best->size))
+                best = b;
+        if (best == blocks_.end()) return {};
+        const MemoryBlock out = *best;
+        *best = blocks_.back();
+        blocks_.pop_back();
+        kept_like(out) -= out.size;
+        return out;
+    }
+
+    /// False when it keeps enough already, or has never seen one as large: whoever evaluates once
+    /// wants the memory back.
+    bool keep(const MemoryBlock& block) noexcept {
+        const std::lock_guard lock(mutex_);
+        if (block.size > largest_) {
+            largest_ = block.size;
+            return false;
+        }
+        std::size_t& kept = kept_like(block);
+        if (kept + block.size >
+            (is_small(block) ? BlockPool::kept_small_bytes : BlockPool::kept_bytes))
+            return false;
+        try {
+            blocks_.push_back(block);
+        } catch (const std::bad_alloc&) {
+            return false;
+        }
+        kept += block.size;
+        return true;
+    }
+
+private:
+    static bool is_small(const MemoryBlock& block) { return block.size < BlockPool::small_block; }
+    std::size_t& kept_like(const MemoryBlock& block) {
+        return is_small(block) ? small_bytes_ : bytes_;
+    }
+
+    std::mutex mutex_;
+    std::vector<MemoryBlock> blocks_;
+    std::size_t bytes_ = 0;
+    std::size_t small_bytes_ = 0;
+    std::size_t largest_ = 0;  // that was given back
+};
+
+// Never destroyed: what ends after main() may still take blocks and give them back.
+Pool& pool() {
+    static Pool& the_pool = *new Pool;
+    return the_pool;
+}
+
+}  // namespace
+
+MemoryBlock BlockPool::take(std::size_t bytes) {
+    const std::size_t page = bytes < huge_page ? small_page : huge_page;
+    const std::size_t size = (bytes + page - 1) & ~(page - 1);
+    if (const MemoryBlock kept = pool().take(size); kept.memory != nullptr) return kept;
+    auto* p = static_cast<std::byte*>(std::aligned_alloc(page, size));
+    if (p == nullptr) throw std::bad_alloc();
+#if defined(__linux__)
+    // Fewer faults. A wish only.
+    if (page == huge_page) (void)madvise(p, size, MADV_HUGEPAGE);
+#endif
+    return {p, size};
+}
+
+void BlockPool::give_back(const MemoryBlock& block) noexcept {
+#if defined(__linux__) && defined(MADV_FREE)
+    // Before anybody else may have it.
+    if (block.size >= huge_page) (void)madvise(block.memory, block.size, MADV_FREE);
+#endif
+    if (!pool().keep(block)) std::free(block.memory);
+}
+
+}  // namespace trisect::detail
