@@ -42,6 +42,8 @@ struct NamedOutlines {
 
     std::vector<Face> faces;  ///< each has edges
     std::vector<Edge> edges;  ///< with all vertices of the result that lie on them
+    /// Whatever part of a face is looked at, it comes from the operand's face that the facet is of.
+    bool names_hold_everywhere = true;
 };
 
 }  // namespace trisect::detail

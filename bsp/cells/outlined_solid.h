@@ -26,7 +26,8 @@ struct UncrossedFacets {
 
 /// What belongs to a SolidState whose tree is one leaf that lists whole facets only: the rest of
 /// the boundary. With `crossings` in that state, these are of all facets that are not whole. Enough
-/// for to_mesh(); everybody else asks for cut(). Immutable, safe to use from any thread.
+/// for to_mesh(), and for to_brep() unless faces need names of their own; all else takes cut().
+/// Immutable, safe to use from any thread.
 class OutlinedSolid {
 public:
     /// `solids` are the slots of the formula, on one lattice.

@@ -3,14 +3,46 @@
 #include <trisect/bsp/evaluate/translate.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
 
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/source.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
 namespace {
+
+// The mesh that a solid was imported from, if the solid is still that; else null.
+const Source* mesh_of(const SolidState& solid) {
+    const CellNode& root = *solid.root.node;
+    if (solid.outlined != nullptr || !root.is_leaf() || !root.polygons().has_all_facets())
+        return nullptr;
+    const Source* const source = root.polygons().whole_source();
+    return source == nullptr || source->is_half_space() ? nullptr : source;
+}
+
+// The same points and triangles in the same order, and the same side of them.
+bool are_equal_meshes(const SolidState& a, const SolidState& b) {
+    const LatticeMesh& m = mesh_of(a)->mesh();
+    const LatticeMesh& n = mesh_of(b)->mesh();
+    return a.lattice == b.lattice && a.embedded == b.embedded && a.far_out == b.far_out &&
+           a.root.complemented == b.root.complemented &&
+           a.root.node->polygons().flipped() == b.root.node->polygons().flipped() &&
+           m.triangles == n.triangles && m.points == n.points;
+}
+
+// Of what equal meshes have in common and most others have not.
+std::uint64_t key_of(const Source& mesh) {
+    std::uint64_t key = mesh.facet_count();
+    for (const auto& corner : {mesh.box().lo, mesh.box().hi})
+        for (const std::int64_t c : corner) key = mix64(key ^ static_cast<std::uint64_t>(c));
+    return key;
+}
 
 // Iterative, and nested operators of one kind are joined as they are met: a chain of a hundred
 // thousand differences is one conjunction, made in linear time. Nodes with several parents are
@@ -108,15 +140,34 @@ private:
         const auto next = static_cast<std::int32_t>(out_.slots.size());
         const auto [at, inserted] = slots_.insert({solid.state().get(), next});
         if (inserted) {
-            out_.slots.push_back(solid);
-            residuals_.push_back(Residual::of_slot(next));
+            at->second = slot_of_equal_mesh(*solid.state(), next);
+            if (at->second == next) {
+                out_.slots.push_back(solid);
+                residuals_.push_back(Residual::of_slot(next));
+            }
         }
         return residuals_[static_cast<std::size_t>(at->second)];
     }
 
+    // A file that was read twice is one operand: nothing has to be compared then, where all would
+    // coincide.
+    std::int32_t slot_of_equal_mesh(const SolidState& solid, std::int32_t next) {
+        const Source* const mesh = mesh_of(solid);
+        if (mesh == nullptr) return next;
+        const std::uint64_t key = key_of(*mesh);
+        const auto [begin, end] = meshes_.equal_range(key);
+        for (auto known = begin; known != end; ++known)
+            if (are_equal_meshes(*out_.slots[static_cast<std::size_t>(known->second)].state(),
+                                 solid))
+                return known->second;
+        meshes_.emplace(key, next);
+        return next;
+    }
+
     std::vector<Frame> frames_;
     std::unordered_map<const SolidState*, std::int32_t> slots_;
-    std::vector<Residual::Ref> residuals_;  // of the slots
+    std::unordered_multimap<std::uint64_t, std::int32_t> meshes_;  // slots of imported meshes
+    std::vector<Residual::Ref> residuals_;                         // of the slots
     std::unordered_map<const Expression::Node*, std::uint32_t> parents_;
     std::unordered_map<const Expression::Node*, Residual::Ref> translated_;
     Translation out_;

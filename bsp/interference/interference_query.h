@@ -31,7 +31,8 @@ struct InterferenceQueryCounters {
 /// sequence of poses is right; those that change little are cheap: the work follows from how far
 /// the bodies have moved against the gaps between their parts, not from their size.
 ///
-/// An object is for one thread; any number of them may share models.
+/// An object is for one thread; any number of them may share models. One that was moved from can
+/// only be assigned to or ended.
 class InterferenceQuery {
 public:
     InterferenceQuery(const InterferenceModel& a, const InterferenceModel& b);

@@ -90,9 +90,9 @@ struct SceneStats {
 /// about 2 b for a joint turned by a quaternion of b bits, and a LimitError when a pose no longer
 /// fits. Links carry links; no limit on their number but that.
 ///
-/// Not copied. One thread may call at a time; `interfering` uses several by itself. Every function
-/// that names a body throws UsageError when there is none of that name. What throws changes
-/// nothing.
+/// Not copied; one that was moved from can only be assigned to or ended. One thread may call at a
+/// time; `interfering` uses several by itself. Every function that names a body throws UsageError
+/// when there is none of that name. What throws changes nothing.
 class Scene {
 public:
     explicit Scene(const SceneOptions& options = {});

@@ -43,6 +43,13 @@ bool is_unbounded(const Solid& solid) {
     return brep.is_empty() ? solid.is_whole_space() : exact_volume(brep).sign() < 0;
 }
 
+// Outlines of planes are divided into faces by the assembly, but have one name for all.
+bool has_all_of_brep(const SolidState& s, const AssembleOptions& options) {
+    if (s.outlined == nullptr) return true;
+    const detail::NamedOutlines& outlines = s.outlined->outlines();
+    return outlines.faces.empty() || (options.maximal_faces && outlines.names_hold_everywhere);
+}
+
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
     if (mesh.triangles.empty()) return {};
     const bool embedded =
@@ -133,7 +140,9 @@ bool Solid::is_whole_space() const { return is_constant(*state(), true); }
 std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state()->source); }
 
 Brep Solid::to_brep(const AssembleOptions& options) const {
-    return detail::assemble_brep(*detail::cut_state(*this), options);
+    const detail::SolidState& own = *state();
+    return detail::assemble_brep(has_all_of_brep(own, options) ? own : *detail::cut_state(*this),
+                                 options);
 }
 
 PolygonMesh Solid::to_mesh(std::uint32_t threads) const {

@@ -133,6 +133,27 @@ TEST(SolidValue, OperandsAreNotChangedByEvaluation) {
     EXPECT_EQ(a.to_mesh(), before);
 }
 
+// As a file that is read twice.
+TEST(SolidValue, EqualMeshesAreOneOperand) {
+    const trisect::PolygonMesh mesh = trisect::make_box({0, 0, 0}, {2, 3, 4});
+    const Solid a = Solid::from_mesh(mesh);
+    const Solid b = Solid::from_mesh(mesh);
+    trisect::EvaluateStats stats;
+    EXPECT_EQ(evaluate(a | b, {}, &stats).to_mesh().points.size(), 8U);
+    EXPECT_EQ(stats.mixed_leaves, 0U);
+    EXPECT_EQ(evaluate(a & b).to_mesh().points.size(), 8U);
+    EXPECT_TRUE(evaluate(a - b).is_empty());
+    EXPECT_TRUE(evaluate(a ^ b).is_empty());
+    EXPECT_TRUE(evaluate(~a | b).is_whole_space());
+    // The other way round, moved by a little, and on another lattice.
+    EXPECT_EQ(evaluate(a | ~b).is_whole_space(), true);
+    EXPECT_FALSE(
+        evaluate(a - Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 3, 3}))).is_empty());
+    EXPECT_TRUE(evaluate(a - Solid::from_mesh(
+                                 mesh, {.import = {}, .embedding = trisect::Embedding::Resolve}))
+                    .is_empty());
+}
+
 TEST(SolidValue, OpenMeshesAreRefused) {
     trisect::PolygonMesh open = trisect::make_box({1, 1, 1});
     open.face_begin.pop_back();

@@ -53,7 +53,7 @@ TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
 TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
     const PredicateCounters before = trisect::predicate_counters();
     EvaluateStats stats;
-    const Solid both = evaluate(a & b, {}, &stats);
+    const Solid both = evaluate(a & b, dividing(), &stats);
     EXPECT_FALSE(both.to_brep().is_empty());
     const PredicateCounters after = trisect::predicate_counters();
     const auto filtered = after.filtered - before.filtered;

@@ -180,6 +180,10 @@ std::vector<Call> calls(int level) {
     const Solid a = sphere(level, {0, 0, 0});
     const Solid b = sphere(level, shapes::along_1_2_3(0.7));
     const Solid c = sphere(level, {-0.4, 0.31, 0.2});
+    // Cells with few polygons are no tasks of their own.
+    const Solid large_a = sphere(level + 1, {0, 0, 0});
+    const Solid large_b = sphere(level + 1, shapes::along_1_2_3(0.7));
+    const Solid large_c = sphere(level + 1, {-0.4, 0.31, 0.2});
     PolygonMesh crossing = shapes::icosphere(level);
     shapes::append(crossing, shapes::moved(shapes::icosphere(level), {0.51, 0.32, 0.13}));
     const Solid unresolved =
@@ -204,8 +208,9 @@ std::vector<Call> calls(int level) {
                    },
                    true, true});
     all.push_back({"nary",
-                   [a, b, c](const Limits& limits) {
-                       return digest_of(evaluate((a ^ b) - c, limits.evaluation()));
+                   [large_a, large_b, large_c](const Limits& limits) {
+                       return digest_of(
+                           evaluate((large_a ^ large_b) - large_c, limits.evaluation()));
                    },
                    true, true});
     all.push_back({"mesh",
@@ -226,7 +231,7 @@ std::vector<Call> calls(int level) {
                    }});
     std::vector<std::array<double, 3>> points;
     shapes::Random random(7);
-    for (int i = 0; i < 20'000; ++i) {
+    for (int i = 0; i < 5'000; ++i) {
         const trisect::Point3d p = random.in_unit_box();
         points.push_back({2.2 * p[0] - 1.1, 2.2 * p[1] - 1.1, 2.2 * p[2] - 1.1});
     }
@@ -253,8 +258,8 @@ std::vector<Call> calls(int level) {
     all.push_back(
         {"scene", [model](const Limits& limits) {
              trisect::Scene scene;
-             for (int i = 0; i < 300; ++i) {
-                 const auto at = [&](int k) { return static_cast<double>((i * k) % 97) * 0.125; };
+             for (int i = 0; i < 60; ++i) {
+                 const auto at = [&](int k) { return static_cast<double>((i * k) % 97) * 0.0625; };
                  scene.add(model, Pose::from_translation({at(31), at(17), at(53)}));
              }
              const auto pairs = scene.interfering({.contacts = true, .threads = limits.threads});

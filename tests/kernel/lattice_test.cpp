@@ -243,13 +243,16 @@ TEST(Lattice, ExtremesOfDouble) {
     const Coordinates huge{{greatest, -greatest, 0}};
     const Lattice lattice = choose_lattice(huge);
     EXPECT_EQ(lattice.exponent, 984);
-    const LatticeReport rounded = import(huge, lattice);
-    EXPECT_FALSE(rounded.lossless);
-    EXPECT_EQ(rounded.max_move, 0x1p971);  // up to 2^1024, which is no double
-    EXPECT_EQ(import(huge, Lattice{976}).max_move, 0x1p971);
+    // Up to 2^1024, which is no double.
+    EXPECT_THROW(import(huge, lattice), trisect::Error);
+    EXPECT_THROW(import(huge, Lattice{976}), trisect::Error);
     EXPECT_THROW(import(huge, Lattice{968}), trisect::LimitError);
+    const double large = greatest - 0x1p983;
+    const LatticeReport rounded = import(Coordinates{{large, -large, 0}}, lattice);
+    EXPECT_FALSE(rounded.lossless);
+    EXPECT_EQ(rounded.max_move, 0x1p983 - 0x1p971);
 
-    const Coordinates both{{greatest, least, 1}};
+    const Coordinates both{{large, least, 1}};
     EXPECT_EQ(choose_lattice(both).exponent, 984);
     EXPECT_EQ(import(both, Lattice{984}).moved, 1U);
 }

@@ -491,6 +491,14 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
 
 // --- Covers.
 
+namespace {
+
+bool are_of_one_face(const PolygonRef& a, const PolygonRef& b) {
+    return a.source == b.source && a.source->face_of(a.facet) == b.source->face_of(b.facet);
+}
+
+}  // namespace
+
 void PrismArrangement::finish_covers() {
     constexpr std::size_t none = ~std::size_t{0};
     std::vector<std::size_t> first(facets_.positions().size(), none);  // that is not whole
@@ -498,7 +506,10 @@ void PrismArrangement::finish_covers() {
     for (std::size_t c = 0; c < covers.size(); ++c) {
         const PrismSheets::Sheet& sheet = sheets_[sheets_.of_cover(c)];
         if (!sheet.whole) {
-            first[sheet.position] = std::min(first[sheet.position], c);
+            std::size_t& named = first[sheet.position];
+            named = std::min(named, c);
+            if (!are_of_one_face(covers[named].ref, covers[c].ref))
+                outlines_.names_hold_everywhere = false;
             continue;
         }
         PolygonRef ref = covers[c].ref;

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// B-reps of results that are known by outlines only: the faces, with their names, that the tree of
+// cells gives.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+namespace {
+
+using trisect::AssembleOptions;
+using trisect::Brep;
+using trisect::EvaluateOptions;
+using trisect::Expression;
+using trisect::Point3d;
+using trisect::PolygonMesh;
+using trisect::Solid;
+
+// A face by its name and the corners of its loops; loops begin anywhere.
+using FaceKey = std::tuple<std::uint32_t, std::uint32_t, std::multiset<std::multiset<Point3d>>>;
+
+std::multiset<FaceKey> faces_of(const Brep& brep) {
+    std::multiset<FaceKey> faces;
+    for (const auto face : brep.faces()) {
+        std::multiset<std::multiset<Point3d>> loops;
+        for (const auto loop : brep.loops(face)) {
+            std::multiset<Point3d> corners;
+            for (const auto h : brep.halfedges(loop))
+                corners.insert(brep.point(brep.origin(h)).nearest());
+            loops.insert(std::move(corners));
+        }
+        faces.emplace(brep.source(face).operand, brep.source(face).face, std::move(loops));
+    }
+    return faces;
+}
+
+void expect_what_the_tree_gives(const Solid& solid) {
+    ASSERT_NE(solid.state()->outlined, nullptr);
+    const auto& tree = solid.state()->outlined->cut();
+    for (const bool maximal : {true, false}) {
+        const AssembleOptions options{maximal};
+        const Brep brep = solid.to_brep(options);
+        const Brep expected = trisect::detail::assemble_brep(*tree, options);
+        EXPECT_EQ(brep.vertices().size(), expected.vertices().size());
+        EXPECT_EQ(brep.edges().size(), expected.edges().size());
+        EXPECT_EQ(faces_of(brep), faces_of(expected));
+        EXPECT_EQ(exact_volume(brep), exact_volume(expected));
+    }
+}
+
+// Returns how many results are known by their outlines.
+int expect_for_all_operations(const Solid& a, const Solid& b, const EvaluateOptions& options) {
+    int outlined = 0;
+    for (const Expression& e : {Expression(a) | b, Expression(a) & b, Expression(a) - b}) {
+        const Solid solid = evaluate(e, options);
+        if (solid.state()->outlined == nullptr) continue;
+        ++outlined;
+        expect_what_the_tree_gives(solid);
+    }
+    return outlined;
+}
+
+// Over a polygon in the plane x, y; slanted against the axes by its corners alone.
+void add_prism(PolygonMesh& mesh, const std::vector<std::array<double, 2>>& outline, double low,
+               double high) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const auto n = static_cast<std::uint32_t>(outline.size());
+    for (const double z : {low, high})
+        for (const auto& p : outline) mesh.points.push_back({p[0], p[1], z});
+    std::vector<std::uint32_t> bottom;
+    std::vector<std::uint32_t> top;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        bottom.push_back(first + n - 1 - i);
+        top.push_back(first + n + i);
+        const std::uint32_t j = i + 1 == n ? 0 : i + 1;
+        mesh.add_face(std::vector{first + i, first + j, first + n + j, first + n + i});
+    }
+    mesh.add_face(bottom);
+    mesh.add_face(top);
+}
+
+std::vector<std::array<double, 2>> star(int corners, double inner, Point3d at, double outer) {
+    std::vector<std::array<double, 2>> outline;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 0.1 + 6.283185307179586 * i / corners;
+        const double r = i % 2 == 0 ? outer : inner;
+        outline.push_back({std::round(1024 * (at[0] + r * std::cos(angle))) / 1024,
+                           std::round(1024 * (at[1] + r * std::sin(angle))) / 1024});
+    }
+    return outline;
+}
+
+Solid prism(const std::vector<std::array<double, 2>>& outline, double low, double high) {
+    PolygonMesh mesh;
+    add_prism(mesh, outline, low, high);
+    return Solid::from_mesh(mesh);
+}
+
+// However few they are.
+EvaluateOptions outlined() {
+    EvaluateOptions options;
+    options.leaf_polygons = 0;
+    return options;
+}
+
+TEST(BrepOfOutlines, TwoLargeMeshes) {
+    const PolygonMesh ball = trisect::make_icosphere(1, 4);
+    PolygonMesh moved = ball;
+    for (auto& p : moved.points) p = {0.9 * p[0] + 0.31, p[1] + 0.2 * p[0], p[2] - 0.17};
+    EXPECT_EQ(expect_for_all_operations(Solid::from_mesh(ball), Solid::from_mesh(moved), {}), 3);
+}
+
+TEST(BrepOfOutlines, PrismsOverStars) {
+    const Solid a = prism(star(40, 2, {0, 0, 0}, 5), 0, 4);
+    const Solid b = prism(star(24, 4, {0.5, 0.25, 0}, 4.5), 1, 6);
+    EXPECT_EQ(expect_for_all_operations(a, b, outlined()), 3);
+}
+
+// Caps in one plane that are of several faces of one operand: their parts have different names.
+TEST(BrepOfOutlines, SeveralCapsInOnePlane) {
+    PolygonMesh mesh;
+    add_prism(mesh, star(16, 2, {-6, 0, 0}, 5), 0, 4);
+    add_prism(mesh, star(16, 2, {6, 0.5, 0}, 5), 0, 4);
+    const Solid b = prism(star(24, 4, {0, 0.25, 0}, 6.5), 1, 6);
+    EXPECT_EQ(expect_for_all_operations(Solid::from_mesh(mesh), b, outlined()), 3);
+}
+
+TEST(BrepOfOutlines, FlushCaps) {
+    const Solid a = prism(star(20, 2, {0, 0, 0}, 5), 0, 4);
+    int outlines = 0;
+    for (const auto& [low, high] : {std::pair(0.0, 6.0), std::pair(4.0, 6.0), std::pair(-1.0, 4.0)})
+        outlines += expect_for_all_operations(a, prism(star(12, 3, {1, 0.25, 0}, 4.5), low, high),
+                                              outlined());
+    EXPECT_GT(outlines, 0);
+}
+
+TEST(BrepOfOutlines, PocketsInOrderOrNot) {
+    std::mt19937 random(3);
+    const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
+    for (int round = 0; round < 20; ++round) {
+        std::vector<Solid> parts;
+        for (int i = 0; i < 5; ++i) {
+            const double low = below(4);
+            parts.push_back(prism(star(6 + 2 * static_cast<int>(random() % 4), 1 + below(3),
+                                       {below(9) + 0.25 * i, below(9) + 0.125 * i, 0}, 4),
+                                  low, low + 1 + below(3)));
+        }
+        const Solid solid =
+            evaluate((parts[0] | parts[1] | parts[2]) - parts[3] - parts[4], outlined());
+        if (solid.state()->outlined != nullptr) expect_what_the_tree_gives(solid);
+    }
+}
+
+}  // namespace
