@@ -17,13 +17,18 @@ namespace trisect::detail {
 
 namespace {
 
+// Meshes with fewer facets are not looked at: what coincides in them costs little.
+constexpr std::uint32_t least_facets = 64;
+
 // The mesh that a solid was imported from, if the solid is still that; else null.
 const Source* mesh_of(const SolidState& solid) {
     const CellNode& root = *solid.root.node;
     if (solid.outlined != nullptr || !root.is_leaf() || !root.polygons().has_all_facets())
         return nullptr;
     const Source* const source = root.polygons().whole_source();
-    return source == nullptr || source->is_half_space() ? nullptr : source;
+    return source == nullptr || source->is_half_space() || source->facet_count() < least_facets
+               ? nullptr
+               : source;
 }
 
 // The same points and triangles in the same order, and the same side of them.

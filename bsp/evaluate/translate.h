@@ -10,8 +10,8 @@
 
 namespace trisect::detail {
 
-/// The formula over slots; the same solid, and a mesh that was imported
-/// twice, share a slot.
+/// The formula over slots; the same solid, and a mesh with many
+/// facets that was imported twice, share a slot.
 struct Translation {
     Residual::Ref formula;
     std::vector<Solid> slots;

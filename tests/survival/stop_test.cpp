@@ -144,6 +144,8 @@ TEST(Stop, CuttingOfAnOutlinedOperand) {
         EXPECT_FALSE(outlined->is_cut());
     }
     EXPECT_EQ(part.to_brep().vertices().size(), 16U);
+    EXPECT_FALSE(outlined->is_cut());
+    EXPECT_FALSE(evaluate(part | pocket).is_empty());
     EXPECT_TRUE(outlined->is_cut());
 }
 
