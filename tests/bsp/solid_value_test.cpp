@@ -151,7 +151,7 @@ TEST(SolidValue, EqualMeshesAreOneOperand) {
     trisect::SolidOptions resolved;
     resolved.embedding = trisect::Embedding::Resolve;
     EXPECT_TRUE(evaluate(a - Solid::from_mesh(mesh, resolved)).is_empty());
-    mesh.points[5][0] *= 0.875;
+    for (double& c : mesh.points[5]) c *= 0.875;
     EXPECT_FALSE(evaluate(a - Solid::from_mesh(mesh)).is_empty());
 }
 
