@@ -14,6 +14,9 @@
 
 #if defined(TRISECT_THREAD_SANITIZER)
 #include <sanitizer/tsan_interface.h>
+#define TRISECT_NOT_BY_THREAD_SANITIZER __attribute__((no_sanitize("thread"), noinline))
+#else
+#define TRISECT_NOT_BY_THREAD_SANITIZER
 #endif
 
 namespace trisect::detail {
