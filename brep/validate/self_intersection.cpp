@@ -36,7 +36,7 @@ struct FoundPair {
 
 std::vector<FoundPair> find_pairs(const CheckedMesh& m, std::uint64_t pair_limit) {
     const PreparedMesh& mesh = m.mesh;
-    const TriangleTree tree(mesh.points, mesh.triangles, find_sheets(mesh));
+    TriangleTree tree(mesh.points, mesh.triangles, find_sheets(mesh));
     std::vector<FoundPair> found;
     std::uint64_t pairs = 0;
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {

@@ -23,9 +23,12 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <trisect/brep/import/edge_table.h>
+#include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/validate/region_outline.h>
+#include <trisect/brep/validate/twins.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -140,27 +143,74 @@ private:
     std::vector<Around> around_;
 };
 
-std::vector<View> choose_views(const PreparedMesh& mesh) {
+bool is_flat(const Normal& n) { return n.sign == Signs{}; }
+
+struct Views {
+    std::vector<View> of_triangle;
+    bool are_all = true;  // false: there is a triangle without area
+};
+
+Views choose_views(std::span<const LatticePoint> points, std::span<const Triangle> triangles) {
     std::vector<Normal> normals;
-    std::vector<View> views;
-    normals.reserve(mesh.triangles.size());
-    views.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        normals.push_back(normal_of(mesh.points, t));
-        views.push_back(view_along(normals.back(), normals.back().most));
+    Views views;
+    normals.reserve(triangles.size());
+    views.of_triangle.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        normals.push_back(normal_of(points, t));
+        views.of_triangle.push_back(view_along(normals.back(), normals.back().most));
+        views.are_all = views.are_all && !is_flat(normals.back());
     }
-    check_stop(mesh.triangles.size());
-    Hubs(mesh.points.size(), mesh.triangles).turn(mesh.triangles, normals, views);
+    check_stop(triangles.size());
+    Hubs(points.size(), triangles).turn(triangles, normals, views.of_triangle);
     return views;
 }
 
+// The edges of triangles that need not be manifold.
+class TriangleEdges {
+public:
+    TriangleEdges(std::size_t point_count, std::span<const Triangle> triangles)
+        : edges_(point_count, every_third(triangles.size()), flattened(triangles)) {}
+
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        edges_.for_each_edge(visit);
+    }
+
+private:
+    static std::vector<std::uint32_t> every_third(std::size_t n) {
+        std::vector<std::uint32_t> out(n + 1);
+        for (std::size_t i = 0; i <= n; ++i) out[i] = static_cast<std::uint32_t>(3 * i);
+        return out;
+    }
+    static std::vector<std::uint32_t> flattened(std::span<const Triangle> triangles) {
+        std::vector<std::uint32_t> out;
+        out.reserve(3 * triangles.size());
+        for (const Triangle& t : triangles) out.insert(out.end(), t.begin(), t.end());
+        return out;
+    }
+
+    EdgeTable edges_;
+};
+
+// Those of a manifold.
+struct TwinEdges {
+    const Twins& twins;
+    std::span<const Triangle> triangles;
+
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        twins.for_each_edge(triangles, visit);
+    }
+};
+
+template <class Edges>
 class SheetFinder {
 public:
-    explicit SheetFinder(const PreparedMesh& mesh)
-        : mesh_(mesh),
-          views_(choose_views(mesh)),
-          edges_(mesh.points.size(), every_third(mesh.triangles.size()), flattened(mesh.triangles)),
-          root_(mesh.triangles.size()) {
+    SheetFinder(std::span<const LatticePoint> points, std::vector<View> views, Edges edges)
+        : points_(points),
+          views_(std::move(views)),
+          edges_(std::move(edges)),
+          root_(views_.size()) {
         std::iota(root_.begin(), root_.end(), 0U);
         check_stop(root_.size());
     }
@@ -174,8 +224,10 @@ public:
         for (std::uint32_t t = 0; t < sheets.size(); ++t)
             if (const std::uint32_t s = number_[find(t)]; s != no_sheet && is_proved_[s])
                 sheets[t] = s;
-        add_faces(sheets);
         return sheets;
+    }
+    [[nodiscard]] std::uint32_t count() const {
+        return static_cast<std::uint32_t>(view_of_sheet_.size());
     }
 
 private:
@@ -184,25 +236,13 @@ private:
         OutlineEdge edge;
     };
 
-    static std::vector<std::uint32_t> every_third(std::size_t n) {
-        std::vector<std::uint32_t> out(n + 1);
-        for (std::size_t i = 0; i <= n; ++i) out[i] = static_cast<std::uint32_t>(3 * i);
-        return out;
-    }
-    static std::vector<std::uint32_t> flattened(std::span<const Triangle> triangles) {
-        std::vector<std::uint32_t> out;
-        out.reserve(3 * triangles.size());
-        for (const Triangle& t : triangles) out.insert(out.end(), t.begin(), t.end());
-        return out;
-    }
-
     std::uint32_t find(std::uint32_t i) {
         while (root_[i] != i) i = root_[i] = root_[root_[i]];
         return i;
     }
 
     void hang_together() {
-        edges_.for_each_edge([this](std::uint32_t, std::uint32_t, std::span<const EdgeUse> uses) {
+        edges_.for_each([this](std::uint32_t, std::uint32_t, std::span<const EdgeUse> uses) {
             if (uses.size() != 2 || uses[0].is_forward() == uses[1].is_forward()) return;
             std::uint32_t a = uses[0].face();
             std::uint32_t b = uses[1].face();
@@ -231,29 +271,37 @@ private:
     // Of two uses by one sheet in opposite directions the edge is inside it; of one use it is on
     // its boundary. Sheets with anything else are left to comparisons.
     void collect_outlines() {
-        edges_.for_each_edge(
+        edges_.for_each(
             [this](std::uint32_t low, std::uint32_t high, std::span<const EdgeUse> uses) {
                 used_by_.clear();
                 for (const EdgeUse& use : uses)
                     if (const std::uint32_t s = number_[find(use.face())]; s != no_sheet)
                         used_by_.push_back({s, use.is_forward()});
-                std::sort(used_by_.begin(), used_by_.end());
-                for (std::size_t i = 0; i < used_by_.size();) {
-                    const auto [sheet, forward] = used_by_[i];
-                    std::size_t end = i + 1;
-                    while (end < used_by_.size() && used_by_[end].sheet == sheet) ++end;
-                    if (end - i == 1) {
-                        borders_.push_back(
-                            {sheet, forward ? OutlineEdge{low, high} : OutlineEdge{high, low}});
-                    } else if (end - i > 2 || used_by_[i + 1].forward == forward) {
-                        is_doubtful_[sheet] = true;
-                    }
-                    i = end;
-                }
+                add_borders(low, high);
             });
         std::stable_sort(borders_.begin(), borders_.end(),
                          [](const Border& a, const Border& b) { return a.sheet < b.sheet; });
         check_stop(root_.size());
+    }
+
+    // Of the edge that used_by_ is about.
+    void add_borders(std::uint32_t low, std::uint32_t high) {
+        if (used_by_.size() == 2 && used_by_[0].sheet == used_by_[1].sheet &&
+            used_by_[0].forward != used_by_[1].forward)
+            return;  // nearly every edge
+        std::sort(used_by_.begin(), used_by_.end());
+        for (std::size_t i = 0; i < used_by_.size();) {
+            const auto [sheet, forward] = used_by_[i];
+            std::size_t end = i + 1;
+            while (end < used_by_.size() && used_by_[end].sheet == sheet) ++end;
+            if (end - i == 1) {
+                borders_.push_back(
+                    {sheet, forward ? OutlineEdge{low, high} : OutlineEdge{high, low}});
+            } else if (end - i > 2 || used_by_[i + 1].forward == forward) {
+                is_doubtful_[sheet] = true;
+            }
+            i = end;
+        }
     }
 
     void prove() {
@@ -263,28 +311,8 @@ private:
             outline.clear();
             for (; i < borders_.size() && borders_[i].sheet == sheet; ++i)
                 outline.push_back(borders_[i].edge);
-            is_proved_[sheet] =
-                !is_doubtful_[sheet] &&
-                is_region_outline(mesh_.points, axes_of(view_of_sheet_[sheet]), outline);
-        }
-    }
-
-    // What else is not compared: planar faces with themselves. If they fold that is found when they
-    // are triangulated.
-    void add_faces(std::vector<std::uint32_t>& sheets) const {
-        auto next = static_cast<std::uint32_t>(view_of_sheet_.size());
-        const auto& face = mesh_.face_of_triangle;
-        for (std::size_t i = 0; i < face.size();) {
-            std::size_t end = i + 1;
-            while (end < face.size() && face[end] == face[i]) ++end;
-            if (end - i >= least_sheet && sheets[i] == no_sheet &&
-                !std::binary_search(mesh_.nonplanar_faces.begin(), mesh_.nonplanar_faces.end(),
-                                    face[i])) {
-                std::fill(sheets.begin() + static_cast<std::ptrdiff_t>(i),
-                          sheets.begin() + static_cast<std::ptrdiff_t>(end), next);
-                ++next;
-            }
-            i = end;
+            is_proved_[sheet] = !is_doubtful_[sheet] &&
+                                is_region_outline(points_, axes_of(view_of_sheet_[sheet]), outline);
         }
     }
 
@@ -294,9 +322,9 @@ private:
         friend auto operator<=>(const SheetUse&, const SheetUse&) = default;
     };
 
-    const PreparedMesh& mesh_;
+    std::span<const LatticePoint> points_;
     std::vector<View> views_;
-    EdgeTable edges_;  // of triangles
+    Edges edges_;
     std::vector<std::uint32_t> root_;
     std::vector<std::uint32_t> number_;
     std::vector<View> view_of_sheet_;
@@ -306,8 +334,40 @@ private:
     std::vector<SheetUse> used_by_;
 };
 
+// What else is not compared: planar faces with themselves, as sheets from `next` on. If they fold
+// that is found when they are triangulated.
+void add_faces(const PreparedMesh& mesh, std::uint32_t next, std::vector<std::uint32_t>& sheets) {
+    const auto& face = mesh.face_of_triangle;
+    for (std::size_t i = 0; i < face.size();) {
+        std::size_t end = i + 1;
+        while (end < face.size() && face[end] == face[i]) ++end;
+        if (end - i >= least_sheet && sheets[i] == no_sheet &&
+            !std::binary_search(mesh.nonplanar_faces.begin(), mesh.nonplanar_faces.end(),
+                                face[i])) {
+            std::fill(sheets.begin() + static_cast<std::ptrdiff_t>(i),
+                      sheets.begin() + static_cast<std::ptrdiff_t>(end), next);
+            ++next;
+        }
+        i = end;
+    }
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> find_sheets(const PreparedMesh& mesh) { return SheetFinder(mesh).run(); }
+std::vector<std::uint32_t> find_sheets(const PreparedMesh& mesh) {
+    SheetFinder finder(mesh.points, choose_views(mesh.points, mesh.triangles).of_triangle,
+                       TriangleEdges(mesh.points.size(), mesh.triangles));
+    std::vector<std::uint32_t> sheets = finder.run();
+    add_faces(mesh, finder.count(), sheets);
+    return sheets;
+}
+
+std::optional<std::vector<std::uint32_t>> find_sheets(std::span<const LatticePoint> points,
+                                                      std::span<const Triangle> triangles,
+                                                      const Twins& twins) {
+    Views views = choose_views(points, triangles);
+    if (!views.are_all) return std::nullopt;
+    return SheetFinder(points, std::move(views.of_triangle), TwinEdges{twins, triangles}).run();
+}
 
 }  // namespace trisect::detail

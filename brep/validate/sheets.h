@@ -3,13 +3,19 @@
 // Sheets: parts of a surface of which one linear pass shows that they do not meet themselves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include <trisect/brep/import/prepared_mesh.h>
+#include <trisect/kernel/lattice_point.h>
 
 namespace trisect::detail {
+
+struct PreparedMesh;
+class Twins;
 
 inline constexpr std::uint32_t no_sheet = std::numeric_limits<std::uint32_t>::max();
 
@@ -17,5 +23,10 @@ inline constexpr std::uint32_t no_sheet = std::numeric_limits<std::uint32_t>::ma
 /// common but the corners and edges that they share by name; or they are of one face that is planar
 /// and is not to be compared with itself. Cost: O(n log n).
 [[nodiscard]] std::vector<std::uint32_t> find_sheets(const PreparedMesh& mesh);
+
+/// The same for a manifold of which every triangle is a face; nothing if a triangle has no area.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> find_sheets(
+    std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+    const Twins& twins);
 
 }  // namespace trisect::detail

@@ -45,7 +45,6 @@ TriangleTree::TriangleTree(std::span<const LatticePoint> points,
     for (std::size_t t = 0; t < triangles.size(); ++t)
         for (const std::uint32_t c : triangles[t]) boxes_[t].add(points[c]);
     if (triangles.empty()) return;
-    nodes_.reserve(triangles.size());
     order_.reserve(triangles.size());
     Grouped grouped = group(sheets);
     divide(grouped.items, grouped.triangles);
@@ -81,7 +80,7 @@ std::uint32_t TriangleTree::divide(std::span<Item> items,
     if (items.size() == 1 && items[0].count() > 1) {
         order_.insert(order_.end(), triangles.begin() + items[0].begin,
                       triangles.begin() + items[0].end);
-        const std::uint32_t root = build(node.begin, static_cast<std::uint32_t>(order_.size()));
+        const std::uint32_t root = add_part(node.begin, static_cast<std::uint32_t>(order_.size()));
         nodes_[root].is_sheet = true;
         return root;
     }
@@ -100,39 +99,45 @@ std::uint32_t TriangleTree::divide(std::span<Item> items,
     const auto middle = halve(
         items.begin(), items.end(), [](const Item& item) -> const LatticeBox& { return item.box; },
         [](const Item& item) { return item.begin; });
-    divide({items.begin(), middle}, triangles);
+    const std::uint32_t left = divide({items.begin(), middle}, triangles);
     const std::uint32_t right = divide({middle, items.end()}, triangles);
+    nodes_[self].left = left;
     nodes_[self].right = right;
     return self;
 }
 
-// The same within a sheet.
-std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
-    check_stop();
-    const auto self = static_cast<std::uint32_t>(nodes_.size());
+std::uint32_t TriangleTree::add_part(std::uint32_t begin, std::uint32_t end) {
     Node node;
     node.begin = begin;
     node.end = end;
     for (std::uint32_t i = begin; i < end; ++i) node.box.add(boxes_[order_[i]]);
     nodes_.push_back(node);
-    if (end - begin <= leaf_size) return self;
-    const auto middle = halve(
-        order_.begin() + begin, order_.begin() + end,
-        [this](std::uint32_t t) -> const LatticeBox& { return boxes_[t]; },
-        [](std::uint32_t t) { return t; });
-    const auto split = static_cast<std::uint32_t>(middle - order_.begin());
-    build(begin, split);
-    const std::uint32_t right = build(split, end);
-    nodes_[self].right = right;
-    return self;
+    return static_cast<std::uint32_t>(nodes_.size() - 1);
+}
+
+std::array<std::uint32_t, 2> TriangleTree::children(std::uint32_t node) {
+    if (nodes_[node].left == 0) {
+        const std::uint32_t begin = nodes_[node].begin;
+        const std::uint32_t end = nodes_[node].end;
+        check_stop(end - begin);
+        const auto middle = halve(
+            order_.begin() + begin, order_.begin() + end,
+            [this](std::uint32_t t) -> const LatticeBox& { return boxes_[t]; },
+            [](std::uint32_t t) { return t; });
+        const auto split = static_cast<std::uint32_t>(middle - order_.begin());
+        const std::uint32_t left = add_part(begin, split);
+        const std::uint32_t right = add_part(split, end);
+        nodes_[node].left = left;
+        nodes_[node].right = right;
+    }
+    return {nodes_[node].left, nodes_[node].right};
 }
 
 TriangleTree::TurnedBoxes::TurnedBoxes(const TriangleTree& tree)
-    : tree_(tree),
-      frame_(tree.nodes_[0].box.low, tree.nodes_[0].box.high),
-      visits_(tree.nodes_.size(), 0) {}
+    : tree_(tree), frame_(tree.nodes_[0].box.low, tree.nodes_[0].box.high) {}
 
 bool TriangleTree::TurnedBoxes::are_apart(std::uint32_t a, std::uint32_t b) {
+    if (visits_.size() < tree_.nodes_.size()) visits_.resize(tree_.nodes_.size(), 0);
     const bool a_is_hot = is_hot(a);
     const bool b_is_hot = is_hot(b);
     return (a_is_hot || b_is_hot) && box_of(a).is_apart(box_of(b), frame_);

@@ -44,8 +44,9 @@ struct LatticeBox {
     }
 };
 
-/// Balanced: built by median splits, of the sheets and loose triangles first, then within sheets;
-/// depth at most 66. Immutable; refers to the mesh.
+/// Balanced: median splits of the sheets and loose triangles, then within sheets; depth at most 66.
+/// A sheet is divided where a search comes to: most of it lies where nothing else is. Refers to the
+/// mesh; for one thread.
 class TriangleTree {
 public:
     /// `sheets` gives each triangle a sheet, or no_sheet; empty if there are none. O(n log n).
@@ -57,34 +58,37 @@ public:
     /// whose boxes overlap, except for pairs that turned boxes prove to be apart; the order is
     /// deterministic. Stops when it returns false.
     template <class Visit>
-    void for_each_pair(Visit&& visit) const {
+    void for_each_pair(Visit&& visit) {
         if (nodes_.empty()) return;
         TurnedBoxes turned(*this);
         std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};
         while (!stack.empty()) {
             const auto [i, k] = stack.back();
             stack.pop_back();
-            const Node& a = nodes_[i];
-            const Node& b = nodes_[k];
             check_stop();
             if (i == k) {
-                if (a.is_sheet) continue;
-                if (a.is_leaf()) {
-                    if (!visit_leaves(a, a, true, visit)) return;
+                if (nodes_[i].is_sheet) continue;
+                if (nodes_[i].is_leaf()) {
+                    if (!visit_leaves(i, i, visit)) return;
                     continue;
                 }
-                stack.push_back({a.right, a.right});
-                stack.push_back({a.left(i), a.right});
-                stack.push_back({a.left(i), a.left(i)});
-            } else if (a.box.overlaps(b.box) && !turned.are_apart(i, k)) {
+                const auto [left, right] = children(i);
+                stack.push_back({right, right});
+                stack.push_back({left, right});
+                stack.push_back({left, left});
+            } else if (nodes_[i].box.overlaps(nodes_[k].box) && !turned.are_apart(i, k)) {
+                const Node& a = nodes_[i];
+                const Node& b = nodes_[k];
                 if (a.is_leaf() && b.is_leaf()) {
-                    if (!visit_leaves(a, b, false, visit)) return;
+                    if (!visit_leaves(i, k, visit)) return;
                 } else if (b.is_leaf() || (!a.is_leaf() && a.count() >= b.count())) {
-                    stack.push_back({a.right, k});
-                    stack.push_back({a.left(i), k});
+                    const auto [left, right] = children(i);
+                    stack.push_back({right, k});
+                    stack.push_back({left, k});
                 } else {
-                    stack.push_back({i, b.right});
-                    stack.push_back({i, b.left(k)});
+                    const auto [left, right] = children(k);
+                    stack.push_back({i, right});
+                    stack.push_back({i, left});
                 }
             }
         }
@@ -92,20 +96,21 @@ public:
 
     /// Calls visit(triangle) for every triangle whose box overlaps `box`.
     template <class Visit>
-    void for_each_in(const LatticeBox& box, Visit&& visit) const {
+    void for_each_in(const LatticeBox& box, Visit&& visit) {
         if (nodes_.empty()) return;
         std::vector<std::uint32_t> stack{0};
         while (!stack.empty()) {
             const std::uint32_t i = stack.back();
             stack.pop_back();
-            const Node& n = nodes_[i];
+            const Node n = nodes_[i];
             if (!n.box.overlaps(box)) continue;
             if (n.is_leaf()) {
                 for (std::uint32_t t = n.begin; t < n.end; ++t)
                     if (boxes_[order_[t]].overlaps(box)) visit(order_[t]);
             } else {
-                stack.push_back(n.right);
-                stack.push_back(n.left(i));
+                const auto [left, right] = children(i);
+                stack.push_back(right);
+                stack.push_back(left);
             }
         }
     }
@@ -115,12 +120,11 @@ public:
 private:
     struct Node {
         LatticeBox box;
-        std::uint32_t begin = 0, end = 0;  // into order_
-        std::uint32_t right = 0;           // 0: leaf; the left child follows its parent
-        bool is_sheet = false;             // a whole one
-        [[nodiscard]] bool is_leaf() const { return right == 0; }
+        std::uint32_t begin = 0, end = 0;   // into order_
+        std::uint32_t left = 0, right = 0;  // 0: a leaf, or not divided yet
+        bool is_sheet = false;              // a whole one
+        [[nodiscard]] bool is_leaf() const { return count() <= leaf_size && left == 0; }
         [[nodiscard]] std::uint32_t count() const { return end - begin; }
-        [[nodiscard]] std::uint32_t left(std::uint32_t self) const { return self + 1; }
     };
     static constexpr std::uint32_t leaf_size = 4;
 
@@ -153,12 +157,17 @@ private:
 
     [[nodiscard]] Grouped group(std::span<const std::uint32_t> sheets) const;
     std::uint32_t divide(std::span<Item> items, std::span<const std::uint32_t> triangles);
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+    // A node for a part of a sheet, without children.
+    std::uint32_t add_part(std::uint32_t begin, std::uint32_t end);
+    /// Divides the node if it is not. \pre it is no leaf. Moves the nodes.
+    std::array<std::uint32_t, 2> children(std::uint32_t node);
 
     template <class Visit>
-    bool visit_leaves(const Node& a, const Node& b, bool same, Visit& visit) const {
+    bool visit_leaves(std::uint32_t first, std::uint32_t second, Visit& visit) const {
+        const Node& a = nodes_[first];
+        const Node& b = nodes_[second];
         for (std::uint32_t i = a.begin; i < a.end; ++i) {
-            for (std::uint32_t k = same ? i + 1 : b.begin; k < b.end; ++k) {
+            for (std::uint32_t k = first == second ? i + 1 : b.begin; k < b.end; ++k) {
                 const std::uint32_t s = order_[i];
                 const std::uint32_t t = order_[k];
                 if (!boxes_[s].overlaps(boxes_[t])) continue;

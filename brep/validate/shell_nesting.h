@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Winding numbers around the shells of a boundary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/validate/triangle_tree.h>
+#include <trisect/kernel/lattice_point.h>
+
+namespace trisect::detail {
+
+/// For shells that are closed; others are left out. Refers to what it is made of.
+class ShellNesting {
+public:
+    using Triangle = std::array<std::uint32_t, 3>;
+
+    /// `shell_of_triangle` is below the size of `is_closed`.
+    ShellNesting(std::span<const LatticePoint> points, std::span<const Triangle> triangles,
+                 std::span<const std::uint32_t> shell_of_triangle,
+                 const std::vector<bool>& is_closed, TriangleTree& tree)
+        : points_(points),
+          triangles_(triangles),
+          shell_of_triangle_(shell_of_triangle),
+          is_closed_(is_closed),
+          tree_(tree) {}
+
+    /// Just outside the shell that consists of `own`, the winding number of all other shells.
+    /// Nothing if that could not be found: many corners lie on other shells.
+    [[nodiscard]] std::optional<int> winding_outside(std::uint32_t shell,
+                                                     std::span<const Triangle> own);
+
+private:
+    [[nodiscard]] std::optional<int> winding_at(const LatticePoint& p, std::uint32_t without);
+
+    std::span<const LatticePoint> points_;
+    std::span<const Triangle> triangles_;
+    std::span<const std::uint32_t> shell_of_triangle_;
+    const std::vector<bool>& is_closed_;
+    TriangleTree& tree_;
+};
+
+}  // namespace trisect::detail
