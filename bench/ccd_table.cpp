@@ -8,7 +8,7 @@
 #include <exception>
 #include <vector>
 
-#include "../tests/motion/ccd_file.h"
+#include "../tests/bsp/interference/motion/ccd_file.h"
 
 namespace {
 

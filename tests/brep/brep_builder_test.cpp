@@ -14,7 +14,7 @@
 #include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/error.h>
 
-#include "solids.h"
+#include "support/breps.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/kernel/error.h>
 
-#include "solids.h"
+#include "support/breps.h"
 
 namespace {
 

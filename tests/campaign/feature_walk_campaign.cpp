@@ -17,7 +17,7 @@
 
 #include <trisect/bsp/hierarchies/convex/feature_walk.h>
 
-#include "convex_oracle.h"
+#include "support/convex_oracle.h"
 
 namespace {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Relations and contact lists of pairs of placed solids on a small grid, by the library and by
-// brute force in rationals (tests/interference/brute_force.h). Prints how often each relation and
-// each stage of predicates occurred; exits with 1 at the first difference, whose seed repeats it.
+// brute force in rationals (tests/support/interference_oracle.h). Prints how often each relation
+// and each stage of predicates occurred; exits with 1 at the first difference, whose seed repeats
+// it.
 //
 //     interference_campaign [--pairs 1000] [--seed 1] [--minutes 0]
 
@@ -17,7 +18,7 @@
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/counters.h>
 
-#include "interference/brute_force.h"
+#include "support/interference_oracle.h"
 
 namespace {
 

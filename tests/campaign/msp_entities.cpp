@@ -26,7 +26,7 @@
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"
-#include "msp/probes.h"
+#include "support/probes.h"
 
 namespace {
 

@@ -27,10 +27,10 @@
 #include <trisect/bsp/expression.h>
 
 #include "bench/shapes.h"
-#include "brute_force.h"
 #include "engines/engines.h"
-#include "random_result.h"
 #include "reference/random_solids.h"
+#include "support/query_oracle.h"
+#include "support/random_result.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
 
-#include "gmp_oracle.h"
+#include "support/gmp_oracle.h"
 
 namespace {
 

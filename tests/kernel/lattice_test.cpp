@@ -12,7 +12,7 @@
 
 #include <trisect/kernel/error.h>
 
-#include "gmp_oracle.h"
+#include "support/gmp_oracle.h"
 
 namespace {
 

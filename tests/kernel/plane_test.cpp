@@ -7,7 +7,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/predicates.h>
 
-#include "gmp_oracle.h"
+#include "support/gmp_oracle.h"
 
 namespace {
 

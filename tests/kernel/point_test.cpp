@@ -11,7 +11,7 @@
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
 
-#include "gmp_oracle.h"
+#include "support/gmp_oracle.h"
 
 namespace {
 

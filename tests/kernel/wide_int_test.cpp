@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "gmp_oracle.h"
+#include "support/gmp_oracle.h"
 
 namespace {
 

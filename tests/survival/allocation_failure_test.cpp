@@ -29,7 +29,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
-#include "failing_new.h"
+#include "support/failing_new.h"
 
 namespace {
 
