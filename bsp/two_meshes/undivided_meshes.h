@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operations on two large meshes of which only triangles may be wanted.
+// Booleans of two large meshes without a tree.
+// They serve where only triangles of the result may be wanted.
 #pragma once
 
 #include <cstddef>
