@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The lecture's complaint is that trees must be built anew when things change. Two answers: a tree
-// of boxes that is repaired where boxes enter, leave and move; and trees of volumes that keep their
-// nodes and are refitted, when a solid moves or changes its shape.
+// A complaint about hierarchies is that they must be rebuilt when things change. Two answers: a
+// tree of boxes that is repaired where boxes enter, leave and move; and trees of volumes that keep
+// their nodes and are refitted, when a solid moves or changes its shape.
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sphere trees of the lecture's three ways: how tightly the spheres of each level fit, and what is
+// Sphere trees of three constructions: how tightly the spheres of each level fit, and what is
 // known about two solids after a number of tests.
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AlgebraicNumber: a real root of a polynomial with rational coefficients, exact and comparable;
-// when a moving solid first touches another one is such a number.
+// AlgebraicNumber: an exact, comparable real root of a rational polynomial.
+// The time of first contact of moving solids is such a number.
 #pragma once
 
 #include <compare>

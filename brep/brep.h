@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Brep: the boundary of a solid as vertices, halfedges, loops, faces and shells, with exact points
-// and planes.
+// Brep: the boundary of a solid, with exact points and planes.
+// It consists of vertices, halfedges, loops, faces and shells.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BrepBuilder: turns points and oriented polygons with shared corners into a Brep.
+// BrepBuilder: construction of a Brep from points and oriented polygons.
 #pragma once
 
 #include <cstdint>

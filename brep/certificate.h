@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificate: what rounding did to an exact result when it became a mesh of doubles or floats.
+// Certificate: the effect of rounding an exact result to doubles or floats.
 //
 // The result of a boolean has no self-intersection, but its corners are rounded to doubles (or to
 // the floats of binary STL) and faces closer than that may then meet. Whether they do is decided

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ExactRational: a fraction of integers of any size, for measures. Predicates never use it.
+// ExactRational: a fraction of integers of any size, for measures.
+// Predicates never use it.
 #pragma once
 
 #include <array>

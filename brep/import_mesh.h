@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Import: from the polygons of a file or caller to triangles on a lattice, with everything that was
-// changed on the way reported.
+// Import: conversion of polygons to triangles on a lattice.
+// Everything that changes on the way is reported.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LatticeMesh: a triangle mesh with integer corners, the form in which a mesh enters a Solid.
+// LatticeMesh: a triangle mesh with integer corners, the input of Solid.
 #pragma once
 
 #include <array>

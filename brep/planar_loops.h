@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PlanarLoops: the loops of a planar face as a figure in two dimensions, brought into a form in
-// which corners at the same place do not interfere. Shared by the builder and the triangulation.
+// PlanarLoops: the loops of a planar face as a two-dimensional figure.
+// Its form keeps corners at the same place from interfering. The builder and the triangulation
+// share it.
 #pragma once
 
 #include <compare>

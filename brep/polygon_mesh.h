@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PolygonMesh: plain arrays of doubles and indices, the form in which meshes come from files and
-// callers and go back to them. It promises nothing about its geometry.
+// PolygonMesh: a mesh as plain arrays of doubles and indices.
+// Meshes come from files and callers, and go back to them, in this form. It promises nothing
+// about its geometry.
 #pragma once
 
 #include <array>

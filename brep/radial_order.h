@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radial order: which faces around an edge with four or more of them bound the same solid wedge.
+// Radial order: pairing of the faces around an edge into solid wedges.
+// It is needed at edges of four or more faces.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Transforms of meshes: exact ones that keep a lattice, and affine maps in doubles whose rounding
-// is reported.
+// Transforms of meshes: exact lattice maps, and affine maps with reported rounding.
 //
 // Maps that reverse orientation turn every face over, so that normals stay outward.
 #pragma once

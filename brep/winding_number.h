@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The winding number of a triangle mesh about a rational point: the definition of "inside", worked
-// out without a tree. It is what certificates are checked with: slow, short, and independent of
-// everything that finds them.
+// Winding number of a triangle mesh about a rational point.
+// It is the definition of "inside", evaluated without a tree. Certificates are checked with it:
+// slow, short, and independent of everything that finds them.
 #pragma once
 
 #include <array>

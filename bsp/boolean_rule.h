@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BooleanRule: a boolean operation on two sets as what it is, a truth table of four bits.
+// BooleanRule: a boolean operation on two sets, as a truth table.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BrepIndex: what is at this point, along this ray, nearest to here, in this plane or box? Exact
-// answers that name the face, edge or vertex.
+// BrepIndex: exact spatial queries for points, rays, nearest points, planes and boxes.
+// Answers name the face, edge or vertex.
 //
 // Points and directions given as doubles are in the user's units and taken exactly as given;
 // LatticePoint, Point and Plane are in lattice units (Solid::lattice).

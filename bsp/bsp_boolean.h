@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// bsp_boolean: a boolean operation on two meshes by way of BspTrees, in one call.
+// bsp_boolean: a boolean operation on two meshes through BspTrees.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// build_bsp: from the boundary of a solid to its BspTree.
+// build_bsp: construction of a BspTree from the boundary of a solid.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Merging: a boolean operation on two BspTrees, tree by tree, without looking at a boundary.
+// Merging: a boolean operation on two BspTrees, without boundaries.
 #pragma once
 
 #include <trisect/bsp/boolean_rule.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BspTree: a solid as a binary space partition in the classic sense. Its planes are the planes of
-// the solid's faces, its leaves are labelled, and there is nothing else: no polygon, no vertex.
+// BspTree: a solid as a classic binary space partition.
+// Its planes are the planes of the solid's faces, its leaves are labelled, and there is nothing
+// else: no polygon, no vertex.
 //
 // It answers the same questions as the CellTree behind a Solid and shares no code with it above the
 // kernel, so that the two can be checked against each other. It is the slower one.

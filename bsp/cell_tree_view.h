@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the partition behind a solid looks like from outside: its size, and its cells, for reports
-// and drawings. Nobody needs this to compute with solids.
+// Size and cells of the partition of a solid, for drawings.
+// Computations with solids do not need it.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// certified_rounding: an exact boundary as a mesh of doubles or floats that provably bounds a
-// solid, repaired where plain rounding lets faces meet.
+// Certified rounding of exact boundaries to doubles or floats.
+// The resulting mesh provably bounds a solid. It is repaired where plain rounding lets faces
+// meet.
 #pragma once
 
 #include <cstddef>

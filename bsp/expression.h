@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Expression: a boolean formula over solids. Nothing is computed before evaluate(), which then
-// works on the whole formula in one pass, without intermediate solids.
+// Expression: a boolean formula over solids, evaluated lazily.
+// Nothing is computed before evaluate(), which works on the whole formula in one pass, without
+// intermediate solids.
 #pragma once
 
 #include <atomic>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MspTree: a multidimensional space partitioning tree, the BREP-INDEX of Vanecek. A cut has three
-// sides, below, on and above, and the on side is a tree of one dimension less. So a point finds not
-// only the inside and the outside but the very vertex, edge or face that carries it.
+// MspTree: a multidimensional space partitioning tree, Vanecek's BREP-INDEX.
+// A cut has three sides, below, on and above, and the on side is a tree of one dimension less. So
+// a point finds not only the inside and the outside but the very vertex, edge or face that
+// carries it.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Solid: a regularised set of points bounded by planar polygons; the value type of the library.
+// Solid: a regularised set of points bounded by planar polygons.
+// It is the value type of the library.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +20,10 @@ namespace detail {
 struct SolidState;
 }
 
-/// What is known about self-intersection of an imported boundary.
+/// Treatment of self-intersection of an imported boundary.
 enum class Embedding : std::uint8_t {
-    /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0 and
-    /// 1:
-    /// only cells where operands meet are resolved.
+    /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0
+    /// and 1. Only cells where operands meet are resolved.
     Assume,
     /// May intersect, cover or contain itself: every cell is resolved.
     Resolve,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The umbrella header: everything a program needs to read meshes, combine solids and write results.
+// Umbrella header for reading meshes, combining solids and writing results.
 #pragma once
 
 #include <trisect/brep/brep.h>

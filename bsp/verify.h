@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// verify: is a mesh that somebody else computed the result of a boolean? The answer is a
-// certificate: equal, equal within a stated distance, or different with a witness.
+// verify: certified comparison of a mesh with the result of a boolean.
+// The mesh may come from any kernel. The answer is a certificate: equal, equal within a stated
+// distance, or different with a witness.
 //
 // The question. A and B are meshes that bound solids, E is the exact result of the operation (the
 // regularised set), R the set of points about which the triangles of RESULT wind a positive number
@@ -15,12 +16,11 @@
 //    RESULT. So a point that is farther than r from one of them has the same membership in E and R:
 //    no feature, hole, fin or cavity larger than that is missing or too much.
 //  * Different, with a witness: a rational point strictly inside one of E and R and strictly
-//  outside
-//    the other, farther than r from the boundary of E or from the faces of RESULT. Its memberships
-//    in A, B and R are winding numbers counted along a ray in rationals (brep/winding_number.h),
-//    its membership in E follows from those in A and B by the definition of the operation. So this
-//    answer rests on nothing but a page of integer arithmetic, whatever found the point. Should the
-//    two not agree, verify() throws an internal error instead of answering.
+//    outside the other, farther than r from the boundary of E or from the faces of RESULT. Its
+//    memberships in A, B and R are winding numbers counted along a ray in rationals
+//    (brep/winding_number.h), its membership in E follows from those in A and B by the definition
+//    of the operation. So this answer rests on nothing but a page of integer arithmetic, whatever
+//    found the point. Should the two not agree, verify() throws an internal error.
 //
 // Why "within r" is proved. D is evaluated exactly and cut exactly into pieces D = D_1 + ... + D_n.
 // For each connected piece there is one triangle T of the boundary of E such that every vertex of

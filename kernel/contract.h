@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contracts: checks of our own promises. A broken one is a mistake of this library, never of its
-// user, and leaves as an Error with ErrorCode::Internal.
+// Contracts: checks of the library's own promises.
+// A broken promise is a mistake of this library, never of its user. It leaves as an Error with
+// ErrorCode::Internal.
 //
 // TRISECT_EXPECTS is cheap and on in every build; TRISECT_AUDIT_CHECK may be expensive and exists
 // only where TRISECT_AUDIT is defined.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ConvexPolygon: a convex polygon given by planes alone, the piece of surface that partitions cut.
+// ConvexPolygon: a convex polygon given by planes alone.
+// It is the piece of surface that partitions cut.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PredicateCounters: which stage decided how many signs. Counting is per thread, so that it costs
-// one increment and needs no synchronisation.
+// PredicateCounters: numbers of signs decided by each stage.
+// Counting is per thread, so that it costs one increment and needs no synchronisation.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The errors that leave the library. Every one of them says what was wrong and where; none of them
-// is thrown after a part of a result has been handed out.
+// Errors that leave the library.
+// Each says what was wrong and where. None is thrown after a part of a result has been handed
+// out.
 #pragma once
 
 #include <cstdint>

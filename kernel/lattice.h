@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lattice: the grid of integers times a power of two on which the corners of a solid lie.
+// Lattice: the integer grid, times a power of two, of solids' corners.
 #pragma once
 
 #include <array>

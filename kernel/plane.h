@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Plane: an oriented plane with integer coefficients, the currency of the whole library. Booleans
-// never make a new plane, so the width of the coefficients does not grow along a chain.
+// Plane: an oriented plane with integer coefficients.
+// Booleans never make a new plane, so the width of the coefficients does not grow along a chain.
 #pragma once
 
 #include <array>

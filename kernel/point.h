@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Point: an exact point of a boundary, either a lattice point or the common point of three planes
-// (a PlanePoint).
+// Point: an exact point of a boundary.
+// It is a lattice point or the common point of three planes (a PlanePoint).
 #pragma once
 
 #include <array>

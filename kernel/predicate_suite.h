@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// predicate_suite.h: tests of orientation predicates, yours or ours, on inputs where doubles fail.
+// Tests of orientation predicates on inputs where doubles fail.
 //
 // This one file needs nothing but the standard library: copy it beside your own code, or include it
 // from an installed Trisect. You pass a function, the suite passes it points or planes from named
@@ -9,8 +9,7 @@
 //     #include <trisect/kernel/predicate_suite.h>
 //     using trisect::predicate_suite::Point3;
 //     const auto mine = [](const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-//         return my_orient3d(a.data(), b.data(), c.data(), d.data());  // any number: its sign
-//         counts
+//         return my_orient3d(a.data(), b.data(), c.data(), d.data());  // its sign counts
 //     };
 //     for (const auto& row : trisect::predicate_suite::test_orient3d(mine))
 //         std::printf("%-16s %d of %d wrong\n", row.family, int(row.wrong), int(row.cases));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The library's side_of in the form in which predicate_suite.h asks for it.
+// Adapter from the library's side_of to predicate_suite.h.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The questions that every algorithm of the library asks, answered exactly in three stages:
-//   1. symbolic  a point built from a plane lies on it: the caller knows, or equal coefficients
-//   tell;
+// Geometric predicates, exact, in three stages.
+//   1. symbolic  a point built from a plane lies on it: by name, or by equal coefficients;
 //   2. filtered  double arithmetic with a derived error bound, for round-to-nearest (no other
 //                assumption: no extended registers, no subnormals, -ffp-contract=off);
 //   3. exact     fixed-width integers, 256 bits for narrow planes, 512 bits otherwise.

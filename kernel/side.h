@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Side: where something lies with respect to an oriented plane.
+// Side: position relative to an oriented plane.
 #pragma once
 
 #include <cstdint>

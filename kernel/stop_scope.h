@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// StopScope: a wish to stop and a limit of work, for everything that this thread does meanwhile.
+// StopScope: cancellation and a work limit for the current thread.
 //
 // Evaluation of booleans has options for both. Reading, import, validation and assembly are linear
 // or nearly so, but a file may be large and a mesh may be made to be slow. They look at the scope

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do two triangles meet? From orientations of their corners alone.
+// Intersection test of two triangles, from orientations of their corners alone.
 #pragma once
 
 #include <array>

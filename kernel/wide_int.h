@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WideInt<N>: signed integers of a fixed width of 64·N bits, for the exact stage of predicates.
+// WideInt: signed integers of a fixed width of 64·N bits.
+// They serve the exact stage of predicates.
 //
 // Nothing here allocates, branches on data or detects overflow: every caller states a bound that
 // shows that its values fit (see plane.h and predicates.cpp). Audit builds check the bounds.

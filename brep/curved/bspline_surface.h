@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BSplineSurface: a tensor-product B-spline surface, polynomial or rational (NURBS), as the Bézier
-// patches of its knot spans.
+// BSplineSurface: a tensor-product B-spline surface, polynomial or rational (NURBS).
+// It is evaluated as the Bézier patches of its knot spans.
 #pragma once
 
 #include <cstddef>

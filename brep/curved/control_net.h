@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ControlNet: the control points of a part of a patch in homogeneous coordinates, with one bound on
-// all their errors. It is cut in halves and gives hulls and bounds on derivatives, all certified.
+// ControlNet: homogeneous control points of a sub-patch, with one error bound.
+// It can be halved, and gives hulls and bounds on derivatives. All are certified.
 #pragma once
 
 #include <array>

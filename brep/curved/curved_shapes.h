@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Curved boundaries that are exactly what they are called: circles are rational quadratics with
-// weights 1, 1, 2, which doubles hold.
+// Exact curved boundaries of spheres and tori.
+// Circles are rational quadratics with weights 1, 1, 2, which doubles represent.
 #pragma once
 
 #include <trisect/brep/curved/curved_boundary.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Curved boundaries become meshes, and so solids, within a stated deviation.
+// Tessellation of curved boundaries within a stated deviation.
 #pragma once
 
 #include <cstdint>

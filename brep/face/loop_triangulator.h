@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LoopTriangulator: cuts one polygon with lattice corners into triangles, exactly.
+// LoopTriangulator: exact triangulation of one polygon with lattice corners.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which loop is straight below another: the question that finds the face of a hole.
+// Nearest loop straight below another, which identifies the face of a hole.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The corners of a small polygon in the two coordinates of its plane, as doubles that are nearly
-// exact.
+// Corners of a small polygon in plane coordinates, as nearly exact doubles.
 #pragma once
 
 #include <algorithm>

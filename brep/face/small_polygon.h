@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles of simple polygons with a handful of corners, which nearly all faces of booleans are:
-// no allocation, no sorting, a few signs.
+// Triangulation of simple polygons with a handful of corners.
+// Nearly all faces of booleans are such. It allocates nothing, sorts nothing and computes few
+// signs.
 #pragma once
 
 #include <array>

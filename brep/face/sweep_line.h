@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SweepLine: the regions that a vertical line meets while it moves over a planar figure, from
-// bottom to top.
+// SweepLine: the regions met by a moving vertical line, from bottom to top.
 #pragma once
 
 #include <cstddef>

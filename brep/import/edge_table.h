@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EdgeTable: all traversals of every undirected edge of a set of loops, side by side.
+// EdgeTable: all traversals of every undirected edge, side by side.
 //
 // Traversals are dealt to the lower end of their edge by counting, and each short list is sorted by
 // the upper end. Unlike hashing this is deterministic, cannot be attacked, and runs through memory

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What both ways of import find in a face, worded once.
+// Findings about a face, worded once for both importers.
 #pragma once
 
 #include <array>

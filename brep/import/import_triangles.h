@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Import of triangle meshes, and of all meshes: the two ways of import_mesh.
+// Import of triangle meshes, and of general meshes, behind import_mesh.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Line balance: do directed edges cancel as intervals of the lines they lie on?
+// Line balance: cancellation of directed edges as intervals of their lines.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PreparedMesh: a PolygonMesh on a lattice, connected by value and cut into triangles: what import
-// and validation both start from.
+// PreparedMesh: a PolygonMesh on a lattice, connected and triangulated.
+// Corners are connected by value. Import and validation both start from it.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Refitting: putting the corners of nearly axis-aligned polygons into one plane.
+// Refitting: moving corners of nearly axis-aligned polygons into one plane.
 #pragma once
 
 #include <cstdint>

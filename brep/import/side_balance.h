@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Side balance: is every edge of a triangle mesh traversed as often one way as the other?
+// Side balance: equal numbers of traversals of every edge in both directions.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sign of the volume that triangles bound: which way a closed shell is turned.
+// Orientation of a closed shell, the sign of its volume.
 #pragma once
 
 #include <array>

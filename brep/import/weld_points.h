@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Welding: naming points by value, so that connectivity does not depend on how a file indexes them.
+// Welding: point numbers by value, independent of the file's indices.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CGAL meshes in and out: Surface_mesh and Polyhedron_3 over any kernel. Header-only templates;
-// nothing else in the library includes this file or CGAL, so its licence concerns only builds that
-// do.
+// Conversion of CGAL meshes: Surface_mesh and Polyhedron_3 over any kernel.
+// Header-only templates; nothing else in the library includes this file or CGAL, so its licence
+// concerns only builds that do.
 #pragma once
 
 #include <array>

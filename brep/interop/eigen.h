@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Eigen matrices in and out: vertices as an n×3 matrix of doubles, triangles as an m×3 matrix of
-// ints, the convention of libigl and of many Python bindings. Header-only; needs Eigen 3.4.
+// Conversion of Eigen matrices of vertices and triangles.
+// Vertices are an n×3 matrix of doubles, triangles an m×3 matrix of ints, the convention of
+// libigl and of many Python bindings. Header-only; needs Eigen 3.4.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A boundary as text without loss: integers only, so that what is read back is the same boundary,
-// bit for bit, on every machine.
+// Lossless text format of boundaries.
+// It has integers only, so a boundary is read back bit for bit on every machine.
 //
 //     trisect-exact 1
 //     lattice -32                      unit: coordinates are multiples of 2^-32

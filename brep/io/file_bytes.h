@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A whole file in memory. Read, not mapped: a file that another process shortens while it is
-// mapped ends this process with a bus error, and a copy costs little beside parsing.
+// Contents of a whole file in memory.
+// It is read, not mapped: a file that another process shortens while it is mapped ends this
+// process with a bus error, and a copy costs little beside parsing.
 #pragma once
 
 #include <cstddef>

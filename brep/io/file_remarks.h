@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FileRemark: what a file says beside its mesh, or fails to say, that a careful reader wants to
-// know. Readers ignore all of it, so no remark ever changes a mesh.
+// FileRemark: a property of a file beside its mesh that deserves attention.
+// Readers ignore all of it, so no remark ever changes a mesh.
 #pragma once
 
 #include <trisect/brep/io/mesh_format.h>

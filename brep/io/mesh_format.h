@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The file formats of meshes: their names, their extensions, and how bytes tell which one they are.
+// Mesh file formats: names, extensions and recognition by content.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writing a file completely or not at all.
+// Atomic output of a file, complete or not at all.
 //
 // The bytes go to a new file in the folder of the target, which is then renamed onto it; a reader
 // sees the old file or the new one, and after a failure (full disk, folder not writable) the old

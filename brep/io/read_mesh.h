@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading meshes: OBJ, STL (ASCII and binary), OFF and PLY (all three encodings) into PolygonMesh.
+// Mesh readers: OBJ, STL, OFF and PLY into PolygonMesh.
+// STL may be ASCII or binary; PLY has all three encodings.
 //
 // What is kept: every coordinate as the double nearest to its text, or the exact value of its
 // float; every polygon with its loop as written, also when corners repeat or the polygon has no

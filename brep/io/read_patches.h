@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reading and writing Bézier patches as text (BPT, the format in which the Utah teapot is passed
-// on): the number of patches; for each patch a line with its two degrees and then a line for each
-// control point, row by row (Σ B_i(u) B_j(v) P_ij, j runs first). A control point has three
-// numbers, or four in all lines of a rational patch: x y z w, where w is its weight and x y z the
-// point itself. `#` begins a comment.
+// Reading and writing of Bézier patches as text (BPT).
+// BPT is the format in which the Utah teapot is distributed: the number of patches; for each
+// patch a line with its two degrees and then a line for each control point, row by row (Σ B_i(u)
+// B_j(v) P_ij, j runs first). A control point has three numbers, or four in all lines of a
+// rational patch: x y z w, where w is its weight and x y z the point itself. `#` begins a
+// comment.
 #pragma once
 
 #include <filesystem>

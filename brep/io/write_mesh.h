@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writing meshes: OBJ, STL (ASCII and binary), OFF and PLY (all three encodings).
+// Mesh writers: OBJ, STL, OFF and PLY.
+// STL may be ASCII or binary; PLY has all three encodings.
 //
 // Text holds the shortest digits that read back as the same double, PLY holds doubles, so every
 // format except binary STL gives each coordinate back bit for bit (-0.0 and subnormals included).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Integers and fractions of any size behind the measures: conversions from the kernel's registers,
-// points in lowest terms, enclosures.
+// Integers and fractions of any size behind the measures.
+// They come with conversions from the kernel's registers, points in lowest terms and enclosures.
 #pragma once
 
 #include <gmpxx.h>

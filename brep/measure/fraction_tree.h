@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FractionTree: the exact sum of many fractions whose denominators are products of few numbers
-// each, without reducing partial sums. The essay is in measure.cpp.
+// FractionTree: exact sums of many fractions with factored denominators.
+// Each denominator is a product of few numbers. Partial sums are not reduced. The essay is in
+// measure.cpp.
 #pragma once
 
 #include <gmpxx.h>

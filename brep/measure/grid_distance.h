@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distances between points and triangles in the maximum norm, as certified doubles.
+// Certified distances between points and triangles in the maximum norm.
 //
 // Exact points of results are fractions of hundreds of bits. Here they are rounded down to a grid
 // 2^40 times as fine as the lattice, so that all arithmetic has a fixed width; what that can change

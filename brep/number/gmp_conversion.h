@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between the numbers of the public headers, which do not know GMP, and GMP's.
+// Conversions between numbers of the public headers and GMP's.
+// Public headers do not include GMP.
 #pragma once
 
 #include <gmpxx.h>

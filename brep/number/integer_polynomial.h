@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IntegerPolynomial: a polynomial in one variable whose coefficients are integers of any size.
+// IntegerPolynomial: a univariate polynomial with integer coefficients of any size.
 #pragma once
 
 #include <gmpxx.h>

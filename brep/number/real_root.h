@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// RealRoot: a real algebraic number, kept as a polynomial and an interval that holds one root.
+// RealRoot: a real algebraic number as a polynomial and an isolating interval.
 #pragma once
 
 #include <gmpxx.h>

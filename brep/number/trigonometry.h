@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sines, cosines and angles of fractions, as integers over a power of two with a proved error: what
-// encloses motions of constant angular speed. No function of the C library is trusted.
+// Sines, cosines and angles of fractions, with proved error bounds.
+// Values are integers over a power of two. They enclose motions of constant angular speed. No
+// function of the C library is trusted.
 #pragma once
 
 #include <gmpxx.h>

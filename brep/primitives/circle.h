@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Helpers of the primitives: argument checks and points on circles that suit a lattice.
+// Argument checks and lattice-friendly points on circles for the primitives.
 #pragma once
 
 #include <cstdint>

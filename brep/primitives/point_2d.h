@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Point2d: a corner of an outline in the plane z = 0, in the user's units.
+// Point2d: a corner of an outline in the plane z = 0.
+// Coordinates are in the user's units.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prisms: a polygon swept along z. Sides and caps are exactly planar.
+// Prisms: polygons swept along z.
+// Sides and caps are exactly planar.
 #pragma once
 
 #include <cstdint>

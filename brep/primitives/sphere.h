@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Spheres: polyhedra with corners on a sphere about the origin, rounded to a grid of less than
-// 1.2e-10 of the radius.
+// Spheres: polyhedra with corners on a sphere about the origin.
+// Corners are rounded to a grid of less than 1.2e-10 of the radius.
 #pragma once
 
 #include <cstdint>

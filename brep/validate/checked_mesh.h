@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CheckedMesh: what the checks of validate() look at, and the words they describe it with.
+// CheckedMesh: the input of the checks of validate(), and their vocabulary.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Defect: one thing that keeps a mesh from bounding a solid, or that a careful user wants to know;
-// and ValidationReport, the list of them.
+// Defect: a reason for a mesh to bound no solid, or a warning.
+// ValidationReport is the list of them.
 #pragma once
 
 #include <array>

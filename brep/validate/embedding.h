@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a boundary is embedded: free of self-intersection, with nested shells.
+// Embedding test of a boundary: no self-intersection, and nested shells.
 #pragma once
 
 #include <trisect/brep/lattice_mesh.h>

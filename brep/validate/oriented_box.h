@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TurnedBox: a box around triangles that is turned with them, in doubles on the safe side.
+// TurnedBox: an oriented box around triangles, in conservatively rounded doubles.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Do directed segments in a plane bound a region that lies to the left of each of them?
+// Test of planar directed segments as the outline of a region.
+// The region must lie to the left of each segment.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sheets: parts of a surface of which one linear pass shows that they do not meet themselves.
+// Sheets: height-field patches of a surface, free of self-intersection.
+// One linear pass proves that.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Contact of two triangles with lattice corners: what they have in common beyond the corners and
-// edges they share by name, exactly, with a witness.
+// Exact contact of two lattice triangles beyond their shared corners and edges.
+// Corners and edges are shared by name. A contact comes with a witness.
 #pragma once
 
 #include <array>

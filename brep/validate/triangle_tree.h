@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TriangleTree: a hierarchy of axis-aligned boxes over triangles, for the searches of validation.
+// TriangleTree: a hierarchy of axis-aligned boxes for the searches of validation.
 //
 // Boxes of long slanted triangles overlap where the triangles are far apart. A search for pairs
 // that comes to a node again and again gives it a box that is turned with its triangles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Validation: does a mesh bound a solid, and if not, what is wrong and where?
+// Validation: the defects that keep a mesh from bounding a solid.
 //
 // A mesh bounds a solid when its faces are free of proper intersections, their boundaries cancel,
 // and its shells are nested so that the winding number is 0 or 1 everywhere. Each reason why not is

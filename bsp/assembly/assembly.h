@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Assembly: from the polygons in the cells of a tree to a connected boundary.
+// Assembly: construction of a connected boundary from the leaves of a tree.
 #pragma once
 
 #include <trisect/bsp/assembly/parts/assembly_stats.h>

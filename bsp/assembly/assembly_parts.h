@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// First half of assembly: from the polygons of the cells to directed edges between exact vertices.
+// First half of assembly: directed edges between exact vertices.
+// They come from the polygons of the cells.
 #pragma once
 
 #include <cstdint>

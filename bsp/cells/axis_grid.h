@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The grid that the planes of an axis-parallel leaf make of its cell (axis_leaf.h).
+// AxisGrid: the grid of planes of an axis-perpendicular leaf (axis_leaf.h).
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AxisPicture: what bounds a set in a cell where everything is across an axis, before any facet is
-// cut.
+// AxisPicture: occupancy grid of a set in a cell of axis-perpendicular facets.
+// It bounds the set before any facet is cut.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygons in planes across an axis, as integers.
+// Polygons in axis-perpendicular planes, as integers.
 #pragma once
 
 #include <array>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Winding numbers along a segment parallel to an axis: what moving a reference point through a wall
-// needs. Seen along the axis the segment is a point, so a facet is met or missed by three signs of
-// 2x2 determinants; nearly all are decided in doubles.
+// Winding numbers along a segment parallel to an axis.
+// Moving a reference point through a splitting plane needs them. Seen along the axis the segment
+// is a point, so a facet is met or missed by three signs of 2x2 determinants; nearly all are
+// decided in doubles.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MemoryBudget: what one evaluation holds, counted where it grows with the operands.
+// MemoryBudget: memory held by one evaluation, where it grows with the operands.
 //
 // Counted are the lists of cells that wait to be solved and the lists and fragments of the result.
 // The operands were there before and are shared; the scratch memory of a leaf is bounded by the

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CellTree: the persistent partition behind a Solid. Its inner nodes cut space by axis-aligned
-// walls, its leaves list the polygons of the boundary that meet their cell. Nodes are immutable and
-// shared by all versions of a solid that agree there; an operation copies the paths to what it
-// changes.
+// CellTree: the persistent space partition behind a Solid.
+// Inner nodes divide space by axis-perpendicular splitting planes; leaves list the polygons of
+// the boundary that meet their cell. Nodes are immutable and shared by all versions of a solid
+// that agree there; an operation copies the paths to what it changes.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Crossings: where the boundaries of operands pass through each other.
+// Crossings: intersections between the boundaries of operands.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DeferredLeaf: a leaf in which facets cross that nobody has cut yet.
+// DeferredLeaf: a leaf with crossing facets that are cut on demand.
 #pragma once
 
 #include <cstdint>

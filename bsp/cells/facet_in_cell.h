@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A quick test that a facet misses a cell although its box does not.
+// Quick rejection of a facet whose box meets a cell.
 #pragma once
 
 #include <trisect/bsp/cells/cell_tree.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a leaf arrangement is asked: a cell, the operands in it, and the formula.
+// LeafProblem: input of a leaf arrangement: a cell, operands and the formula.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// NamedOutlines: faces of a result by their edges, before any point of them is made.
+// NamedOutlines: faces of a result by named edges, before points are made.
 #pragma once
 
 #include <array>

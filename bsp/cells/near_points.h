@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Groups of points of a workbench that may be equal: the few that exact comparison is spent on.
+// Groups of possibly equal points of a workbench, for exact comparison.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OutlinedSolid: a result of which the boundary is known, and nothing has been cut.
+// OutlinedSolid: a lazy result with a boundary and no tree yet.
 #pragma once
 
 #include <cstdint>

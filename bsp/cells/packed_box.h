@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the partition moves around: boxes of 16-bit numbers with the polygon they belong to, sixteen
-// bytes in all. Most of the time of a large evaluation goes into reading and writing these lists,
-// so bytes count; the boxes lie beside the names because looking corners up misses caches.
+// PackedBox: a box of 16-bit numbers and its polygon, in sixteen bytes.
+// The partition moves lists of them. Most of the time of a large evaluation goes into reading and
+// writing these lists, so bytes count; the boxes lie beside the names because looking corners up
+// misses caches.
 //
 // Rounding loses nothing that matters. All positions are rounded down to multiples of a power of
 // two, and walls are put between such multiples only: then a position is below the wall exactly if

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The order of a workbench's points along an axis.
+// Order of a workbench's points along an axis.
 #pragma once
 
 #include <cmath>

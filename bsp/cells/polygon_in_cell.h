@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The part of a listed polygon that lies in a cell.
+// Part of a listed polygon inside a cell.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Residual: what is left of a boolean formula in a cell, after the operands that are constant there
-// have been replaced by their value.
+// Residual: a boolean formula in a cell, simplified by constant operands.
+// An operand is constant where its boundary does not meet the cell.
 //
 // A formula is a graph: subformulas that occur several times are one node with several parents, and
 // written out as a tree it may be exponentially larger. So whoever walks it and may meet a node

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SolidState: what a Solid shares between its copies.
+// SolidState: the shared state of the copies of a Solid.
 #pragma once
 
 #include <compare>

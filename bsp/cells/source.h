@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Source: what the polygons of a cell tree refer to. A tree stores names (source, facet); corners
-// and planes are looked up here, and planes are made on demand, near the cuts only.
+// Source: the triangles of one import.
+// A tree stores names (source, facet); corners and planes are looked up here, and planes are made
+// on demand, near the cuts only.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact segment traces: how the winding number changes along a straight segment from a reference
-// point to a target.
+// Exact changes of the winding number along a straight segment.
+// The segment goes from a reference point to a target.
 //
 // The target is either a reference point of another cell or the barycentre of three vertices of a
 // polygon. All signs come from doubles with proved bounds first and from wide integers when those

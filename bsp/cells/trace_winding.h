@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Winding numbers along straight segments, for lists of polygons; the signs come from trace.h.
+// Winding numbers along straight segments, for lists of polygons.
+// Signs come from trace.h.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The limit of work and the wish to stop, looked at by everything that takes long.
+// Work limit and cancellation of long computations.
 #pragma once
 
 #include <trisect/bsp/expression.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Workbench: the planes and points that one leaf arrangement or one assembly works on, by small
-// ids.
+// Workbench: planes and points of one leaf arrangement or assembly, by id.
 //
 // Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
 // planes found to be the same point set share a class. Points are corners of sources or triples of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The boundary of a BspTree as convex fragments, and its exact volume.
+// Boundary of a BspTree as convex fragments, and its exact volume.
 #pragma once
 
 #include <span>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cell sections: what each plane of a BspTree cuts out of its cell, the only geometry that merging
-// and boundary extraction need. (Thibault and Naylor call them sub-hyperplanes.)
+// Cell sections: the intersection of each plane of a BspTree with its cell.
+// They are the only geometry that merging and boundary extraction need. (Thibault and Naylor call
+// them sub-hyperplanes.)
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CellTask: what an evaluation still has to do in one cell.
+// CellTask: the remaining work of an evaluation in one cell.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where to cut a cell that no operand has a tree for.
+// Choice of a splitting plane for a cell without one.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists of polygons instead of subtrees and leaves, for the operands of a task.
+// Polygon lists of a task's operands, from subtrees and leaves.
 #pragma once
 
 #include <cstdint>

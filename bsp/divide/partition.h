@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists of polygons: made from leaves, distributed to the two sides of a wall.
+// Polygon lists from leaves, and their distribution by a splitting plane.
 #pragma once
 
 #include <array>

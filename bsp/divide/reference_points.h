@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reference points of cells, and winding numbers there.
+// Reference points of cells, with their winding numbers.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Refinement of large leaves that belong to a solid, once and for all who use it.
+// Refinement of large leaves of a solid, shared by all its users.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a leaf lists of the one operand that is left in its cell.
+// Polygon list of the single operand left in a cell.
 #pragma once
 
 #include <trisect/bsp/cells/cell_tree.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operands that are a slab in a cell: under common covers of many parts, nearly everywhere.
+// Operands that are half-space pairs in a cell.
+// They are common where many parts have coplanar caps.
 #pragma once
 
 #include <cstdint>

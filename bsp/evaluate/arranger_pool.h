@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ArrangerPool: scratch memory of leaves that goes from one evaluation to the next.
+// ArrangerPool: scratch memory of leaves, reused by later evaluations.
 #pragma once
 
 #include <memory>

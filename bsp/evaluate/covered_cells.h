@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CoveredCells: cells that one operand covers, in which others have polygons nobody compares.
+// CoveredCells: cells contained in one operand, with polygons of others.
+// These polygons are not compared with each other.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Evaluator: one boolean formula over cell trees.
+// Evaluator: evaluation of one boolean formula over cell trees.
 #pragma once
 
 #include <memory>

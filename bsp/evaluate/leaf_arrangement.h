@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Leaf arrangement: which polygons bound the result in one cell.
+// Leaf arrangement: selection of the polygons that bound a result in one cell.
 #pragma once
 
 #include <cstddef>

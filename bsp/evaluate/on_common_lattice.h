@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operands on different lattices are moved to one: the finest of them, exactly, if all fit there.
+// Conversion of operands on different lattices to a common one.
+// It is the finest of them, and exact if all operands fit there.
 #pragma once
 
 #include <memory>

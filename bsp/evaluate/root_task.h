@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where an evaluation starts: the root's task.
+// Root task of an evaluation.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From an expression over solids to a formula over numbered slots.
+// Translation of an expression over solids to a formula over numbered slots.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The family: all structures over two models, by name.
+// Registry of all pair structures, by name.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ enum class StructureKind : std::uint8_t {
     Kdop18Refit,  ///< B's fitted anew to each pose
     Kdop18Climb,  ///< B's found by climbing along hulls
     Sphere,
-    SphereOctree,    ///< sphere trees of the lecture: around an octree's cubes,
+    SphereOctree,    ///< sphere trees: around an octree's cubes,
     SphereMedial,    ///< about the medial axis,
     SphereVertices,  ///< about vertices
     Obb,             ///< oriented boxes, a binary tree

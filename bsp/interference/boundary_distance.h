@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far the boundaries of two placed solids are from each other: a certified interval at once,
-// the exact number when asked for.
+// Distance between the boundaries of two placed solids.
+// It is a certified interval at once, and the exact number on demand.
 #pragma once
 
 #include <array>

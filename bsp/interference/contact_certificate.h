@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates of first contact: why moving solids touch at a time and not before, or never, in a
-// form that another program can check with nothing but fractions.
+// Certificates of the first contact of moving solids, or of none.
+// Another program can check them with nothing but fractions.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates of distances: why two boundaries are so far from each other, and not nearer, in a
-// form that another program can check with nothing but fractions.
+// Certificates of exact distances between boundaries.
+// Another program can check them with nothing but fractions.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates of first contact for motions that no rational formula describes, in a form that
-// another program can check with the enclosures of the motions and fractions.
+// Certificates of first contact for enclosed motions.
+// No rational formula describes such a motion. Another program can check them with the enclosures
+// of the motions and fractions.
 #pragma once
 
 #include <cstddef>

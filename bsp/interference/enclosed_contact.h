@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// enclosed_first_contact: when do solids first touch that move in ways no rational formula
-// describes? Answers are proved, as narrow as asked for, and say so where nothing can be proved.
+// enclosed_first_contact: certified first contact of solids under enclosed motions.
+// No rational formula describes such a motion. Answers are proved, as narrow as requested; times
+// that cannot be decided are reported.
 #pragma once
 
 #include <cstdint>

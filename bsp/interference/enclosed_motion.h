@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EnclosedMotion: a motion that no rational formula describes, known by rational motions that are
-// provably near it.
+// EnclosedMotion: a motion enclosed by rational motions with proved error.
+// It serves motions that no rational formula describes.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// first_contact: when do two moving solids first touch, or block each other? Exact for rational
-// motions.
+// first_contact: exact time of first contact or blocking of moving solids.
+// Motions are rational.
 #pragma once
 
 #include <cstdint>

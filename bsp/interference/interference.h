@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How two placed solids lie to each other, and where their boundaries meet: exactly.
+// Exact relation of two placed solids, and contacts of their boundaries.
 #pragma once
 
 #include <array>
@@ -80,10 +80,9 @@ struct ContactPoint {
 
 /// A part of the common points of two boundaries, as large as it can be within a pair of entities:
 ///   dimension 2  the area that a face of each share; `a` and `b` are the faces. Loops have the
-///   area
-///                to their left, seen from where A's outward normal points (from the other side
-///                when A is mirrored); holes run the other way round. A pair of faces may share
-///                several areas. Corners are where the outline turns.
+///                area to their left, seen from where A's outward normal points (from the other
+///                side when A is mirrored); holes run the other way round. A pair of faces may
+///                share several areas. Corners are where the outline turns.
 ///   dimension 1  a segment of an edge of one on an edge or face of the other, or where two faces
 ///                pass through each other, that is not part of an area's outline: one loop of two
 ///                points.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates: why a relation of two placed solids is what it is, in a form that another program
-// can check with nothing but fractions.
+// Certificates of the relation of two placed solids.
+// Another program can check them with nothing but fractions.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InterferenceModel: a solid prepared for questions about how it lies to others while it moves.
+// InterferenceModel: a solid prepared for interference queries under poses.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The overlap of two placed solids as a solid, and its volume.
+// Overlap of two placed solids as a solid, and its volume.
 #pragma once
 
 #include <trisect/brep/exact_rational.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InterferenceQuery: the relation of two solids again and again while they move a little.
+// InterferenceQuery: the relation of two solids over similar poses.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scene: many solids that move, some of them joined by joints, and which of them interfere.
+// Scene: many moving solids, some of them jointed, and their interferences.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joint: how a link of an articulated body may move against the link that carries it.
+// Joint: the relative motion of an articulated link and its parent.
 #pragma once
 
 #include <array>

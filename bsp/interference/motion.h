@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Motion: an exact placement of a solid for every value of a parameter.
+// Motion: an exact placement of a solid for every parameter value.
 #pragma once
 
 #include <array>

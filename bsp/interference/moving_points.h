@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// First contact of a vertex and a triangle, or of two edges, whose corners move on straight lines:
-// the primitive of continuous collision detection, exact.
+// Exact first contact of features with linearly moving corners.
+// The features are a vertex and a triangle, or two edges: the primitive of continuous collision
+// detection.
 #pragma once
 
 #include <array>

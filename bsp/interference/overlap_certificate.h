@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Certificates of the first overlap: why the interiors of moving solids meet from a time on and not
-// before, or never, in a form that another program can check with nothing but fractions.
+// Certificates of the first overlap of moving solids, or of none.
+// The interiors meet from a time on and not before. Another program can check that with nothing
+// but fractions.
 #pragma once
 
 #include <array>

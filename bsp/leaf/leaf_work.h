@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the steps of a leaf arrangement share: its polygons, what is known about them, and the
-// pieces that they are cut into.
+// LeafWork: shared data of the steps of a leaf arrangement.
+// It has the polygons, their properties and the pieces that they are cut into.
 #pragma once
 
 #include <cstdint>

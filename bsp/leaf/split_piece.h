@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splitting a polygon of a leaf where another one runs through it.
+// Division of a polygon of a leaf along another polygon.
 #pragma once
 
 #include <array>

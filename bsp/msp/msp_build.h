@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MspTreeBuilder: from polygons to an MspTree.
+// MspTreeBuilder: construction of an MspTree from polygons.
 #pragma once
 
 #include <span>

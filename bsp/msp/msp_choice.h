@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The choice of the next cut, the same for polygons in a cell and for segments in a plane.
+// Choice of the next cut, for polygons and for segments alike.
+// Polygons are in a cell, segments in a plane.
 #pragma once
 
 #include <algorithm>

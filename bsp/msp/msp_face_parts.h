@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// convex_parts: a face with computed corners as convex polygons, without a new plane.
+// convex_parts: a face as convex polygons, without a new plane.
+// Corners of the face may be computed points.
 #pragma once
 
 #include <vector>

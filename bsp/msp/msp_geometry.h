@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MspGeometry: the planes, points and polygons that an MspTree is built from, by small numbers.
+// MspGeometry: numbered planes, points and polygons of an MspTree.
 #pragma once
 
 #include <array>

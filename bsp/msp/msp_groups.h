@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Groups: a list of items with boxes, kept in groups of some dozens, so that a plane passes by a
-// whole group at the price of one test. A chain of n cuts, which every convex solid makes, visits
-// n²/2 items; in groups it visits n²/128.
+// Groups: a list of items with boxes, in groups of some dozens.
+// A plane passes by a whole group at the price of one test. A chain of n cuts, which every convex
+// solid makes, visits n²/2 items; in groups it visits n²/128.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MspLine: what is where on a line that cuts a region of a plane. The heart of the index: here it
-// is decided what lies on a line and on both sides of it.
+// MspLine: the order of boundary features on a cutting line in a plane.
+// It is the heart of the index: here it is decided what lies on a line and on both sides of it.
 #pragma once
 
 #include <cstddef>

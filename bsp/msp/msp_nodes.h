@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// NodeList: the nodes of an MspTree in the making.
+// NodeList: the nodes of an MspTree under construction.
 #pragma once
 
 #include <cstddef>

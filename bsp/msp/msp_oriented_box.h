@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OrientedBox: a box along the directions in which some points spread.
+// OrientedBox: a box along the principal directions of some points.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PlaneTreeBuilder: the on side of a plane. A convex open region of the plane, what of the boundary
-// lies in it, and the tree of dimension 2 that tells it apart.
+// PlaneTreeBuilder: construction of the tree of dimension 2 in a plane.
+// It is the on side of the plane: a convex open region, the part of the boundary that lies in it,
+// and the tree that distinguishes them.
 #pragma once
 
 #include <vector>

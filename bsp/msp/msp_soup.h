@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MspSoup: a boundary as convex polygons that know what their edges and corners are.
+// MspSoup: a boundary as convex polygons with identified edges and corners.
 #pragma once
 
 #include <cstddef>

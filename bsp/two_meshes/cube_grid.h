@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CubeGrid and OccupiedCubes: where in space two meshes come near each other, a bit for each of a
-// few thousand equal boxes.
+// CubeGrid, OccupiedCubes: bit grids of the region near both meshes.
+// There is a bit for each of a few thousand equal boxes.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacetSides: on which side of another mesh the facets of a mesh are, without a tree.
+// FacetSides: positions of a mesh's facets relative to another mesh.
+// No tree is needed for them.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operations on two large meshes of which only triangles may be wanted.
+// Booleans of two large meshes without a tree.
+// They serve where only triangles of the result may be wanted.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace trisect::detail {
 
 /// A union, an intersection or a difference of two large imported meshes, as an OutlinedSolid: the
 /// facets that cross, and the others that bound the result. Null for all else: where meshes do not
-/// cross in general position, sides of facets are not known from that, or work or memory is
+/// cross in general position, sides of facets do not follow from that, or work is
 /// limited; where one has an index, or is so large beside the other that it gets one: what is
 /// beside the smaller one is not looked at then. Meshes of fewer than `least_facets` are divided as
 /// quickly. What it returns does not depend on the number of threads.

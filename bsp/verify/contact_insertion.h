@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces that meet in corners and edges of each other, made to share them.
+// Insertion of shared corners and edges where faces meet.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far a set reaches from two surfaces: the certified radius of verify.h.
+// Certified radius of a set about two surfaces, for verify.h.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A point that is in one of two sets and not in the other, and what is true of it by definition.
+// Witness point for the difference of two sets, judged by definition.
 #pragma once
 
 #include <optional>

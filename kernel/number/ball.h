@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ball: a double with a proved bound on its error, the number of the filters of motions.
+// Ball: a double with a proved error bound, for the filters of motions.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundedDouble: a double that knows how wrong it may be; the filter stage of feature tracking.
+// BoundedDouble: a double with an error bound, for filters of feature tracking.
 #pragma once
 
 #include <array>

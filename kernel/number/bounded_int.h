@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundedInt: integers of at most 4096 bits whose cost follows their actual length, on the stack.
+// BoundedInt: integers of at most 4096 bits on the stack.
+// Their cost follows their actual length.
 //
 // The widths of numbers that belong to two posed solids differ by a factor of twenty: a corner on a
 // lattice of 20 bits under a quarter turn, or the common point of three wide planes under a pose of

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Digits and Columns: fixed-width integers in base 2^56, the arithmetic of the exact stage of
-// predicates.
+// Digits, Columns: fixed-width integers in base 2^56.
+// They are the arithmetic of the exact stage of predicates.
 //
 // Digits of 56 bits leave room in a register: a product of two fits 128 bits sixteen bits over, so
 // sums of many products are formed column by column without any carry, signs included, and carried

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The filtered stage of the predicates: a value computed in rounded arithmetic, and a bound on how
-// far it is from the exact one. The sign is known where the value is larger than the bound.
+// Filtered stage of the predicates: rounded values with error bounds.
+// The sign of a value is certain where the value is larger than its bound.
 //
 // The formulas are templates, because the bounds are theorems about any binary format: a test runs
 // them in a format of six bits, where all roundings that can happen do happen

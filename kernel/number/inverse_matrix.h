@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Inverses of three by three matrices in doubles, without care, and how good one is.
+// Inverses of three by three matrices in doubles, with their residuals.
 #pragma once
 
 #include <array>

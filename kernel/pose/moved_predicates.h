@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Signs that belong to two posed solids at once, exact. One solid's lattice is the frame; planes of
-// the other are pulled back into it, n' = M^T n, d' = S d + n·t, which needs no division and no
-// moved vertex. Three stages as in predicates.h:
-//   1. symbolic  the caller knows (a vertex of a face known to be coplanar);
+// Exact signs that involve two posed solids.
+// One solid's lattice is the frame. Planes of the other are pulled back into it, n' = M^T n, d' =
+// S d + n·t, which needs no division and no moved vertex. Three stages as in predicates.h:
+//   1. symbolic  by name (a vertex of a face that is coplanar);
 //   2. filtered  doubles with a derived bound. Only here are points "moved", with an error bound;
-//   3. exact     integers of 128 bits where the pose's numbers are short and the products that
-//   occur
-//                are known to fit, else integers on the stack, as long as they have to be
+//   3. exact     integers of 128 bits where the pose's numbers are short and the products fit,
+//                else integers on the stack, as long as they have to be
 //                (kernel/number/bounded_int.h). Counted as narrow up to 256 bits: corners of
-//                lattices up to 26 bits under rotations by small quaternions need about 110, under
-//                doubles 170.
+//                lattices up to 26 bits under rotations by small quaternions need about 110,
+//                under doubles 170.
 // The bounds on bits are derived in moved_predicates.cpp.
 //
 // Everything here has lazy parts and is for one thread.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The thirteen integers of an affine map (M x + t) / S while it is being made, and taking out what
-// they have in common.
+// Integers of an affine map (M x + t)/S in lowest terms.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recursion that does not end with the stack.
+// Recursion that continues on a new stack when one is exhausted.
 //
 // Trees are as deep as a chain of cuts made them, and formulas as their writer nested them; the
 // stack of a thread is eight megabytes, or 256 KiB in a pool of somebody else. Depth alone says

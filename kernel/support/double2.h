@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Double2: two doubles side by side, like Float4.
+// Double2: two doubles in one vector register, like Float4.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DueList: things that have to be looked at when an odometer has come so far.
+// DueList: items to be examined when an odometer reaches a value.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The end of a graph of nodes that own their children, without recursion and without memory.
+// Destruction of a graph of owning nodes, without recursion and without memory.
 //
 // Destroying the last owner of a chain of a hundred thousand nodes recurses a hundred thousand
 // times when left to the language. The usual cure, a list of nodes to come, needs memory, in a

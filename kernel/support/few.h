@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Few: a vector that keeps its first elements in place, for the corners of polygons in the making.
+// Few: a vector with in-place storage for its first elements.
+// It holds the corners of polygons under construction.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FlatMap: a small open-addressing map from 128-bit keys to indices, for names of planes and
-// points.
+// FlatMap: a small open-addressing map from 128-bit keys to indices.
+// Keys are names of planes and points.
 #pragma once
 
 #include <algorithm>

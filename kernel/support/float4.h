@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Float4: four floats side by side, by the vector extension of g++ and clang; one register on every
-// x86-64. Operators work lane by lane; a comparison gives Mask4.
+// Float4: four floats in one vector register.
+// It uses the vector extension of g++ and clang. Operators work lane by lane; a comparison gives
+// Mask4.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FunctionRef: a callable that somebody else owns, as an argument of virtual functions.
+// FunctionRef: a non-owning reference to a callable, for virtual functions.
 #pragma once
 
 #include <memory>

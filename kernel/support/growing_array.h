@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GrowingArray: elements that stay where they are.
+// GrowingArray: a growing array of elements with stable addresses.
 #pragma once
 
 #include <array>

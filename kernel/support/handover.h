@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Handover: tells the thread sanitizer what oneTBB orders. The library is not compiled with the
-// sanitizer, so a task seems to race with the thread that made it.
+// Handover: the order of oneTBB's tasks, declared to the thread sanitizer.
+// The library is not compiled with the sanitizer, so a task seems to race with the thread that
+// made it.
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)

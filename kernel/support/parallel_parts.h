@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A range of numbers in consecutive parts on several threads, with an outcome that does not depend
-// on them.
+// Parallel loops over consecutive parts of a range of numbers.
+// The outcome does not depend on the number of threads.
 #pragma once
 
 #include <algorithm>

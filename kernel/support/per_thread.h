@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-
+//
+// PerThread: one object for each thread, made at its first use.
 #pragma once
 
 #include <memory>
@@ -10,9 +11,8 @@
 
 namespace trisect::detail {
 
-/// One T for each thread that asks for one, made when it first asks. Asking takes a lock, so it is
-/// for once a task. What oneTBB has for this loads its allocator, 0.6 MB of a process, and an
-/// operation on one thread never needs that.
+/// An access takes a lock, so there should be one a task. What oneTBB has for this loads its
+/// allocator, 0.6 MB of a process, and an operation on one thread never needs that.
 template <class T>
 class PerThread {
 public:

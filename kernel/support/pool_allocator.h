@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PoolAllocator: memory of vectors that one assembly or one leaf fills and gives up again.
+// PoolAllocator: memory for the vectors of one assembly or one leaf.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sorting by integers, without comparing them.
+// Sorting by integer keys, without comparisons.
 #pragma once
 
 #include <algorithm>

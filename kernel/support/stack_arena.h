@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// StackArena: memory that a recursion takes on its way down and gives back on its way up.
+// StackArena: memory of a recursion, in stack order.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// StampMap: a small open-addressing map that is emptied in no time, for what is looked up in one
-// leaf after the other.
+// StampMap: a small open-addressing map that is cleared in constant time.
+// It serves look-ups in one leaf after the other.
 #pragma once
 
 #include <cstddef>

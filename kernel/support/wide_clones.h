@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mark for the few functions that gain from wider registers than every x86-64 processor has: they
-// are compiled twice, and the loader takes the one that the processor can run. Both give the same
-// bits: the wider one may not be given contracted or reordered floating-point arithmetic to do.
+// Mark for functions compiled for wider vector registers as well.
+// Such a function is compiled twice, and the loader takes the version that the processor can run.
+// Both give the same bits: the wider one must contain no floating-point arithmetic that could be
+// contracted or reordered.
 #pragma once
 
 // The loader's choice (an ifunc) comes before a sanitizer is ready; clang 14 has no such clones of

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Loading and storing numbers of either byte order at any address. The caller has checked bounds.
+// Loads and stores of numbers of either byte order at any address.
+// The caller has checked bounds.
 #pragma once
 
 #include <bit>

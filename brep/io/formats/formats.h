@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The readers and writers of single formats, called by read_mesh and write_mesh only. Writers are
-// given a mesh that was checked (see write_mesh.cpp) and append to `out`.
+// Readers and writers of single formats, called by read_mesh and write_mesh.
+// Writers are given a mesh that was checked (see write_mesh.cpp) and append to `out`.
 #pragma once
 
 #include <trisect/brep/io/formats/input_text.h>

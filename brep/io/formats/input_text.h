@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InputText: the bytes being read, their limits, and the only way in which readers report errors.
-// Readers hold plain pointers into the bytes; line and column are counted when an error needs
-// them, so that the fast path counts nothing.
+// InputText: the bytes of an input, their limits, and its errors.
+// Readers report errors through it alone. They hold plain pointers into the bytes; line and
+// column are counted when an error needs them, so that the fast path counts nothing.
 #pragma once
 
 #include <trisect/brep/io/read_mesh.h>

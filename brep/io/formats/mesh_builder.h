@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MeshBuilder: the one place where readers add vertices and corners, and where limits and indices
-// are checked. Every index passes add_corner exactly once.
+// MeshBuilder: checked insertion of vertices and corners by the readers.
+// Limits and indices are checked here. Every index passes add_corner exactly once.
 //
 // A corner may name a vertex that comes later in the file (OBJ with faces first, PLY with the face
 // element first). Such a corner can only be judged at the end, so its place is kept; only those

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers as text: the shortest digits that read back as the same double (std::to_chars).
+// Numbers as the shortest digits that read back exactly (std::to_chars).
 #pragma once
 
 #include <trisect/brep/polygon_mesh.h>

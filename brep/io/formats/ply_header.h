@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The header of a PLY file: a small schema language that says which elements follow, how many of
-// each, and which properties, of which type, each entry has.
+// Header of a PLY file: its elements and their typed properties.
+// It is a small schema language: which elements follow, how many of each, and which properties,
+// of which type, each entry has.
 #pragma once
 
 #include <trisect/brep/io/formats/input_text.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much the quick ways of the readers did. Tests hold it against what they should do: a quick
-// way that is never taken changes nothing but the time.
+// Counters of the readers' fast paths.
+// Tests compare them with expected numbers: a fast path that is never taken changes nothing but
+// the time.
 #pragma once
 
 #include <cstdint>

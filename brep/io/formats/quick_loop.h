@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A face of OFF or ASCII PLY that fills its line: the count and the indices from 0.
+// Fast path for a face of OFF or ASCII PLY.
+// The face fills its line: the count and the indices from 0.
 #pragma once
 
 #include <trisect/brep/io/formats/mesh_builder.h>

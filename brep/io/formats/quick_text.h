@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// QuickText: reads the plain lines that make up nearly all of a text file (numbers of at most 19
-// digits, indices, single words, and blanks between them) eight characters at a time. It knows no
-// errors: what it does not know it refuses, and TextCursor reads the line again with all checks.
+// QuickText: fast path for the plain lines of a text file.
+// Plain lines (numbers of at most 19 digits, indices, single words, and blanks between them) make
+// up nearly all of a file. They are read eight characters at a time. Everything else is refused
+// without an error, and TextCursor reads the line again with all checks.
 //
 // DigitRun: eight bytes minus '0' with a carry test tell how many leading ones are digits; shifting
 // the others out leaves zeros in front, and three multiplications add the digits up in pairs

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TextCursor: reads words and numbers out of text, a line at a time, without copying and without
-// buffers of its own.
+// TextCursor: words and numbers of a text, line by line, without copies.
 //
 // Lines end with LF, CR LF, or (in a file whose first line does) a bare CR. Words are separated by
 // blanks, tabs, CR, vertical tabs and form feeds. A number must fill its whole word: `1.5x` is an

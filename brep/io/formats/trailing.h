@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What may follow the end of the data in a binary file: padding, that is zero bytes and white
-// space.
+// Data allowed after the end of a binary file: zero bytes and white space.
 #pragma once
 
 #include <trisect/brep/io/formats/input_text.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// VertexWelder: gives equal points equal numbers, in order of first appearance. Equality is that of
-// the coordinates' values, so -0.0 equals 0.0, and nothing else is near enough.
+// VertexWelder: equal numbers for equal points, in order of first appearance.
+// Equality is that of the coordinates' values: -0.0 equals 0.0, and there is no tolerance.
 //
 // Open addressing with linear probing over 32-bit numbers into the vector of points: one cache line
 // for a probe, no node allocations. The lines are spread over the whole table, so points that come

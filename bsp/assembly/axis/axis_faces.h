@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AxisFaces: the faces of a result in planes across an axis, outlined plane by plane instead of
-// facet by facet.
+// AxisFaces: axis-perpendicular faces of a result, outlined plane by plane.
 #pragma once
 
 #include <array>

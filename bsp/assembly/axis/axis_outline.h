@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AxisOutline: the outline of what polygons in one plane across an axis cover together, in
-// integers.
+// AxisOutline: the outline of a union of coplanar axis-perpendicular polygons.
+// All arithmetic is in integers.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AssemblyStats: what one assembly had to do.
+// AssemblyStats: operation counts of one assembly.
 #pragma once
 
 #include <cstdint>

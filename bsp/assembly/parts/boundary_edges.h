@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Joining: cancel what is inside a region, and drop the vertices that mean nothing.
+// Cancellation of edges inside a region, and removal of redundant vertices.
 #pragma once
 
 #include <span>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundaryFacet, BoundaryEdge: what assembly makes of the polygons of the cells.
+// BoundaryFacet, BoundaryEdge: the units of assembly.
+// They are made from the polygons of the cells.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundaryParts: the boundary of a result while it is put together.
+// BoundaryParts: the boundary of a result under construction.
 #pragma once
 
 #include <cstddef>

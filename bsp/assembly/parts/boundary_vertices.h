@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundaryVertices: one number for every vertex of a boundary, be it a point of the workbench or a
-// corner of a facet that passed through.
+// BoundaryVertices: one number for every vertex of a boundary.
+// A vertex is a point of the workbench or a corner of an unmodified facet.
 #pragma once
 
 #include <cstddef>

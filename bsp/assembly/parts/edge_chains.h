@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EdgeChains: boundary edges of a region in the order of its loops. Nearly all regions have one
-// loop of a handful of edges that passes no vertex twice. Once such edges are in order nothing
-// needs to sort or to search them again.
+// EdgeChains: boundary edges of a region in the order of its loops.
+// Nearly all regions have one loop of a handful of edges that passes no vertex twice. Once such
+// edges are in order nothing needs to sort or to search them again.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// EdgeSplitter: vertices that lie inside edges (T-vertices).
+// EdgeSplitter: insertion of vertices that lie inside edges (T-vertices).
 #pragma once
 
 #include <array>

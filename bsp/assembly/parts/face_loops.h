@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From the directed boundary edges of a planar region to faces: an outer loop and its holes.
+// Outer loops and holes from directed edges of a planar region.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacetMarks: which facets of a source bound a result, and which of them need work.
+// FacetMarks: unmodified and modified facets of a source in a result.
 #pragma once
 
 #include <atomic>

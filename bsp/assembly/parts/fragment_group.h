@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FragmentGroup: the fragments of one facet in one cell, put together by the names of their lines.
+// FragmentGroup: fragments of one facet in one cell, joined along named lines.
 #pragma once
 
 #include <array>

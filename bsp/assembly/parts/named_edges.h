@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the names of planes say about the edges of sources in which they meet.
+// Edges of sources as intersections of named planes.
 #pragma once
 
 #include <trisect/bsp/cells/workbench.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Edges of a result whose outlines are known by name.
+// Edges of a result with outlines given by name.
 #pragma once
 
 #include <vector>

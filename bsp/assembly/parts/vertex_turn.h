@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turns of outlines at their vertices, from planes alone: where an edge of a nearly flat crease
-// pierces a facet three vertices are all but in line, and points would have to be evaluated.
+// Turns of outlines at their vertices, from planes alone.
+// Where an edge of a nearly flat crease pierces a facet, three vertices are almost collinear, and
+// points would have to be evaluated.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WholeFacets: the facets that passed through, and which of them have a coplanar neighbour.
+// WholeFacets: unmodified facets, and those with coplanar neighbours.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacetOutline: the part of a facet that other operands leave open, from the segments in which
-// their facets cross it.
+// FacetOutline: the visible part of a facet, from its crossing segments.
+// Other operands leave this part open; the segments are where their facets cross it.
 #pragma once
 
 #include <array>

@@ -11,8 +11,8 @@
 //
 // The bound, with u = 2^-53 and E the largest error of the four ends. The value of a point is
 // du y - dv x, with (du, dv) the way along the line and (x, y) the way from its start. Each of
-// these differences is off by 2E for its ends, and by a factor of 1 + u. So a product, say du y, is
-// off by
+// these differences is off by 2E for its ends, and by a factor of 1 + u. So the error of a product,
+// say du y, is
 //     2E (|du| + |y|) + 4E^2 + 3.1u |du y|
 // besides products of E and u, and the difference of both by another u of it. That makes
 //     2E (|du| + |dv| + |x| + |y| + 4E) + 4.1u (|du y| + |dv x|);

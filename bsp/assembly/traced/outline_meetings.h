@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OutlineMeetings: where segments on a facet that other operands leave there cross each other.
+// OutlineMeetings: intersections of the crossing segments on one facet.
 #pragma once
 
 #include <array>

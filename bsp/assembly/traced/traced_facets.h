@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Traced facets: outlines of cut facets from the segments in which they cross others.
+// Traced facets: outlines of cut facets from their crossing segments.
 #pragma once
 
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CommonFrame: two posed lattices seen in one system of coordinates, in which distances are those
-// that are asked for.
+// CommonFrame: two posed lattices in one coordinate system.
+// Distances in it are those that a query asks for.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Convex hulls of lattice points, exactly, and enclosing hulls of other points.
+// Convex hulls of lattice points, exact, and enclosing hulls.
+// Points off the lattice get enclosing hulls.
 #pragma once
 
 #include <span>

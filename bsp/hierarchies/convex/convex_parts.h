@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Convex parts: the boundary of a solid in pieces that look outwards like parts of convex bodies.
+// Convex parts: boundary patches like those of convex bodies.
 #pragma once
 
 #include <cstdint>

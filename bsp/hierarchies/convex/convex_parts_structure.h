@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracked hulls of convex parts as a PairStructure.
+// PairStructure of tracked hulls of convex parts.
 #pragma once
 
 #include <memory>

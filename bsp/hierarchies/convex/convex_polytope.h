@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ConvexPolytope: a convex set by its vertices, edges and maximal faces, exact on a lattice.
+// ConvexPolytope: a convex lattice polytope with vertices, edges and maximal faces.
+// It is exact.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The integers behind a CommonFrame.
+// Integers behind a CommonFrame.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FeatureWalk: the closest features of two convex polytopes, found by walking from features that
-// were close before.
+// FeatureWalk: the closest features of two convex polytopes, by local search.
+// It starts from features that were close before.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// HullTree: convex hulls of the parts of a solid, of groups of parts, and of pieces of parts.
+// HullTree: convex hulls of parts of a solid, grouped and divided.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SubPartTracker: the distance of two boundaries from closest features of hulls alone, looking into
-// concavities only where a closest feature covers one.
+// SubPartTracker: distance of two boundaries from closest features of hulls.
+// Concavities are opened only where a closest feature is on a face that closes one.
 #pragma once
 
 #include <cstddef>

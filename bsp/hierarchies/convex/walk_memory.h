@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WalkMemory: where walks between the nodes of two trees ended, as starts for the next pose.
+// WalkMemory: end features of tree-node walks, as starts for later poses.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far two placed curved surfaces are from each other, to a stated tolerance.
+// Distance of two placed curved surfaces, to a stated tolerance.
 #pragma once
 
 #include <cstdint>

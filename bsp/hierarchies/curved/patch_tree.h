@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PatchTree: a sub-part hierarchy over Bézier patches. Above the patches it is a tree of boxes,
-// below each patch a tree of its halves, whose volumes are the convex hulls of their control
-// points.
+// PatchTree: a bounding volume hierarchy over Bézier patches.
+// Above the patches it is a tree of boxes, below each patch a tree of its halves, whose volumes
+// are the convex hulls of their control points.
 #pragma once
 
 #include <array>
@@ -23,9 +23,9 @@ struct SurfacePoint {
     double v = 0;
 };
 
-/// A part is a set of whole patches or a rectangle of one patch's parameters. Halves are made when
-/// they are asked for and kept, so a tree grows where queries look (lecture 14, "curved
-/// boundaries"; Lane and Riesenfeld 1980 for halving).
+/// A part is a set of whole patches or a rectangle of one patch's parameters. Halves are made on
+/// demand and kept, so a tree grows where queries look. Halving is that of Lane and Riesenfeld
+/// (1980).
 ///
 /// For one thread at a time: queries change it.
 class PatchTree {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ContactSchedule: when which pair of many moving bodies has to be looked at again, so that no
-// contact is missed.
+// ContactSchedule: next examination times of pairs of moving bodies.
+// No contact is missed.
 #pragma once
 
 #include <array>

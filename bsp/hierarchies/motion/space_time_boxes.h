@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SpaceTimeBoxes: which moving solids may meet, and when. A solid that moves is a body in four
-// dimensions, and boxes around parts of it are found in pairs like any others.
+// SpaceTimeBoxes: candidate pairs of moving solids, with time intervals.
+// A solid that moves is a body in four dimensions, and boxes around parts of it are found in
+// pairs like any others.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every triangle against every other: what structures are compared with.
+// Exhaustive pairs of triangles, the reference for structures.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangles of a deformed solid are those of the solid before.
+// Correspondence of triangles of a deformed solid and its predecessor.
 #pragma once
 
 #include <cstdint>

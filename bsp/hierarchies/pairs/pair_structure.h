@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PairStructure: whatever finds the pairs of triangles of two placed solids that may meet. Bounding
-// volume hierarchies, partitions of space and tracked features all are one, so that the same exact
-// test at the leaves (queries.h) makes the same answers of them.
+// PairStructure: interface for candidate triangle pairs of two placed solids.
+// Bounding volume hierarchies, partitions of space and tracked features implement it, so that the
+// same exact test at the leaves (queries.h) makes the same answers of them.
 #pragma once
 
 #include <cstdint>

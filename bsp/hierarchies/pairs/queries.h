@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact questions about two placed solids, by any structure that finds pairs of triangles. The
-// structure decides how fast; the answers are the same.
+// Exact queries on two placed solids, by any PairStructure.
+// The structure decides how fast; the answers are the same.
 //
 // All are about the poses that the structure was placed at last, and add what they did to
 // `counters`.

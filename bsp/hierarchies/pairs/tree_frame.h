@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TreeFrame: the units in which a tree over a model has its numbers, and the map from one tree to
-// another.
+// TreeFrame: units of a tree's numbers, and maps between trees.
 #pragma once
 
 #include <array>

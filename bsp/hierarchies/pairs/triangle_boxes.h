@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TriangleBoxes: boxes around the triangles of a model, where it was modelled or where it has been
-// moved to.
+// TriangleBoxes: boxes around the triangles of a model, possibly moved.
 #pragma once
 
 #include <array>

@@ -8,9 +8,9 @@
 //   - along a ray from p the power of p with respect to the spheres that are passed never falls, so
 //     the cavity is star-shaped and connected;
 //   - p is not in the plane of a face of the cavity's surface: within that plane both spheres at
-//   the
-//     face cut out the same disc, so p would be inside both or neither. So every new tetrahedron
-//     has volume. All points are strictly inside of the cube, so this holds at its surface as well.
+//     the face cut out the same disc, so p would be inside both or neither. So every new
+//     tetrahedron has volume. All points are strictly inside of the cube, so this holds at its
+//     surface as well.
 //
 // Each walk to the place of the next point is short because points come in rounds of doubling size,
 // chosen at random, each in the order of a curve through space. The random numbers are always the

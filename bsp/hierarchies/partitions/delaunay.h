@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DelaunayMesh: a cube filled with tetrahedra whose corners are given points.
+// DelaunayMesh: a Delaunay tetrahedralisation of a cube with given points.
 #pragma once
 
 #include <array>

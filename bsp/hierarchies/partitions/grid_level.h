@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GridLevel: boxes in the hashed cells of one grid, found around a box, near cells first.
+// GridLevel: boxes in the hashed cells of one grid.
+// They are found around a box, near cells first.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InnerBall: a ball within a region that planes bound, cut smaller plane by plane.
+// InnerBall: a ball within a convex region, updated plane by plane.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ObstacleMesh: the space around and inside of a solid as tetrahedra, each with the triangles of
-// the boundary that it meets.
+// ObstacleMesh: tetrahedra around and inside of a solid.
+// Each has the triangles of the boundary that it meets.
 #pragma once
 
 #include <array>

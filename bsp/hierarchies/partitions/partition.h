@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Partition: a structure that divides the space of A, which stands still, once and for all. B's
-// triangles come to it as boxes.
+// Partition: interface for partitions of the space of a fixed solid.
+// A stands still and its space is divided once and for all. B's triangles come to it as boxes.
 #pragma once
 
 #include <cstdint>

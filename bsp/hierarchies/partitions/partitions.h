@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Partitions of space as structures over two models (pair_structure.h). docs/hierarchies.md has a
-// paragraph on each.
+// Partitions of space as pair structures (pair_structure.h).
+// docs/hierarchies.md has a paragraph on each.
 #pragma once
 
 #include <memory>

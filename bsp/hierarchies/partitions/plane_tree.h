@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PlaneTree: the planes of a BspTree or MspTree in doubles, for triangles that are pushed down
-// them.
+// PlaneTree: planes of a BspTree or MspTree in doubles.
+// Triangles are pushed down them.
 #pragma once
 
 #include <array>

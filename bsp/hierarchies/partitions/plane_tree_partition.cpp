@@ -8,10 +8,9 @@
 // What no other structure here knows is where inside and outside are. So deep penetration is seen
 // without one pair of triangles, the early accept of the Brep-Index, in two ways.
 //  - Tree against tree, as trees are merged (Naylor, Amanatides and Thibault 1990): a leaf of B
-//  that
-//    is inside goes down A's tree, cut by its planes, until a part of it is in a leaf of A that is
-//    inside too. A leaf is a ball in it, so that B's tree need not be moved. With a vertex of each
-//    solid outside of the other one, the solids overlap. B's triangles stay where they are.
+//    that is inside goes down A's tree, cut by its planes, until a part of it is in a leaf of A
+//    that is inside too. A leaf is a ball in it, so that B's tree need not be moved. With a vertex
+//    of each solid outside of the other one, the solids overlap. B's triangles stay where they are.
 //  - Points against A's tree: one vertex of B certainly inside of A and another one certainly
 //    outside. Some vertices from all over B are tried, not all: where these say nothing, pairs of
 //    triangles do.

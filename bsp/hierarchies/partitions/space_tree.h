@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SpaceTree: a box divided into boxes, again and again; the leaves list the triangles that may meet
-// them. What octree and k-d tree have in common.
+// SpaceTree: a box divided recursively into boxes, with triangle lists.
+// The leaves list the triangles that may meet them. Octree and k-d tree share it.
 #pragma once
 
 #include <cstddef>

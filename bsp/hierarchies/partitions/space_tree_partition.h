@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SpaceTreePartition: a SpaceTree over A's triangles as a structure over two models. How cells are
-// divided is all in which octree and k-d tree differ.
+// SpaceTreePartition: a SpaceTree over A's triangles as a pair structure.
+// Octree and k-d tree differ only in the division of cells.
 #pragma once
 
 #include <string_view>

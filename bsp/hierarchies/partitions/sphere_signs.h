@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The two signs that a Delaunay mesh is made of, exact for integer points below 2^55.
+// Exact orientation and in-sphere signs for a Delaunay mesh.
+// They are exact for integer points below 2^55.
 #pragma once
 
 #include <array>

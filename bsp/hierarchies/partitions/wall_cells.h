@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WallCells: a boundary cut by axis-parallel walls into cells of few polygons, above trees of face
-// planes.
+// WallCells: a boundary divided into cells by axis-perpendicular splitting planes.
+// A cell has few polygons. Below it is a tree of face planes.
 #pragma once
 
 #include <cstddef>

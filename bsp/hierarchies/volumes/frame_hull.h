@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Convex hulls of points in the units of a TreeFrame, exact for the points rounded to a grid.
+// Convex hulls of points in the units of a TreeFrame.
+// They are exact for the points rounded to a grid.
 #pragma once
 
 #include <span>

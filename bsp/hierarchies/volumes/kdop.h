@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// KDop: slabs of fixed directions as a bounding volume, and how they are turned.
+// KDop: slabs of fixed directions as a bounding volume, with rotation.
 #pragma once
 
 #include <algorithm>

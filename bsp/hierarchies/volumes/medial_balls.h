@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Centres on the medial axis of a solid, approximately.
+// Approximate centres on the medial axis of a solid.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Simplex: up to four points, and the nearest point of their hull to the origin.
+// Simplex: up to four points, and the point nearest to the origin.
+// The nearest point is that of their convex hull.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SmallHull: the convex hull of a few points and what is within a radius of it.
+// SmallHull: the convex hull of a few points, enlarged by a radius.
 #pragma once
 
 #include <array>

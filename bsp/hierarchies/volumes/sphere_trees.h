@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sphere trees by the lecture's three ways, how tightly they fit, and an answer at any time.
+// Sphere trees by three constructions, their tightness, and anytime queries.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// VolumeHierarchy: a tree of bounding volumes over each model, and the one walk that all kinds of
-// volumes share.
+// VolumeHierarchy: a tree of bounding volumes over each model.
+// All kinds of volumes share one traversal.
 //
 // A kind of volume is a class like KDopKind in volume_hierarchies.cpp:
 //

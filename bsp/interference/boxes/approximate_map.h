@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ApproximateMap: an affine map in doubles with certified errors, for filters and boxes.
+// ApproximateMap: an affine map in doubles with certified errors.
+// It serves filters and boxes.
 #pragma once
 
 #include <array>

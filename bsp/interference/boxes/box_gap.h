@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far two boxes are from each other, from below.
+// Lower bound on the distance between two boxes.
 #pragma once
 
 #include <algorithm>

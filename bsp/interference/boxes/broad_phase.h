@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BroadPhase: which boxes of a scene meet, before anything is asked about the bodies in them.
+// BroadPhase: pairs of intersecting boxes of a scene.
+// They come before any query about the bodies in them.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a query over a hierarchy costs: F = Nu Cu + Nbv Cbv + Np Cp.
+// Cost function of hierarchical queries: F = Nu Cu + Nbv Cbv + Np Cp.
 #pragma once
 
 #include <cstddef>

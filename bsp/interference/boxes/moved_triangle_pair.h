@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where two triangles of two posed solids meet: exactly, and which of their features meet there.
+// Exact intersection of two triangles of posed solids, with its features.
 #pragma once
 
 #include <array>

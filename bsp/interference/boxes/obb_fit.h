@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Directions for oriented boxes: the principal axes of a set of triangles.
+// Directions of oriented boxes: the principal axes of triangles.
 #pragma once
 
 #include <array>

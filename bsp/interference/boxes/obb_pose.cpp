@@ -16,22 +16,20 @@
 //
 // in units of A. All vectors above are at most Λ long, |r'| <= 1 + 2^-20, |u_j| <= 1 + 2^-23.
 //
-// (1) Errors of r'. An entry of M' carries u of itself; a product of three terms 3 u of the product
-// of
-//     lengths (Cauchy-Schwarz). U_A M': 4 u. Times u_j: (4 √3 + 3) u < 10 u. In the order M' u_j
-//     first the same.
-// (2) Errors of t. With U_A M' first: the product with c_B has (4 √3 + 3) u s|c_B|, times the float
-// s two
-//     u more; the other part U_A (T - c_A): (2 + 3) u (|T| + reach_A) and one rounding of T; the
-//     sum: u Λ. With M c_B + T first: each component of the image minus c_A is off by at most (6 s
-//     reach_B + 3 |T| + reach_A) u, √3 times that after U_A, and 3 u Λ. Both are below 16 u Λ. The
-//     doubles T and M' have errors of their own, e_T and e_M; these add at most 2 e_T + 6 e_M
-//     reach_B.
+// (1) Errors of r'. An entry of M' carries u of itself; a product of three terms 3 u of the
+//     product of lengths (Cauchy-Schwarz). U_A M': 4 u. Times u_j: (4 √3 + 3) u < 10 u. In the
+//     order M' u_j first the same.
+// (2) Errors of t. With U_A M' first: the product with c_B has (4 √3 + 3) u s|c_B|, times the
+//     float s two u more; the other part U_A (T - c_A): (2 + 3) u (|T| + reach_A) and one rounding
+//     of T; the sum: u Λ. With M c_B + T first: each component of the image minus c_A is off by at
+//     most (6 s reach_B + 3 |T| + reach_A) u, √3 times that after U_A, and 3 u Λ. Both are below 16
+//     u Λ. The doubles T and M' have errors of their own, e_T and e_M; these add at most 2 e_T + 6
+//     e_M reach_B.
 // (3) L = e_i: left side as (2); right side Σ b'_j |r'_ij|: 10 u Σ b'.
 // (4) L = r'_j as computed: left √3·16 u Λ + 3 √3 u Λ < 33 u Λ, plus twice the doubles' errors.
-// Right: Σ a_i |L_i|
-//     exact; r'_k·L differs from δ_kj by the deviation of U_A^T U_A, U_B^T U_B and M'^T M' from I
-//     (3·2^-22 in all) and by 10 √3 u: at most 2^-18.5. So Σ b'_k |r'_k·L| <= b'_j + 2^-18.5 Σ b'.
+//     Right: Σ a_i |L_i| exact; r'_k·L differs from δ_kj by the deviation of U_A^T U_A, U_B^T U_B
+//     and M'^T M' from I (3·2^-22 in all) and by 10 √3 u: at most 2^-18.5. So Σ b'_k |r'_k·L| <=
+//     b'_j + 2^-18.5 Σ b'.
 // (5) L = e_i × r'_j: left √2·16 u Λ + 3 √2 u Λ < 33 u Λ; right: L·r'_j <= 18 u, and for k ≠ j
 //     |L·r'_k| = |e_i·(r'_j × r'_k)|, where r'_j × r'_k = ± r'_l up to the same deviations,
 //     2^-18.5. A mirror image changes the sign only.

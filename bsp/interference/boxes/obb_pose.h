@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ObbPose: boxes of one tree against boxes of another under a relative pose, four at a time, in
-// single precision. A pair found apart is apart; one not found apart may be.
+// ObbPose: overlap tests between boxes of two trees under a pose.
+// Four pairs are tested at a time, in single precision. Pairs reported as separated are
+// separated; the others may be.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ObbTree: a wide tree of oriented boxes around the triangles of a boundary.
+// ObbTree: a wide tree of oriented boxes around triangles.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ObbWalk: all pairs of triangles of two boundaries that may meet, found by walking down two box
-// trees at once.
+// ObbWalk: possibly intersecting triangle pairs, by simultaneous traversal of two trees.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The shape of a tree over things with boxes, built from the top; volumes are put in later.
+// Top-down construction of trees over items with boxes.
+// Only the shape of the tree is made here; volumes are put in later.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Closest points of two triangles in doubles, with certified bounds on the distance.
+// Closest points of two triangles in doubles, with certified distance bounds.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How two triangles lie to each other, in doubles, as far as doubles can tell.
+// Filtered relation of two triangles, in doubles.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boundary: a solid as the checkers of certificates see it. No part of the library decides with it;
-// some who look for certificates ask it what their checker would.
+// Boundary: a solid, for the checkers of certificates.
+// No part of the library decides with it. Some searches for certificates use it to try out what
+// the checker would decide.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Partitions of space as proofs: for the checkers of certificates only.
+// Partitions of space as proofs, for the checkers of certificates.
 #pragma once
 
 #include <string>

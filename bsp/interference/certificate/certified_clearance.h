@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clearance: leaves of certificates of overlap, for their checker. Those who look for such
-// certificates may ask it, too.
+// Clearance: leaves of overlap certificates, for their checker.
+// The search for such certificates may use it, too.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moving corners, for the checkers of certificates. Of those who look for certificates only that of
-// overlaps uses them, to ask its checker (certified_clearance.h).
+// Moving corners, for the checkers of certificates.
+// Of the searches for certificates only that of overlaps uses them, through its checker
+// (certified_clearance.h).
 #pragma once
 
 #include <array>

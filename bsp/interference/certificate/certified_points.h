@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points and planes for the checkers of certificates: no part of the library decides with them, and
-// those who look for certificates have their own on purpose (proof_vector.h), so that a wrong
-// formula shows; but where they ask a checker (certified_clearance.h). Fractions where few numbers
-// are at stake; integers where all vertices are asked, since fractions that are reduced at every
-// step cost ten times as much.
+// Points and planes, for the checkers of certificates.
+// No part of the library decides with them. The searches for certificates have their own on
+// purpose (proof_vector.h), so that a wrong formula shows; but see certified_clearance.h. Numbers
+// are fractions where there are few; signs of all vertices are computed in integers, since
+// fractions that are reduced at every step cost ten times as much.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clipping, for the checkers of certificates.
+// Polygon clipping, for the checkers of certificates.
 #pragma once
 
 #include <vector>

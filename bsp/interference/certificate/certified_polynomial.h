@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polynomials in fractions, for the checkers of certificates of motions and for nothing else: no
-// part of the library decides with them. Plain and slow on purpose.
+// Polynomials over fractions, for the checkers of certificates of motions.
+// No other part of the library decides with them. Plain and slow on purpose.
 #pragma once
 
 #include <algorithm>

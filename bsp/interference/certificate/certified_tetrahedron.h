@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tetrahedra that overlap, for the checkers of certificates. Those who look for such certificates
-// may ask, too.
+// Overlapping tetrahedra, for the checkers of certificates.
+// The search for such certificates may use them, too.
 #pragma once
 
 #include <array>

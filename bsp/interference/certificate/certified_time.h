@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A time of contact, for the checkers of certificates. Of those who look for certificates only that
-// of overlaps uses it, to ask its checker (certified_clearance.h).
+// Time of contact, for the checkers of certificates.
+// Of the searches for certificates only that of overlaps uses it, through its checker
+// (certified_clearance.h).
 #pragma once
 
 #include <string>

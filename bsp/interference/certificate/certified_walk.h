@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How checkers of certificates walk down a tree over ranges of triangles and of time. Those who
-// make such trees share no code with it on purpose (proof_tree.h).
+// Traversal of proof trees over ranges of triangles and of time.
+// It is for the checkers. The makers of such trees share no code with it on purpose
+// (proof_tree.h).
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CoherentWalk: whether two boundaries cross or are apart, for a sequence of poses that change
-// little.
+// CoherentWalk: crossing or separation of two boundaries over similar poses.
+// It serves a sequence of poses that change little.
 #pragma once
 
 #include <array>

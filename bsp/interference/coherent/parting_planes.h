@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PartingPlanes: four planes, each between a box of A and a box of B, that are asked again under
-// other poses for next to nothing.
+// PartingPlanes: four separating planes between boxes of two bodies.
+// They are tested again under other poses at very little cost.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PoseReserve: whether two placed bodies have moved so little that an answer is still right.
+// PoseReserve: a bound on motion within which an answer stays valid.
+// It is that of two placed bodies (conservative advancement).
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BallMotion: a relative motion over an interval of its parameter, in doubles with error bounds.
+// BallMotion: a relative motion over an interval, with error bounds.
+// It is in doubles.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ContactEvent: a time at which two features of moving solids become coplanar and meet.
+// ContactEvent: a time of coplanarity and contact of two moving features.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ContactSearch: the first events of two moving solids, found by halving the interval of the
-// parameter and walking down two trees of boxes.
+// ContactSearch: search for the first events of two moving solids.
+// It halves the interval of the parameter and walks down two trees of boxes.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacingCones, PartingFaces: which parts of two boundaries move away from each other, so that no
-// first contact begins there.
+// FacingCones, PartingFaces: parts of two boundaries that move away from each other.
+// No first contact begins there.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// When do a moving vertex and a moving triangle, or two moving edges, first meet? The exact stage
-// of first contact, on polynomials.
+// First contact of a moving vertex and triangle, or two moving edges.
+// It is the exact stage of first contact, on polynomials.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MotionPiece: a rational motion over the unit interval; RelativeMotion: what one moving solid sees
-// of another.
+// MotionPiece, RelativeMotion: rational motions over the unit interval.
+// A RelativeMotion is that of one moving solid as seen from another.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PairEvents: the events of two triangles of moving solids, in doubles first, exactly where these
-// cannot tell.
+// PairEvents: the events of two triangles of moving solids.
+// They are computed in doubles first, and exactly where these cannot decide.
 #pragma once
 
 #include <array>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SweptSeparation: triangles of two moving solids that a fixed direction keeps apart during an
-// interval.
+// SweptSeparation: moving triangles separated by a fixed direction during an interval.
 #pragma once
 
 #include <array>

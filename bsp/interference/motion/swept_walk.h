@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SweptWalk: pairs of boxes of two moving solids that may meet during an interval.
+// SweptWalk: possibly intersecting box pairs of moving solids during an interval.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TimeInPiece: a time of contact as certificates name it.
+// TimeInPiece: a time of contact in the form used by certificates.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Turning: a turn of constant angular speed about an axis with a straight shift, and rational
-// screws near it.
+// Turning: a uniform rotation about an axis with a straight shift.
+// It is enclosed by rational screws.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundaryFlags: what of each boundary lies where, and the relation of two solids that follows.
+// BoundaryFlags: positions of each boundary, and the resulting relation.
 #pragma once
 
 #include <trisect/bsp/interference/interference.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundaryPairs: the pairs of triangles of two posed models that meet, exactly.
+// BoundaryPairs: the exactly intersecting triangle pairs of two posed models.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CoincidentTriangles: triangles of two placed boundaries that fall together, and all that follows
-// from them without comparing any.
+// CoincidentTriangles: coincident triangles of two placed boundaries, and their consequences.
+// No triangles are compared for these.
 #pragma once
 
 #include <cstdint>

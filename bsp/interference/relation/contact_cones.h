@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ContactCones: how two boundaries lie to each other at one point that both contain.
+// ContactCones: the local relation of two boundaries at a common point.
 #pragma once
 
 #include <array>

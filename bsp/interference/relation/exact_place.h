@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ExactPlace: the coordinates of a contact as rationals, for what is rare or asked for.
+// ExactPlace: the rational coordinates of a contact, on demand.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InsideBalls: balls within a solid, by which solids that overlap deeply, or of which one is deep
-// inside the other, are seen without looking at a face.
+// InsideBalls: balls within a solid, for quick proofs of overlap.
+// They show deep overlap, and containment deep inside the other solid, without a look at faces.
 #pragma once
 
 #include <array>

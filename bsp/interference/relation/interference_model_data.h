@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InterferenceModelData: the arrays behind an InterferenceModel, as algorithms see them.
+// InterferenceModelData: the arrays behind an InterferenceModel.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pairs of triangles of two posed models that meet, and what follows from them.
+// Intersecting triangle pairs of two posed models, and their consequences.
 #pragma once
 
 #include <cstdint>

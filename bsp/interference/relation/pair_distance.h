@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PairDistance: the distance of two triangles of posed models, by certified bounds and exactly.
+// PairDistance: distance of two triangles of posed models.
+// It is bounded with certificates, and exact on demand.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The relation of two placed solids where doubles can tell it.
+// Filtered relation of two placed solids, in doubles.
 #pragma once
 
 #include <cstdint>

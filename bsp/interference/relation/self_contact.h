@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a boundary touches itself, and crossings that tell something all the same.
+// Contacts of a boundary with itself, and crossings that decide nevertheless.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BodyBounds: from the pose of a body to a box in the world that contains it, in constant time.
+// BodyBounds: a world box of a posed body, in constant time.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Partitions of space as broad phases: which boxes of a scene meet
-// (bsp/interference/boxes/broad_phase.h), found by cells instead of by an order along an axis.
+// Space partitions as broad phases: intersecting boxes by cells.
+// The other broad phases (bsp/interference/boxes/broad_phase.h) use an order along an axis.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CellLists: the occupied cells of a uniform grid in a hash table, each with a list of numbers.
+// CellLists: occupied cells of a uniform grid, in a hash table.
+// Each has a list of numbers.
 #pragma once
 
 #include <array>

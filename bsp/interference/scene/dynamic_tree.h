@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DynamicTree: a tree of boxes that things enter, leave and move in, repaired where they do.
+// DynamicTree: a box tree with insertion, removal and motion of items.
+// It is repaired where items change.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,8 @@ namespace trisect::hierarchies {
 /// (Kopta et al. 2012). So the tree degrades slowly; `quality()` says how far, and `rebuild()`
 /// makes it new.
 ///
-/// The lecture's complaint about hierarchies, that they must be built again when things change, is
-/// measured in bench/results/hierarchies.md.
+/// Hierarchies are often said to need rebuilding when things change. bench/results/hierarchies.md
+/// has measurements of that.
 class DynamicTree {
 public:
     using Box = detail::BodyBox;

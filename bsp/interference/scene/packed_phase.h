@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PackedPhase: what the broad phases have in common that make their cells anew when something
-// moved.
+// PackedPhase: common base of broad phases with rebuilt cells.
+// Cells are made anew when something moved.
 #pragma once
 
 #include <cstddef>

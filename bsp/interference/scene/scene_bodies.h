@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SceneBodies: the bodies of a scene, which of them carry which, and where they are.
+// SceneBodies: bodies of a scene, their hierarchy and their poses.
 #pragma once
 
 #include <cstddef>

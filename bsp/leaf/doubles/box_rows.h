@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoxRows: boxes in single precision, four at a time, for a sweep that looks at many pairs and
-// keeps few.
+// BoxRows: boxes in single precision, four at a time, for sweeps.
+// A sweep looks at many pairs and keeps few.
 #pragma once
 
 #include <algorithm>

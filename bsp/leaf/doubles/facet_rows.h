@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacetRows: triangles and their planes in single precision, four at a time, to find out quickly
-// what surely does not meet.
+// FacetRows: quick rejection of triangle pairs, four at a time.
+// Triangles and their planes are in single precision.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cutting facets of leaves in general position (plain_leaf.h).
+// Cutting of facets in leaves in general position (plain_leaf.h).
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygons of a leaf in doubles, for leaves whose polygons are in general position (plain_leaf.h).
+// PlainFacets: polygons of a leaf in general position, in doubles (plain_leaf.h).
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Leaf arrangement in general position.
+// Filtered leaf arrangement for polygons in general position.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of facets that cross, in leaves in general position (plain_leaf.h).
+// Crossing pairs of facets in leaves in general position (plain_leaf.h).
 #pragma once
 
 #include <array>

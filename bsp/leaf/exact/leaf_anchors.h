@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anchors: vertices of a leaf's polygons at which the winding numbers of all other operands are
-// known.
+// Anchors: vertices of a leaf with certain winding numbers of all other operands.
 #pragma once
 
 #include <cstdint>

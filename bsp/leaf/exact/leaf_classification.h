@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the formula says on both sides of every polygon of a leaf.
+// Values of the formula on both sides of a leaf's polygons.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygons of a leaf that cover each other: who speaks for them.
+// Coincident polygons of a leaf, and the choice of their representative.
 #pragma once
 
 #include <trisect/bsp/leaf/leaf_work.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cutting the polygons of embedded operands, and no more than the result needs.
+// Cutting of polygons of embedded operands, no more than the result needs.
 #pragma once
 
 #include <array>

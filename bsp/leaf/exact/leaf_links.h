@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Links: how the winding numbers of neighbouring polygons of a leaf differ, without a trace.
+// Links: differences of winding numbers between neighbouring polygons of a leaf.
+// No trace is needed for them.
 #pragma once
 
 #include <array>

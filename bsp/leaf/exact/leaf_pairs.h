@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pairs of polygons of a leaf: which of them cut, cover or merely touch each other.
+// Pairs of a leaf's polygons that cut, overlap or touch each other.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cutting a polygon of a leaf into convex pieces.
+// Division of a polygon of a leaf into convex pieces.
 #pragma once
 
 #include <trisect/bsp/leaf/leaf_work.h>

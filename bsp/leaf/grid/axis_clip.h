@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a polygon across an axis has of a rectangle.
+// Clipping of an axis-perpendicular polygon to a rectangle.
 #pragma once
 
 #include <array>

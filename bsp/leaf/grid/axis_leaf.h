@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Leaves of which all polygons are across an axis: boxes, plates, grids, sponges.
+// Leaf arrangement of axis-perpendicular polygons: boxes, plates, grids, sponges.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PrismArrangement: a formula over prisms along one axis, any number of them, arranged as a whole.
+// PrismArrangement: a formula over any number of prisms along one axis.
+// All prisms are arranged at once, without a tree.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where walls of prisms cross each other.
+// Crossings of the side faces of prisms.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Facets of prisms: across one axis or along it.
+// Facets of prisms: caps and side faces.
+// A cap is perpendicular to the axis of the prism, a side face parallel to it.
 #pragma once
 
 #include <array>

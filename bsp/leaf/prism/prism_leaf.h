@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Leaves of prisms along one axis: gears, plates with holes, extruded outlines.
+// Leaf arrangement of prisms along one axis: gears, plates, extruded outlines.
 #pragma once
 
 #include <array>

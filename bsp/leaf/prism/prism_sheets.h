@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sheets: what hangs together of an operand's covers in one plane.
+// Connected components of an operand's caps in one plane.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Dividing the cells of a grid: bricks, and leaves with their planes.
+// Division of grid cells into bricks, and leaves with their planes.
 #pragma once
 
 #include <array>

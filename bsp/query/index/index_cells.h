@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The leaves of an index as boxes.
+// Leaves of an index as boxes.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexCore: what copies of a BrepIndex share.
+// IndexCore: the shared state of the copies of a BrepIndex.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexGrid: a wide node of an index, a regular grid whose cells are divided again, 4 x 4 x 4 at a
-// time, where polygons crowd.
+// IndexGrid: a wide node of an index, as a regular grid.
+// Its cells are divided again, 4 x 4 x 4 at a time, where polygons crowd.
 #pragma once
 
 #include <algorithm>

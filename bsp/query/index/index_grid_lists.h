@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which polygons lie in which cells of a grid.
+// Lists of the polygons in each cell of a grid.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an index is built from: boxes of parts of polygons, in floats.
+// IndexItem: the box of a part of a polygon, in floats.
+// An index is built from such items.
 #pragma once
 
 #include <array>

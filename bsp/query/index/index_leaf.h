@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexLeaf: a cell of an index that polygons enter, and the planes and corners of these in single
-// precision.
+// IndexLeaf: a mixed cell of an index, with planes and corners.
+// Those of the polygons that enter it are in single precision.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexPoint: a point that an index is asked about, whatever it was given as.
+// IndexPoint: a query point of an index, in any of its input types.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexPolygons: the polygons of a boundary under consecutive numbers, and what an index asks of
-// them.
+// IndexPolygons: the polygons of a boundary under consecutive numbers.
+// Planes, corners and names of the polygons are here.
 #pragma once
 
 #include <array>

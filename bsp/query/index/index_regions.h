@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What leaves remember of traces.
+// Cached results of traces in leaves.
 #pragma once
 
 #include <atomic>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The signs that point location asks for: on which side of a polygon is a point, is it on the
-// polygon, does the segment to a reference point cross it?
+// Exact signs of point location.
+// On which side of a polygon is a point, is it on the polygon, does the segment to a reference
+// point cross it?
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexTree: the flat, refined form of a cell tree in which queries run.
+// IndexTree: the flat, refined form of a cell tree for queries.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TriangleInBoxes: which boxes may a triangle meet?
+// TriangleInBoxes: conservative intersection tests of a triangle with many boxes.
 #pragma once
 
 #include <algorithm>

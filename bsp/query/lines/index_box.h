@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes in an index.
+// Box queries of an index.
 #pragma once
 
 #include <vector>

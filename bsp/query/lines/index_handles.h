@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexHandles: from polygons and leaves of an index to the faces, edges and vertices of the B-rep.
+// IndexHandles: faces, edges and vertices of the B-rep for an index.
+// They are found from its polygons and leaves.
 #pragma once
 
 #include <cstdint>

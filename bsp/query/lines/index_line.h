@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexLine: a ray or segment that an index is asked about.
+// IndexLine: a query ray or segment of an index.
 #pragma once
 
 #include <array>

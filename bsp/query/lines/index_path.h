@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GridPath: a line through the cells of a grid, front to back.
+// GridPath: traversal of a grid along a line, front to back.
 #pragma once
 
 #include <algorithm>

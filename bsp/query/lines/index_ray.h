@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays through an index.
+// Ray queries of an index.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Planes through an index.
+// Plane sections of an index.
 #pragma once
 
 #include <vector>

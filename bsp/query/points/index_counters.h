@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How points were located: which of the short ways was taken how often, per thread.
+// Counters of the stages of point location, per thread.
 #pragma once
 
 #include <cstdint>

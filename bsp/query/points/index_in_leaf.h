@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PointInLeaf: where a point in a mixed cell is.
+// PointInLeaf: location of a point in a mixed cell.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Looking for proofs by cells: space is divided by planes until no cell has points of both
-// boundaries in it.
+// Search for proofs by convex cells.
+// Space is divided by planes until no cell has points of both boundaries in it.
 #pragma once
 
 #include <gmpxx.h>

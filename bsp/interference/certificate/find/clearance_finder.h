@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ClearanceFinder: looks for proofs that interiors do not meet during a piece of two motions.
+// ClearanceFinder: search for proofs of disjoint interiors during motions.
+// A proof is about one piece of two motions.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ContactPlanes: what certificates of first contact need at the contact itself.
+// ContactPlanes: planes of a first-contact certificate at the contact itself.
 #pragma once
 
 #include <array>

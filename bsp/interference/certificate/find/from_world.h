@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FromWorld: points of the world as a placed solid sees them, in fractions.
+// FromWorld: the inverse map from the world to a placed solid.
+// Its coefficients are fractions.
 #pragma once
 
 #include <array>

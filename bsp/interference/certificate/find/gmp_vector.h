@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors of GMP's fractions, for those who look for certificates.
+// Vectors of GMP's fractions, for the search for certificates.
 #pragma once
 
 #include <gmpxx.h>

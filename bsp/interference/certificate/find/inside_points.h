@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Looking for points inside and outside of placed solids, for certificates.
+// Search for points inside and outside of placed solids, for certificates.
 #pragma once
 
 #include <vector>

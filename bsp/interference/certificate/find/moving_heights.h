@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Heights of moving points over planes as polynomials in integers, times positive numbers: only
-// their signs are asked for.
+// Heights of moving points over planes, as polynomials in integers.
+// They are scaled by positive numbers: only their signs are used.
 #pragma once
 
 #include <trisect/bsp/interference/certificate/find/gmp_vector.h>

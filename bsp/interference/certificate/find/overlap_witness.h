@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Looking for tetrahedra that overlap right after an event.
+// Search for tetrahedra that overlap right after an event.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ProofBody: a solid as those who look for certificates see it.
+// ProofBody: a solid, for the search for certificates.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How those who look for certificates build trees over ranges of triangles and of time. Checkers
-// share no code with it on purpose (certified_walk.h).
+// Construction of proof trees over ranges of triangles and of time.
+// It is for the search for certificates. Checkers share no code with it on purpose
+// (certified_walk.h).
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vectors for those who look for certificates: in doubles, to guess, and in fractions. Checkers
-// share nothing with them on purpose, so they have vectors of their own (certified_points.h).
+// Vectors for the search for certificates.
+// Those in doubles guess, those in fractions prove. Checkers share nothing with them on purpose,
+// so they have vectors of their own (certified_points.h).
 #pragma once
 
 #include <array>
