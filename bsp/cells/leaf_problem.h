@@ -32,6 +32,8 @@ struct LeafProblem {
     std::span<const LeafOperand> operands;
     const Residual* formula = nullptr;
     const EvaluateOptions* options = nullptr;
+    /// The polygons are not needed yet: what takes long may be left out, if it can be done later.
+    bool may_defer = false;
 };
 
 /// inside = winding number > 0, or != 0.

@@ -67,8 +67,13 @@ private:
 [[nodiscard]] std::int8_t far_out_of(const Residual& formula,
                                      std::span<const std::shared_ptr<const SolidState>> solids);
 
-/// The value of a formula over so many prisms along one axis that they are too large for a leaf;
-/// null for all others, and where work or memory is limited.
+/// Whether a formula is over meshes that may be prisms along one axis, too large for a leaf, and
+/// neither work nor memory is limited.
+[[nodiscard]] bool are_large_prisms(const Residual::Ref& formula,
+                                    const std::vector<std::shared_ptr<const SolidState>>& solids,
+                                    const EvaluateOptions& options);
+
+/// The value of such a formula; null where these are no prisms. \pre are_large_prisms()
 [[nodiscard]] std::shared_ptr<const SolidState> outline_prisms(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, EvaluateStats& stats);

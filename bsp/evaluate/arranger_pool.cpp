@@ -16,7 +16,7 @@ constexpr std::size_t largest_kept_leaf = 200;
 
 struct Pool {
     std::mutex mutex;
-    std::array<std::unique_ptr<LeafArranger>, 8> kept;
+    std::array<std::unique_ptr<LeafArrangers>, 8> kept;
 };
 
 // Never destroyed: a solid may be evaluated, or end, after main().
@@ -27,22 +27,21 @@ Pool& pool() {
 
 }  // namespace
 
-std::unique_ptr<LeafArranger> ArrangerPool::take() {
+std::unique_ptr<LeafArrangers> ArrangerPool::take() {
     {
         const std::lock_guard lock(pool().mutex);
         for (auto& kept : pool().kept)
             if (kept != nullptr) return std::move(kept);
     }
-    return std::make_unique<LeafArranger>();
+    return std::make_unique<LeafArrangers>();
 }
 
-void ArrangerPool::give_back(std::unique_ptr<LeafArranger> arranger) noexcept {
-    if (arranger->largest_leaf() > largest_kept_leaf) return;
-    arranger->forget();
+void ArrangerPool::give_back(std::unique_ptr<LeafArrangers> arrangers) noexcept {
+    if (arrangers->largest_leaf > largest_kept_leaf) return;
     const std::lock_guard lock(pool().mutex);
     for (auto& kept : pool().kept) {
         if (kept != nullptr) continue;
-        kept = std::move(arranger);
+        kept = std::move(arrangers);
         return;
     }
 }

@@ -3,20 +3,33 @@
 // ArrangerPool: scratch memory of leaves, reused by later evaluations.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
-#include <trisect/bsp/evaluate/leaf_arrangement.h>
+#include <trisect/bsp/leaf/doubles/plain_leaf.h>
+#include <trisect/bsp/leaf/exact/exact_leaf.h>
+#include <trisect/bsp/leaf/grid/axis_leaf.h>
+#include <trisect/bsp/leaf/prism/prism_leaf.h>
 
 namespace trisect::detail {
+
+/// All arrangements of leaves, for one thread.
+struct LeafArrangers {
+    AxisLeaf grid;
+    PlainLeaf doubles;
+    PrismLeaf prisms;
+    ExactLeaf exact;
+    std::size_t largest_leaf = 0;  ///< polygons of the largest leaf so far
+};
 
 /// Arrangers that evaluations have done with. A cut that arranges a dozen leaves would make some
 /// two hundred vectors for that and give them back. Keeps a few arrangers, and none that has seen
 /// a large leaf. Safe to use from many threads.
 class ArrangerPool {
 public:
-    /// One like new.
-    [[nodiscard]] static std::unique_ptr<LeafArranger> take();
-    static void give_back(std::unique_ptr<LeafArranger> arranger) noexcept;
+    /// As good as new.
+    [[nodiscard]] static std::unique_ptr<LeafArrangers> take();
+    static void give_back(std::unique_ptr<LeafArrangers> arrangers) noexcept;
 };
 
 }  // namespace trisect::detail

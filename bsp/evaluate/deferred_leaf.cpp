@@ -6,33 +6,30 @@
 
 #include <trisect/bsp/cells/deferred_leaf.h>
 
-#include <algorithm>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <trisect/bsp/cells/leaf_problem.h>
-#include <trisect/bsp/evaluate/leaf_arrangement.h>
+#include <trisect/bsp/evaluate/ways.h>
 
 namespace trisect::detail {
 
 PolygonList DeferredLeaf::arrange() const {
     std::vector<std::vector<PolygonRef>> refs(operands.size());
     std::vector<LeafOperand> listed;
-    std::int32_t slots = 0;
     for (std::size_t i = 0; i < operands.size(); ++i) {
         const Operand& o = operands[i];
         refs[i].assign(o.polygons.begin(), o.polygons.end());
         listed.push_back({o.slot, refs[i], o.flipped, true, o.winding});
-        slots = std::max(slots, o.slot + 1);
     }
     EvaluateOptions options;
     options.winding = rule;
-    SlotValues values(static_cast<std::size_t>(slots), -1);
-    EvaluateStats uncounted;
-    thread_local LeafArranger arranger;
+    LeafFindings findings;
+    thread_local LeafArrangers arrangers;
     LeafResult result =
-        arranger.arrange({cell, reference, listed, formula.get(), &options}, values, uncounted);
-    return PolygonList(std::move(result.polygons));
+        arrange_leaf({cell, reference, listed, formula.get(), &options}, arrangers, findings);
+    return PolygonList(std::move(std::get<LeafPolygons>(result).polygons));
 }
 
 }  // namespace trisect::detail

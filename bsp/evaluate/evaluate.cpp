@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <trisect/bsp/cells/outlined_solid.h>
@@ -12,8 +13,8 @@
 #include <trisect/bsp/evaluate/evaluator.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/evaluate/ways.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/two_meshes/undivided_meshes.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -56,9 +57,12 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     shared_cells += part.shared_cells;
     constant_cells += part.constant_cells;
     mixed_leaves += part.mixed_leaves;
+    grid_leaves += part.grid_leaves;
     plain_leaves += part.plain_leaves;
     plain_fragments += part.plain_fragments;
     prism_leaves += part.prism_leaves;
+    exact_leaves += part.exact_leaves;
+    divided_cells += part.divided_cells;
     listed_polygons += part.listed_polygons;
     pairs_boxes += part.pairs_boxes;
     pairs_cutting += part.pairs_cutting;
@@ -86,13 +90,14 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     EvaluateOptions with_flag = options;
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
     EvaluateStats made;
-    auto outlined = detail::outline_prisms(t.formula, states, with_flag, made);
-    if (outlined == nullptr)
-        outlined = detail::evaluate_undivided(t.formula, states, with_flag, made);
-    if (outlined != nullptr) {
+    for (const detail::Way& way : detail::formula_ways()) {
+        const auto& how = std::get<detail::FormulaWay>(way.how);
+        if (!how.applies(t.formula, states, with_flag)) continue;
+        auto state = how.evaluate(t.formula, states, with_flag, made);
+        if (state == nullptr) continue;
         made.lattice = lattice;
         if (stats != nullptr) *stats = made;
-        return Solid(std::move(outlined));
+        return Solid(std::move(state));
     }
     detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, with_flag);
     auto state = std::make_shared<SolidState>();

@@ -3,11 +3,11 @@
 // One recursion over (cell, formula) evaluates a whole boolean expression:
 //
 //   1. operands without boundary in the cell are constant there: replace them by their value;
-//   2. nothing left: a homogeneous cell. One operand left: share its subtree or its complement;
-//   3. few polygons: a leaf arrangement (leaf_arrangement.cpp) decides which bound the result;
-//   4. otherwise cut the cell. Where an operand already has a tree its wall is taken, so that its
-//      subtrees can be shared. A large leaf beside small ones is refined by itself, for everybody
-//      who uses it. Else the wall that soonest parts the operands.
+//   2. take the first way of the table (ways.h) that serves: nothing left is a homogeneous cell, of
+//      one operand left the subtree is shared, few polygons are arranged;
+//   3. the last way cuts the cell. Where an operand already has a tree its wall is taken, so that
+//      its subtrees can be shared. A large leaf beside small ones is refined by itself, for
+//      everybody who uses it. Else the wall that soonest parts the operands.
 //
 // The idea is EMBER's (Trettner, Nehring-Wirxel, Kobbelt 2022); keeping the cells, so that the next
 // operation finds them, is Nehring-Wirxel, Trettner, Kobbelt 2021. Two things matter more than
@@ -26,10 +26,10 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <tbb/task_arena.h>
 
-#include <trisect/bsp/cells/axis_polygon.h>
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/deferred_leaf.h>
@@ -45,9 +45,9 @@
 #include <trisect/bsp/divide/slab.h>
 #include <trisect/bsp/evaluate/arranger_pool.h>
 #include <trisect/bsp/evaluate/covered_cells.h>
-#include <trisect/bsp/evaluate/leaf_arrangement.h>
 #include <trisect/bsp/evaluate/root_task.h>
-#include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/bsp/evaluate/ways.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -61,11 +61,8 @@ namespace {
 
 // Cells with fewer polygons are not worth a task of their own.
 constexpr std::uint64_t parallel_size = 4096;
-// Leaves may be so many times as large where all polygons are across an axis.
-constexpr std::uint64_t axis_leaf_factor = 8;
-// Or where operands are small: where at least such a part of all their facets is in the cell.
-constexpr std::uint64_t small_operands_factor = 8;
-constexpr std::uint64_t small_operands_part = 8;
+// A leaf that outnumbers all others in its cell so many times is refined for good.
+constexpr std::uint64_t outnumbering = 4;
 
 class Worker;
 
@@ -84,29 +81,33 @@ struct Shared {
 
 // Scratch memory and results of one thread. A thread that waits for another one may start a second
 // task on the same worker; nothing of the first is in use then but what lies in the arena below.
-class Worker {
+class Worker final : public CellSteps {
 public:
     explicit Worker(Shared& shared)
         : shared_(shared), options_(shared.options), values_(shared.slots, -1) {
-        arranger_->make_pictures();
-        if (shared.crossings != nullptr) arranger_->collect_crossings(shared.crossings->operands);
+        if (shared.crossings == nullptr) return;
+        findings_.crossings.emplace();
+        findings_.crossings->operands = shared.crossings->operands;
     }
 
     CellRef solve(CellTask& task);
     CellRef deep_solve(CellTask& task) {
         return with_enough_stack([&] { return solve(task); });
     }
-    [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
-    [[nodiscard]] const std::vector<FacetName>& incomplete() const { return incomplete_; }
-    [[nodiscard]] const Crossings& crossings() const { return arranger_->crossings(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& seen() const { return arranger_->seen(); }
+    [[nodiscard]] const LeafFindings& findings() const { return findings_; }
     [[nodiscard]] const CoveredCells& covered() const { return covered_; }
     [[nodiscard]] StackArena& arena() { return arena_; }
     /// Last, and only when nothing was thrown.
-    void give_back_arranger() noexcept { ArrangerPool::give_back(std::move(arranger_)); }
+    void give_back_arrangers() noexcept { ArrangerPool::give_back(std::move(arrangers_)); }
 
 private:
     using Children = CellChildren;
+    // A cell as its arrangements see it.
+    struct Listed {
+        std::vector<LeafOperand> operands;
+        LeafProblem problem;
+        bool inside = false;  // the reference point, of the result
+    };
 
     // For ParallelParts: as many as the arena has, or the calling one.
     [[nodiscard]] std::uint32_t threads() const { return shared_.parallel ? 0 : 1; }
@@ -116,31 +117,35 @@ private:
     template <class IsLeft>
     void note_dropped(const CellTask& task, const IsLeft& is_left);
     void note_all(std::int32_t slot, const CellNode& node);
+
+    [[nodiscard]] std::optional<CellRef> first_of(std::span<const Way> ways, const CellView& view,
+                                                  CellTask& task);
+    [[nodiscard]] std::optional<CellRef> make_constant(CellTask& task) override;
+    [[nodiscard]] std::optional<CellRef> share(CellTask& task) override;
+    [[nodiscard]] std::optional<CellRef> peel(CellTask& task) override;
+    [[nodiscard]] std::optional<CellRef> divide(CellTask& task) override;
+
+    void list(CellTask& task, Listed& out);
     [[nodiscard]] std::vector<LeafOperand> list_operands(const CellTask& task);
-    CellRef constant(const CellTask& task, bool inside);
-    CellRef share(CellTask& task, bool negated);
-    CellRef resolve(CellTask& task);
-    std::optional<CellRef> resolve_across_axes(CellTask& task);
-    std::optional<CellRef> resolve_prisms(CellTask& task);
-    std::optional<CellRef> resolve_small_operands(CellTask& task);
-    template <class Arrange>
-    std::optional<CellRef> resolve_by(CellTask& task, Arrange arrange);
-    CellRef defer(const CellTask& task, PolygonList uncrossed, bool inside, std::size_t crossed);
-    CellRef defer(const CellTask& task, std::unique_ptr<const AxisPicture> picture, bool inside);
+    [[nodiscard]] std::optional<CellRef> arrange(const LeafWay& way, const CellTask& task,
+                                                 const Listed& listed);
+    CellRef keep(LeafPolygons made, const CellTask& task, bool inside);
+    CellRef keep(LeafUncrossed made, const CellTask& task, bool inside);
+    CellRef keep(LeafPicture made, const CellTask& task, bool inside);
+    CellRef keep(LeafOutlines made, const CellTask& task, bool inside);
+    [[nodiscard]] PolygonList kept_list(std::vector<PolygonRef> polygons);
     [[nodiscard]] std::unique_ptr<DeferredLeaf> problem_of(const CellTask& task);
-    [[nodiscard]] std::optional<Wall> wall_to_peel(const CellTask& task) const;
-    CellRef divide(CellTask& task);
+
     CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
     Children children_of(const CellTask& task, const Wall& wall);
 
     Shared& shared_;
     const EvaluateOptions& options_;
-    EvaluateStats stats_;
-    SlotValues values_;
+    SlotValues values_;  // all unknown between uses
     std::vector<std::uint8_t> used_;
-    std::unique_ptr<LeafArranger> arranger_ = ArrangerPool::take();
+    std::unique_ptr<LeafArrangers> arrangers_ = ArrangerPool::take();
+    LeafFindings findings_;
     CoveredCells covered_;
-    std::vector<FacetName> incomplete_;
     Workbench bench_;
     StackArena arena_;
     OperandLists lists_{arena_, bench_};
@@ -152,7 +157,7 @@ Worker& Shared::worker() {
     return workers.local([&] { return std::make_unique<Worker>(*this); });
 }
 
-// --- Steps 1 and 2: prune, share.
+// --- Step 1: prune.
 
 void Worker::prune(CellTask& task) {
     bool any = false;
@@ -163,7 +168,7 @@ void Worker::prune(CellTask& task) {
     }
     if (any) drop(task);
     // What is left may cover itself.
-    if (task.operands.size() > 2 && find_covered(task, values_, incomplete_)) drop(task);
+    if (task.operands.size() > 2 && find_covered(task, values_, findings_.incomplete)) drop(task);
 }
 
 // Takes operands with a value out of the formula, and those that it then does not name.
@@ -201,7 +206,7 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
     for (const CellOperand& o : task.operands) {
         if (o.is_list) {
             for (const PackedBox& e : o.list())
-                arranger_->note_doubtful(o.slot, o.polygon(e.id).facet);
+                findings_.note_doubtful(o.slot, o.polygon(e.id).facet);
         } else {
             note_all(o.slot, *o.node);
         }
@@ -211,88 +216,52 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
 // All facets that the leaves below a node list.
 void Worker::note_all(std::int32_t slot, const CellNode& node) {
     if (node.is_leaf()) {
-        for (const PolygonRef& r : node.polygons()) arranger_->note_doubtful(slot, r.facet);
+        for (const PolygonRef& r : node.polygons()) findings_.note_doubtful(slot, r.facet);
         return;
     }
     for (int i = 0; i < 2; ++i) with_enough_stack([&] { note_all(slot, *node.child(i).node); });
 }
 
-CellRef Worker::constant(const CellTask& task, bool inside) {
-    ++stats_.constant_cells;
-    return {CellNode::leaf(PolygonList(), task.reference, inside ? 1 : 0, false), false};
+// --- Step 2: the first way that serves.
+
+std::optional<CellRef> Worker::first_of(std::span<const Way> ways, const CellView& view,
+                                        CellTask& task) {
+    Listed listed;
+    for (const Way& way : ways) {
+        std::optional<CellRef> cell;
+        if (const auto* const whole = std::get_if<CellWay>(&way.how)) {
+            if (whole->applies(view)) cell = (this->*whole->take)(task);
+        } else if (const auto& leaf = std::get<LeafWay>(way.how); leaf.may_serve(view)) {
+            if (listed.operands.empty()) list(task, listed);
+            cell = arrange(leaf, task, listed);
+        }
+        if (!cell) continue;
+        ++(findings_.stats.*way.counter);
+        return cell;
+    }
+    return std::nullopt;
 }
 
-// One operand is left and the formula is that operand or its complement.
-CellRef Worker::share(CellTask& task, bool negated) {
+std::optional<CellRef> Worker::make_constant(CellTask& task) {
+    const bool inside = task.formula->kind == Residual::Kind::Constant
+                            ? task.formula->value
+                            : values_of_one(*task.formula, task.operands[0].slot, values_).inside;
+    return CellRef{CellNode::leaf(PolygonList(), task.reference, inside ? 1 : 0, false), false};
+}
+
+// The formula is the operand or its complement.
+std::optional<CellRef> Worker::share(CellTask& task) {
     const CellOperand& o = task.operands[0];
-    ++stats_.shared_cells;
-    if (!o.is_list) return {o.node->shared_from_this(), o.complemented != negated};
+    const bool negated = values_of_one(*task.formula, o.slot, values_).outside;
+    if (!o.is_list) return CellRef{o.node->shared_from_this(), o.complemented != negated};
     PolygonList list = shared_list(task, o, negated, bench_, arena_);
     shared_.memory.keep(list.bytes());
-    return {CellNode::leaf(std::move(list), task.reference,
-                           complemented_winding(o.winding, negated), o.node->is_mixed()),
-            false};
+    return CellRef{CellNode::leaf(std::move(list), task.reference,
+                                  complemented_winding(o.winding, negated), o.node->is_mixed()),
+                   false};
 }
 
-// --- Step 3: few polygons.
-
-CellRef Worker::resolve(CellTask& task) {
-    return *resolve_by(task, [&](const LeafProblem& p) -> std::optional<LeafResult> {
-        return arranger_->arrange(p, values_, stats_);
-    });
-}
-
-// Whether the first and the last polygon of a list or a leaf pass a test: facets of one plane often
-// stand together, so the first one alone says little about the others.
-template <class Test>
-bool ends_pass(const CellOperand& o, const Test& test) {
-    if (o.is_list) {
-        const auto list = o.list();
-        return test(o.polygon(list.front().id)) && test(o.polygon(list.back().id));
-    }
-    if (!o.node->is_leaf() || o.node->polygons().empty()) return false;
-    const PolygonList& polygons = o.node->polygons();
-    return test(polygons[0]) && test(polygons[polygons.size() - 1]);
-}
-
-// Where everything is across an axis, leaves may be larger.
-std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
-    const auto is_across_axis = [](const CellOperand& o) {
-        return ends_pass(o, [](const PolygonRef& r) { return AxisPolygon().read(r); });
-    };
-    if (!std::ranges::all_of(task.operands, is_across_axis)) return std::nullopt;
-    return resolve_by(
-        task, [&](const LeafProblem& p) { return arranger_->arrange_across_axes(p, stats_); });
-}
-
-// Where operands are prisms along one axis: then a facet is across that axis or a right triangle
-// along it.
-std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
-    if (task.operands.size() < 2) return std::nullopt;
-    const auto may_be_prism = [&](const CellOperand& o) {
-        return o.embedded && ends_pass(o, [&](const PolygonRef& r) {
-                   return PrismFacets::may_be_of_prism(r) && task.cell.contains(r.box());
-               });
-    };
-    if (!std::ranges::all_of(task.operands, may_be_prism)) return std::nullopt;
-    return resolve_by(task,
-                      [&](const LeafProblem& p) { return arranger_->arrange_prisms(p, stats_); });
-}
-
-// A wall pays where an operand is all on one side of it, and most where it covers the other side.
-// Small operands do not cover much, and walls cut most of their facets, so that these are listed
-// and compared again and again.
-std::optional<CellRef> Worker::resolve_small_operands(CellTask& task) {
-    if (shared_.crossings == nullptr || task.operands.size() < 3) return std::nullopt;
-    std::uint64_t all = 0;
-    for (const CellOperand& o : task.operands) {
-        if (!o.is_list && !o.node->is_leaf()) return std::nullopt;
-        all += o.node->size();
-    }
-    if (small_operands_part * task.size() < all) return std::nullopt;
-    return resolve_by(task,
-                      [&](const LeafProblem& p) { return arranger_->arrange_plain(p, stats_); });
-}
+// --- Arranged polygons.
 
 // Of a list or a leaf.
 template <class Visit>
@@ -323,43 +292,61 @@ std::vector<LeafOperand> Worker::list_operands(const CellTask& task) {
     return operands;
 }
 
-template <class Arrange>
-std::optional<CellRef> Worker::resolve_by(CellTask& task, Arrange arrange) {
+void Worker::list(CellTask& task, Listed& out) {
     lists_.make_leaves(task);
-    const std::vector<LeafOperand> operands = list_operands(task);
+    out.operands = list_operands(task);
+    arrangers_->largest_leaf = std::max(arrangers_->largest_leaf, polygons_.size());
     for (const CellOperand& o : task.operands)
         values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
-    const bool inside = value_of(*task.formula, values_);
-    const LeafProblem problem{task.cell, task.reference, operands, task.formula.get(), &options_};
-    std::optional<LeafResult> kept = arrange(problem);
+    out.inside = value_of(*task.formula, values_);
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
-    if (!kept) return std::nullopt;
-    const std::uint64_t bytes = bytes_of_result(kept->polygons);
-    // Keeps fragments, whatever is thrown from here on.
-    PolygonList list(std::move(kept->polygons));
-    incomplete_.insert(incomplete_.end(), kept->incomplete.begin(), kept->incomplete.end());
-    shared_.memory.keep(bytes);
-    if (kept->picture != nullptr) return defer(task, std::move(kept->picture), inside);
-    if (kept->deferred != 0) return defer(task, std::move(list), inside, kept->deferred);
-    return CellRef{CellNode::leaf(std::move(list), task.reference, inside ? 1 : 0, true), false};
+    out.problem = {task.cell, task.reference, out.operands, task.formula.get(), &options_, true};
 }
 
-// A leaf whose `crossed` facets are cut when someone needs it.
-CellRef Worker::defer(const CellTask& task, PolygonList uncrossed, bool inside,
-                      std::size_t crossed) {
+std::optional<CellRef> Worker::arrange(const LeafWay& way, const CellTask& task,
+                                       const Listed& listed) {
+    std::optional<LeafResult> made =
+        way.arrangement(*arrangers_).arrange(listed.problem, findings_);
+    if (!made) return std::nullopt;
+    ++findings_.stats.mixed_leaves;
+    return std::visit([&](auto& kind) { return keep(std::move(kind), task, listed.inside); },
+                      *made);
+}
+
+// A list that keeps its fragments, whatever is thrown from here on.
+PolygonList Worker::kept_list(std::vector<PolygonRef> polygons) {
+    const std::uint64_t bytes = bytes_of_result(polygons);
+    PolygonList list(std::move(polygons));
+    shared_.memory.keep(bytes);
+    return list;
+}
+
+CellRef Worker::keep(LeafPolygons made, const CellTask& task, bool inside) {
+    return {
+        CellNode::leaf(kept_list(std::move(made.polygons)), task.reference, inside ? 1 : 0, true),
+        false};
+}
+
+// A leaf whose crossed facets are cut when someone needs it.
+CellRef Worker::keep(LeafUncrossed made, const CellTask& task, bool inside) {
+    PolygonList uncrossed = kept_list(std::move(made.polygons));
     auto leaf = problem_of(task);
-    const std::uint64_t size = uncrossed.size() + crossed;
+    const std::uint64_t size = uncrossed.size() + made.crossed;
     leaf->uncrossed = std::move(uncrossed);
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
-CellRef Worker::defer(const CellTask& task, std::unique_ptr<const AxisPicture> picture,
-                      bool inside) {
+CellRef Worker::keep(LeafPicture made, const CellTask& task, bool inside) {
     auto leaf = problem_of(task);
-    shared_.memory.keep(picture->bytes());
-    const std::uint64_t size = picture->facets.size();
-    leaf->picture = std::move(picture);
+    shared_.memory.keep(made.picture->bytes());
+    const std::uint64_t size = made.picture->facets.size();
+    leaf->picture = std::move(made.picture);
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
+}
+
+CellRef Worker::keep(LeafOutlines, const CellTask&, bool) {
+    TRISECT_EXPECTS(false, "outlines are of whole formulas");
+    return {};
 }
 
 // Operands are imported meshes, refined or not, or look like that here: of one source, no facet
@@ -389,7 +376,7 @@ std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
     return leaf;
 }
 
-// --- Step 4: divide.
+// --- Step 3: divide.
 
 std::optional<Wall> wall_of_trees(const CellTask& task) {
     const CellOperand* largest = nullptr;
@@ -406,7 +393,8 @@ void refine_large(CellTask& task) {
     for (CellOperand& o : task.operands) {
         if (o.is_list || !o.node->is_leaf()) continue;
         const std::uint64_t n = o.size();
-        if (o.node->refinement() == nullptr && (n < refinable_leaf || n < 4 * (total - n)))
+        if (o.node->refinement() == nullptr &&
+            (n < refinable_leaf || n < outnumbering * (total - n)))
             continue;
         if (const CellNode* node = refined(*o.node, task.cell)) o.node = node;
     }
@@ -442,40 +430,25 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
     return out;
 }
 
-// A leaf looks at each of its polygons for some hundred instructions more than a list that is
-// shared does. So what one operand has beside the other one is cut off where that is enough to pay
-// for two cells more. Not in chains, where every later step meets those cells again.
-std::optional<Wall> Worker::wall_to_peel(const CellTask& task) const {
-    constexpr std::size_t least = 16;
-    if (shared_.crossings == nullptr) return std::nullopt;
-    if (task.operands.size() != 2 || task.size() < least || task.stalled != 0) return std::nullopt;
-    if (!std::ranges::all_of(task.operands, &CellOperand::is_list)) return std::nullopt;
-    return peeling_wall(task, least, options_.wall_offset);
+std::optional<CellRef> Worker::peel(CellTask& task) {
+    const auto wall = peeling_wall(task, least_peeled, options_.wall_offset);
+    if (!wall) return std::nullopt;
+    Children children = children_of(task, *wall);
+    return solve_children(task, *wall, children);
 }
 
-CellRef Worker::divide(CellTask& task) {
+std::optional<CellRef> Worker::divide(CellTask& task) {
     refine_large(task);
     std::optional<Wall> wall = wall_of_trees(task);
     lists_.make(task, wall, threads());
     if (!wall) {
         lists_.refine_frame(task);
-        const bool too_deep = task.stalled >= (task.size() > 400 ? 12 : 3) || task.depth > 400;
-        if (!too_deep) wall = choose_wall(task, options_.wall_offset);
+        if (!walls_have_failed(task)) wall = choose_wall(task, options_.wall_offset);
     }
-    if (!wall) return resolve(task);
+    if (!wall) return std::nullopt;
     Children children = children_of(task, *wall);
-    // Pairs are what a leaf costs. A wall that leaves most of them on its sides was not worth it,
-    // and after a few such walls none will be: long thin facets cross all of them. Where many
-    // facets meet in a corner, though, walls around the corner cut off small cells at little cost.
-    const auto total = static_cast<double>(task.size());
-    const auto first = static_cast<double>(children[0].size());
-    const auto second = static_cast<double>(children[1].size());
-    const double pairs = first * first + second * second;
-    const bool worth_it = pairs < (total < 4000 ? 0.8 : 1.6) * total * total;
-    // Walls that make more pairs than there were never pay: a pair costs a few nanoseconds.
-    const bool makes_pairs = pairs > 1.05 * total * total;
-    const int price = makes_pairs ? 12 : (std::min(first, second) > 0.5 * total ? 4 : 1);
-    for (CellTask& c : children) c.stalled = worth_it ? 0 : task.stalled + price;
+    const int stalled = stalled_after(task, children[0].size(), children[1].size());
+    for (CellTask& c : children) c.stalled = stalled;
     return solve_children(task, *wall, children);
 }
 
@@ -533,22 +506,6 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
     return merged(task, wall, std::move(results));
 }
 
-// With one unknown the formula is that unknown, its complement, or constant.
-struct OfOne {
-    bool at_outside;
-    bool at_inside;
-};
-
-OfOne of_one(const Residual& formula, std::int32_t slot, SlotValues& values) {
-    auto& v = values[static_cast<std::size_t>(slot)];
-    v = 0;
-    const bool at_outside = value_of(formula, values);
-    v = 1;
-    const bool at_inside = value_of(formula, values);
-    v = -1;
-    return {at_outside, at_inside};
-}
-
 CellRef Worker::solve(CellTask& task) {
     const auto mark = arena_.mark();
     struct Release {
@@ -556,34 +513,22 @@ CellRef Worker::solve(CellTask& task) {
         StackArena::Mark mark;
         ~Release() { arena.release(mark); }
     } release{arena_, mark};
-    ++stats_.cells;
-    check_budget(options_, stats_);
+    EvaluateStats& stats = findings_.stats;
+    ++stats.cells;
+    check_budget(options_, stats);
     shared_.failure.check();
-    stats_.depth = std::max(stats_.depth, task.depth);
+    stats.depth = std::max(stats.depth, task.depth);
     prune(task);
-    if (task.formula->kind == Residual::Kind::Constant) return constant(task, task.formula->value);
-    if (task.operands.size() == 1) {
-        const OfOne f = of_one(*task.formula, task.operands[0].slot, values_);
-        if (f.at_outside == f.at_inside) return constant(task, f.at_inside);
-        if (task.operands[0].embedded) return share(task, f.at_outside);
-    }
-    const std::uint64_t total = task.size();
+    CellView view{task, options_, values_, findings_.crossings.has_value()};
+    if (auto cell = first_of(constant_ways(), view, task)) return *std::move(cell);
+    view.size = task.size();
     for (const CellOperand& o : task.operands)
-        if (o.is_list || o.node->is_leaf()) stats_.listed_polygons += o.size();
-    if (total <= options_.leaf_polygons) {
-        if (const auto wall = wall_to_peel(task)) {
-            Children children = children_of(task, *wall);
-            return solve_children(task, *wall, children);
-        }
-        return resolve(task);
-    }
-    if (total <= axis_leaf_factor * options_.leaf_polygons)
-        if (auto leaf = resolve_across_axes(task)) return *std::move(leaf);
-    if (total <= prism_leaf_factor * options_.leaf_polygons)
-        if (auto leaf = resolve_prisms(task)) return *std::move(leaf);
-    if (total <= small_operands_factor * options_.leaf_polygons)
-        if (auto leaf = resolve_small_operands(task)) return *std::move(leaf);
-    return divide(task);
+        if (o.is_list || o.node->is_leaf()) stats.listed_polygons += o.size();
+    if (auto cell = first_of(polygon_ways(), view, task)) return *std::move(cell);
+    view.undividable = true;
+    auto cell = first_of(polygon_ways(), view, task);
+    TRISECT_EXPECTS(cell.has_value(), "every leaf can be arranged exactly");
+    return *std::move(cell);
 }
 
 CellRef solve_root(Shared& shared, const Residual::Ref& formula,
@@ -625,20 +570,22 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         CoveredCells covered;
         std::vector<std::uint32_t> seen;
         shared.workers.for_each([&](const Worker& worker) {
-            crossings->append(worker.crossings());
+            const LeafFindings& found = worker.findings();
+            crossings->append(*found.crossings);
             covered.append(worker.covered());
-            seen.insert(seen.end(), worker.seen().begin(), worker.seen().end());
+            seen.insert(seen.end(), found.seen.begin(), found.seen.end());
         });
         covered.compare(seen, options, result.stats, *crossings);
         crossings->arrange();
         result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }
     shared.workers.for_each([&](const Worker& worker) {
-        result.stats += worker.stats();
-        const auto& incomplete = worker.incomplete();
-        result.incomplete.insert(result.incomplete.end(), incomplete.begin(), incomplete.end());
+        const LeafFindings& found = worker.findings();
+        result.stats += found.stats;
+        result.incomplete.insert(result.incomplete.end(), found.incomplete.begin(),
+                                 found.incomplete.end());
     });
-    shared.workers.for_each([](Worker& worker) { worker.give_back_arranger(); });
+    shared.workers.for_each([](Worker& worker) { worker.give_back_arrangers(); });
     result.stats.memory = shared.memory.peak();
     return result;
 }

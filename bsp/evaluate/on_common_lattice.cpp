@@ -20,7 +20,7 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
-#include <trisect/bsp/evaluate/leaf_arrangement.h>
+#include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/deep_recursion.h>

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/reference_points.h>
@@ -86,27 +87,37 @@ const Source* mesh_of(const SolidState& solid) {
     return std::all_of(polygons.begin(), polygons.end(), is_next) ? source : nullptr;
 }
 
+std::uint64_t total_size(std::span<const std::shared_ptr<const SolidState>> solids) {
+    std::uint64_t total = 0;
+    for (const auto& s : solids) total += s->root.node->size();
+    return total;
+}
+
 }  // namespace
+
+bool are_large_prisms(const Residual::Ref&,
+                      const std::vector<std::shared_ptr<const SolidState>>& solids,
+                      const EvaluateOptions& options) {
+    if (solids.size() < 2 || options.max_work != 0 || options.max_memory != 0) return false;
+    if (total_size(solids) <= std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
+        return false;
+    return std::ranges::all_of(solids, [](const auto& s) {
+        const Source* const mesh = mesh_of(*s);
+        return mesh != nullptr && lies_outside(s->root.node->reference(), mesh->box()) &&
+               PrismFacets::may_be_of_prism({mesh, nullptr, 0, false, false});
+    });
+}
 
 std::shared_ptr<const SolidState> outline_prisms(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
     const EvaluateOptions& options, EvaluateStats& stats) {
-    if (solids.size() < 2 || options.max_work != 0 || options.max_memory != 0) return nullptr;
-    std::uint64_t total = 0;
-    for (const auto& s : solids) total += s->root.node->size();
-    if (total <= prism_leaf_factor * options.leaf_polygons) return nullptr;
     Box all;
-    for (const auto& s : solids) {
-        const Source* const mesh = mesh_of(*s);
-        if (mesh == nullptr || !lies_outside(s->root.node->reference(), mesh->box()) ||
-            !PrismFacets::may_be_of_prism({mesh, nullptr, 0, false, false}))
-            return nullptr;
-        all.add(mesh->box());
-    }
     std::vector<PolygonRef> polygons;
-    polygons.reserve(total);
-    for (const auto& s : solids)
+    polygons.reserve(total_size(solids));
+    for (const auto& s : solids) {
         for (const PolygonRef r : s->root.node->polygons()) polygons.push_back(r);
+        all.add(polygons.back().source->box());
+    }
     std::vector<LeafOperand> operands;
     SlotValues values;
     std::size_t first = 0;
@@ -120,22 +131,23 @@ std::shared_ptr<const SolidState> outline_prisms(
         values.push_back(is_inside(operands.back().winding, options.winding) ? 1 : 0);
     }
     const FinePoint reference = point_beyond(all);
-    EvaluateStats made;
-    PrismArrangement arrangement;
-    if (!arrangement.arrange({Cell{}, reference, operands, formula.get(), &options}, made))
-        return nullptr;
-    made.cells = made.mixed_leaves = made.prism_leaves = 1;
-    made.listed_polygons = total;
-    stats = made;
+    LeafFindings findings;
+    auto result = PrismArrangement().arrange(
+        {Cell{}, reference, operands, formula.get(), &options, true}, findings);
+    if (!result) return nullptr;
+    auto& made = std::get<LeafOutlines>(*result);
+    stats = findings.stats;
+    stats.cells = stats.mixed_leaves = stats.prism_leaves = 1;
+    stats.listed_polygons = polygons.size();
     auto state = std::make_shared<SolidState>();
     state->lattice = solids[0]->lattice;
     state->far_out = far_out_of(*formula, solids);
-    state->root = {CellNode::leaf(PolygonList(std::move(arrangement.whole())), reference,
+    state->root = {CellNode::leaf(PolygonList(std::move(made.whole)), reference,
                                   value_of(*formula, values) ? 1 : 0, true),
                    false};
-    if (!arrangement.outlines().faces.empty())
-        state->outlined = std::make_shared<const OutlinedSolid>(std::move(arrangement.outlines()),
-                                                                formula, solids, options);
+    if (!made.outlines.faces.empty())
+        state->outlined = std::make_shared<const OutlinedSolid>(std::move(made.outlines), formula,
+                                                                solids, options);
     return state;
 }
 

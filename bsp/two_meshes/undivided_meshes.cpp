@@ -350,16 +350,21 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(
 
 }  // namespace
 
+bool are_two_large_meshes(const Residual::Ref& formula,
+                          const std::vector<std::shared_ptr<const SolidState>>& solids,
+                          const EvaluateOptions& options, std::size_t least_facets) {
+    if (solids.size() != 2 || options.max_work != 0 || !crossings_of(*formula, solids))
+        return false;
+    const TwoMeshes two(solids);
+    return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references() &&
+           !two.common.is_empty();
+}
+
 std::shared_ptr<const SolidState> evaluate_undivided(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets) {
-    if (solids.size() != 2 || options.max_work != 0) return nullptr;
+    const EvaluateOptions& options, EvaluateStats& stats) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
-    if (!crossings) return nullptr;
     const TwoMeshes two(solids);
-    if (two.smaller() < least_facets || !two.are_of_a_size() || !two.have_outer_references() ||
-        two.common.is_empty())
-        return nullptr;
     const bool parallel = options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_size;
     EvaluateStats made;
     auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Booleans of two large meshes without a tree.
-// They serve where only triangles of the result may be wanted.
+// Operations on two large meshes of which only triangles may be wanted.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +13,20 @@
 
 namespace trisect::detail {
 
-/// A union, an intersection or a difference of two large imported meshes, as an OutlinedSolid: the
-/// facets that cross, and the others that bound the result. Null for all else: where meshes do not
-/// cross in general position, sides of facets do not follow from that, or work is
-/// limited; where one has an index, or is so large beside the other that it gets one: what is
-/// beside the smaller one is not looked at then. Meshes of fewer than `least_facets` are divided as
-/// quickly. What it returns does not depend on the number of threads.
+/// Whether a formula is a union, an intersection or a difference of two large imported meshes, and
+/// work is not limited. Not where one has an index, or is so large beside the other that it gets
+/// one: what is beside the smaller one is not looked at then. Meshes of fewer than `least_facets`
+/// are divided as quickly.
+[[nodiscard]] bool are_two_large_meshes(
+    const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
+    const EvaluateOptions& options, std::size_t least_facets = 1024);
+
+/// The value of such a formula as an OutlinedSolid: the facets that cross, and the others that
+/// bound the result. Null where meshes do not cross in general position, or sides of facets are not
+/// known from that. What it returns does not depend on the number of threads. \pre
+/// are_two_large_meshes()
 [[nodiscard]] std::shared_ptr<const SolidState> evaluate_undivided(
     const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, EvaluateStats& stats, std::size_t least_facets = 1024);
+    const EvaluateOptions& options, EvaluateStats& stats);
 
 }  // namespace trisect::detail

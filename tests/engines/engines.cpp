@@ -202,7 +202,8 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(s.state());
     trisect::EvaluateStats stats;
-    const auto state = evaluate_undivided(t.formula, states, options, stats, 1);
+    if (!are_two_large_meshes(t.formula, states, options, 1)) return std::nullopt;
+    const auto state = evaluate_undivided(t.formula, states, options, stats);
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;
     dividing.max_work = std::uint64_t{1} << 60;  // a limit is counted by cells

@@ -99,6 +99,7 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     options.leaf_polygons = 0;
     trisect::EvaluateStats stats;
     ++leaves.mixed;
+    if (!trisect::detail::are_large_prisms(formula.formula, states, options)) return;
     const auto outlined = trisect::detail::outline_prisms(formula.formula, states, options, stats);
     if (outlined == nullptr) return;
     ++leaves.prisms;
@@ -286,7 +287,8 @@ bool outlines_bars(std::int64_t count, bool turned) {
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
     for (const trisect::Solid& s : formula.slots) states.push_back(s.state());
     trisect::EvaluateStats stats;
-    return trisect::detail::outline_prisms(formula.formula, states, {}, stats) != nullptr;
+    return trisect::detail::are_large_prisms(formula.formula, states, {}) &&
+           trisect::detail::outline_prisms(formula.formula, states, {}, stats) != nullptr;
 }
 
 // Where most walls lie beside most others, looking at all pairs, or at all walls for each outline,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What leaf_arrangement.cpp does, for the common case that needs no more than doubles. There every
+// What exact_leaf.cpp does, for the common case that needs no more than doubles. There every
 // facet gets planes in wide integers, its points get names in hash tables, and every question may
 // end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
 // points exactly, pairs of facets by orientations of corners, and constructed points by doubles
@@ -26,63 +26,52 @@
 
 namespace trisect::detail {
 
-bool PlainLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
-                        std::vector<PolygonRef>& out) {
-    return try_to_arrange(problem, nullptr, stats, out);
-}
-
-std::optional<std::size_t> PlainLeaf::arrange_uncrossed(const LeafProblem& problem,
-                                                        EvaluateStats& stats,
-                                                        std::vector<PolygonRef>& out,
-                                                        Crossings& crossings,
-                                                        std::vector<std::uint32_t>& seen) {
-    const std::size_t covers = crossings.covers.size();
-    const std::size_t seen_before = seen.size();
-    seen_ = &seen;
-    if (!try_to_arrange(problem, &crossings, stats, out)) {
-        crossings.covers.resize(covers);
-        seen.resize(seen_before);
-        return std::nullopt;
-    }
-    pairs_.add_to(crossings, facets_);
-    return crossed_;
-}
-
-bool PlainLeaf::try_to_arrange(const LeafProblem& problem, Crossings* crossings,
-                               EvaluateStats& stats, std::vector<PolygonRef>& out) {
-    if (!facets_.list(problem)) return false;
+std::optional<LeafResult> PlainLeaf::try_to_arrange(const LeafProblem& problem,
+                                                    LeafFindings& findings) {
+    if (!facets_.list(problem)) return std::nullopt;
+    defers_ = problem.may_defer && findings.crossings && problem.operands.size() >= 2;
     // Crossings are of whole facets.
-    if (crossings != nullptr && facets_.fragment_count() != 0) return false;
-    const EvaluateStats before = stats;
+    if (defers_ && facets_.fragment_count() != 0) return std::nullopt;
+    findings_ = &findings;
+    covers_before_ = defers_ ? findings.crossings->covers.size() : 0;
+    seen_before_ = findings.seen.size();
     bool done = false;
-    const auto undo = [&] {
-        stats = before;
-        end_fragments(out);  // those made so far
-        out.clear();
-    };
     try {
-        done = arrange_listed(crossings, stats, out);
+        done = arrange_listed();
     } catch (...) {
         undo();
         throw;
     }
-    if (!done) undo();
-    return done;
+    if (!done) {
+        undo();
+        return std::nullopt;
+    }
+    if (!defers_) return LeafPolygons{listed()};
+    pairs_.add_to(*findings.crossings, facets_);
+    if (crossed_ == 0) return LeafPolygons{listed()};
+    return LeafUncrossed{listed(), crossed_};
 }
 
-bool PlainLeaf::arrange_listed(Crossings* crossings, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out) {
-    if (!pairs_.relate_all(facets_, crossings != nullptr, stats)) return false;
+void PlainLeaf::undo() {
+    if (defers_) findings_->crossings->covers.resize(covers_before_);
+    findings_->seen.resize(seen_before_);
+    end_fragments(out_);  // those made so far
+    out_.clear();
+}
+
+bool PlainLeaf::arrange_listed() {
+    EvaluateStats& stats = findings_->stats;
+    if (!pairs_.relate_all(facets_, defers_, stats)) return false;
     windings_.start(facets_, pairs_);
     formula_.start(facets_.problem());
     crossed_ = 0;
-    start_covers(crossings);
+    start_covers();
     cutting_.start(facets_, pairs_, windings_, formula_, open_, stats);
     for (LeafIndex i = 0; i < facets_.size(); ++i) {
         const bool crossed = !pairs_.contacts(i).empty();
-        if (crossed && crossings != nullptr) {
+        if (crossed && defers_) {
             ++crossed_;
-            if (!add_covers(i, *crossings, *seen_)) return false;
+            if (!add_covers(i)) return false;
             continue;
         }
         if (crossed) {
@@ -92,10 +81,8 @@ bool PlainLeaf::arrange_listed(Crossings* crossings, EvaluateStats& stats,
         }
         const PlainCutting::Result result = crossed ? cutting_.cut(i) : cutting_.whole(i);
         if (result.kind == PlainCutting::Remains::Doubtful) return false;
-        emit(i, result, out);
+        emit(i, result);
     }
-    ++stats.mixed_leaves;
-    ++stats.plain_leaves;
     stats.plain_fragments += facets_.fragment_count();
     return true;
 }
@@ -114,19 +101,21 @@ bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
     });
 }
 
-void PlainLeaf::start_covers(const Crossings* crossings) {
+void PlainLeaf::start_covers() {
     open_.clear();
     slots_.clear();
-    if (crossings == nullptr) return;
+    if (!defers_) return;
     for (std::size_t o = 0; o < facets_.operand_count(); ++o) {
-        open_.push_back(crossings->operands[slot_of(o)].open);
+        open_.push_back(findings_->crossings->operands[slot_of(o)].open);
         slots_.push_back(static_cast<std::uint32_t>(slot_of(o)));
     }
 }
 
 // Notes a facet that something crosses, and the operands that it lies in here, of those that do not
 // cross it. One whose part in the cell is empty is somebody else's.
-bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
+bool PlainLeaf::add_covers(LeafIndex item) {
+    Crossings& crossings = *findings_->crossings;
+    std::vector<std::uint32_t>& seen = findings_->seen;
     if (crossings.operands.size() == 2) return true;
     const std::size_t own = LeafWork::u(facets_[item].operand);
     const std::uint32_t number = crossings.number_of(slots_[own], facets_[item].ref.facet);
@@ -158,22 +147,21 @@ bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std
 }
 
 // The outside faces upwards, unless flipped.
-void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result,
-                     std::vector<PolygonRef>& out) {
+void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result) {
     const auto add = [&](PolygonRef ref, bool inside_above) {
         ref.flipped = inside_above;
-        out.push_back(ref);
+        out_.push_back(ref);
     };
     if (result.kind == PlainCutting::Remains::Uncut) {
         // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a facet
         // within the cell stays whole.
         const bool part = !pairs_.contacts(item).empty() && cutting_.was_clipped();
-        make_room(out);
+        make_room(out_);
         add(part ? cutting_.fragment(cutting_.clipped()) : facets_[item].ref, result.inside_above);
     } else if (result.kind == PlainCutting::Remains::Parts) {
         for (const PlainPart& p : cutting_.parts()) {
             if (p.state != PlainPart::State::Kept) continue;
-            make_room(out);
+            make_room(out_);
             add(cutting_.fragment(p), p.inside_above);
         }
     }

@@ -14,6 +14,7 @@
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
 #include <trisect/bsp/leaf/doubles/plain_windings.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
 
 namespace trisect::detail {
@@ -21,43 +22,37 @@ namespace trisect::detail {
 /// Arranges leaves of facets of embedded operands, whole ones or fragments, where no two facets
 /// coincide and no edge runs along another operand's facet. Most leaves of meshes are of that
 /// kind. Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
-class PlainLeaf {
-public:
-    /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind
-    /// or doubles cannot tell; then `out` and `stats` are as before.
-    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out);
-    /// The same without the facets that something crosses in the cell: these and what covers them
-    /// are added to `crossings`, which has the operands of the formula, and their numbers to `seen`
-    /// if the formula has more than two. Returns nothing for false, else how many of those facets
-    /// there are.
-    [[nodiscard]] std::optional<std::size_t> arrange_uncrossed(const LeafProblem& problem,
-                                                               EvaluateStats& stats,
-                                                               std::vector<PolygonRef>& out,
-                                                               Crossings& crossings,
-                                                               std::vector<std::uint32_t>& seen);
-
+///
+/// Where polygons are not needed yet and crossings are collected, facets that something crosses in
+/// the cell are left out: these, and what covers them, are added to the crossings, and their
+/// numbers to `seen` if the formula has more than two operands.
+///
+/// Not for leaves of another kind, nor where doubles cannot tell.
+class PlainLeaf final : public LeafArrangement {
 private:
-    [[nodiscard]] bool arrange_listed(Crossings* crossings, EvaluateStats& stats,
-                                      std::vector<PolygonRef>& out);
-    [[nodiscard]] bool try_to_arrange(const LeafProblem& problem, Crossings* crossings,
-                                      EvaluateStats& stats, std::vector<PolygonRef>& out);
-    void start_covers(const Crossings* crossings);
-    [[nodiscard]] bool add_covers(LeafIndex item, Crossings& crossings,
-                                  std::vector<std::uint32_t>& seen);
+    [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
+                                                           LeafFindings& findings) override;
+    [[nodiscard]] bool arrange_listed();
+    void undo();
+    void start_covers();
+    [[nodiscard]] bool add_covers(LeafIndex item);
     [[nodiscard]] bool is_crossed_inside(LeafIndex item) const;
     [[nodiscard]] std::size_t slot_of(std::size_t operand) const {
         return static_cast<std::size_t>(facets_.problem().operands[operand].slot);
     }
-    void emit(LeafIndex item, const PlainCutting::Result& result, std::vector<PolygonRef>& out);
+    void emit(LeafIndex item, const PlainCutting::Result& result);
 
     PlainFacets facets_;
     PlainPairs pairs_;
     PlainWindings windings_;
     PlainCutting cutting_;
     LeafFormula formula_;
+    LeafFindings* findings_ = nullptr;
+    bool defers_ = false;      // facets that are crossed are not cut
     std::size_t crossed_ = 0;  // facets
-    std::vector<std::uint32_t>* seen_ = nullptr;
+    // What there was of findings before the leaf.
+    std::size_t covers_before_ = 0;
+    std::size_t seen_before_ = 0;
     // By operand, where crossings are collected: its winding number where it covers nothing, and
     // its slot.
     std::vector<int> open_;

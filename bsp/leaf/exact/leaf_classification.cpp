@@ -6,10 +6,12 @@
 
 namespace trisect::detail {
 
-void LeafClassification::classify(LeafWork& work, LeafLinks& links, SlotValues& values) {
+void LeafClassification::classify(LeafWork& work, LeafLinks& links) {
     work_ = &work;
     links_ = &links;
-    values_ = &values;
+    std::int32_t last_slot = -1;
+    for (const LeafOperand& o : work.problem->operands) last_slot = std::max(last_slot, o.slot);
+    values_.assign(u(last_slot + 1), -1);
     windings_.start(work);
     sides_.assign(work.items.size() + work.pieces.size(), std::nullopt);
     choose_roots();
@@ -147,9 +149,9 @@ bool LeafClassification::formula_at(int step_sign) {
     for (std::size_t o = 0; o < above_.size(); ++o) {
         const LeafOperand& operand = work_->problem->operands[o];
         const int winding = above_[o] + step_sign * step_[o];
-        (*values_)[u(operand.slot)] = is_inside(winding, work_->problem->options->winding) ? 1 : 0;
+        values_[u(operand.slot)] = is_inside(winding, work_->problem->options->winding) ? 1 : 0;
     }
-    return value_of(*work_->problem->formula, *values_);
+    return value_of(*work_->problem->formula, values_);
 }
 
 }  // namespace trisect::detail

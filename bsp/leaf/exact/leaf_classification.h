@@ -26,7 +26,7 @@ struct LeafSides {
 class LeafClassification {
 public:
     /// \pre the links are built.
-    void classify(LeafWork& work, LeafLinks& links, SlotValues& values);
+    void classify(LeafWork& work, LeafLinks& links);
     /// Nothing for an item that was listed for its box but is not in the cell.
     [[nodiscard]] const std::optional<LeafSides>& sides(LeafNode node) const {
         return sides_[static_cast<std::size_t>(node)];
@@ -57,7 +57,7 @@ private:
 
     LeafWork* work_ = nullptr;
     LeafLinks* links_ = nullptr;
-    SlotValues* values_ = nullptr;
+    SlotValues values_;
     LeafWindings windings_;
     std::vector<std::optional<LeafSides>> sides_;
     std::vector<LeafNode> roots_;  // of a tree: where to start

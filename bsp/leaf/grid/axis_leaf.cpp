@@ -49,29 +49,26 @@ void for_each_run(std::span<const AxisPolygon> all, Key key, Visit visit) {
 
 }  // namespace
 
-bool AxisLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
-                       std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete) {
-    may_picture_ = false;
-    return run(problem, stats, out, incomplete);
-}
-
-bool AxisLeaf::picture(const LeafProblem& problem, EvaluateStats& stats,
-                       std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
-                       std::unique_ptr<AxisPicture>& picture) {
-    may_picture_ = true;
-    if (!run(problem, stats, out, incomplete)) return false;
-    if (pictures_ && any_cut_) picture = make_picture();
-    return true;
-}
-
-bool AxisLeaf::run(const LeafProblem& problem, EvaluateStats& stats, std::vector<PolygonRef>& out,
-                   std::vector<FacetName>& incomplete) {
+std::optional<LeafResult> AxisLeaf::try_to_arrange(const LeafProblem& problem,
+                                                   LeafFindings& findings) {
     problem_ = &problem;
-    stats_ = &stats;
-    out_ = &out;
-    incomplete_ = &incomplete;
-    if (!list() || !make_grid()) return false;
-    check_budget(*problem.options, stats);
+    stats_ = &findings.stats;
+    incomplete_.clear();
+    if (!list() || !make_grid()) return std::nullopt;
+    find_result();
+    bench_.clear();
+    if (pictures_) emit_picture();
+    if (!pictures_) emit_all();
+    findings.incomplete.insert(findings.incomplete.end(), incomplete_.begin(), incomplete_.end());
+    findings.note_doubtful(problem);
+    if (pictures_ && any_cut_) return LeafPicture{make_picture()};
+    return LeafPolygons{listed()};
+}
+
+// The units inside the result.
+void AxisLeaf::find_result() {
+    const LeafProblem& problem = *problem_;
+    check_budget(*problem.options, *stats_);
     insides_.assign(problem.operands.size() * words(), 0);
     for (std::size_t o = 0, i = 0; o < problem.operands.size(); ++o) {
         const auto operand = static_cast<LeafIndex>(o);
@@ -86,12 +83,7 @@ bool AxisLeaf::run(const LeafProblem& problem, EvaluateStats& stats, std::vector
     known_.clear();
     remembers_ = problem.formula->is_large();
     evaluate(*problem.formula, result_);
-    check_budget(*problem.options, stats);
-    bench_.clear();
-    if (pictures_) emit_picture();
-    if (!pictures_) emit_all();
-    ++stats.mixed_leaves;
-    return true;
+    check_budget(*problem.options, *stats_);
 }
 
 // One look at both ends of a list: facets of one plane often stand together, so the first one says
@@ -108,7 +100,7 @@ bool AxisLeaf::list() {
     polygons_.clear();
     parts_.clear();
     any_cut_ = needs_parts_ = false;
-    pictures_ = may_picture_;
+    pictures_ = problem_->may_defer;
     const Cell& cell = problem_->cell;
     for (std::size_t o = 0; o < problem_->operands.size(); ++o) {
         const LeafOperand& operand = problem_->operands[o];
@@ -285,8 +277,8 @@ void AxisLeaf::emit_picture() {
     if (!needs_parts_) return;
     pictures_ = false;
     stats_->untouched_polygons = untouched;
-    out_->clear();
-    incomplete_->clear();
+    out_.clear();
+    incomplete_.clear();
 }
 
 // All polygons of an operand in one plane.
@@ -378,7 +370,7 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
     PolygonRef ref = p.ref;
     ref.touched = ref.touched || touches_others(p, units);
     if (!ref.touched) ++stats_->untouched_polygons;
-    make_room(*out_);
+    make_room(out_);
     if (pictures_) {
         note_found(found_clean);
         needs_parts_ = needs_parts_ || ref.touched;
@@ -389,7 +381,7 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
         ref = *part;
     }
     ref.flipped = is_inside_low(units) == (p.plane.sign < 0);
-    out_->push_back(ref);
+    out_.push_back(ref);
 }
 
 // Whether the result is inside on the lower side of some units of the sheet.
@@ -412,7 +404,7 @@ void AxisLeaf::emit_uncut(const AxisPolygon& p, const UnitRows& units) {
         PolygonRef ref = p.ref;
         ref.touched = true;
         ref.flipped = inside_low == (p.plane.sign < 0);
-        out_->push_back(ref);
+        out_.push_back(ref);
         parts_.push_back({true, corners_in(p, kept)});
     }
     if (!is_left && !p.contained) note_incomplete(p, units);
@@ -436,19 +428,20 @@ std::uint8_t AxisLeaf::corners_in(const AxisPolygon& p, const UnitRows& units) c
     return out;
 }
 
-std::unique_ptr<AxisPicture> AxisLeaf::make_picture() const {
+std::unique_ptr<AxisPicture> AxisLeaf::make_picture() {
     auto out = std::make_unique<AxisPicture>();
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i <= grid_.units(k).count(); ++i)
             out->planes[k].push_back(grid_.units(k).plane(i).at);
     out->units = result_;
     out->parts = parts_;
+    out->facets = PolygonList(listed());
     return out;
 }
 
 // What is left of the polygons of one source.
 void AxisLeaf::emit_group(Polygons group) {
-    const std::size_t first_made = out_->size();
+    const std::size_t first_made = out_.size();
     for (const bool inside_low : {true, false}) {
         const UnitRows& kept = inside_low ? up_ : down_;
         std::uint64_t any = 0;
@@ -523,12 +516,12 @@ void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low)
     const AxisRectangle rectangle = with_names(r);
     for (const AxisPolygon& p : group) {
         if (clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 || !overlaps(p, r)) continue;
-        make_room(*out_);
+        make_room(out_);
         std::optional<PolygonRef> part =
             p.slanted_count < 2 ? clip_to_rectangle(p, rectangle) : clip_slowly(p, rectangle);
         if (!part) continue;
         part->flipped = inside_low == (p.plane.sign < 0);
-        out_->push_back(*part);
+        out_.push_back(*part);
         ++stats_->pieces;
     }
 }
@@ -536,7 +529,7 @@ void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low)
 // A facet that reaches into other cells must not pass for whole there when something else stands
 // for it here.
 void AxisLeaf::note_incomplete(Polygons group, std::size_t first_made) {
-    const auto made = std::span(*out_).subspan(first_made);
+    const auto made = std::span(out_).subspan(first_made);
     for (const AxisPolygon& p : group) {
         if (p.contained || clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 ||
             std::ranges::any_of(made, [&](const PolygonRef& m) {
@@ -550,7 +543,7 @@ void AxisLeaf::note_incomplete(Polygons group, std::size_t first_made) {
 void AxisLeaf::note_incomplete(const AxisPolygon& p, const UnitRows& units) {
     std::uint64_t bounding = 0;
     for (std::size_t r = first_row_; r < end_row_; ++r) bounding |= bounds_[r] & units[r];
-    if (bounding != 0) incomplete_->push_back({p.ref.source->serial(), p.ref.facet});
+    if (bounding != 0) incomplete_.push_back({p.ref.source->serial(), p.ref.facet});
 }
 
 // Whether the boundary of another operand may meet a polygon: it meets the closure of its units,

@@ -17,6 +17,7 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/bsp/leaf/grid/axis_clip.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_work.h>
 
 namespace trisect::detail {
@@ -26,19 +27,12 @@ namespace trisect::detail {
 /// facets are nothing special, no pair is compared and no segment traced. Keeps its memory from
 /// leaf to leaf; what it returns depends on the problem alone.
 ///
-/// What is cut comes out in what facets have of rectangles as large as possible.
-class AxisLeaf {
-public:
-    /// False, and nothing is done, when some polygon is of another kind or the grid is too large.
-    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
-    /// The same for whoever can do with a picture. There is one afterwards, and `out` has its
-    /// facets, where facets of imported meshes have to be cut, all that bound the result in their
-    /// planes, and the others are not touched.
-    [[nodiscard]] bool picture(const LeafProblem& problem, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
-                               std::unique_ptr<AxisPicture>& picture);
-
+/// What is cut comes out in what facets have of rectangles as large as possible; but where polygons
+/// are not needed yet, as a LeafPicture, if facets of imported meshes have to be cut and all facets
+/// in their planes bound the result.
+///
+/// Not for leaves with a polygon of another kind, nor for grids that are too large.
+class AxisLeaf final : public LeafArrangement {
 private:
     // Bits of all units, layer by layer across z, row by row along y; a bit for each along x.
     using Units = std::vector<std::uint64_t>;
@@ -52,8 +46,9 @@ private:
         std::size_t row, end_row, bit, end_bit;
     };
 
-    [[nodiscard]] bool run(const LeafProblem& problem, EvaluateStats& stats,
-                           std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
+    [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
+                                                           LeafFindings& findings) override;
+    void find_result();
     [[nodiscard]] bool seems_across_axes() const;
     [[nodiscard]] bool list();
     [[nodiscard]] bool make_grid();
@@ -80,7 +75,7 @@ private:
     void emit_uncut(const AxisPolygon& p, const UnitRows& units);
     void note_found(std::uint8_t what);
     [[nodiscard]] std::uint8_t corners_in(const AxisPolygon& p, const UnitRows& units) const;
-    [[nodiscard]] std::unique_ptr<AxisPicture> make_picture() const;
+    [[nodiscard]] std::unique_ptr<AxisPicture> make_picture();
     void emit_group(Polygons group);
     void emit_rectangles(Polygons group, UnitRows rows, bool inside_low);
     void emit_clipped(Polygons group, const Rectangle& r, bool inside_low);
@@ -96,8 +91,7 @@ private:
 
     const LeafProblem* problem_ = nullptr;
     EvaluateStats* stats_ = nullptr;
-    std::vector<PolygonRef>* out_ = nullptr;
-    std::vector<FacetName>* incomplete_ = nullptr;
+    std::vector<FacetName> incomplete_;
 
     std::vector<AxisPolygon> polygons_;  // by operand, axis, plane, source, normal
     AxisGrid grid_;
@@ -120,9 +114,8 @@ private:
     UnitRows whole_low_{};  // the result on the lower side
     Polygons sheet_;
     std::vector<std::uint8_t> clean_;  // by polygon, see find_clean()
-    bool may_picture_ = false;
-    bool pictures_ = false;     // a picture is made instead of parts of facets
-    bool needs_parts_ = false;  // a picture is not enough
+    bool pictures_ = false;            // a picture is made instead of parts of facets
+    bool needs_parts_ = false;         // a picture is not enough
     bool any_cut_ = false;
     static constexpr std::uint8_t found_clean = 1;
     static constexpr std::uint8_t found_cut = 2;

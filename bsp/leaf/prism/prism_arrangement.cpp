@@ -31,12 +31,14 @@
 
 namespace trisect::detail {
 
-bool PrismArrangement::arrange(const LeafProblem& problem, EvaluateStats& stats) {
-    whole_.clear();
+std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& problem,
+                                                           LeafFindings& findings) {
+    EvaluateStats& stats = findings.stats;
     cover_edges_.clear();
     outlines_ = {};
-    if (!facets_.list(problem) || !crossings_.find(problem, facets_.walls(), stats)) return false;
-    if (!has_few_layers() || !sheets_.list(problem, facets_)) return false;
+    if (!facets_.list(problem) || !crossings_.find(problem, facets_.walls(), stats))
+        return std::nullopt;
+    if (!has_few_layers() || !sheets_.list(problem, facets_)) return std::nullopt;
     formula_.start(problem);
     row_size_ = formula_.row_size();
     const std::size_t layers = facets_.positions().size() + 1;
@@ -49,9 +51,9 @@ bool PrismArrangement::arrange(const LeafProblem& problem, EvaluateStats& stats)
     is_changed_.assign(problem.operands.size(), false);
     odd_.assign(sheets_.size(), 0);
     find_chains();
-    if (!walk_chains(problem, stats)) return false;
+    if (!walk_chains(problem, stats)) return std::nullopt;
     finish_covers();
-    return true;
+    return LeafOutlines{listed(), std::move(outlines_)};
 }
 
 // Every wall is looked at in each of its layers, and every crossing turns over as many.
@@ -318,7 +320,7 @@ void PrismArrangement::add_whole_halves(const PrismWall& w, const WallState& sta
         if ((state.whole >> half & 1U) == 0) continue;
         PolygonRef ref = w.facets[half];
         ref.flipped = (state.facing == Facing::InsideLeft) == w.above_is_left[half];
-        whole_.push_back(ref);
+        out_.push_back(ref);
     }
 }
 
@@ -514,7 +516,7 @@ void PrismArrangement::finish_covers() {
         }
         PolygonRef ref = covers[c].ref;
         ref.flipped = (sheet.bounds > 0) != facets_.faces_up(ref);
-        whole_.push_back(ref);
+        out_.push_back(ref);
     }
     std::vector<std::int32_t> faces(2 * first.size(), -1);
     for (const CoverEdge& c : cover_edges_) {

@@ -7,11 +7,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
@@ -20,20 +22,16 @@
 namespace trisect::detail {
 
 /// Like PrismLeaf, but for what is left of facets it makes outlines instead of convex pieces, so
-/// its time is near linear in walls, crossings and layers together. \pre each operand is all facets
-/// of one source.
-class PrismArrangement {
-public:
-    /// False, and nothing is said, when the operands are of another kind, walls touch or coincide,
-    /// or there are so many layers, or walls beside each other, that cells are the better way.
-    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats);
-
-    /// Facets that bound the result as they are, without a vertex in their edges.
-    [[nodiscard]] std::vector<PolygonRef>& whole() { return whole_; }
-    /// The rest of its boundary.
-    [[nodiscard]] NamedOutlines& outlines() { return outlines_; }
-
+/// its time is near linear in walls, crossings and layers together. What bounds the result as it
+/// is, without a vertex in its edges, comes out whole, the rest as LeafOutlines.
+/// \pre each operand is all facets of one source.
+///
+/// Not for operands of another kind, nor where walls touch or coincide, or there are so many
+/// layers, or walls beside each other, that cells are the better way.
+class PrismArrangement final : public LeafArrangement {
 private:
+    [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
+                                                           LeafFindings& findings) override;
     // Where a stretch of a wall ends: at the wall of that number, which crosses it, or with the
     // wall itself.
     using Bound = LeafIndex;
@@ -146,7 +144,6 @@ private:
     std::array<bool, 2> cover_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
 
-    std::vector<PolygonRef> whole_;
     std::vector<CoverEdge> cover_edges_;  // their faces: twice the position, one more if it is up
     NamedOutlines outlines_;
 };

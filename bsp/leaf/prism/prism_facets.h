@@ -49,7 +49,7 @@ struct PrismWall {
 }
 
 /// Leaves of prisms may be so many times as large as others.
-inline constexpr std::uint64_t prism_leaf_factor = 40;
+inline constexpr std::uint32_t prism_leaf_factor = 40;
 
 /// A facet across the axis.
 struct PrismCover {

@@ -54,9 +54,9 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
 
 }  // namespace
 
-bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
-                        std::vector<PolygonRef>& out) {
-    if (!facets_.list(problem)) return false;
+std::optional<LeafResult> PrismLeaf::try_to_arrange(const LeafProblem& problem,
+                                                    LeafFindings& findings) {
+    if (!facets_.list(problem)) return std::nullopt;
     // Fragments that nobody has taken end here, whatever is thrown or given up.
     struct EndCovers {
         std::vector<PolygonRef>& covers;
@@ -64,24 +64,24 @@ bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
             if (!covers.empty()) end_fragments(covers);
         }
     } const end_covers{covers_};
-    const EvaluateStats before = stats;
-    if (!arrange_listed(problem, stats)) {
-        stats = before;
-        return false;
-    }
+    EvaluateStats& stats = findings.stats;
+    if (!arrange_listed(problem, stats)) return std::nullopt;
+    emit_walls();
+    out_.insert(out_.end(), covers_.begin(), covers_.end());
+    stats.pieces += wall_parts_.size() + covers_.size();
+    covers_.clear();
+    findings.note_doubtful(problem);
+    return LeafPolygons{listed()};
+}
+
+void PrismLeaf::emit_walls() {
     for (std::size_t i = 0; i < wall_parts_.size();) {
         std::size_t j = i + 1;
         while (j < wall_parts_.size() && wall_parts_[j].stretch.wall == wall_parts_[i].stretch.wall)
             ++j;
-        emit_wall(i, j, out);
+        emit_wall(i, j);
         i = j;
     }
-    out.insert(out.end(), covers_.begin(), covers_.end());
-    stats.pieces += wall_parts_.size() + covers_.size();
-    covers_.clear();
-    ++stats.mixed_leaves;
-    ++stats.prism_leaves;
-    return true;
 }
 
 bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats) {
@@ -349,7 +349,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
 // --- What bounds the result.
 
 // The parts of one wall.
-void PrismLeaf::emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out) {
+void PrismLeaf::emit_wall(std::size_t first, std::size_t last) {
     keep_bench_small();
     const auto parts = std::span(wall_parts_).subspan(first, last - first);
     const PrismWall& wall = facets_.walls()[LeafWork::u(parts[0].stretch.wall)];
@@ -359,18 +359,18 @@ void PrismLeaf::emit_wall(std::size_t first, std::size_t last, std::vector<Polyg
                                   p.inside_left == parts[0].inside_left;
                        });
     if (!whole) {
-        for (const WallPart& p : parts) emit_wall_part(p, out);
+        for (const WallPart& p : parts) emit_wall_part(p);
         return;
     }
     for (std::size_t half = 0; half < 2; ++half) {
         PolygonRef ref = wall.facets[half];
         ref.flipped = parts[0].inside_left == wall.above_is_left[half];
         ref.touched = true;
-        out.push_back(ref);
+        out_.push_back(ref);
     }
 }
 
-void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& out) {
+void PrismLeaf::emit_wall_part(const WallPart& part) {
     const PrismWall& wall = facets_.walls()[LeafWork::u(part.stretch.wall)];
     for (std::size_t half = 0; half < 2; ++half) {
         const PolygonRef& ref = wall.facets[half];
@@ -398,9 +398,9 @@ void PrismLeaf::emit_wall_part(const WallPart& part, std::vector<PolygonRef>& ou
             clip(cover, !facets_.faces_up(cover));
         }
         if (shape.is_empty()) continue;
-        make_room(out);
-        out.push_back(make_fragment(bench_, ref, shape));
-        out.back().flipped = part.inside_left == wall.above_is_left[half];
+        make_room(out_);
+        out_.push_back(make_fragment(bench_, ref, shape));
+        out_.back().flipped = part.inside_left == wall.above_is_left[half];
     }
 }
 

@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
@@ -20,13 +21,10 @@ namespace trisect::detail {
 /// Arranges a leaf in which all operands are unions of prisms along a common axis and no walls
 /// touch or coincide; covers may coincide as they like. Such leaves may be much larger than others.
 /// Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
-class PrismLeaf {
-public:
-    /// False, and nothing is done, when the leaf is of another kind.
-    [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
-                               std::vector<PolygonRef>& out);
-
+class PrismLeaf final : public LeafArrangement {
 private:
+    [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
+                                                           LeafFindings& findings) override;
     // Where a stretch of a wall begins or ends: at the crossing wall, or with the wall itself.
     using Bound = LeafIndex;
     static constexpr Bound open = -1;
@@ -67,8 +65,9 @@ private:
     [[nodiscard]] WorkPolygon cutter_of(const Stretch& stretch);
     [[nodiscard]] bool is_left(LeafIndex wall, const FlatPoint& p) const;
 
-    void emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out);
-    void emit_wall_part(const WallPart& part, std::vector<PolygonRef>& out);
+    void emit_walls();
+    void emit_wall(std::size_t first, std::size_t last);
+    void emit_wall_part(const WallPart& part);
     void emit_cover(const PrismCover& cover, const CoverPart& part, bool whole);
 
     [[nodiscard]] std::span<int> row(std::size_t layer, std::size_t side) {

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of docs/booleans.md, whose test compares names, conditions and what is kept. A
+// condition is cheap and may say yes too often: the way itself finds out. So arrangements of small
+// cells have none; those of larger ones look at both ends of each list, because facets of one plane
+// often stand together and the first one alone says little about the others.
+
+#include <trisect/bsp/evaluate/ways.h>
+
+#include <algorithm>
+#include <array>
+
+#include <trisect/bsp/cells/axis_polygon.h>
+#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/bsp/two_meshes/undivided_meshes.h>
+#include <trisect/kernel/contract.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Largest leaves, in units of EvaluateOptions::leaf_polygons.
+constexpr std::uint32_t usual_leaf = 1;
+constexpr std::uint32_t grid_leaf = 8;
+constexpr std::uint32_t small_operands_leaf = 8;
+// Operands are small where at least such a part of all their facets is in the cell.
+constexpr std::uint64_t small_operands_part = 8;
+
+// Walls in a row that do not part the polygons of a cell, weighted by stalled_after(), and its
+// depth, after which no more are tried.
+constexpr std::uint64_t many_polygons = 400;
+constexpr int most_stalled = 3;
+constexpr int most_stalled_of_many = 12;
+constexpr int most_depth = 400;
+
+// Pairs are what a leaf costs: of those of a cell both sides of a wall may have such a part for the
+// wall to be worth it, and for it to be of any use.
+constexpr double large_cell = 4000;
+constexpr double worthy_part = 0.8;
+constexpr double worthy_part_of_large = 1.6;
+constexpr double useful_part = 1.05;
+// Of the polygons, where both sides have more than such a part.
+constexpr double large_side = 0.5;
+constexpr int price_of_useless = 12;
+constexpr int price_of_large_sides = 4;
+constexpr int price_of_unworthy = 1;
+
+// --- Conditions.
+
+bool is_constant(const CellView& view) {
+    const CellTask& task = view.task;
+    if (task.formula->kind == Residual::Kind::Constant) return true;
+    if (task.operands.size() != 1) return false;
+    const auto values = values_of_one(*task.formula, task.operands[0].slot, view.values);
+    return values.outside == values.inside;
+}
+
+bool is_of_one_operand(const CellView& view) {
+    return view.task.operands.size() == 1 && view.task.operands[0].embedded;
+}
+
+// A leaf looks at each of its polygons for some hundred instructions more than a list that is
+// shared does. So what one operand has beside the other one is cut off where that is enough to pay
+// for two cells more. Not in chains, where every later step meets those cells again.
+bool may_be_peeled(const CellView& view) {
+    const CellTask& task = view.task;
+    return !view.undividable && view.size <= view.options.leaf_polygons && view.collects &&
+           task.operands.size() == 2 && view.size >= least_peeled && task.stalled == 0 &&
+           std::ranges::all_of(task.operands, &CellOperand::is_list);
+}
+
+// Whether the first and the last polygon of a list or a leaf pass a test.
+template <class Test>
+bool ends_pass(const CellOperand& o, const Test& test) {
+    if (o.is_list) {
+        const auto list = o.list();
+        return test(o.polygon(list.front().id)) && test(o.polygon(list.back().id));
+    }
+    if (!o.node->is_leaf() || o.node->polygons().empty()) return false;
+    const PolygonList& polygons = o.node->polygons();
+    return test(polygons[0]) && test(polygons[polygons.size() - 1]);
+}
+
+bool may_be_across_axes(const CellView& view) {
+    const auto is_across = [](const PolygonRef& r) { return AxisPolygon().read(r); };
+    return view.is_small() || std::ranges::all_of(view.task.operands, [&](const CellOperand& o) {
+               return ends_pass(o, is_across);
+           });
+}
+
+bool may_be_prisms(const CellView& view) {
+    if (view.is_small()) return true;
+    const auto may_be_of_prism = [&](const PolygonRef& r) {
+        return PrismFacets::may_be_of_prism(r) && view.task.cell.contains(r.box());
+    };
+    return view.task.operands.size() >= 2 &&
+           std::ranges::all_of(view.task.operands, [&](const CellOperand& o) {
+               return o.embedded && ends_pass(o, may_be_of_prism);
+           });
+}
+
+bool is_any(const CellView&) { return true; }
+
+// A wall pays where an operand is all on one side of it, and most where it covers the other side.
+// Small operands do not cover much, and walls cut most of their facets, so that these are listed
+// and compared again and again.
+bool are_small_operands(const CellView& view) {
+    if (view.is_small() || !view.collects || view.task.operands.size() < 3) return false;
+    std::uint64_t all = 0;
+    for (const CellOperand& o : view.task.operands) {
+        if (!o.is_list && !o.node->is_leaf()) return false;
+        all += o.node->size();
+    }
+    return small_operands_part * view.size >= all;
+}
+
+bool may_be_divided(const CellView& view) { return !view.undividable; }
+
+bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solids,
+                          const EvaluateOptions& options) {
+    return are_two_large_meshes(formula, solids, options);
+}
+
+// --- The table.
+
+std::shared_ptr<const SolidState> evaluate_two_meshes(const Residual::Ref& formula,
+                                                      const SolidStates& solids,
+                                                      const EvaluateOptions& options,
+                                                      EvaluateStats& stats) {
+    return evaluate_undivided(formula, solids, options, stats);
+}
+
+template <auto Arranger>
+LeafArrangement& arranger(LeafArrangers& all) {
+    return all.*Arranger;
+}
+
+constexpr LeafWay by_doubles(std::uint32_t reach, bool (*applies)(const CellView&)) {
+    return {reach, applies, &arranger<&LeafArrangers::doubles>};
+}
+
+using Stats = EvaluateStats;
+
+constexpr std::size_t formula_rows = 2;
+constexpr std::size_t constant_rows = 2;
+
+constexpr std::array all_ways{
+    Way{"outlines of prisms",
+        "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
+        "whole facets, outlines by name", &Stats::prism_leaves,
+        FormulaWay{&are_large_prisms, &outline_prisms}},
+    Way{"two meshes",
+        "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
+        "limit",
+        "uncrossed facets, crossings", &Stats::plain_leaves,
+        FormulaWay{&are_meshes_of_a_size, &evaluate_two_meshes}},
+    Way{"constant", "the formula has one value in the cell", "an empty leaf",
+        &Stats::constant_cells, CellWay{&is_constant, &CellSteps::make_constant}},
+    Way{"share", "one operand is left, and it is embedded",
+        "the operand's subtree or list, or its complement", &Stats::shared_cells,
+        CellWay{&is_of_one_operand, &CellSteps::share}},
+    Way{"trim", "two lists of imported meshes in a small cell, 16 facets of one beside the other",
+        "a splitting plane and two cells", &Stats::divided_cells, CellWay{&may_be_peeled, &CellSteps::peel}},
+    Way{"grid", "up to 8 leaves; all facets axis-perpendicular",
+        "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
+        LeafWay{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
+    Way{"general position", "one leaf; embedded operands in general position",
+        "fragments; of imported meshes uncrossed facets and crossings", &Stats::plain_leaves,
+        by_doubles(usual_leaf, &is_any)},
+    Way{"prisms", "up to 40 leaves; prisms along one axis, whole in the cell", "fragments",
+        &Stats::prism_leaves,
+        LeafWay{prism_leaf_factor, &may_be_prisms, &arranger<&LeafArrangers::prisms>}},
+    Way{"small operands",
+        "up to 8 leaves; three imported meshes or more, an eighth of their facets in the cell",
+        "as in general position", &Stats::plain_leaves,
+        by_doubles(small_operands_leaf, &are_small_operands)},
+    Way{"exact", "one leaf; any polygons", "fragments", &Stats::exact_leaves,
+        LeafWay{usual_leaf, &is_any, &arranger<&LeafArrangers::exact>}},
+    Way{"divide", "a splitting plane separates the polygons; else leaves of any size, from the grid on",
+        "a splitting plane and two cells", &Stats::divided_cells,
+        CellWay{&may_be_divided, &CellSteps::divide}},
+};
+
+}  // namespace
+
+std::span<const Way> ways() { return all_ways; }
+
+std::span<const Way> formula_ways() { return ways().first(formula_rows); }
+
+std::span<const Way> constant_ways() { return ways().subspan(formula_rows, constant_rows); }
+
+std::span<const Way> polygon_ways() { return ways().subspan(formula_rows + constant_rows); }
+
+LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers,
+                        LeafFindings& findings) {
+    const CellTask no_task;
+    SlotValues no_values;
+    const CellView view{no_task, *problem.options, no_values, false, true};
+    for (const Way& way : polygon_ways()) {
+        const auto* const leaf = std::get_if<LeafWay>(&way.how);
+        if (leaf == nullptr || !leaf->may_serve(view)) continue;
+        if (auto result = leaf->arrangement(arrangers).arrange(problem, findings))
+            return *std::move(result);
+    }
+    TRISECT_EXPECTS(false, "every leaf can be arranged exactly");
+    return LeafPolygons{};
+}
+
+ValuesOfOne values_of_one(const Residual& formula, std::int32_t slot, SlotValues& values) {
+    auto& v = values[static_cast<std::size_t>(slot)];
+    v = 0;
+    const bool outside = value_of(formula, values);
+    v = 1;
+    const bool inside = value_of(formula, values);
+    v = -1;
+    return {outside, inside};
+}
+
+bool walls_have_failed(const CellTask& task) {
+    return task.stalled >= (task.size() > many_polygons ? most_stalled_of_many : most_stalled) ||
+           task.depth > most_depth;
+}
+
+// A wall that leaves most pairs on its sides was not worth it, and after a few such walls none will
+// be: long thin facets cross all of them. Where many facets meet in a corner, though, walls around
+// the corner cut off small cells at little cost. Walls that make more pairs than there were never
+// pay: a pair costs a few nanoseconds.
+int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second) {
+    const auto total = static_cast<double>(task.size());
+    const auto a = static_cast<double>(first);
+    const auto b = static_cast<double>(second);
+    const double pairs = a * a + b * b;
+    const double all = total * total;
+    if (pairs < (total < large_cell ? worthy_part : worthy_part_of_large) * all) return 0;
+    if (pairs > useful_part * all) return task.stalled + price_of_useless;
+    const bool large_sides = std::min(a, b) > large_side * total;
+    return task.stalled + (large_sides ? price_of_large_sides : price_of_unworthy);
+}
+
+}  // namespace trisect::detail

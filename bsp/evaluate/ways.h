@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Table of rules for formulas and cells, in the order of trial.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/divide/cell_task.h>
+#include <trisect/bsp/evaluate/arranger_pool.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/leaf/leaf_arrangement.h>
+
+namespace trisect::detail {
+
+/// What the condition of a way looks at.
+struct CellView {
+    const CellTask& task;
+    const EvaluateOptions& options;
+    SlotValues& values;        ///< scratch, all unknown
+    bool collects = false;     ///< crossings
+    bool undividable = false;  ///< walls do not part the polygons any more
+    std::uint64_t size = 0;    ///< polygons
+
+    [[nodiscard]] bool is_small() const { return undividable || size <= options.leaf_polygons; }
+};
+
+/// What the evaluator does with a cell beside arranging its polygons. A step returns nothing, with
+/// the same set left to be evaluated, when it does not serve the cell after all.
+class CellSteps {
+public:
+    [[nodiscard]] virtual std::optional<CellRef> make_constant(CellTask& task) = 0;
+    [[nodiscard]] virtual std::optional<CellRef> share(CellTask& task) = 0;
+    [[nodiscard]] virtual std::optional<CellRef> peel(CellTask& task) = 0;
+    [[nodiscard]] virtual std::optional<CellRef> divide(CellTask& task) = 0;
+
+protected:
+    CellSteps() = default;
+    ~CellSteps() = default;
+};
+
+using SolidStates = std::vector<std::shared_ptr<const SolidState>>;
+
+/// A way to evaluate a whole formula without a tree.
+struct FormulaWay {
+    bool (*applies)(const Residual::Ref& formula, const SolidStates& solids,
+                    const EvaluateOptions& options);
+    /// Null when the operands are of another kind after all. \pre applies()
+    std::shared_ptr<const SolidState> (*evaluate)(const Residual::Ref& formula,
+                                                  const SolidStates& solids,
+                                                  const EvaluateOptions& options,
+                                                  EvaluateStats& stats);
+};
+
+/// A way that a cell goes as a whole.
+struct CellWay {
+    bool (*applies)(const CellView& view);
+    std::optional<CellRef> (CellSteps::*take)(CellTask& task);
+};
+
+/// A way to arrange the polygons of a cell.
+struct LeafWay {
+    std::uint32_t reach;  ///< up to so many times EvaluateOptions::leaf_polygons
+    bool (*applies)(const CellView& view);
+    LeafArrangement& (*arrangement)(LeafArrangers& arrangers);
+
+    [[nodiscard]] bool may_serve(const CellView& view) const {
+        return (view.undividable ||
+                view.size <= std::uint64_t{reach} * view.options.leaf_polygons) &&
+               applies(view);
+    }
+};
+
+/// A row of the table. Of the rows that apply the first one that serves is taken. Texts are those
+/// of docs/booleans.md.
+struct Way {
+    std::string_view name;
+    std::string_view condition;
+    std::string_view keeps;
+    std::uint64_t EvaluateStats::*counter;  ///< cells that went this way
+    std::variant<FormulaWay, CellWay, LeafWay> how;
+};
+
+/// All rows.
+[[nodiscard]] std::span<const Way> ways();
+/// Those for whole formulas; the others are for cells.
+[[nodiscard]] std::span<const Way> formula_ways();
+/// Those of cells that are decided by the formula alone.
+[[nodiscard]] std::span<const Way> constant_ways();
+/// Those of cells that depend on the polygons. The last one that is not for small cells alone
+/// divides; where it does not serve, the cell is undividable, and these are walked once more.
+[[nodiscard]] std::span<const Way> polygon_ways();
+
+/// The polygons of a cell by the first way that serves, whatever their number.
+[[nodiscard]] LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers,
+                                      LeafFindings& findings);
+
+/// The formula over its only slot.
+struct ValuesOfOne {
+    bool outside = false;  ///< its value outside of the operand
+    bool inside = false;
+};
+[[nodiscard]] ValuesOfOne values_of_one(const Residual& formula, std::int32_t slot,
+                                        SlotValues& values);
+
+/// The fewest polygons that are worth a wall which peels them off.
+inline constexpr std::size_t least_peeled = 16;
+/// Whether walls have parted the polygons so badly, or so often, that none is tried any more.
+[[nodiscard]] bool walls_have_failed(const CellTask& task);
+/// CellTask::stalled for the two sides of a wall, which have so many polygons.
+[[nodiscard]] int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second);
+
+}  // namespace trisect::detail
