@@ -15,6 +15,7 @@
 #include <numeric>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <trisect/brep/face/rounded_polygon.h>
@@ -24,7 +25,7 @@
 #include <trisect/bsp/assembly/assembly_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -466,16 +467,23 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     return MeshWriter(solid, parts, std::move(tables), threads).write(edges);
 }
 
+// How many facets a form lists.
+struct ListedFacets {
+    std::size_t operator()(const CellTree& tree) const { return tree.root.node->size(); }
+    std::size_t operator()(const PrismOutlines& prisms) const { return prisms.whole->size(); }
+    std::size_t operator()(const UndividedMeshes& meshes) const {
+        std::size_t facets = 0;
+        for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
+        return facets;
+    }
+};
+
 }  // namespace
 
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                           std::uint32_t threads) {
     // No arena for what no step would divide.
-    std::size_t facets = solid.root.node->size();
-    if (solid.outlined != nullptr)
-        for (const UncrossedFacets& list : solid.outlined->uncrossed())
-            facets += list.facets.size();
-    const bool small = facets < 8 * least_groups;
+    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_groups;
     return on_threads(small ? 1 : threads,
                       [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
 }

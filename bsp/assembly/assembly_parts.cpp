@@ -20,6 +20,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <variant>
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
@@ -28,11 +29,10 @@
 #include <trisect/bsp/assembly/parts/outline_edges.h>
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 #include <trisect/bsp/cells/deferred_leaf.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/near_points.h>
-#include <trisect/bsp/cells/outlined_solid.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
-#include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -72,53 +72,23 @@ public:
           axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
-    /// False when pieces are needed that nobody has made: of OutlinedSolid::cut().
-    [[nodiscard]] bool run() {
-        list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
-        for (const Leaf& leaf : leaves_) {
-            check_stop(1 + leaf.node->size());
-            mark_facets(leaf);
-        }
-        mark_lists();
-        if (solid_.outlined != nullptr) mark_uncrossed(solid_.outlined->uncrossed());
-        if (solid_.crossings != nullptr) mark_crossed();
-        if (solid_.outlined != nullptr) mark_outlines(solid_.outlined->outlines());
-        number_facets();
-        if (solid_.outlined != nullptr) add_outlines(solid_.outlined->outlines(), out_, edges_);
-        if (solid_.crossings != nullptr) trace_facets(*solid_.crossings, out_, edges_);
-        if (solid_.crossings != nullptr && solid_.outlined != nullptr &&
-            out_.stats.traced_facets != out_.facets.size())
-            return false;
-        const std::size_t traced = edges_.size();
-        if (by_planes_ && traced == 0) choose_axis_faces();
-        for (Leaf& leaf : leaves_) {
-            if (out_.stats.traced_facets == out_.facets.size()) break;
-            check_stop(1 + leaf.node->size());
-            make_parts(leaf);
-        }
-        const std::size_t of_leaves = edges_.size();
-        make_axis_faces();
-        out_.bench.end_points();
-        merge_equal_points();
-        check_stop(edges_.size());
-        conform_edges(traced, of_leaves);
-        out_.representatives = std::move(same_);
-        out_.are_joined = axis_faces_.takes_all();
-        out_.stats.leaves = leaves_.size();
-        out_.stats.axis_facets = axis_faces_.taken_count();
-        out_.stats.axis_leaves = axis_faces_.read_count();
-        out_.stats.parts += axis_faces_.part_count();
-        out_.stats.worked_facets = out_.facets.size();
-        out_.stats.edges = out_.edges.size();
-        return true;
+    void run() {
+        std::visit([&](const auto& form) { gather(form); }, solid_.form);
+        finish();
     }
 
 private:
+    // One for each form: marks facets and lists leaves of which parts may be needed.
+    void gather(const CellTree& tree);
+    void gather(const UndividedMeshes& meshes);
+    void gather(const PrismOutlines& prisms);
+    void finish();
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
     [[nodiscard]] const DeferredLeaf* deferred(const Leaf& leaf) const;
     [[nodiscard]] const AxisPicture* picture(const Leaf& leaf) const;
     void mark_facets(const Leaf& leaf);
-    void mark_crossed();
+    void mark_leaves();
+    void mark_crossed(const Crossings& crossings);
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
     [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
     void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
@@ -145,6 +115,8 @@ private:
     BoundaryParts& out_;
     bool by_planes_;
     std::uint32_t threads_;
+    std::span<const FacetName> incomplete_;  // of a tree
+    bool defers_ = false;  // crossings of all leaves in general position are known
     std::vector<Leaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
@@ -162,6 +134,68 @@ private:
     std::vector<PointId> points_;
 };
 
+void Gatherer::gather(const CellTree& tree) {
+    incomplete_ = tree.incomplete;
+    defers_ = tree.crossings != nullptr;
+    list_leaves(*tree.root.node, tree.root.complemented, Cell{});
+    mark_leaves();
+    if (defers_) mark_crossed(*tree.crossings);
+    number_facets();
+    if (defers_) trace_facets(*tree.crossings, out_, edges_);
+}
+
+// Facets whose outlines doubles cannot tell are left to the parts of the tree.
+void Gatherer::gather(const UndividedMeshes& meshes) {
+    mark_uncrossed(meshes.uncrossed);
+    mark_crossed(*meshes.crossings);
+    number_facets();
+    trace_facets(*meshes.crossings, out_, edges_);
+    if (out_.stats.traced_facets == out_.facets.size()) return;
+    const CellTree& tree = meshes.tree->cut()->tree();
+    defers_ = tree.crossings != nullptr;
+    list_leaves(*tree.root.node, tree.root.complemented, Cell{});
+}
+
+void Gatherer::gather(const PrismOutlines& prisms) {
+    list_leaves(*prisms.whole, false, Cell{});
+    mark_leaves();
+    mark_outlines(*prisms.outlines);
+    number_facets();
+    add_outlines(*prisms.outlines, out_, edges_);
+}
+
+void Gatherer::finish() {
+    const std::size_t traced = edges_.size();
+    if (by_planes_ && traced == 0) choose_axis_faces();
+    for (Leaf& leaf : leaves_) {
+        if (out_.stats.traced_facets == out_.facets.size()) break;
+        check_stop(1 + leaf.node->size());
+        make_parts(leaf);
+    }
+    const std::size_t of_leaves = edges_.size();
+    make_axis_faces();
+    out_.bench.end_points();
+    merge_equal_points();
+    check_stop(edges_.size());
+    conform_edges(traced, of_leaves);
+    out_.representatives = std::move(same_);
+    out_.are_joined = axis_faces_.takes_all();
+    out_.stats.leaves = leaves_.size();
+    out_.stats.axis_facets = axis_faces_.taken_count();
+    out_.stats.axis_leaves = axis_faces_.read_count();
+    out_.stats.parts += axis_faces_.part_count();
+    out_.stats.worked_facets = out_.facets.size();
+    out_.stats.edges = out_.edges.size();
+}
+
+void Gatherer::mark_leaves() {
+    for (const Leaf& leaf : leaves_) {
+        check_stop(1 + leaf.node->size());
+        mark_facets(leaf);
+    }
+    mark_lists();
+}
+
 std::size_t Gatherer::table(const Source* source) {
     auto& tables = out_.sources;
     if (last_table_ < tables.size() && tables[last_table_].source() == source) return last_table_;
@@ -173,9 +207,8 @@ std::size_t Gatherer::table(const Source* source) {
 
 void Gatherer::mark_incomplete(FacetMarks& marks) const {
     const std::uint64_t serial = marks.source()->serial();
-    const auto& incomplete = solid_.incomplete;
-    auto at = std::lower_bound(incomplete.begin(), incomplete.end(), FacetName{serial, 0});
-    for (; at != incomplete.end() && at->serial == serial; ++at)
+    auto at = std::ranges::lower_bound(incomplete_, FacetName{serial, 0});
+    for (; at != incomplete_.end() && at->serial == serial; ++at)
         for (const bool flipped : {false, true}) marks.set_worked(at->facet, flipped);
 }
 
@@ -203,17 +236,16 @@ bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bo
 // Where the crossings of all leaves are known, those that were deferred stay so.
 const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
     const DeferredLeaf* const d = leaf.node->deferred();
-    return solid_.crossings != nullptr && d != nullptr && d->picture == nullptr ? d : nullptr;
+    return defers_ && d != nullptr && d->uncrossed() != nullptr ? d : nullptr;
 }
 
 // Where planes are outlined as a whole.
 const AxisPicture* Gatherer::picture(const Leaf& leaf) const {
     const DeferredLeaf* const d = leaf.node->deferred();
-    return by_planes_ && d != nullptr ? d->picture.get() : nullptr;
+    return by_planes_ && d != nullptr ? d->picture() : nullptr;
 }
 
-void Gatherer::mark_crossed() {
-    const Crossings& crossings = *solid_.crossings;
+void Gatherer::mark_crossed(const Crossings& crossings) {
     std::vector<std::pair<std::uint64_t, FacetMarks*>> by_serial;
     for (FacetMarks& marks : out_.sources) by_serial.emplace_back(marks.source()->serial(), &marks);
     std::ranges::sort(by_serial);
@@ -242,7 +274,7 @@ void Gatherer::mark_facets(const Leaf& leaf) {
     if (deferred != nullptr)
         for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
     const AxisPicture* const picture = this->picture(leaf);
-    const PolygonList& polygons = deferred != nullptr  ? deferred->uncrossed
+    const PolygonList& polygons = deferred != nullptr  ? *deferred->uncrossed()
                                   : picture != nullptr ? picture->facets
                                                        : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
@@ -666,10 +698,7 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
 
 void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
                   std::uint32_t threads) {
-    if (Gatherer(solid, parts, by_planes, threads).run()) return;
-    parts = BoundaryParts();
-    const bool made = Gatherer(*solid.outlined->cut(), parts, by_planes, threads).run();
-    TRISECT_EXPECTS(made, "a tree has all pieces");
+    Gatherer(solid, parts, by_planes, threads).run();
 }
 
 }  // namespace trisect::detail

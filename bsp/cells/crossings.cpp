@@ -78,7 +78,7 @@ std::optional<Crossings> crossings_of(const Residual& formula,
     std::uint64_t facets = 0;
     Crossings out;
     for (const auto& state : states) {
-        const CellRef& root = state->root;
+        const CellRef& root = state->root();
         const PolygonList* polygons = root.node->is_leaf() ? &root.node->polygons() : nullptr;
         if (polygons == nullptr || !polygons->has_all_facets() || !state->embedded ||
             polygons->whole_source()->is_half_space())

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <variant>
 #include <vector>
 
 #include <trisect/bsp/cells/axis_picture.h>
@@ -15,9 +16,9 @@
 
 namespace trisect::detail {
 
-/// What a leaf of imported meshes needs to cut its facets when the first one asks for its polygons:
-/// a later operation there, a query. It is one in general position, or one across axes. Who writes
-/// the result as a mesh does not ask (traced_facets.h, axis_faces.h). Immutable.
+/// What a leaf of imported meshes needs to cut its facets when its polygons are first needed: by a
+/// later operation there, or by a query. Assembly of a mesh needs only what is `known`
+/// (traced_facets.h, axis_faces.h). Immutable.
 class DeferredLeaf {
 public:
     struct Operand {
@@ -26,20 +27,28 @@ public:
         bool flipped = false;   ///< they are to be read with the other orientation
         int winding = 0;        ///< at the leaf's reference point
     };
+    using Picture = std::unique_ptr<const AxisPicture>;
+    using Arrange = PolygonList (*)(const DeferredLeaf& leaf);
 
     Cell cell;
     FinePoint reference;
     std::vector<Operand> operands;
     Residual::Ref formula;
     EvaluateOptions::Winding rule = EvaluateOptions::Winding::Positive;
-    /// Of a leaf in general position: those of its polygons that nothing crosses in the cell.
-    PolygonList uncrossed;
-    /// Of a leaf across axes; else null.
-    std::unique_ptr<const AxisPicture> picture;
+    /// Of a leaf in general position those of its polygons that nothing crosses in the cell; of a
+    /// leaf across axes its picture.
+    std::variant<PolygonList, Picture> known;
+    /// Lists the leaf's polygons as an evaluation that does not defer would have.
+    Arrange arrange = nullptr;
 
-    /// The leaf's polygons, as an evaluation that does not defer would have listed them.
-    [[nodiscard]] PolygonList arrange() const;
-    /// For the leaf's node: arrange() once.
+    /// Null for a leaf across axes.
+    [[nodiscard]] const PolygonList* uncrossed() const { return std::get_if<PolygonList>(&known); }
+    /// Null for a leaf in general position.
+    [[nodiscard]] const AxisPicture* picture() const {
+        const Picture* const picture = std::get_if<Picture>(&known);
+        return picture != nullptr ? picture->get() : nullptr;
+    }
+    /// For the leaf's node: arrange once.
     [[nodiscard]] std::mutex& arranging() const { return arranging_; }
 
 private:

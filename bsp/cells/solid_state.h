@@ -6,10 +6,14 @@
 #include <compare>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <variant>
 #include <vector>
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/cells/residual.h>
 
 namespace trisect::detail {
 
@@ -20,28 +24,67 @@ struct FacetName {
     friend auto operator<=>(const FacetName&, const FacetName&) = default;
 };
 
-class OutlinedSolid;
+class LazyTree;
 
-struct SolidState {
-    Lattice lattice;
+/// A set as a tree of cells that list its boundary.
+struct CellTree {
     CellRef root;
-    bool embedded = true;      ///< free of self-intersection, winding numbers 0 and 1 only
-    std::uint64_t source = 0;  ///< serial of the one source of an imported solid
     /// Facets that reach into several cells and are missing in one of them because a coincident
     /// facet of another operand spoke for them there. Sorted. Elsewhere that operand may have
     /// dropped out of the formula, so such a facet may be listed whole without being whole. Rare.
     std::vector<FacetName> incomplete;
-    /// Of the result of two imported meshes; else null. It says nothing about what is made of the
+    /// Of the result of imported meshes; else null. It says nothing about what is made of the
     /// result in turn.
     std::shared_ptr<const Crossings> crossings;
-    /// Of a result that has not been cut; else null. Then the tree lists only facets that are
-    /// whole, or nothing, and who wants more than to_mesh() takes OutlinedSolid::cut() instead of
-    /// this.
-    std::shared_ptr<const OutlinedSolid> outlined;
+};
+
+/// Facets of a mesh that bound a result as they are.
+struct UncrossedFacets {
+    const Source* source = nullptr;
+    bool flipped = false;
+    std::vector<std::uint32_t> facets;  ///< ascending
+};
+
+/// A set of two meshes by their facets, without a tree: those that nothing crosses, and the
+/// crossings of all others. Enough for to_mesh() and to_brep().
+struct UndividedMeshes {
+    std::vector<UncrossedFacets> uncrossed;      ///< of each operand
+    std::shared_ptr<const Crossings> crossings;  ///< not null
+    std::shared_ptr<const LazyTree> tree;        ///< not null
+};
+
+/// A set of prisms along one axis, without a tree: facets that are whole, and the rest of the
+/// boundary by name. Enough for to_mesh(), and for to_brep() unless faces need names of their own.
+struct PrismOutlines {
+    std::shared_ptr<const CellNode> whole;  ///< a leaf that lists them; all of space is its cell
+    std::shared_ptr<const NamedOutlines> outlines;
+    std::shared_ptr<const LazyTree> tree;  ///< not null
+};
+
+using SolidForm = std::variant<CellTree, UndividedMeshes, PrismOutlines>;
+
+struct SolidState {
+    Lattice lattice;
+    SolidForm form;
+    bool embedded = true;      ///< free of self-intersection, winding numbers 0 and 1 only
+    std::uint64_t source = 0;  ///< serial of the one source of an imported solid
     /// Whether the set contains what is far away: 0 or 1; -1 where that depends on the direction,
     /// or may, because half-spaces alone decide it.
     std::int8_t far_out = 0;
     bool lattice_matters = true;  ///< false for the empty set and whole space
+
+    /// \pre the form is a tree
+    [[nodiscard]] const CellTree& tree() const { return std::get<CellTree>(form); }
+    [[nodiscard]] const CellRef& root() const { return tree().root; }
+    /// The tree that is still to be evaluated, or was when it was needed; null where the form is a
+    /// tree from the beginning.
+    [[nodiscard]] std::shared_ptr<const LazyTree> lazy_tree() const;
 };
+
+using SolidStates = std::vector<std::shared_ptr<const SolidState>>;
+
+/// SolidState::far_out of the value of a formula over these.
+[[nodiscard]] std::int8_t far_out_of(const Residual& formula,
+                                     std::span<const std::shared_ptr<const SolidState>> solids);
 
 }  // namespace trisect::detail

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/evaluate/evaluator.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/evaluate/ways.h>
@@ -20,27 +17,9 @@
 
 namespace trisect {
 
-using detail::FacetName;
 using detail::SolidState;
 
 namespace {
-
-// What is incomplete in an operand stays so in the result, wherever that shares its leaves. The
-// longest list is merged and not sorted again: in a chain that is all but what the last step added.
-std::vector<FacetName> all_incomplete(
-    std::vector<FacetName> made, const std::vector<std::shared_ptr<const SolidState>>& states) {
-    const auto longest = std::ranges::max_element(
-        states, {}, [](const auto& state) { return state->incomplete.size(); });
-    for (auto s = states.begin(); s != states.end(); ++s)
-        if (s != longest) made.insert(made.end(), (*s)->incomplete.begin(), (*s)->incomplete.end());
-    std::ranges::sort(made);
-    made.erase(std::unique(made.begin(), made.end()), made.end());
-    if (longest == states.end() || (*longest)->incomplete.empty()) return made;
-    std::vector<FacetName> all;
-    all.reserve(made.size() + (*longest)->incomplete.size());
-    std::ranges::set_union((*longest)->incomplete, made, std::back_inserter(all));
-    return all;
-}
 
 // Cells are kept apart from corners and from reference points, which have even coordinates in this
 // scale: an even offset could put a wall through one, and so could an offset of a unit or more.
@@ -84,31 +63,21 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     expect_valid(options);
     const detail::Translation t = detail::translate(expression);
     const StopScope scope(options.cancel);  // for what looks at the flag of its thread
-    std::vector<std::shared_ptr<const SolidState>> states;
+    detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
     EvaluateOptions with_flag = options;
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
     EvaluateStats made;
-    for (const detail::Way& way : detail::formula_ways()) {
-        const auto& how = std::get<detail::FormulaWay>(way.how);
-        if (!how.applies(t.formula, states, with_flag)) continue;
-        auto state = how.evaluate(t.formula, states, with_flag, made);
-        if (state == nullptr) continue;
-        made.lattice = lattice;
-        if (stats != nullptr) *stats = made;
-        return Solid(std::move(state));
-    }
-    detail::Evaluation evaluation = detail::evaluate_formula(t.formula, states, with_flag);
-    auto state = std::make_shared<SolidState>();
+    std::shared_ptr<SolidState> state;
+    for (const detail::Way& way : detail::formula_ways())
+        if (state == nullptr)
+            state = detail::evaluate_by(std::get<detail::FormulaWay>(way.how), t.formula, states,
+                                        with_flag, made);
+    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, with_flag, made);
     state->lattice = lattice.lattice;
-    state->root = std::move(evaluation.root);
-    state->embedded = true;
-    state->far_out = detail::far_out_of(*t.formula, states);
-    state->incomplete = all_incomplete(std::move(evaluation.incomplete), states);
-    state->crossings = std::move(evaluation.crossings);
-    evaluation.stats.lattice = lattice;
-    if (stats != nullptr) *stats = evaluation.stats;
+    made.lattice = lattice;
+    if (stats != nullptr) *stats = made;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }
 

@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -332,7 +333,7 @@ CellRef Worker::keep(LeafUncrossed made, const CellTask& task, bool inside) {
     PolygonList uncrossed = kept_list(std::move(made.polygons));
     auto leaf = problem_of(task);
     const std::uint64_t size = uncrossed.size() + made.crossed;
-    leaf->uncrossed = std::move(uncrossed);
+    leaf->known = std::move(uncrossed);
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
@@ -340,7 +341,7 @@ CellRef Worker::keep(LeafPicture made, const CellTask& task, bool inside) {
     auto leaf = problem_of(task);
     shared_.memory.keep(made.picture->bytes());
     const std::uint64_t size = made.picture->facets.size();
-    leaf->picture = std::move(made.picture);
+    leaf->known = std::move(made.picture);
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
@@ -357,6 +358,7 @@ std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
     leaf->reference = task.reference;
     leaf->formula = task.formula;
     leaf->rule = options_.winding;
+    leaf->arrange = &arrange_deferred;
     leaf->operands.reserve(task.operands.size());
     for (const CellOperand& o : task.operands) {
         DeferredLeaf::Operand& listed = leaf->operands.emplace_back();
@@ -531,6 +533,23 @@ CellRef Worker::solve(CellTask& task) {
     return *std::move(cell);
 }
 
+// What is incomplete in an operand stays so in the result, wherever that shares its leaves. The
+// longest list is merged and not sorted again: in a chain that is all but what the last step added.
+std::vector<FacetName> all_incomplete(std::vector<FacetName> made, const SolidStates& states) {
+    const auto longest = std::ranges::max_element(
+        states, {}, [](const auto& state) { return state->tree().incomplete.size(); });
+    for (auto s = states.begin(); s != states.end(); ++s)
+        if (s != longest)
+            made.insert(made.end(), (*s)->tree().incomplete.begin(), (*s)->tree().incomplete.end());
+    std::ranges::sort(made);
+    made.erase(std::unique(made.begin(), made.end()), made.end());
+    if (longest == states.end() || (*longest)->tree().incomplete.empty()) return made;
+    std::vector<FacetName> all;
+    all.reserve(made.size() + (*longest)->tree().incomplete.size());
+    std::ranges::set_union((*longest)->tree().incomplete, made, std::back_inserter(all));
+    return all;
+}
+
 CellRef solve_root(Shared& shared, const Residual::Ref& formula,
                    std::span<const std::shared_ptr<const SolidState>> states) {
     Worker& worker = shared.worker();
@@ -543,14 +562,13 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
 
 }  // namespace
 
-Evaluation evaluate_formula(const Residual::Ref& formula,
-                            std::span<const std::shared_ptr<const SolidState>> solids,
+Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateOptions& options) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
                   crossings ? &*crossings : nullptr};
     std::uint64_t polygons = 0;
-    for (const auto& s : solids) polygons += s->root.node->size();
+    for (const auto& s : solids) polygons += s->root().node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
     shared.parallel =
         options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_size;
@@ -559,12 +577,12 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
                                                    : static_cast<int>(options.threads));
         try {
-            arena.execute([&] { result.root = solve_root(shared, formula, solids); });
+            arena.execute([&] { result.tree.root = solve_root(shared, formula, solids); });
         } catch (const Abandoned&) {
             shared.failure.rethrow();
         }
     } else {
-        result.root = solve_root(shared, formula, solids);
+        result.tree.root = solve_root(shared, formula, solids);
     }
     if (crossings) {
         CoveredCells covered;
@@ -577,14 +595,15 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
         });
         covered.compare(seen, options, result.stats, *crossings);
         crossings->arrange();
-        result.crossings = std::make_shared<const Crossings>(*std::move(crossings));
+        result.tree.crossings = std::make_shared<const Crossings>(*std::move(crossings));
     }
+    std::vector<FacetName> incomplete;
     shared.workers.for_each([&](const Worker& worker) {
         const LeafFindings& found = worker.findings();
         result.stats += found.stats;
-        result.incomplete.insert(result.incomplete.end(), found.incomplete.begin(),
-                                 found.incomplete.end());
+        incomplete.insert(incomplete.end(), found.incomplete.begin(), found.incomplete.end());
     });
+    result.tree.incomplete = all_incomplete(std::move(incomplete), solids);
     shared.workers.for_each([](Worker& worker) { worker.give_back_arrangers(); });
     result.stats.memory = shared.memory.peak();
     return result;

@@ -16,6 +16,7 @@
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+#include <variant>
 
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/import_mesh.h>
@@ -151,7 +152,7 @@ private:
 // The sources of all polygons of a state.
 std::unordered_set<const Source*> sources_of(const SolidState& state) {
     std::unordered_set<const Source*> out;
-    std::vector<const CellNode*> pending{state.root.node.get()};
+    std::vector<const CellNode*> pending{state.root().node.get()};
     while (!pending.empty()) {
         const CellNode& n = *pending.back();
         pending.pop_back();
@@ -191,7 +192,7 @@ struct Boundary {
 
 Boundary boundary_of(const std::shared_ptr<const SolidState>& state) {
     if (state->source != 0) {  // imported, maybe not free of self-intersection: as it came
-        const LatticeMesh& mesh = (*state->root.node->polygons().begin()).source->mesh();
+        const LatticeMesh& mesh = (*state->root().node->polygons().begin()).source->mesh();
         Boundary out;
         for (const LatticePoint& p : mesh.points)
             out.mesh.points.push_back(to_user(p, mesh.lattice));
@@ -226,7 +227,8 @@ std::shared_ptr<const SolidState> rounded(const std::shared_ptr<const SolidState
     report.flipped_faces += imported.report.lattice.flipped_faces;
     auto out = std::make_shared<SolidState>(
         *Solid::from_import(std::move(imported), Embedding::Resolve).state());
-    out->root.complemented = out->root.complemented != boundary.unbounded;
+    CellRef& root = std::get<CellTree>(out->form).root;
+    root.complemented = root.complemented != boundary.unbounded;
     out->far_out = boundary.unbounded ? 1 : 0;
     return out;
 }
@@ -235,9 +237,9 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
                                           Lattice lattice) {
     auto out = std::make_shared<SolidState>(*state);
     out->lattice = lattice;
-    out->incomplete.clear();  // refining clips every facet to its cell
-    out->crossings.reset();
-    out->root = Refiner(state->lattice.exponent, lattice.exponent).refine(state->root);
+    // Refining clips every facet to its cell, so none is incomplete.
+    out->form =
+        CellTree{Refiner(state->lattice.exponent, lattice.exponent).refine(state->root()), {}, {}};
     return out;
 }
 

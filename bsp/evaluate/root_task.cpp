@@ -25,7 +25,7 @@ namespace {
 FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> solids) {
     Box all;
     for (const auto& s : solids) {
-        const CellNode* n = s->root.node.get();
+        const CellNode* n = s->root().node.get();
         if (!n->is_leaf()) {
             while (!n->is_leaf()) n = n->child(0).node.get();
             return n->reference();
@@ -55,12 +55,12 @@ bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
 
 // Winding number of a root at a point: at once where the way there is free.
 std::optional<int> winding_of_root(const SolidState& solid, const FinePoint& p) {
-    const CellNode& n = *solid.root.node;
+    const CellNode& n = *solid.root().node;
     const Source* whole =
         n.is_leaf() && n.polygons().has_all_facets() ? n.polygons().whole_source() : nullptr;
     if (whole != nullptr && passes_by(whole->box(), n.reference(), p))
-        return complemented_winding(n.winding(), solid.root.complemented);
-    return winding_in_tree(n, solid.root.complemented, Cell{}, p);
+        return complemented_winding(n.winding(), solid.root().complemented);
+    return winding_in_tree(n, solid.root().complemented, Cell{}, p);
 }
 
 bool place_root(std::span<const std::shared_ptr<const SolidState>> solids, CellTask& task) {
@@ -71,8 +71,8 @@ bool place_root(std::span<const std::shared_ptr<const SolidState>> solids, CellT
         o.slot = static_cast<std::int32_t>(i);
         o.winding = *w;
         o.embedded = solids[i]->embedded;
-        o.complemented = solids[i]->root.complemented;
-        o.node = unfolded(solids[i]->root.node.get());
+        o.complemented = solids[i]->root().complemented;
+        o.node = unfolded(solids[i]->root().node.get());
         ::new (&task.operands[i]) CellOperand(o);
     }
     return true;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -22,9 +23,10 @@ constexpr std::uint32_t least_facets = 64;
 
 // The mesh that a solid was imported from, if the solid is still that; else null.
 const Source* mesh_of(const SolidState& solid) {
-    const CellNode& root = *solid.root.node;
-    if (solid.outlined != nullptr || !root.is_leaf() || !root.polygons().has_all_facets())
-        return nullptr;
+    const auto* const tree = std::get_if<CellTree>(&solid.form);
+    if (tree == nullptr) return nullptr;
+    const CellNode& root = *tree->root.node;
+    if (!root.is_leaf() || !root.polygons().has_all_facets()) return nullptr;
     const Source* const source = root.polygons().whole_source();
     return source == nullptr || source->is_half_space() || source->facet_count() < least_facets
                ? nullptr
@@ -36,8 +38,8 @@ bool are_equal_meshes(const SolidState& a, const SolidState& b) {
     const LatticeMesh& m = mesh_of(a)->mesh();
     const LatticeMesh& n = mesh_of(b)->mesh();
     return a.lattice == b.lattice && a.embedded == b.embedded && a.far_out == b.far_out &&
-           a.root.complemented == b.root.complemented &&
-           a.root.node->polygons().flipped() == b.root.node->polygons().flipped() &&
+           a.root().complemented == b.root().complemented &&
+           a.root().node->polygons().flipped() == b.root().node->polygons().flipped() &&
            m.triangles == n.triangles && m.points == n.points;
 }
 

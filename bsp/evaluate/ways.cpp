@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <trisect/bsp/cells/axis_polygon.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/evaluate/evaluator.h>
+#include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/bsp/two_meshes/undivided_meshes.h>
 #include <trisect/kernel/contract.h>
@@ -124,13 +127,6 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
 
 // --- The table.
 
-std::shared_ptr<const SolidState> evaluate_two_meshes(const Residual::Ref& formula,
-                                                      const SolidStates& solids,
-                                                      const EvaluateOptions& options,
-                                                      EvaluateStats& stats) {
-    return evaluate_undivided(formula, solids, options, stats);
-}
-
 template <auto Arranger>
 LeafArrangement& arranger(LeafArrangers& all) {
     return all.*Arranger;
@@ -154,7 +150,7 @@ constexpr std::array all_ways{
         "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
         "limit",
         "uncrossed facets, crossings", &Stats::plain_leaves,
-        FormulaWay{&are_meshes_of_a_size, &evaluate_two_meshes}},
+        FormulaWay{&are_meshes_of_a_size, &evaluate_undivided}},
     Way{"constant", "the formula has one value in the cell", "an empty leaf",
         &Stats::constant_cells, CellWay{&is_constant, &CellSteps::make_constant}},
     Way{"share", "one operand is left, and it is embedded",
@@ -182,6 +178,36 @@ constexpr std::array all_ways{
         CellWay{&may_be_divided, &CellSteps::divide}},
 };
 
+std::shared_ptr<SolidState> state_of(SolidForm form, const Residual& formula,
+                                     const SolidStates& solids) {
+    auto state = std::make_shared<SolidState>();
+    if (!solids.empty()) state->lattice = solids[0]->lattice;
+    state->form = std::move(form);
+    state->far_out = far_out_of(formula, solids);
+    return state;
+}
+
+std::shared_ptr<const SolidState> tree_of(const Residual::Ref& formula, const SolidStates& solids,
+                                          const EvaluateOptions& options) {
+    EvaluateStats uncounted;
+    return evaluate_tree(formula, solids, options, uncounted);
+}
+
+LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers) {
+    const CellTask no_task;
+    SlotValues no_values;
+    LeafFindings findings;
+    const CellView view{no_task, *problem.options, no_values, false, true};
+    for (const Way& way : polygon_ways()) {
+        const auto* const leaf = std::get_if<LeafWay>(&way.how);
+        if (leaf == nullptr || !leaf->may_serve(view)) continue;
+        if (auto result = leaf->arrangement(arrangers).arrange(problem, findings))
+            return *std::move(result);
+    }
+    TRISECT_EXPECTS(false, "every leaf can be arranged exactly");
+    return LeafPolygons{};
+}
+
 }  // namespace
 
 std::span<const Way> ways() { return all_ways; }
@@ -192,19 +218,36 @@ std::span<const Way> constant_ways() { return ways().subspan(formula_rows, const
 
 std::span<const Way> polygon_ways() { return ways().subspan(formula_rows + constant_rows); }
 
-LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers,
-                        LeafFindings& findings) {
-    const CellTask no_task;
-    SlotValues no_values;
-    const CellView view{no_task, *problem.options, no_values, false, true};
-    for (const Way& way : polygon_ways()) {
-        const auto* const leaf = std::get_if<LeafWay>(&way.how);
-        if (leaf == nullptr || !leaf->may_serve(view)) continue;
-        if (auto result = leaf->arrangement(arrangers).arrange(problem, findings))
-            return *std::move(result);
+std::shared_ptr<SolidState> evaluate_by(const FormulaWay& way, const Residual::Ref& formula,
+                                        const SolidStates& solids, const EvaluateOptions& options,
+                                        EvaluateStats& stats) {
+    if (!way.applies(formula, solids, options)) return nullptr;
+    auto tree = std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
+    auto form = way.evaluate(formula, solids, options, stats, std::move(tree));
+    return form ? state_of(*std::move(form), *formula, solids) : nullptr;
+}
+
+std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula, const SolidStates& solids,
+                                          const EvaluateOptions& options, EvaluateStats& stats) {
+    Evaluation evaluation = evaluate_formula(formula, solids, options);
+    stats = evaluation.stats;
+    return state_of(std::move(evaluation.tree), *formula, solids);
+}
+
+PolygonList arrange_deferred(const DeferredLeaf& leaf) {
+    std::vector<std::vector<PolygonRef>> refs;
+    std::vector<LeafOperand> listed;
+    refs.reserve(leaf.operands.size());
+    for (const DeferredLeaf::Operand& o : leaf.operands) {
+        refs.emplace_back(o.polygons.begin(), o.polygons.end());
+        listed.push_back({o.slot, refs.back(), o.flipped, true, o.winding});
     }
-    TRISECT_EXPECTS(false, "every leaf can be arranged exactly");
-    return LeafPolygons{};
+    EvaluateOptions options;
+    options.winding = leaf.rule;
+    thread_local LeafArrangers arrangers;
+    LeafResult result =
+        arrange_leaf({leaf.cell, leaf.reference, listed, leaf.formula.get(), &options}, arrangers);
+    return PolygonList(std::move(std::get<LeafPolygons>(result).polygons));
 }
 
 ValuesOfOne values_of_one(const Residual& formula, std::int32_t slot, SlotValues& values) {

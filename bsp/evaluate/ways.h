@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/cell_task.h>
@@ -47,17 +48,15 @@ protected:
     ~CellSteps() = default;
 };
 
-using SolidStates = std::vector<std::shared_ptr<const SolidState>>;
-
 /// A way to evaluate a whole formula without a tree.
 struct FormulaWay {
     bool (*applies)(const Residual::Ref& formula, const SolidStates& solids,
                     const EvaluateOptions& options);
-    /// Null when the operands are of another kind after all. \pre applies()
-    std::shared_ptr<const SolidState> (*evaluate)(const Residual::Ref& formula,
-                                                  const SolidStates& solids,
-                                                  const EvaluateOptions& options,
-                                                  EvaluateStats& stats);
+    /// Nothing when the operands are of another kind after all. `tree`: of the result.
+    /// \pre applies()
+    std::optional<SolidForm> (*evaluate)(const Residual::Ref& formula, const SolidStates& solids,
+                                         const EvaluateOptions& options, EvaluateStats& stats,
+                                         std::shared_ptr<const LazyTree> tree);
 };
 
 /// A way that a cell goes as a whole.
@@ -99,9 +98,22 @@ struct Way {
 /// divides; where it does not serve, the cell is undividable, and these are walked once more.
 [[nodiscard]] std::span<const Way> polygon_ways();
 
-/// The polygons of a cell by the first way that serves, whatever their number.
-[[nodiscard]] LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers,
-                                      LeafFindings& findings);
+/// The value of a formula by one of its ways; null where that does not apply or serve. `solids` are
+/// trees and lie on one lattice.
+[[nodiscard]] std::shared_ptr<SolidState> evaluate_by(const FormulaWay& way,
+                                                      const Residual::Ref& formula,
+                                                      const SolidStates& solids,
+                                                      const EvaluateOptions& options,
+                                                      EvaluateStats& stats);
+/// The same by the ways of cells, as a tree.
+[[nodiscard]] std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula,
+                                                        const SolidStates& solids,
+                                                        const EvaluateOptions& options,
+                                                        EvaluateStats& stats);
+
+/// DeferredLeaf::arrange by the first way that serves, whatever the number of polygons. It starts
+/// from the beginning, which takes no longer than the cutting itself.
+[[nodiscard]] PolygonList arrange_deferred(const DeferredLeaf& leaf);
 
 /// The formula over its only slot.
 struct ValuesOfOne {

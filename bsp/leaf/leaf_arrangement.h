@@ -48,7 +48,7 @@ using LeafResult = std::variant<LeafPolygons, LeafUncrossed, LeafPicture, LeafOu
 /// What the leaves of one thread find out beside their polygons.
 struct LeafFindings {
     EvaluateStats stats;
-    /// Facets that lost a part to a coincident one (SolidState::incomplete); unordered.
+    /// Facets that lost a part to a coincident one (CellTree::incomplete); unordered.
     std::vector<FacetName> incomplete;
     /// With the operands of the formula by slot, where crossings are collected; unordered, and
     /// pairs may be there several times.

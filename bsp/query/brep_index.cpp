@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/bsp/query/index/index_core.h>
@@ -39,7 +39,7 @@ Solid resolved(const Solid& solid) {
 
 // All facets of one source in one leaf: then facets keep their numbers.
 const detail::Source* only_source(const Solid& solid) {
-    const detail::CellRef& root = detail::cut_state(solid)->root;
+    const detail::CellRef& root = detail::cut_state(solid)->root();
     if (root.complemented || !root.node->is_leaf()) return nullptr;
     const detail::Source* source = nullptr;
     std::uint32_t next = 0;

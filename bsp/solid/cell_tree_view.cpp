@@ -10,7 +10,7 @@
 #include <span>
 
 #include <trisect/bsp/cells/cell_tree.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -31,7 +31,7 @@ struct Visit {
 };
 
 Visit root_of(const Solid& solid) {
-    const CellRef& root = detail::cut_state(solid)->root;
+    const CellRef& root = detail::cut_state(solid)->root();
     return {root.node.get(), root.complemented, 0, Cell()};
 }
 

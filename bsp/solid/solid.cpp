@@ -3,12 +3,13 @@
 #include <trisect/bsp/solid.h>
 
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/assembly/assembly.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/refine_leaf.h>
 
@@ -21,18 +22,23 @@ using detail::FinePoint;
 using detail::PolygonList;
 using detail::SolidState;
 
+detail::CellTree tree_of(std::shared_ptr<const CellNode> root) {
+    return {{std::move(root), false}, {}, nullptr};
+}
+
 std::shared_ptr<const SolidState> constant_state(bool inside) {
     auto s = std::make_shared<SolidState>();
-    s->root = {CellNode::leaf(PolygonList(), FinePoint{}, inside ? 1 : 0, false), false};
+    s->form = tree_of(CellNode::leaf(PolygonList(), FinePoint{}, inside ? 1 : 0, false));
     s->lattice_matters = false;
     s->far_out = inside ? 1 : 0;
     return s;
 }
 
 bool is_constant(const SolidState& s, bool inside) {
-    const CellNode& n = *s.root.node;
-    return s.outlined == nullptr && n.is_leaf() && n.size() == 0 &&
-           ((n.winding() > 0) != s.root.complemented) == inside;
+    const auto* const tree = std::get_if<detail::CellTree>(&s.form);
+    if (tree == nullptr) return false;
+    const CellNode& n = *tree->root.node;
+    return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != tree->root.complemented) == inside;
 }
 
 // Only sets made of half-spaces alone do not know it; the boundary tells. What it leaves to whole
@@ -45,9 +51,8 @@ bool is_unbounded(const Solid& solid) {
 
 // Outlines of planes are divided into faces by the assembly, but have one name for all.
 bool has_all_of_brep(const SolidState& s, const AssembleOptions& options) {
-    if (s.outlined == nullptr) return true;
-    const detail::NamedOutlines& outlines = s.outlined->outlines();
-    return outlines.faces.empty() || (options.maximal_faces && outlines.names_hold_everywhere);
+    const auto* const prisms = std::get_if<detail::PrismOutlines>(&s.form);
+    return prisms == nullptr || (options.maximal_faces && prisms->outlines->names_hold_everywhere);
 }
 
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
@@ -58,7 +63,7 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     const auto source = detail::Source::make(std::move(mesh), threads);
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
-    state->root = {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false};
+    state->form = tree_of(CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false));
     state->embedded = embedded;
     state->source = source->serial();
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
@@ -74,11 +79,11 @@ Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t thread
     if (!t_edges) return s;
     // Corners inside edges: every facet may have vertices in its edges.
     auto state = std::make_shared<SolidState>(*s.state());
-    const CellNode& n = *s.state()->root.node;
+    const CellNode& n = *s.state()->root().node;
     std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
     for (detail::PolygonRef& r : refs) r.touched = true;
-    state->root = {CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true),
-                   false};
+    state->form =
+        tree_of(CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true));
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }
 
@@ -111,7 +116,7 @@ Solid Solid::half_space(const Plane& plane, Lattice lattice) {
     }
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
-    state->root = {CellNode::fresh(*source, p, s < 0 ? 1 : 0, false), false};
+    state->form = tree_of(CellNode::fresh(*source, p, s < 0 ? 1 : 0, false));
     state->far_out = -1;
     return Solid(std::shared_ptr<const SolidState>(std::move(state)));
 }
@@ -131,7 +136,7 @@ Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
 }
 
 void Solid::refine(std::uint32_t threads) const {
-    detail::refine_all(detail::cut_state(*this)->root, threads);
+    detail::refine_all(detail::cut_state(*this)->root(), threads);
 }
 
 Lattice Solid::lattice() const { return state()->lattice; }

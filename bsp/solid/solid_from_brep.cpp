@@ -138,8 +138,10 @@ Solid Solid::from_brep(const Brep& brep, Embedding embedding) {
     FragmentMaker maker(brep);
     auto state = std::make_shared<detail::SolidState>();
     state->lattice = brep.lattice();
-    state->root = {CellNode::leaf(maker.polygons(), detail::point_beyond(maker.box()), 0, true),
-                   false};
+    state->form = detail::CellTree{
+        {CellNode::leaf(maker.polygons(), detail::point_beyond(maker.box()), 0, true), false},
+        {},
+        {}};
     state->embedded = embedding == Embedding::Assume;
     state->source = maker.source().serial();
     return Solid(std::shared_ptr<const detail::SolidState>(std::move(state)));

@@ -28,7 +28,6 @@
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/leaf_problem.h>
-#include <trisect/bsp/cells/outlined_solid.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/choose_wall.h>
@@ -241,7 +240,7 @@ int slabs_for(std::size_t facets) {
 
 // Of an imported mesh.
 int winding_far_out(const SolidState& solid) {
-    return complemented_winding(solid.root.node->winding(), solid.root.complemented);
+    return complemented_winding(solid.root().node->winding(), solid.root().complemented);
 }
 
 bool is_below_far_out(const SolidState& solid, const Crossings::Operand& operand) {
@@ -265,8 +264,8 @@ struct TwoMeshes {
     std::array<const LatticeMesh*, 2> meshes{};
     Box common;
 
-    explicit TwoMeshes(const std::vector<std::shared_ptr<const SolidState>>& solids)
-        : nodes{solids[0]->root.node.get(), solids[1]->root.node.get()} {
+    explicit TwoMeshes(const SolidStates& solids)
+        : nodes{solids[0]->root().node.get(), solids[1]->root().node.get()} {
         common = source(0).box();
         for (std::size_t i = 0; i < 2; ++i) {
             meshes[i] = &source(i).mesh();
@@ -308,9 +307,11 @@ bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOption
 }
 
 // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
-std::optional<std::vector<UncrossedFacets>> find_uncrossed(
-    const TwoMeshes& two, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, bool parallel, Crossings& crossings, EvaluateStats& stats) {
+std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
+                                                           const SolidStates& solids,
+                                                           const EvaluateOptions& options,
+                                                           bool parallel, Crossings& crossings,
+                                                           EvaluateStats& stats) {
     MemoryBudget memory(options.max_memory);
     const CubeGrid grid(two.common, slabs_for(two.larger()));
     std::array<std::optional<OccupiedCubes>, 2> cubes;
@@ -350,8 +351,7 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(
 
 }  // namespace
 
-bool are_two_large_meshes(const Residual::Ref& formula,
-                          const std::vector<std::shared_ptr<const SolidState>>& solids,
+bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
                           const EvaluateOptions& options, std::size_t least_facets) {
     if (solids.size() != 2 || options.max_work != 0 || !crossings_of(*formula, solids))
         return false;
@@ -360,9 +360,9 @@ bool are_two_large_meshes(const Residual::Ref& formula,
            !two.common.is_empty();
 }
 
-std::shared_ptr<const SolidState> evaluate_undivided(
-    const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, EvaluateStats& stats) {
+std::optional<SolidForm> evaluate_undivided(const Residual::Ref& formula, const SolidStates& solids,
+                                            const EvaluateOptions& options, EvaluateStats& stats,
+                                            std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     const TwoMeshes two(solids);
     const bool parallel = options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_size;
@@ -370,24 +370,11 @@ std::shared_ptr<const SolidState> evaluate_undivided(
     auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
         return find_uncrossed(two, solids, options, parallel, *crossings, made);
     });
-    if (!uncrossed) return nullptr;
+    if (!uncrossed) return std::nullopt;
     stats = made;
-    auto state = std::make_shared<SolidState>();
-    state->lattice = solids[0]->lattice;
-    state->far_out = far_out_of(*formula, solids);
-    SlotValues values;
-    Box all;
-    for (std::size_t i = 0; i < 2; ++i) {
-        values.push_back(is_inside(winding_far_out(*solids[i]), options.winding) ? 1 : 0);
-        all.add(two.source(i).box());
-    }
-    state->root = {
-        CellNode::leaf(PolygonList(), point_beyond(all), value_of(*formula, values) ? 1 : 0, true),
-        false};
-    state->crossings = std::make_shared<const Crossings>(*std::move(crossings));
-    state->outlined =
-        std::make_shared<const OutlinedSolid>(*std::move(uncrossed), formula, solids, options);
-    return state;
+    return UndividedMeshes{*std::move(uncrossed),
+                           std::make_shared<const Crossings>(*std::move(crossings)),
+                           std::move(tree)};
 }
 
 }  // namespace trisect::detail

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -17,16 +17,17 @@ namespace trisect::detail {
 /// work is not limited. Not where one has an index, or is so large beside the other that it gets
 /// one: what is beside the smaller one is not looked at then. Meshes of fewer than `least_facets`
 /// are divided as quickly.
-[[nodiscard]] bool are_two_large_meshes(
-    const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, std::size_t least_facets = 1024);
+[[nodiscard]] bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
+                                        const EvaluateOptions& options,
+                                        std::size_t least_facets = 1024);
 
-/// The value of such a formula as an OutlinedSolid: the facets that cross, and the others that
-/// bound the result. Null where meshes do not cross in general position, or sides of facets are not
-/// known from that. What it returns does not depend on the number of threads. \pre
-/// are_two_large_meshes()
-[[nodiscard]] std::shared_ptr<const SolidState> evaluate_undivided(
-    const Residual::Ref& formula, const std::vector<std::shared_ptr<const SolidState>>& solids,
-    const EvaluateOptions& options, EvaluateStats& stats);
+/// The value of such a formula, with that tree. Nothing where meshes do not cross in general
+/// position, or sides of facets are not known from that. What it returns does not depend on the
+/// number of threads. \pre are_two_large_meshes()
+[[nodiscard]] std::optional<SolidForm> evaluate_undivided(const Residual::Ref& formula,
+                                                          const SolidStates& solids,
+                                                          const EvaluateOptions& options,
+                                                          EvaluateStats& stats,
+                                                          std::shared_ptr<const LazyTree> tree);
 
 }  // namespace trisect::detail

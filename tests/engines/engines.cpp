@@ -5,12 +5,14 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <variant>
 
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/crossings.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/evaluate/ways.h>
 #include <trisect/bsp/two_meshes/undivided_meshes.h>
 #include <trisect/kernel/error.h>
 
@@ -202,22 +204,26 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(s.state());
     trisect::EvaluateStats stats;
-    if (!are_two_large_meshes(t.formula, states, options, 1)) return std::nullopt;
-    const auto state = evaluate_undivided(t.formula, states, options, stats);
+    const FormulaWay undivided{[](const auto& formula, const auto& solids, const auto& with) {
+                                   return are_two_large_meshes(formula, solids, with, 1);
+                               },
+                               &evaluate_undivided};
+    const auto state = evaluate_by(undivided, t.formula, states, options, stats);
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;
     dividing.max_work = std::uint64_t{1} << 60;  // a limit is counted by cells
     const auto expected = mesh_of(*trisect::evaluate(expression, dividing).state());
     if (!are_equal(mesh_of(*state), expected)) return "another mesh";
     if (!expected) return std::string();
-    if (state->outlined->is_cut()) return "a tree was made for a mesh";
+    if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";
     // Where an outline is in doubt a tree is made after all.
     SolidState doubtful = *state;
-    auto crossings = std::make_shared<Crossings>(*state->crossings);
+    auto& meshes = std::get<UndividedMeshes>(doubtful.form);
+    auto crossings = std::make_shared<Crossings>(*meshes.crossings);
     crossings->doubtful.push_back(crossings->shown.front());
-    doubtful.crossings = crossings;
+    meshes.crossings = crossings;
     if (!are_equal(mesh_of(doubtful), expected)) return "another mesh out of a tree";
-    if (!state->outlined->is_cut()) return "no tree was made";
+    if (!state->lazy_tree()->is_cut()) return "no tree was made";
     return std::string();
 }
 

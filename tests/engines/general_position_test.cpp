@@ -5,6 +5,7 @@
 // grid; an integer map of its own takes every solid out of the grid of the others.
 
 #include <thread>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -160,7 +161,7 @@ TEST(GeneralPosition, TracedOutlinesAreThoseOfThePieces) {
             seed % 2 == 0 ? ~(terms[0] | terms[1]) : terms[0] - terms[1];
         const trisect::Solid result = trisect::evaluate(expression, options);
         trisect::detail::SolidState without = *result.state();
-        without.crossings.reset();
+        std::get<trisect::detail::CellTree>(without.form).crossings.reset();
         trisect::detail::AssemblyStats stats;
         trisect::PolygonMesh expected;
         try {

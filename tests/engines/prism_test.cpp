@@ -12,8 +12,10 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/assembly.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/evaluate/ways.h>
 
 #include "engines.h"
 
@@ -87,6 +89,9 @@ double volume_of(const trisect::PolygonMesh& mesh) {
     return six_fold / 6;
 }
 
+const trisect::detail::FormulaWay by_outlines{&trisect::detail::are_large_prisms,
+                                              &trisect::detail::outline_prisms};
+
 // The same for outlines, as large results have them, before anything is cut.
 void expect_same_outlines(const std::vector<Operand>& operands,
                           const reference::Expression& expression, Leaves& leaves) {
@@ -99,8 +104,8 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     options.leaf_polygons = 0;
     trisect::EvaluateStats stats;
     ++leaves.mixed;
-    if (!trisect::detail::are_large_prisms(formula.formula, states, options)) return;
-    const auto outlined = trisect::detail::outline_prisms(formula.formula, states, options, stats);
+    const auto outlined =
+        trisect::detail::evaluate_by(by_outlines, formula.formula, states, options, stats);
     if (outlined == nullptr) return;
     ++leaves.prisms;
     const auto expected =
@@ -157,7 +162,7 @@ TEST(Prisms, StepsAfterOutlines) {
         for (const auto& o : operands)
             solids.push_back(engines::solid(o, trisect::Embedding::Assume));
         const trisect::Solid engraved = trisect::evaluate(solids[0] - solids[1], options);
-        outlined += engraved.state()->outlined != nullptr ? 1 : 0;
+        outlined += engraved.state()->lazy_tree() != nullptr ? 1 : 0;
         EXPECT_FALSE(engraved.is_empty());
         const trisect::Solid turned = trisect::evaluate(~engraved);
         const trisect::Solid both = trisect::evaluate(engraved | solids[2]);
@@ -287,8 +292,7 @@ bool outlines_bars(std::int64_t count, bool turned) {
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
     for (const trisect::Solid& s : formula.slots) states.push_back(s.state());
     trisect::EvaluateStats stats;
-    return trisect::detail::are_large_prisms(formula.formula, states, {}) &&
-           trisect::detail::outline_prisms(formula.formula, states, {}, stats) != nullptr;
+    return trisect::detail::evaluate_by(by_outlines, formula.formula, states, {}, stats) != nullptr;
 }
 
 // Where most walls lie beside most others, looking at all pairs, or at all walls for each outline,

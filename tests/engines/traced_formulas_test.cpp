@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <variant>
+
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/kernel/error.h>
@@ -36,9 +38,9 @@ trisect::Solid evaluate(const std::vector<Operand>& operands, const Expression& 
 
 // The same mesh, corner by corner, whether facets are traced or put together from pieces.
 void expect_same_as_pieces(const trisect::Solid& result, Count& count) {
-    ASSERT_NE(result.state()->crossings, nullptr);
+    ASSERT_NE(result.state()->tree().crossings, nullptr);
     trisect::detail::SolidState without = *result.state();
-    without.crossings.reset();
+    std::get<trisect::detail::CellTree>(without.form).crossings.reset();
     trisect::PolygonMesh expected;
     try {
         expected = trisect::detail::assemble_mesh(without);

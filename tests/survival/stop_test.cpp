@@ -18,7 +18,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/validate.h>
-#include <trisect/bsp/cells/outlined_solid.h>
+#include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -131,7 +131,7 @@ TEST(Stop, CuttingOfAnOutlinedOperand) {
     trisect::EvaluateOptions options;
     options.leaf_polygons = 0;
     const Solid part = evaluate(plate - pocket, options);
-    const auto outlined = part.state()->outlined;
+    const auto outlined = part.state()->lazy_tree();
     ASSERT_NE(outlined, nullptr);
     const std::atomic<bool> cancel = true;
     options.cancel = &cancel;

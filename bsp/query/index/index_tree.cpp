@@ -200,9 +200,9 @@ private:
 };
 
 void IndexTreeBuilder::build(const SolidState& state) {
-    find_bounds(state.root);
-    if (polygons_.only_source() == nullptr) note_polygons(state, state.root, false, Cell{});
-    add_cells(state.root, false, Cell{}, 0, 0);
+    find_bounds(state.root());
+    if (polygons_.only_source() == nullptr) note_polygons(state, state.root(), false, Cell{});
+    add_cells(state.root(), false, Cell{}, 0, 0);
     polygons_.finish();
     t_.nodes_.shrink_to_fit();
 }
@@ -256,7 +256,7 @@ void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref
         return;
     }
     check_stop(1 + n.size());
-    const auto& incomplete = state.incomplete;
+    const auto& incomplete = state.tree().incomplete;
     for (const PolygonRef r : n.polygons()) {
         const bool is_incomplete =
             !incomplete.empty() && std::binary_search(incomplete.begin(), incomplete.end(),

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// LazyTree: the tree of a result, evaluated when it is first needed.
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect::detail {
+
+/// Immutable, safe to use from any thread.
+class LazyTree {
+public:
+    /// Evaluates a formula into a state whose form is a tree. `solids` are its slots.
+    using Evaluate = std::shared_ptr<const SolidState> (*)(const Residual::Ref& formula,
+                                                           const SolidStates& solids,
+                                                           const EvaluateOptions& options);
+
+    /// `solids` are trees and lie on one lattice.
+    LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateOptions& options,
+             Evaluate evaluate);
+
+    /// The set with a tree. Whoever asks while it is evaluated waits.
+    /// \throw CancelledError by the StopScope of the thread that evaluates; nothing is kept then
+    [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
+    [[nodiscard]] bool is_cut() const;
+
+private:
+    Residual::Ref formula_;
+    SolidStates solids_;
+    EvaluateOptions options_;
+    Evaluate evaluate_;
+    mutable std::mutex cutting_;
+    mutable std::shared_ptr<const SolidState> cut_;
+};
+
+/// The state of a solid as a tree: for all but what writes triangles.
+[[nodiscard]] inline const std::shared_ptr<const SolidState>& cut_state(const Solid& solid) {
+    const auto& state = solid.state();
+    const auto tree = state->lazy_tree();
+    return tree != nullptr ? tree->cut() : state;
+}
+
+}  // namespace trisect::detail

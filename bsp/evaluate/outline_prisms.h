@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Booleans of many prisms along one axis, without a tree.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/expression.h>
+
+namespace trisect::detail {
+
+/// Whether a formula is over meshes that may be prisms along one axis, too large for a leaf, and
+/// neither work nor memory is limited.
+[[nodiscard]] bool are_large_prisms(const Residual::Ref& formula, const SolidStates& solids,
+                                    const EvaluateOptions& options);
+
+/// The value of such a formula: PrismOutlines with that tree, or a CellTree of one leaf where all
+/// facets are whole. Nothing where these are no prisms. \pre are_large_prisms()
+[[nodiscard]] std::optional<SolidForm> outline_prisms(const Residual::Ref& formula,
+                                                      const SolidStates& solids,
+                                                      const EvaluateOptions& options,
+                                                      EvaluateStats& stats,
+                                                      std::shared_ptr<const LazyTree> tree);
+
+}  // namespace trisect::detail
