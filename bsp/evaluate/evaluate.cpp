@@ -9,8 +9,8 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
+#include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
-#include <trisect/bsp/evaluate/ways.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
@@ -70,9 +70,9 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
     EvaluateStats made;
     std::shared_ptr<SolidState> state;
-    for (const detail::Way& way : detail::formula_ways())
+    for (const detail::Rule& rule : detail::formula_rules())
         if (state == nullptr)
-            state = detail::evaluate_by(std::get<detail::FormulaWay>(way.how), t.formula, states,
+            state = detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), t.formula, states,
                                         with_flag, made);
     if (state == nullptr) state = detail::evaluate_tree(t.formula, states, with_flag, made);
     state->lattice = lattice.lattice;

@@ -3,9 +3,10 @@
 // One recursion over (cell, formula) evaluates a whole boolean expression:
 //
 //   1. operands without boundary in the cell are constant there: replace them by their value;
-//   2. take the first way of the table (ways.h) that serves: nothing left is a homogeneous cell, of
+//   2. take the first rule of the table (rules.h) that serves: nothing left is a homogeneous cell,
+//   of
 //      one operand left the subtree is shared, few polygons are arranged;
-//   3. the last way cuts the cell. Where an operand already has a tree its wall is taken, so that
+//   3. the last rule cuts the cell. Where an operand already has a tree its wall is taken, so that
 //      its subtrees can be shared. A large leaf beside small ones is refined by itself, for
 //      everybody who uses it. Else the wall that soonest parts the operands.
 //
@@ -47,7 +48,7 @@
 #include <trisect/bsp/evaluate/arranger_pool.h>
 #include <trisect/bsp/evaluate/covered_cells.h>
 #include <trisect/bsp/evaluate/root_task.h>
-#include <trisect/bsp/evaluate/ways.h>
+#include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
@@ -119,7 +120,7 @@ private:
     void note_dropped(const CellTask& task, const IsLeft& is_left);
     void note_all(std::int32_t slot, const CellNode& node);
 
-    [[nodiscard]] std::optional<CellRef> first_of(std::span<const Way> ways, const CellView& view,
+    [[nodiscard]] std::optional<CellRef> first_of(std::span<const Rule> rules, const CellView& view,
                                                   CellTask& task);
     [[nodiscard]] std::optional<CellRef> make_constant(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> share(CellTask& task) override;
@@ -128,7 +129,7 @@ private:
 
     void list(CellTask& task, Listed& out);
     [[nodiscard]] std::vector<LeafOperand> list_operands(const CellTask& task);
-    [[nodiscard]] std::optional<CellRef> arrange(const LeafWay& way, const CellTask& task,
+    [[nodiscard]] std::optional<CellRef> arrange(const LeafRule& rule, const CellTask& task,
                                                  const Listed& listed);
     CellRef keep(LeafPolygons made, const CellTask& task, bool inside);
     CellRef keep(LeafUncrossed made, const CellTask& task, bool inside);
@@ -223,21 +224,21 @@ void Worker::note_all(std::int32_t slot, const CellNode& node) {
     for (int i = 0; i < 2; ++i) with_enough_stack([&] { note_all(slot, *node.child(i).node); });
 }
 
-// --- Step 2: the first way that serves.
+// --- Step 2: the first rule that serves.
 
-std::optional<CellRef> Worker::first_of(std::span<const Way> ways, const CellView& view,
+std::optional<CellRef> Worker::first_of(std::span<const Rule> rules, const CellView& view,
                                         CellTask& task) {
     Listed listed;
-    for (const Way& way : ways) {
+    for (const Rule& rule : rules) {
         std::optional<CellRef> cell;
-        if (const auto* const whole = std::get_if<CellWay>(&way.how)) {
+        if (const auto* const whole = std::get_if<CellRule>(&rule.how)) {
             if (whole->applies(view)) cell = (this->*whole->take)(task);
-        } else if (const auto& leaf = std::get<LeafWay>(way.how); leaf.may_serve(view)) {
+        } else if (const auto& leaf = std::get<LeafRule>(rule.how); leaf.may_serve(view)) {
             if (listed.operands.empty()) list(task, listed);
             cell = arrange(leaf, task, listed);
         }
         if (!cell) continue;
-        ++(findings_.stats.*way.counter);
+        ++(findings_.stats.*rule.counter);
         return cell;
     }
     return std::nullopt;
@@ -304,10 +305,10 @@ void Worker::list(CellTask& task, Listed& out) {
     out.problem = {task.cell, task.reference, out.operands, task.formula.get(), &options_, true};
 }
 
-std::optional<CellRef> Worker::arrange(const LeafWay& way, const CellTask& task,
+std::optional<CellRef> Worker::arrange(const LeafRule& rule, const CellTask& task,
                                        const Listed& listed) {
     std::optional<LeafResult> made =
-        way.arrangement(*arrangers_).arrange(listed.problem, findings_);
+        rule.arrangement(*arrangers_).arrange(listed.problem, findings_);
     if (!made) return std::nullopt;
     ++findings_.stats.mixed_leaves;
     return std::visit([&](auto& kind) { return keep(std::move(kind), task, listed.inside); },
@@ -522,13 +523,13 @@ CellRef Worker::solve(CellTask& task) {
     stats.depth = std::max(stats.depth, task.depth);
     prune(task);
     CellView view{task, options_, values_, findings_.crossings.has_value()};
-    if (auto cell = first_of(constant_ways(), view, task)) return *std::move(cell);
+    if (auto cell = first_of(constant_rules(), view, task)) return *std::move(cell);
     view.size = task.size();
     for (const CellOperand& o : task.operands)
         if (o.is_list || o.node->is_leaf()) stats.listed_polygons += o.size();
-    if (auto cell = first_of(polygon_ways(), view, task)) return *std::move(cell);
+    if (auto cell = first_of(polygon_rules(), view, task)) return *std::move(cell);
     view.undividable = true;
-    auto cell = first_of(polygon_ways(), view, task);
+    auto cell = first_of(polygon_rules(), view, task);
     TRISECT_EXPECTS(cell.has_value(), "every leaf can be arranged exactly");
     return *std::move(cell);
 }

@@ -11,8 +11,8 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
-#include <trisect/bsp/evaluate/ways.h>
 #include <trisect/bsp/two_meshes/undivided_meshes.h>
 #include <trisect/kernel/error.h>
 
@@ -204,10 +204,10 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(s.state());
     trisect::EvaluateStats stats;
-    const FormulaWay undivided{[](const auto& formula, const auto& solids, const auto& with) {
-                                   return are_two_large_meshes(formula, solids, with, 1);
-                               },
-                               &evaluate_undivided};
+    const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
+                                    return are_two_large_meshes(formula, solids, with, 1);
+                                },
+                                &evaluate_undivided};
     const auto state = evaluate_by(undivided, t.formula, states, options, stats);
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;

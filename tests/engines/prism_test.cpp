@@ -14,8 +14,8 @@
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/outline_prisms.h>
+#include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
-#include <trisect/bsp/evaluate/ways.h>
 
 #include "engines.h"
 
@@ -89,8 +89,8 @@ double volume_of(const trisect::PolygonMesh& mesh) {
     return six_fold / 6;
 }
 
-const trisect::detail::FormulaWay by_outlines{&trisect::detail::are_large_prisms,
-                                              &trisect::detail::outline_prisms};
+const trisect::detail::FormulaRule by_outlines{&trisect::detail::are_large_prisms,
+                                               &trisect::detail::outline_prisms};
 
 // The same for outlines, as large results have them, before anything is cut.
 void expect_same_outlines(const std::vector<Operand>& operands,

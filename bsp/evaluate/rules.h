@@ -22,7 +22,7 @@
 
 namespace trisect::detail {
 
-/// What the condition of a way looks at.
+/// The arguments of a condition.
 struct CellView {
     const CellTask& task;
     const EvaluateOptions& options;
@@ -48,8 +48,8 @@ protected:
     ~CellSteps() = default;
 };
 
-/// A way to evaluate a whole formula without a tree.
-struct FormulaWay {
+/// Evaluates a whole formula without a tree.
+struct FormulaRule {
     bool (*applies)(const Residual::Ref& formula, const SolidStates& solids,
                     const EvaluateOptions& options);
     /// Nothing when the operands are of another kind after all. `tree`: of the result.
@@ -59,14 +59,14 @@ struct FormulaWay {
                                          std::shared_ptr<const LazyTree> tree);
 };
 
-/// A way that a cell goes as a whole.
-struct CellWay {
+/// Resolves or divides a cell as a whole.
+struct CellRule {
     bool (*applies)(const CellView& view);
     std::optional<CellRef> (CellSteps::*take)(CellTask& task);
 };
 
-/// A way to arrange the polygons of a cell.
-struct LeafWay {
+/// Arranges the polygons of a cell.
+struct LeafRule {
     std::uint32_t reach;  ///< up to so many times EvaluateOptions::leaf_polygons
     bool (*applies)(const CellView& view);
     LeafArrangement& (*arrangement)(LeafArrangers& arrangers);
@@ -80,38 +80,38 @@ struct LeafWay {
 
 /// A row of the table. Of the rows that apply the first one that serves is taken. Texts are those
 /// of docs/booleans.md.
-struct Way {
+struct Rule {
     std::string_view name;
     std::string_view condition;
     std::string_view keeps;
-    std::uint64_t EvaluateStats::*counter;  ///< cells that went this way
-    std::variant<FormulaWay, CellWay, LeafWay> how;
+    std::uint64_t EvaluateStats::*counter;  ///< cells that it resolved
+    std::variant<FormulaRule, CellRule, LeafRule> how;
 };
 
 /// All rows.
-[[nodiscard]] std::span<const Way> ways();
+[[nodiscard]] std::span<const Rule> rules();
 /// Those for whole formulas; the others are for cells.
-[[nodiscard]] std::span<const Way> formula_ways();
+[[nodiscard]] std::span<const Rule> formula_rules();
 /// Those of cells that are decided by the formula alone.
-[[nodiscard]] std::span<const Way> constant_ways();
+[[nodiscard]] std::span<const Rule> constant_rules();
 /// Those of cells that depend on the polygons. The last one that is not for small cells alone
 /// divides; where it does not serve, the cell is undividable, and these are walked once more.
-[[nodiscard]] std::span<const Way> polygon_ways();
+[[nodiscard]] std::span<const Rule> polygon_rules();
 
-/// The value of a formula by one of its ways; null where that does not apply or serve. `solids` are
+/// The value of a formula by one rule; null where that does not apply or serve. `solids` are
 /// trees and lie on one lattice.
-[[nodiscard]] std::shared_ptr<SolidState> evaluate_by(const FormulaWay& way,
+[[nodiscard]] std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule,
                                                       const Residual::Ref& formula,
                                                       const SolidStates& solids,
                                                       const EvaluateOptions& options,
                                                       EvaluateStats& stats);
-/// The same by the ways of cells, as a tree.
+/// The same by the rules for cells, as a tree.
 [[nodiscard]] std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula,
                                                         const SolidStates& solids,
                                                         const EvaluateOptions& options,
                                                         EvaluateStats& stats);
 
-/// DeferredLeaf::arrange by the first way that serves, whatever the number of polygons. It starts
+/// DeferredLeaf::arrange by the first rule that serves, whatever the number of polygons. It starts
 /// from the beginning, which takes no longer than the cutting itself.
 [[nodiscard]] PolygonList arrange_deferred(const DeferredLeaf& leaf);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table of ways in docs/booleans.md against the one in code.
+// The table of rules in docs/booleans.md against the one in code.
 
-#include <trisect/bsp/evaluate/ways.h>
+#include <trisect/bsp/evaluate/rules.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace {
 
 using trisect::EvaluateStats;
-using trisect::detail::Way;
+using trisect::detail::Rule;
 
 using Row = std::vector<std::string>;
 
@@ -35,11 +35,11 @@ Row cells_of(const std::string& line) {
 }
 
 // The rows below the line of headings and the rule under it.
-std::vector<Row> documented_ways() {
+std::vector<Row> documented_rules() {
     std::ifstream page(TRISECT_DOCS "/booleans.md");
     std::vector<Row> rows;
     std::string line;
-    while (std::getline(page, line) && !line.starts_with("| way |")) {
+    while (std::getline(page, line) && !line.starts_with("| rule |")) {
     }
     std::getline(page, line);
     while (std::getline(page, line) && line.starts_with("|")) rows.push_back(cells_of(line));
@@ -61,29 +61,29 @@ std::string name_of(std::uint64_t EvaluateStats::*counter) {
     return "a counter without a name";
 }
 
-TEST(Ways, AreThoseOfTheDocumentation) {
-    const std::vector<Row> documented = documented_ways();
-    ASSERT_EQ(documented.size(), trisect::detail::ways().size());
+TEST(Rules, AreThoseOfTheDocumentation) {
+    const std::vector<Row> documented = documented_rules();
+    ASSERT_EQ(documented.size(), trisect::detail::rules().size());
     for (std::size_t i = 0; i < documented.size(); ++i) {
-        const Way& way = trisect::detail::ways()[i];
+        const Rule& rule = trisect::detail::rules()[i];
         ASSERT_GE(documented[i].size(), 4U);
-        EXPECT_EQ(documented[i][0], way.name);
-        EXPECT_EQ(documented[i][1], way.condition) << way.name;
-        EXPECT_EQ(documented[i][2], way.keeps) << way.name;
-        EXPECT_EQ(documented[i][3], name_of(way.counter)) << way.name;
+        EXPECT_EQ(documented[i][0], rule.name);
+        EXPECT_EQ(documented[i][1], rule.condition) << rule.name;
+        EXPECT_EQ(documented[i][2], rule.keeps) << rule.name;
+        EXPECT_EQ(documented[i][3], name_of(rule.counter)) << rule.name;
     }
 }
 
-TEST(Ways, ScopesFollowEachOther) {
+TEST(Rules, ScopesFollowEachOther) {
     using namespace trisect::detail;
-    EXPECT_EQ(formula_ways().size() + constant_ways().size() + polygon_ways().size(),
-              ways().size());
-    for (const Way& way : formula_ways())
-        EXPECT_TRUE(std::holds_alternative<FormulaWay>(way.how)) << way.name;
-    for (const Way& way : constant_ways())
-        EXPECT_TRUE(std::holds_alternative<CellWay>(way.how)) << way.name;
-    for (const Way& way : polygon_ways())
-        EXPECT_FALSE(std::holds_alternative<FormulaWay>(way.how)) << way.name;
+    EXPECT_EQ(formula_rules().size() + constant_rules().size() + polygon_rules().size(),
+              rules().size());
+    for (const Rule& rule : formula_rules())
+        EXPECT_TRUE(std::holds_alternative<FormulaRule>(rule.how)) << rule.name;
+    for (const Rule& rule : constant_rules())
+        EXPECT_TRUE(std::holds_alternative<CellRule>(rule.how)) << rule.name;
+    for (const Rule& rule : polygon_rules())
+        EXPECT_FALSE(std::holds_alternative<FormulaRule>(rule.how)) << rule.name;
 }
 
 }  // namespace

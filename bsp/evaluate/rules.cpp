@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The table of docs/booleans.md, whose test compares names, conditions and what is kept. A
-// condition is cheap and may say yes too often: the way itself finds out. So arrangements of small
+// condition is cheap and may say yes too often: the rule itself finds out. So arrangements of small
 // cells have none; those of larger ones look at both ends of each list, because facets of one plane
 // often stand together and the first one alone says little about the others.
 
-#include <trisect/bsp/evaluate/ways.h>
+#include <trisect/bsp/evaluate/rules.h>
 
 #include <algorithm>
 #include <array>
@@ -132,7 +132,7 @@ LeafArrangement& arranger(LeafArrangers& all) {
     return all.*Arranger;
 }
 
-constexpr LeafWay by_doubles(std::uint32_t reach, bool (*applies)(const CellView&)) {
+constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellView&)) {
     return {reach, applies, &arranger<&LeafArrangers::doubles>};
 }
 
@@ -141,41 +141,43 @@ using Stats = EvaluateStats;
 constexpr std::size_t formula_rows = 2;
 constexpr std::size_t constant_rows = 2;
 
-constexpr std::array all_ways{
-    Way{"outlines of prisms",
-        "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
-        "whole facets, outlines by name", &Stats::prism_leaves,
-        FormulaWay{&are_large_prisms, &outline_prisms}},
-    Way{"two meshes",
-        "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
-        "limit",
-        "uncrossed facets, crossings", &Stats::plain_leaves,
-        FormulaWay{&are_meshes_of_a_size, &evaluate_undivided}},
-    Way{"constant", "the formula has one value in the cell", "an empty leaf",
-        &Stats::constant_cells, CellWay{&is_constant, &CellSteps::make_constant}},
-    Way{"share", "one operand is left, and it is embedded",
-        "the operand's subtree or list, or its complement", &Stats::shared_cells,
-        CellWay{&is_of_one_operand, &CellSteps::share}},
-    Way{"trim", "two lists of imported meshes in a small cell, 16 facets of one beside the other",
-        "a splitting plane and two cells", &Stats::divided_cells, CellWay{&may_be_peeled, &CellSteps::peel}},
-    Way{"grid", "up to 8 leaves; all facets axis-perpendicular",
-        "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
-        LeafWay{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
-    Way{"general position", "one leaf; embedded operands in general position",
-        "fragments; of imported meshes uncrossed facets and crossings", &Stats::plain_leaves,
-        by_doubles(usual_leaf, &is_any)},
-    Way{"prisms", "up to 40 leaves; prisms along one axis, whole in the cell", "fragments",
-        &Stats::prism_leaves,
-        LeafWay{prism_leaf_factor, &may_be_prisms, &arranger<&LeafArrangers::prisms>}},
-    Way{"small operands",
-        "up to 8 leaves; three imported meshes or more, an eighth of their facets in the cell",
-        "as in general position", &Stats::plain_leaves,
-        by_doubles(small_operands_leaf, &are_small_operands)},
-    Way{"exact", "one leaf; any polygons", "fragments", &Stats::exact_leaves,
-        LeafWay{usual_leaf, &is_any, &arranger<&LeafArrangers::exact>}},
-    Way{"divide", "a splitting plane separates the polygons; else leaves of any size, from the grid on",
-        "a splitting plane and two cells", &Stats::divided_cells,
-        CellWay{&may_be_divided, &CellSteps::divide}},
+constexpr std::array all_rules{
+    Rule{"outlines of prisms",
+         "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
+         "whole facets, outlines by name", &Stats::prism_leaves,
+         FormulaRule{&are_large_prisms, &outline_prisms}},
+    Rule{"two meshes",
+         "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
+         "limit",
+         "uncrossed facets, crossings", &Stats::plain_leaves,
+         FormulaRule{&are_meshes_of_a_size, &evaluate_undivided}},
+    Rule{"constant", "the formula has one value in the cell", "an empty leaf",
+         &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
+    Rule{"share", "one operand is left, and it is embedded",
+         "the operand's subtree or list, or its complement", &Stats::shared_cells,
+         CellRule{&is_of_one_operand, &CellSteps::share}},
+    Rule{"trim", "two lists of imported meshes in a small cell, 16 facets of one beside the other",
+         "a splitting plane and two cells", &Stats::divided_cells,
+         CellRule{&may_be_peeled, &CellSteps::peel}},
+    Rule{"grid", "up to 8 leaves; all facets axis-perpendicular",
+         "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
+         LeafRule{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
+    Rule{"general position", "one leaf; embedded operands in general position",
+         "fragments; of imported meshes uncrossed facets and crossings", &Stats::plain_leaves,
+         by_doubles(usual_leaf, &is_any)},
+    Rule{"prisms", "up to 40 leaves; prisms along one axis, whole in the cell", "fragments",
+         &Stats::prism_leaves,
+         LeafRule{prism_leaf_factor, &may_be_prisms, &arranger<&LeafArrangers::prisms>}},
+    Rule{"small operands",
+         "up to 8 leaves; three imported meshes or more, an eighth of their facets in the cell",
+         "as in general position", &Stats::plain_leaves,
+         by_doubles(small_operands_leaf, &are_small_operands)},
+    Rule{"exact", "one leaf; any polygons", "fragments", &Stats::exact_leaves,
+         LeafRule{usual_leaf, &is_any, &arranger<&LeafArrangers::exact>}},
+    Rule{"divide",
+         "a splitting plane separates the polygons; else leaves of any size, from the grid on",
+         "a splitting plane and two cells", &Stats::divided_cells,
+         CellRule{&may_be_divided, &CellSteps::divide}},
 };
 
 std::shared_ptr<SolidState> state_of(SolidForm form, const Residual& formula,
@@ -198,8 +200,8 @@ LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers) {
     SlotValues no_values;
     LeafFindings findings;
     const CellView view{no_task, *problem.options, no_values, false, true};
-    for (const Way& way : polygon_ways()) {
-        const auto* const leaf = std::get_if<LeafWay>(&way.how);
+    for (const Rule& rule : polygon_rules()) {
+        const auto* const leaf = std::get_if<LeafRule>(&rule.how);
         if (leaf == nullptr || !leaf->may_serve(view)) continue;
         if (auto result = leaf->arrangement(arrangers).arrange(problem, findings))
             return *std::move(result);
@@ -210,20 +212,20 @@ LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers) {
 
 }  // namespace
 
-std::span<const Way> ways() { return all_ways; }
+std::span<const Rule> rules() { return all_rules; }
 
-std::span<const Way> formula_ways() { return ways().first(formula_rows); }
+std::span<const Rule> formula_rules() { return rules().first(formula_rows); }
 
-std::span<const Way> constant_ways() { return ways().subspan(formula_rows, constant_rows); }
+std::span<const Rule> constant_rules() { return rules().subspan(formula_rows, constant_rows); }
 
-std::span<const Way> polygon_ways() { return ways().subspan(formula_rows + constant_rows); }
+std::span<const Rule> polygon_rules() { return rules().subspan(formula_rows + constant_rows); }
 
-std::shared_ptr<SolidState> evaluate_by(const FormulaWay& way, const Residual::Ref& formula,
+std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule, const Residual::Ref& formula,
                                         const SolidStates& solids, const EvaluateOptions& options,
                                         EvaluateStats& stats) {
-    if (!way.applies(formula, solids, options)) return nullptr;
+    if (!rule.applies(formula, solids, options)) return nullptr;
     auto tree = std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
-    auto form = way.evaluate(formula, solids, options, stats, std::move(tree));
+    auto form = rule.evaluate(formula, solids, options, stats, std::move(tree));
     return form ? state_of(*std::move(form), *formula, solids) : nullptr;
 }
 
