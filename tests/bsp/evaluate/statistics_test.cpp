@@ -85,6 +85,21 @@ TEST_F(TwoBalls, AllLeavesAreArrangedInDoubles) {
     }
 }
 
+// Every cell is resolved by one rule of the table.
+TEST_F(TwoBalls, CountersOfRulesAddUp) {
+    const Solid c = evaluate(a - b, dividing());
+    for (const trisect::Expression& e :
+         {trisect::Expression(a) ^ b, c | b, c - Solid::from_mesh(trisect::make_icosphere(1, 1))}) {
+        EvaluateStats stats;
+        (void)evaluate(e, dividing(), &stats);
+        EXPECT_EQ(stats.mixed_leaves,
+                  stats.grid_leaves + stats.plain_leaves + stats.prism_leaves + stats.exact_leaves);
+        EXPECT_EQ(stats.cells, stats.constant_cells + stats.shared_cells + stats.mixed_leaves +
+                                   stats.divided_cells);
+        EXPECT_GT(stats.divided_cells, 0U);
+    }
+}
+
 TEST_F(TwoBalls, CellsAndPairsAreFew) {
     EvaluateStats stats;
     (void)evaluate(a | b, dividing(), &stats);
