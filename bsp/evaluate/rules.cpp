@@ -37,13 +37,13 @@ constexpr int most_stalled = 3;
 constexpr int most_stalled_of_many = 12;
 constexpr int most_depth = 400;
 
-// Pairs are what a leaf costs: of those of a cell both sides of a wall may have such a part for the
-// wall to be worth it, and for it to be of any use.
+// Pairs are what a leaf costs. Both sides of a wall may have such a part of those of the cell for
+// it to be worth it, and for it to be of any use.
 constexpr double large_cell = 4000;
 constexpr double worthy_part = 0.8;
 constexpr double worthy_part_of_large = 1.6;
 constexpr double useful_part = 1.05;
-// Of the polygons, where both sides have more than such a part.
+// Both sides are large with more than such a part of the polygons.
 constexpr double large_side = 0.5;
 constexpr int price_of_useless = 12;
 constexpr int price_of_large_sides = 4;
@@ -276,9 +276,8 @@ int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t secon
     const auto a = static_cast<double>(first);
     const auto b = static_cast<double>(second);
     const double pairs = a * a + b * b;
-    const double all = total * total;
-    if (pairs < (total < large_cell ? worthy_part : worthy_part_of_large) * all) return 0;
-    if (pairs > useful_part * all) return task.stalled + price_of_useless;
+    if (pairs < (total < large_cell ? worthy_part : worthy_part_of_large) * total * total) return 0;
+    if (pairs > useful_part * total * total) return task.stalled + price_of_useless;
     const bool large_sides = std::min(a, b) > large_side * total;
     return task.stalled + (large_sides ? price_of_large_sides : price_of_unworthy);
 }
