@@ -19,7 +19,7 @@ class InputText {
 public:
     InputText(std::string_view bytes, std::string name, const ReadLimits& limits, bool binary)
         : bytes_(bytes), name_(std::move(name)), limits_(limits), binary_(binary) {
-        // The first line end tells the convention: a CR that no LF follows means bare CR.
+        // The first line end decides the convention: a CR that no LF follows means bare CR.
         const std::size_t eol = bytes.find_first_of("\r\n");
         if (eol != std::string_view::npos && bytes[eol] == '\r' &&
             (eol + 1 == bytes.size() || bytes[eol + 1] != '\n')) {
