@@ -201,7 +201,7 @@ bool parts(const GmpPlane& plane, const std::vector<ConvexPolygon>& a,
 std::optional<std::vector<CertifiedCell>> CellProof::run(Polygons a, Polygons b) {
     cells_.clear();
     path_.clear();
-    // Any point that is on no boundary will do; it is replaced as soon as it is asked about.
+    // Any point that is on no boundary will do; it is replaced on first use.
     const GmpVector point = a.empty() ? GmpVector{} : middle_of(a.front());
     if (divide(a, b, point, 0) != Progress::Done) return std::nullopt;
     return std::move(cells_);
@@ -272,7 +272,7 @@ GmpVector CellProof::point_beside(const Bound& cut, const Polygons& a, const Pol
     const auto sign_at = [&cut](const GmpVector& p) {
         return sgn(mpq_class(dot(cut.normal, p) + cut.offset));
     };
-    // The middle of a piece is no good itself where the piece is the boundary asked about later: it
+    // The middle of a piece is no good itself where the piece is the boundary of a later query: it
     // is moved towards the cell's point. So is the point itself when it is in the plane.
     const auto near = [&](const GmpVector& from, const GmpVector& direction) {
         mpq_class step = 1;
