@@ -4,7 +4,7 @@
 // a point y inside of t, near x and on no plane but its own. Inside and outside meet at y, so the
 // way of y through the tree ends on a node's plane, that of t; x is in the closure of every region
 // on that way. At each node x is on the side of y or on the plane, and where it is on the plane, or
-// so near that doubles cannot tell, both sides are visited. So the polygon, cut on the safe side,
+// so near that doubles cannot decide, both sides are visited. So the polygon, cut on the safe side,
 // comes to that node and touches its plane, where t is listed. Walls above change nothing: y is on
 // none of them.
 //

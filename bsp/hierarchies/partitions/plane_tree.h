@@ -43,8 +43,8 @@ struct RoughPolygon {
 /// What is on a node's plane is a list of triangles (from a BspTree), or a tree in the plane whose
 /// leaves name faces (from an MspTree). Lists and faces are offered as triangles.
 ///
-/// Signs are those of doubles with error bounds: where they cannot tell, both sides are visited; so
-/// every triangle with a point in common with the one that is pushed down is offered.
+/// Signs are those of doubles with error bounds: where they cannot decide, both sides are visited;
+/// so every triangle with a point in common with the one that is pushed down is offered.
 ///
 /// Axis-parallel walls above divide the boundary into cells of few triangles, and each of these has
 /// a tree of its own (WallCells): without them the tree of a convex solid would be a list. A model

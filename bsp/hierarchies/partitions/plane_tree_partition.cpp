@@ -5,8 +5,8 @@
 // of Thibault and Naylor a plane has a list of them; in Vanecek's tree, the Brep-Index, a tree in
 // the plane says which face is there.
 //
-// What no other structure here knows is where inside and outside are. So deep penetration is seen
-// without one pair of triangles, the early accept of the Brep-Index, in two ways.
+// No other structure here has inside and outside. So deep penetration is seen without one pair of
+// triangles, the early accept of the Brep-Index, in two ways.
 //  - Tree against tree, as trees are merged (Naylor, Amanatides and Thibault 1990): a leaf of B
 //    that is inside goes down A's tree, cut by its planes, until a part of it is in a leaf of A
 //    that is inside too. A leaf is a ball in it, so that B's tree need not be moved. With a vertex

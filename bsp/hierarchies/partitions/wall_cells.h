@@ -17,7 +17,8 @@ namespace trisect::hierarchies {
 
 /// A tree of walls over a boundary. A wall is at an odd multiple of half a lattice unit, so no
 /// vertex and no polygon lies on it. There is area of the boundary on both sides of every wall; so
-/// every cell holds a part of it, and face planes alone tell inside from outside within a cell.
+/// every cell holds a part of it, and face planes alone distinguish inside from outside within a
+/// cell.
 ///
 /// A tree of face planes is as deep as the solid makes it: a convex one's is a list. Under walls it
 /// is the depth of a balanced tree and the few planes of a cell.
