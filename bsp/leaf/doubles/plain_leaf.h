@@ -24,7 +24,7 @@ namespace trisect::detail {
 class PlainLeaf {
 public:
     /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind
-    /// or doubles cannot tell; then `out` and `stats` are as before.
+    /// or doubles cannot decide; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
     /// The same without the facets that something crosses in the cell: these and what covers them

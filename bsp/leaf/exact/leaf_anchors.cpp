@@ -52,7 +52,7 @@ void LeafAnchors::build(LeafWork& work, LeafWindings& windings) {
     known_count_ = 0;
     first_.assign(work.items.size(), none);
     for (LeafIndex i = 0; i < work.item_count(); ++i) {
-        // Only what nothing touches makes others hang together; the rest is looked at when asked.
+        // Only what nothing touches makes others hang together; the rest is looked at on demand.
         if (!work.contacts(i).empty()) continue;
         const std::size_t n = corner_count(i);
         for (std::size_t k = 0; k < n; ++k) join_item(i, vertex_of(i, k));

@@ -3,8 +3,8 @@
 // A trace costs as much as all other work on a piece, and neighbours nearly always have the same
 // answer. Walking from one to the next over their common edge is a trace of length zero: the only
 // surfaces that it can cross are those that contain the part of the edge where it is done, and
-// contacts tell which these are. So what is asked here is local, and a leaf with one sheet of each
-// of two operands needs no trace at all where the sheets cross, and one a sheet where they do not.
+// contacts determine these. So the signs here are local, and a leaf with one sheet of each of two
+// operands needs no trace at all where the sheets cross, and one a sheet where they do not.
 //
 // EMBER (Trettner, Nehring-Wirxel, Kobbelt 2022, sec. 5.4) propagates winding numbers along walks
 // through the local BSP; here only certain neighbours count, the others get a trace.
@@ -80,11 +80,11 @@ void LeafLinks::build(LeafWork& work) {
         if (work.item(i).is_whole()) add_node(i);
     for (std::size_t p = 0; p < work.pieces.size(); ++p)
         if (!work.pieces[p].dropped) add_node(items_ + static_cast<LeafIndex>(p));
-    // Those for which others speak are no nodes, but at their edges there are more than two facets.
+    // Those that others represent are no nodes, but at their edges there are more than two facets.
     for (const LeafPiece& piece : work.pieces)
         if (piece.dropped && !work.operand_of(work.item(piece.item)).embedded)
             count_at_edges(piece);
-    // Lines within facets first: they tell winding numbers, and a pair that is linked already is
+    // Lines within facets first: they give winding numbers, and a pair that is linked already is
     // not looked at again.
     for (const Line& line : lines_)
         if (line.within_facet) link_line(line);

@@ -33,7 +33,7 @@ struct LeafChange {
 ///  - across a line within one facet, when every other polygon that contains part of it contains
 ///    it in its interior: crossing such a polygon takes its step. If that polygon's operand is
 ///    embedded, the winding numbers on both sides are even known: 0 outside and 1 inside.
-/// Contact is decided exactly. Whether two edges overlap is asked in doubles with a margin: a
+/// Contact is decided exactly. Whether two edges overlap is decided in doubles with a margin: a
 /// contact may be missed, never invented, and a missing link costs a trace.
 class LeafLinks {
 public:

@@ -477,7 +477,7 @@ void AxisLeaf::emit_rectangles(Polygons group, UnitRows rows, bool inside_low) {
     }
 }
 
-// Of planes that the grid knows.
+// Of planes of the grid.
 AxisRectangle AxisLeaf::with_names(const Rectangle& r) const {
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
     AxisRectangle out;
@@ -556,7 +556,7 @@ void AxisLeaf::note_incomplete(const AxisPolygon& p, const UnitRows& units) {
 // Whether the boundary of another operand may meet a polygon: it meets the closure of its units,
 // and boxes do.
 bool AxisLeaf::touches_others(const AxisPolygon& p, const UnitRows& rows) const {
-    // Beside many operands nobody asks: it only saves work in an assembly.
+    // Beside many operands it is not used: it only saves work in an assembly.
     constexpr std::size_t few = 8;
     if (problem_->operands.size() > few) return true;
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);

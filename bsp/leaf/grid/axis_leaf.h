@@ -32,9 +32,9 @@ public:
     /// False, and nothing is done, when some polygon is of another kind or the grid is too large.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
-    /// The same for whoever can do with a picture. There is one afterwards, and `out` has its
-    /// facets, where facets of imported meshes have to be cut, all that bound the result in their
-    /// planes, and the others are not touched.
+    /// The same for users of an occupancy grid. There is one afterwards, and `out` has its facets,
+    /// where facets of imported meshes have to be cut, all that bound the result in their planes,
+    /// and the others are not touched.
     [[nodiscard]] bool picture(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
                                std::unique_ptr<AxisPicture>& picture);

@@ -14,7 +14,7 @@
 // where the layers below and above differ, so the region's outline is made of the stretches of
 // walls with a difference on one side only; what is in the middle of it need not be known. Covers
 // of one operand that hang together, a sheet, come out whole if all that bounds them bounds the
-// region in the same way and no outline of the region lies within; for that the walk knows which
+// region in the same way and no outline of the region lies within; for that the walk keeps which
 // sheets are around it. Of walls that bound the result as a whole nothing is written either.
 //
 // All vertices on a wall at a position are where what is on its two sides, below and above,
@@ -161,7 +161,7 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     changed_.clear();
 }
 
-// Sheets in the planes of other layers do no harm: nothing asks for them.
+// Sheets in the planes of other layers do no harm: they are not used.
 void PrismArrangement::enter_sheet(std::int32_t sheet) {
     const auto at = std::ranges::find(around_, sheet);
     if (at == around_.end()) {

@@ -20,7 +20,7 @@ struct PrismCrossing {
 };
 
 /// Crossings are many, up to the square of the number of walls: what is exact about their places is
-/// computed when two of them are so near to each other that doubles cannot tell.
+/// computed when two of them are so near to each other that doubles cannot decide.
 class PrismCrossings {
 public:
     /// How many other walls each one may have beside it, on average. Where they are more, looking
@@ -28,8 +28,8 @@ public:
     static constexpr std::size_t most_per_wall = 2048;
 
     /// False when walls touch or overlap without crossing each other, and where too many lie side
-    /// by side. `walls` must outlive what is asked later. Time O(n log n + n m) for n walls with m
-    /// others beside each.
+    /// by side. `walls` must outlive later queries. Time O(n log n + n m) for n walls with m others
+    /// beside each.
     [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismWall> walls,
                             EvaluateStats& stats);
     /// In their order along the wall.

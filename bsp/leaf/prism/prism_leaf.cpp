@@ -10,12 +10,12 @@
 // two sides change only where other walls cross it; with the order of these places, fractions of
 // integers, the stretches that bound the result are read off. In the plane of a cover the result is
 // bounded where the layers below and above it differ; of several operands with a cover there the
-// first one speaks. How that region is divided among its speakers shows on the walls' stretches,
-// too: on the two sides of a stretch other operands speak. A cover is cut along the stretches that
-// bound its operand's share and no others, hence n coincident covers make n small sets of parts and
-// not n² ones.
+// first one is the representative. The division of that region among its representatives shows on
+// the walls' stretches, too: on the two sides of a stretch other operands are representatives. A
+// cover is cut along the stretches that bound its operand's share and no others, hence n coincident
+// covers make n small sets of parts and not n² ones.
 //
-// Where walls touch or overlap instead of crossing the leaf is arranged the long way.
+// Where walls touch or overlap instead of crossing the leaf takes the exact path.
 
 #include <trisect/bsp/leaf/prism/prism_leaf.h>
 
@@ -35,7 +35,7 @@ namespace {
 constexpr std::size_t left = 0;
 constexpr std::size_t right = 1;
 
-// crosses_way() from a point in doubles; nothing when they cannot tell.
+// crosses_way() from a point in doubles; nothing when they cannot decide.
 std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
     const double from_v = static_cast<double>(w.from[1]) - p[1];
     const double to_v = static_cast<double>(w.to[1]) - p[1];
@@ -57,7 +57,7 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
 bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
-    // Fragments that nobody has taken end here, whatever is thrown or given up.
+    // Fragments without owners end here, whatever is thrown or given up.
     struct EndCovers {
         std::vector<PolygonRef>& covers;
         ~EndCovers() {

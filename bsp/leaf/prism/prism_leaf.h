@@ -90,7 +90,7 @@ private:
     std::vector<std::uint8_t> insides_;
     std::array<std::vector<std::uint64_t>, 2> covered_;  // by side: a bit for each operand
     std::vector<WallPart> wall_parts_;
-    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it speaks for
+    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it represents
     std::vector<CoverPart> cover_parts_;          // of one cover
     std::vector<PolygonRef> covers_;              // what of all of them bounds the result
     std::vector<WorkPolygon> parts_;
