@@ -72,7 +72,7 @@ public:
           axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
-    /// False when pieces are needed that nobody has made: of OutlinedSolid::cut().
+    /// False when pieces are needed that were not made: of OutlinedSolid::cut().
     [[nodiscard]] bool run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
@@ -297,7 +297,7 @@ void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::siz
 }
 
 // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
-// for each of them. So they are asked for well before.
+// for each of them. So they are prefetched well before.
 template <bool Shared>
 void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
@@ -525,7 +525,7 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
 }
 
 // A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
-// around the corner know it by the corner's name only, so that name must take part in merging.
+// around the corner have the corner's name only, so that name must take part in merging.
 void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRef& ref) {
     if (ref.source->is_half_space()) return;
     std::array<std::array<double, 3>, 3> corners;
@@ -573,7 +573,7 @@ void Gatherer::make_axis_faces() {
 // Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
-    // Few groups ask for the same planes as others.
+    // Few groups need the same planes as others.
     constexpr std::size_t many_planes = 8192;
     Workbench& bench = out_.bench;
     same_.resize(bench.point_count());

@@ -13,9 +13,9 @@
 //
 // Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
 // vertex lies inside it, then the faces around change there, and so does one of those two outlines:
-// of the four quadrants around the line those that are inside can be told from the two outlines,
-// and if they are the same before and behind, no third plane has a boundary in between. So the ends
-// of all stretches on one line are all vertices on it, but for those of facets that are not taken.
+// of the four quadrants around the line the two outlines determine those that are inside, and if
+// they are the same before and behind, no third plane has a boundary in between. So the ends of all
+// stretches on one line are all vertices on it, but for those of facets that are not taken.
 //
 // Those are facets that may come out as they went in: to_mesh copies them with their corners.
 // Whether a facet has changed shows in its area, or in an outline that turns inside one of its
@@ -85,7 +85,7 @@ bool reaches_out(const PolygonRef& r, const Cell& cell) {
 }
 
 // Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
-// tell.
+// decide.
 template <class Add>
 bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t across, const Add& add) {
     if (!reaches_out(polygon, cell)) {
@@ -659,7 +659,7 @@ void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryE
     }
 }
 
-// An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
+// An edge ends at walls too, for which doubles suffice: the caller checks the result.
 void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) {
     const Workbench& bench = parts_.bench;
     const auto support = axis_plane(bench.name(parts_.facets[u(edge.facet)].support));

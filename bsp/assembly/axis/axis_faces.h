@@ -67,7 +67,7 @@ private:
     // A vertex on a line.
     struct Stop {
         std::uint32_t place = 0;  // its rank along the line
-        PointId point = -1;       // once it was asked for
+        PointId point = -1;       // once it was requested
     };
     // The stops of one line, or of a stretch with its ends.
     struct Stops {
@@ -82,7 +82,7 @@ private:
         bool is_general = false;   // not taken
         bool has_passing = false;  // a facet passes through
         std::size_t parts = 0;
-        PlaneId id = -1;  // once it was asked for
+        PlaneId id = -1;  // once it was requested
         std::uint32_t rank = 0;
         AxisOutline outline;
         std::vector<Stops> stops;  // of each stretch
@@ -203,7 +203,7 @@ private:
     std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
     std::array<std::vector<Other>, 3> other_stops_;         // sorted
     std::vector<Stop> stops_;                               // line by line
-    std::vector<Stops> all_lines_;     // where somebody may ask, and their keys
+    std::vector<Stops> all_lines_;     // where queries are possible, and their keys
     std::array<FlatMap, 3> lines_;     // by axis
     std::vector<std::uint32_t> line_;  // the places on the line in the making
     FlatMap corner_ids_;

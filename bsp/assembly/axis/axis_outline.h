@@ -52,8 +52,8 @@ struct AxisStretch {
 };
 
 /// Adds up the sides of polygons. What two of them have in common runs both ways and vanishes, be
-/// it on a wall of a cell or on a line that cut both. Slanted sides are left out: the caller knows
-/// that they cancel. O(n log n).
+/// it on a wall of a cell or on a line that cut both. Slanted sides are left out: the caller has
+/// shown that they cancel. O(n log n).
 class AxisOutline {
 public:
     /// A polygon of which the outside is above the plane, or below. `turns_left`: its sides come

@@ -87,7 +87,7 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
 }
 
 // Where coincident facets of two operands meet at a wall because one of them dropped out of the
-// formula beyond it, each side knows only its own vertices on the wall.
+// formula beyond it, each side has only its own vertices on the splitting plane.
 void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     const auto on_wall = [&](const BoundaryEdge& e) {
         return parts.bench.name(e.line.plane).is_wall();
