@@ -19,7 +19,7 @@ namespace trisect::detail {
 struct IndexSlot {
     static constexpr std::uint32_t outside = 0xfffffffeU;  ///< empty
     static constexpr std::uint32_t inside = 0xffffffffU;   ///< empty
-    static constexpr std::uint32_t pending = 0xfffffffdU;  ///< a cell that was not asked for yet
+    static constexpr std::uint32_t pending = 0xfffffffdU;  ///< a cell without a query yet
     static constexpr std::uint32_t brick_flag = 0x80000000U;
     [[nodiscard]] static bool is_empty(std::uint32_t slot) { return slot >= outside; }
     [[nodiscard]] static bool is_brick(std::uint32_t slot) {
@@ -164,7 +164,7 @@ struct ApproximateLine {
 
 /// Calls visit(x, y, z, lo, hi) for all cells that the line may meet for t from `lo` to `hi`, slab
 /// by slab in the line's direction, and some beside it; the line is in the cell within its lo and
-/// hi at most. Before each slab, more(t) is asked whether what begins at t still matters.
+/// hi at most. Before each slab, more(t) decides whether what begins at t still matters.
 template <class More, class Visit>
 void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo, double hi,
                      const More& more, const Visit& visit) {
@@ -193,7 +193,7 @@ void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo
         std::uint32_t hi = 0;
     };
     const auto indices = [&](std::size_t k, const Span& s) {
-        // What cannot be told is everything.
+        // If it cannot be decided, all is listed.
         if (!(s.lo > -HUGE_VAL && s.hi < HUGE_VAL)) return Indices{0, g.n[k] - 1};
         const std::uint32_t i = g.clamped(k, s.lo);
         // A coordinate just below a wall may have been rounded to it.

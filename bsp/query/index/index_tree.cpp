@@ -8,8 +8,8 @@
 // cells are divided 4 x 4 x 4 at a time (index_bricks.cpp).
 //
 // Built at once is only the grid with its lists and winding numbers. Its cells are divided when a
-// query first comes to them, under a lock, and then published by one word; who only asks about a
-// corner of a model never pays for the rest. Cells are large enough that the lock is rare.
+// query first comes to them, under a lock, and then published by one word; queries of a corner of a
+// model never pays for the rest. Cells are large enough that the lock is rare.
 //
 // Every mixed cell needs a point off the surface with its winding number. The lower corners of
 // cells serve, and they are the same points for a cell and for the first cell of its brick. So they

@@ -7,7 +7,7 @@
 //
 // A line meets most polygons in an interior point, which doubles decide. What is left are rays
 // through edges and vertices, along edges and in faces. There all contacts are collected, their
-// ends sorted exactly, and between and at these the rank of the normals tells what the ray is on.
+// ends sorted exactly, and between and at these the rank of the normals decides what the ray is on.
 // Of a point and the intervals beside it that have the same rank one hit is made: the point was the
 // end of a triangle, but not of a face or edge.
 
@@ -75,7 +75,7 @@ private:
         Range range;
     };
 
-    // For lines of which doubles do not tell the cells.
+    // For lines whose cells doubles do not decide.
     void visit_all() {
         for_leaves(
             index_.tree, [](const DoubleBox&) { return true; },
