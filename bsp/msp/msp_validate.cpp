@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Checks of an MspTree, by means that the construction does not use: regions are made explicit as
-// polygons, points are found on entities, and inside is told by counting faces above a point.
+// polygons, points are found on entities, and inside is decided by counting faces above a point.
 
 #include <trisect/bsp/msp_tree.h>
 
