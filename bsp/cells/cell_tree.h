@@ -61,12 +61,11 @@ struct EdgeName {
 
 /// A convex part of a facet, cut out by an operation. Edges counter-clockwise seen from above the
 /// facet's support; consecutive edges lie on different lines. Its vertices are what the edges'
-/// planes say; their doubles are kept, so that nobody has to compute them again. Immutable,
-/// reference-counted by the leaves that list it. One piece of memory.
+/// planes say; their doubles are stored for later. Immutable, reference-counted by the leaves that
+/// list it. One piece of memory.
 class Fragment {
 public:
-    /// A fragment that nobody has retained yet. `vertices[i]` is where edge i begins, in lattice
-    /// units.
+    /// A fragment without owners yet. `vertices[i]` is where edge i begins, in lattice units.
     [[nodiscard]] static const Fragment* make(std::span<const EdgeName> edges,
                                               std::span<const Approximation> vertices,
                                               const Box& box);
@@ -108,7 +107,7 @@ static_assert(sizeof(Fragment) % alignof(EdgeName) == 0 &&
 /// A polygon in a cell: a whole facet (its clipping by the cell is implied, not carried out) or a
 /// fragment. `flipped` turns its orientation. A whole facet that an arrangement listed is `touched`
 /// when something of another surface comes into contact with it, so that vertices may lie in its
-/// edges. Trivial type; whoever stores it keeps its fragment.
+/// edges. Trivial type; its owner keeps the fragment.
 ///
 /// What cuts or touches a facet in one cell need not show in its other cells: it may be listed
 /// whole there. Where any cell lists a fragment of it, it counts in each cell for what is of it
@@ -237,8 +236,8 @@ class CellNode : public std::enable_shared_from_this<CellNode> {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,
                                                 int winding, bool mixed);
-    /// A mixed leaf that cuts its facets when it is first asked for its polygons. `size`: about how
-    /// many they are, and not 0.
+    /// A mixed leaf that cuts its facets on the first use of its polygons. `size`: about how many
+    /// they are, and not 0.
     static std::shared_ptr<const CellNode> deferred(std::unique_ptr<const DeferredLeaf> leaf,
                                                     int winding, std::uint64_t size);
     /// All facets of a source, unrefined.
@@ -259,7 +258,7 @@ public:
         if (deferred_ != nullptr && !is_arranged_.load(std::memory_order_acquire)) arrange();
         return polygons_;
     }
-    /// How a leaf that was deferred was put, whether its polygons were asked for or not.
+    /// How a leaf that was deferred was put, whether its polygons were requested or not.
     [[nodiscard]] const DeferredLeaf* deferred() const { return deferred_.get(); }
     [[nodiscard]] const FinePoint& reference() const { return reference_; }
     [[nodiscard]] int winding() const { return winding_; }

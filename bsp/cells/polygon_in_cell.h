@@ -30,7 +30,7 @@ inline void make_room(std::vector<PolygonRef>& list) {
     if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
 }
 
-/// Ends the fragments of a list that did not become a PolygonList: those that nobody else holds.
+/// Ends the fragments of a list that did not become a PolygonList: those without other owners.
 inline void end_fragments(std::vector<PolygonRef>& list) {
     const PolygonList freed(std::move(list));
 }

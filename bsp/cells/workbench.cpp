@@ -117,7 +117,7 @@ std::uint64_t Workbench::line_of_edge(std::uint64_t owner, std::uint32_t v, std:
 }
 
 // What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
-// source, which both of its facets know.
+// source, which both of its facets share.
 std::uint64_t Workbench::line_item(PlaneId p) {
     PlaneRecord& r = planes_[u(p)];
     const PlaneName& n = r.name;
@@ -387,7 +387,7 @@ void Workbench::split(const WorkPolygon& polygon, PlaneId plane, const Sides& si
         if (here < 0) add(below, p, e);
         if (here > 0) add(above, p, e);
         if (here == 0) {
-            // The next strict side tells which part continues along e; the other turns into the
+            // The next strict side decides which part continues along e; the other turns into the
             // cut.
             if (next < 0) {
                 add(below, p, e);
