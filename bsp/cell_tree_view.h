@@ -42,7 +42,7 @@ struct CellLeaf {
 };
 
 /// The leaves that meet a closed box in the user's units, whose ends may be infinite and may be
-/// equal: lower.z == upper.z asks for a slice. Leaves are in the order of the walls, below first.
+/// equal: lower.z == upper.z gives a slice. Leaves are in the order of the walls, below first.
 /// O(walls that the box meets).
 /// \throw UsageError when an end is not a number or lower > upper.
 [[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid,

@@ -105,7 +105,7 @@ struct EvaluateStats {
     /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
     std::uint64_t untouched_polygons = 0;
     std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves, but for cutting put off
-    /// Polygons and pieces that know their winding numbers from a neighbour.
+    /// Polygons and pieces with winding numbers from a neighbour.
     std::uint64_t linked = 0;
     std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
     std::uint64_t traces_retried = 0;  ///< degenerate segments

@@ -94,7 +94,7 @@ public:
 
     /// The boundary. Assembled anew at every call; costs O(n log n) in the faces. That of a
     /// complement has the volume below its faces negative. The empty set and whole space both have
-    /// none: is_whole_space() tells them apart.
+    /// none: is_whole_space() distinguishes them.
     /// \throw UnsupportedError when the boundary is unbounded (a half-space).
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
     /// Triangles with correctly rounded coordinates. Facets that nothing changed are copied; what

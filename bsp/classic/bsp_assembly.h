@@ -4,7 +4,7 @@
 // It is the second, simple assembly of the project: its input is the fragments alone, not their
 // origin.
 //
-// The second, simple assembly of the project: it knows only the fragments, not where they come
+// The second, simple assembly of the project: its input is the fragments alone, not where they come
 // from.
 #pragma once
 

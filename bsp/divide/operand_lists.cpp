@@ -97,7 +97,7 @@ void OperandLists::add_clipped(const PolygonRef& polygon, const Cell& cell,
 
 // Whether all leaves list a facet that it meets. `listed`: by those that do.
 bool OperandLists::is_whole(std::span<const Reaching> listed) const {
-    // Every leaf would be asked about every facet.
+    // Every leaf would be tested with every facet.
     constexpr std::size_t many_leaves = 64;
     if (leaf_cells_.size() > many_leaves) return false;
     const PolygonRef& facet = listed[0].polygon;

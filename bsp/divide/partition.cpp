@@ -84,7 +84,7 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
     return ends;
 }
 
-// The same for a wall anywhere. Where it lies within a rounded position that tells less than all:
+// The same for a wall anywhere. Where it lies within a rounded position that does not decide all:
 // then polygons that begin or end in that position are looked up.
 template <class AddLong>
 Ends distribute_exactly(const CellOperand& operand, std::span<const PackedBox> list,
@@ -160,7 +160,7 @@ Box exact_box(const CellOperand& operand, const Cell& cell) {
 
 namespace {
 
-// What loops over all points or facets need is passed by value: for all that the compiler knows,
+// What loops over all points or facets need is passed by value: as far as the compiler can prove,
 // boxes that are written may be anything that is read through a pointer.
 void pack_points(Frame frame, std::span<const LatticePoint> points, PackedBox* out) {
     for (const LatticePoint& p : points) *out++ = packed_point(frame, p);
@@ -314,7 +314,7 @@ private:
     const std::array<Cell, 2>& cells_;
     std::size_t axis_;
     std::int64_t last_;
-    std::optional<int> first_above_;  // where rounded positions tell the sides apart
+    std::optional<int> first_above_;  // where rounded positions distinguish the sides
     bool small_;                      // all lists together
     int long_facet_;
     std::array<std::optional<Box>, 2> reach_;  // made for small lists

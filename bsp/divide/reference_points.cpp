@@ -3,7 +3,7 @@
 // A child of a cell needs a point off all polygons with the winding numbers of all operands there.
 // The parent's point is one child's too. For the other one the way leads straight through the wall:
 // so it meets little, and most lists have nothing near it. A tree that is cut along its own wall
-// knows a point itself. What is hit in an edge or a vertex gives up, and the next point is tried.
+// has a point itself. What is hit in an edge or a vertex gives up, and the next point is tried.
 
 #include <trisect/bsp/divide/reference_points.h>
 
@@ -132,7 +132,7 @@ bool place_reference(const CellTask& task, const Wall& wall, int which, CellChil
             out.operands[i].winding = task.operands[i].winding;
         return true;
     }
-    // A tree that is cut along its own wall knows points on both sides, without a trace.
+    // A tree that is cut along its own wall has points on both sides, without a trace.
     for (const CellOperand& o : out.operands) {
         if (o.is_list) continue;
         const CellNode* node = o.node;

@@ -6,7 +6,7 @@
 // before they become leaves. Between rounded positions of the frame a comparison of packed boxes is
 // exact.
 //
-// The walls depend on the leaf and its cell alone. So it does not matter who asks first, nor
+// The walls depend on the leaf and its cell alone. So the order of users does not matter, nor
 // whether someone had everything refined before.
 
 #include <trisect/bsp/divide/refine_leaf.h>

@@ -3,8 +3,8 @@
 // Polygons were sent to the cell by their boxes, rounded outwards, so that a list may hold some
 // that only pass by. To look at each would make sharing as dear as cutting. One polygon that
 // certainly lies in the cell is enough for the leaf's promise (a leaf without polygons is
-// homogeneous, others are rarely so); boxes tell that for nearly all. Those that lie within come
-// first: who reads the leaf later knows without looking that they need no clipping.
+// homogeneous, others are rarely so); boxes decide that for nearly all. Those that lie within come
+// first: later readers of the leaf need not test whether to clip them.
 
 #include <trisect/bsp/divide/shared_list.h>
 

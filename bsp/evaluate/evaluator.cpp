@@ -6,13 +6,13 @@
 //   2. nothing left: a homogeneous cell. One operand left: share its subtree or its complement;
 //   3. few polygons: a leaf arrangement (leaf_arrangement.cpp) decides which bound the result;
 //   4. otherwise cut the cell. Where an operand already has a tree its wall is taken, so that its
-//      subtrees can be shared. A large leaf beside small ones is refined by itself, for everybody
-//      who uses it. Else the wall that soonest parts the operands.
+//      subtrees can be shared. A large leaf beside small ones is refined by itself, for all
+//      its users. Else the splitting plane that separates the operands soonest.
 //
 // The idea is EMBER's (Trettner, Nehring-Wirxel, Kobbelt 2022); keeping the cells, so that the next
 // operation finds them, is Nehring-Wirxel, Trettner, Kobbelt 2021. Two things matter more than
 // arithmetic. Walls lie off the lattice, so nothing is listed twice because its box ends at a wall.
-// And every cell knows a reference point with all winding numbers, so that classification never
+// And every cell has a reference point with all winding numbers, so that classification never
 // leaves the cell.
 //
 // Cells are independent, so the two sides of a wall may be solved by two threads. Results are put

@@ -66,7 +66,7 @@ public:
     /// The same when all operands are prisms along one axis, whole within the cell; else nothing.
     [[nodiscard]] std::optional<LeafResult> arrange_prisms(const LeafProblem& problem,
                                                            EvaluateStats& stats);
-    /// The same in general position, where doubles tell all; else nothing.
+    /// The same in general position, where doubles decide all; else nothing.
     [[nodiscard]] std::optional<LeafResult> arrange_plain(const LeafProblem& problem,
                                                           EvaluateStats& stats);
 

@@ -100,7 +100,7 @@ Interval interval_of(double lower, double upper, Lattice lattice) {
 }
 
 /// A slice may lie between two positions; then `lower` is above `upper` by one and both comparisons
-/// still tell the side on which it is.
+/// still show the side on which it is.
 bool meets_below(const Interval& box, std::int64_t wall) { return box.lower <= wall; }
 bool meets_above(const Interval& box, std::int64_t wall) { return box.upper >= wall; }
 
