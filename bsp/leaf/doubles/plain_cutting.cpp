@@ -409,7 +409,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
     for (std::size_t i = 0; i < from.size; ++i) {
         int s = 0;
         if (from.vertices[i] < (*facets_)[item_].size && point(i).error == 0) {
-            // A lattice position, and the last one below the wall is exact too.
+            // A lattice position, and the last one below the splitting plane is exact too.
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
         } else {
@@ -421,7 +421,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
         below = below || s < 0;
         above = above || s > 0;
     }
-    if (!(high ? above : below)) return true;  // nothing is beyond the wall
+    if (!(high ? above : below)) return true;  // nothing is beyond the splitting plane
     was_clipped_ = true;
     if (!(high ? below : above)) {
         clipped_.size = 0;

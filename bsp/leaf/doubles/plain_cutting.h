@@ -16,8 +16,8 @@
 
 namespace trisect::detail {
 
-/// A line in the support of an item: first the edges of its outline, then the cell's walls (2 ·
-/// axis, the upper one 1 more), then its contacts in their order.
+/// A line in the support of an item: first the edges of its outline, then the cell's bounding
+/// planes (2 · axis, the upper one 1 more), then its contacts in their order.
 using PlainLine = std::int16_t;
 inline constexpr PlainLine first_wall_line = PlainFacet::max_outline;
 inline constexpr PlainLine first_contact_line = first_wall_line + 6;
@@ -85,7 +85,7 @@ public:
     [[nodiscard]] PolygonRef fragment(const PlainPart& part);
     /// The part of the last item in the cell.
     [[nodiscard]] const PlainPart& clipped() const { return clipped_; }
-    /// Whether the cell's walls cut anything off the last item.
+    /// Whether the cell's bounding planes cut anything off the last item.
     [[nodiscard]] bool was_clipped() const { return was_clipped_; }
 
 private:

@@ -182,7 +182,7 @@ void PlainFacets::add_box(PlainFacet& f) {
     }
 }
 
-// Whether a box reaches beyond those walls of the cell only at which its fragment ends.
+// Whether a box reaches beyond those bounding planes of the cell only at which its fragment ends.
 bool PlainFacets::is_contained_but_for_walls(unsigned walls, const Vector3& lo,
                                              const Vector3& hi) const {
     for (std::size_t k = 0; k < 3; ++k, walls >>= 2)
@@ -212,7 +212,8 @@ void PlainFacets::add_outline(PlainFacet& f) {
     }
 }
 
-// At which walls of the cell a fragment ends: with its edge on the wall it is on one side of that.
+// At which bounding planes of the cell a fragment ends: with its edge on the splitting plane it is
+// on one side of that.
 std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
     const Cell& cell = problem_->cell;
     unsigned walls = 0;

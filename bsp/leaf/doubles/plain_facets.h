@@ -44,7 +44,7 @@ struct PlainPlane {
 /// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
 /// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
 struct PlainFacet {
-    /// Fragments with more corners are left to the long way.
+    /// Fragments with more corners are left to the exact path.
     static constexpr std::size_t max_outline = 20;
     static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
 
@@ -59,7 +59,7 @@ struct PlainFacet {
     bool contained = false;             ///< lies in the cell
     std::uint8_t size = 3;              ///< corners of the outline
     std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
-                             ///< ends at that wall of the cell by name
+                             ///< ends at that bounding plane of the cell by name
     std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
     /// Bit i: corner i of the outline lies in the support of some item of another operand whose box
     /// meets that of this one, so perhaps on that item.
@@ -155,10 +155,11 @@ public:
             if (p[k] < inner_lo_[k] || p[k] > inner_hi_[k]) return false;
         return true;
     }
-    /// The lattice positions next to the cell's walls, inside of them; exact as far as corners go.
+    /// The lattice positions next to the cell's bounding planes, inside of them; exact as far as
+    /// corners go.
     [[nodiscard]] const Vector3& inner_lo() const { return inner_lo_; }
     [[nodiscard]] const Vector3& inner_hi() const { return inner_hi_; }
-    /// The walls themselves, rounded.
+    /// The splitting planes themselves, rounded.
     [[nodiscard]] const Vector3& wall_lo() const { return wall_lo_; }
     [[nodiscard]] const Vector3& wall_hi() const { return wall_hi_; }
     [[nodiscard]] const Approximation& reference() const { return reference_; }

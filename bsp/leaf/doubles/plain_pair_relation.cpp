@@ -15,7 +15,7 @@
 // at every step. With the sides of such corners known exactly the rest is the same: an interval may
 // begin at a corner, or be a single point. Two polygons with no more than a point in common do not
 // change each other's winding numbers; but at a corner on another operand there are none, so such
-// corners are marked (PlainFacet::resting). An edge in another support is left to the long way.
+// corners are marked (PlainFacet::resting). An edge in another support is left to the exact path.
 
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
 
@@ -231,7 +231,7 @@ int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approxi
     return edge.above ? s : -s;
 }
 
-// Surely: a segment on a wall is not.
+// Surely: a segment on a splitting plane is not.
 bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double low = facets.wall_lo()[k];

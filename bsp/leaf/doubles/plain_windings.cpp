@@ -19,8 +19,8 @@ namespace trisect::detail {
 
 namespace {
 
-// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
-// doubles and with a margin.
+// Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
+// planes, in doubles and with a margin.
 bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b) {
     const Vector3& lo = facets.inner_lo();
     const Vector3& hi = facets.inner_hi();

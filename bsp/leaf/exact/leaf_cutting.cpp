@@ -310,7 +310,7 @@ void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cu
     }
 }
 
-// The edges of a covering facet are lines in the plane of the item.
+// The edges of a overlapping facet are lines in the plane of the item.
 void LeafCutting::split_along_edges(std::size_t first, LeafIndex cover) {
     for (const WorkEdge& e : work_->with_edges(cover).edges)
         split_along_line(first, e.plane, cover, false);
