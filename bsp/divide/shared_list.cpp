@@ -25,7 +25,7 @@ namespace {
 // Positions of a task's frame that certainly lie in its cell.
 PackedBox certain_positions(const CellTask& task) {
     PackedBox b = packed_cell(task.frame, task.cell);
-    // Rounding outwards at walls of other frames: one position farther in is certain.
+    // Rounding outwards at splitting planes of other frames: one position farther in is certain.
     for (std::size_t k = 0; k < 3; ++k) {
         if (!task.frame.first_above(k, task.cell.lo[k] >> wall_bits) && b.low(k) > -packed_limit)
             ++b.lo[k];

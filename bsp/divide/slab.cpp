@@ -20,7 +20,7 @@ namespace trisect::detail {
 
 namespace {
 
-// More polygons are hardly all across one axis.
+// More polygons are hardly all perpendicular to one axis.
 constexpr std::uint32_t most_polygons = 16;
 
 class Covering {
