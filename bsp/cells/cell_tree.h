@@ -28,8 +28,8 @@ namespace trisect::detail {
 struct PlaneName {
     enum Kind : std::uint32_t { Edge0, Edge1, Edge2, Support, Wall };
 
-    std::uint64_t owner = 0;  ///< address of the Source, or the wall's position
-    std::uint32_t facet = 0;  ///< facet of the source, or the wall's axis
+    std::uint64_t owner = 0;  ///< address of the Source, or the splitting plane's position
+    std::uint32_t facet = 0;  ///< facet of the source, or the splitting plane's axis
     std::uint32_t kind = Support;
 
     [[nodiscard]] static PlaneName support(const Source* s, std::uint32_t facet) {
@@ -222,9 +222,9 @@ struct CellRef {
     bool complemented = false;
 };
 
-/// A node of the tree. Either it has a wall and two children, or it is a leaf. A leaf may get a
-/// refinement: the same cell with children, made once when a question needs it and kept with the
-/// leaf, so that all versions that share the leaf share it too.
+/// A node of the tree. Either it has a splitting plane and two children, or it is a leaf. A leaf
+/// may get a refinement: the same cell with children, made once when a question needs it and kept
+/// with the leaf, so that all versions that share the leaf share it too.
 ///
 /// Invariants of a leaf: `reference` lies in its cell and on no polygon; `winding` is the winding
 /// number there (0 or 1 for results of operations); every polygon of the boundary that meets the

@@ -20,8 +20,8 @@ namespace trisect::detail {
 /// Whether a polygon has area in the cell; its box may reach into cells that it misses.
 [[nodiscard]] bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell);
 
-/// Whether all that the walls of a cell could cut off a fragment has been cut off: its box is
-/// rounded outwards and says too much where it ends at a wall.
+/// Whether all that the bounding planes of a cell could cut off a fragment has been cut off: its
+/// box is rounded outwards and says too much where it ends at a splitting plane.
 [[nodiscard]] bool ends_at_walls(const Fragment& fragment, const Cell& cell);
 
 /// Room for one more polygon, to be made before its fragment is: a fragment that no list holds yet
