@@ -148,7 +148,7 @@ private:
     std::vector<Leaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
-    // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
+    // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
     std::vector<BoundaryEdge> edges_;
     AxisFaces axis_faces_;
     std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
@@ -631,8 +631,8 @@ bool Gatherer::is_same(PointId value, PointId name) {
     });
 }
 
-// Edges of traced facets, which come first, and of planes across axes, which come last, have all
-// their vertices.
+// Edges of traced facets, which come first, and of axis-perpendicular planes, which come last, have
+// all their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (axis_faces_.takes_all()) {
         out_.edges = std::move(edges_);

@@ -18,7 +18,7 @@ namespace trisect::detail {
 
 /// For an assembly that joins all facets of a plane. Takes the facets of those planes in which the
 /// sum of all parts is sure to be all that is written: each of their facets has changed, and in
-/// every cell that they reach into all polygons are across an axis.
+/// every cell that they reach into all polygons are axis-perpendicular.
 class AxisFaces {
 public:
     /// What one leaf lists.
@@ -47,13 +47,13 @@ public:
     /// through.
     [[nodiscard]] bool takes_all() const { return takes_all_; }
     [[nodiscard]] std::size_t part_count() const { return part_count_; }
-    /// Whether a leaf lists nothing but polygons across an axis, and facets are taken.
+    /// Whether a leaf lists nothing but axis-perpendicular polygons, and facets are taken.
     [[nodiscard]] bool is_across_axes(std::size_t leaf) const {
         return taken_count_ != 0 && across_[leaf];
     }
 
-    /// The edges that a leaf across axes has of facets that are not taken: vertices of theirs may
-    /// lie in the edges to be made.
+    /// The edges that an axis-perpendicular leaf has of facets that are not taken: vertices of
+    /// theirs may lie in the edges to be made.
     void note_vertices(std::span<const BoundaryEdge> edges);
     /// Appends the edges of all faces of the planes taken, named after the first facet of each
     /// plane and facing, with all vertices that lie inside them.
@@ -190,7 +190,7 @@ private:
     bool takes_all_ = false;
     bool keeps_lines_ = false;  // for add_vertices_in()
     // Corners that are vertices of parts of facets taken, then those of facets that pass through,
-    // in leaves across axes.
+    // in axis-perpendicular leaves.
     std::vector<CornerName> corners_;
     std::vector<PolygonName> passing_;  // until their corners are listed
     std::size_t first_passing_ = 0;     // of corners_, once they are there too

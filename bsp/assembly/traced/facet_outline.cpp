@@ -7,10 +7,10 @@
 // other one's plane.
 //
 // So one walk around the facet's outline has at every point the cutters that contain it: a cutter
-// of which a segment ends there has covered one side and leaves the other one open, whatever it
-// does elsewhere. From the outline it goes on along the paths, where a cutter changes at its
-// meetings. What is covered by none bounds the open part. No winding number is ever traced, and no
-// point is made that is not a vertex, but for meetings under a third cutter.
+// of which a segment ends there contains one side and leaves the other one open, whatever it does
+// elsewhere. From the outline it goes on along the paths, where a cutter changes at its meetings.
+// What none contains bounds the open part. No winding number is ever traced, and no point is made
+// that is not a vertex, but for meetings under a third cutter.
 //
 // The cutters that contain a closed path come from a path that it meets, or else from a straight
 // segment from a corner. Whether a cutter with nothing but closed paths contains the facet around
@@ -180,7 +180,7 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
     return std::fabs(area) > error;
 }
 
-// Where no cutter covers it, the outline bounds the open part.
+// Where no cutter contains it, the outline bounds the open part.
 bool FacetOutline::walk_outline() {
     at_stop_.assign(segments_.size(), 0);
     Covers covers = at_corner_;

@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// A bit for each cutter that covers a point.
+    /// A bit for each cutter that contains a point.
     using Covers = std::uint64_t;
     /// Where a segment ends in the facet's outline.
     struct Stop {

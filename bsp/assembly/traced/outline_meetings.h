@@ -45,7 +45,7 @@ public:
     struct Meeting {
         std::uint32_t other = 0;   ///< that segment
         std::uint32_t point = 0;   ///< the number of the common point
-        bool opens = false;        ///< from there on the other cutter leaves open, or covers
+        bool opens = false;        ///< from there on the other cutter leaves open, or contains
         std::uint64_t before = 0;  ///< for the caller
         double along = 0;          ///< of several, the way along one axis
     };

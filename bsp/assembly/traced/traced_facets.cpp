@@ -4,10 +4,10 @@
 // segments, and these are where the result's part of the facet ends (facet_outline.cpp). So the
 // outline of that part is known without any cutting, however many operands cross the facet.
 //
-// What leaves have made of the same facet is convex pieces, cut by the walls of cells and by the
-// lines of segments far beyond their ends. To join those takes several times as long, and comes to
-// the same: every vertex of either is where an edge pierces a facet, where three facets meet, or a
-// corner.
+// What leaves have made of the same facet is convex pieces, cut by the bounding planes of cells and
+// by the lines of segments far beyond their ends. To join those takes several times as long, and
+// comes to the same: every vertex of either is where an edge pierces a facet, where three facets
+// meet, or a corner.
 //
 // A facet of which doubles cannot decide the outline is left to the pieces.
 
