@@ -15,8 +15,8 @@
 //    outside. Some vertices from all over B are tried, not all: where these say nothing, pairs of
 //    triangles do.
 //
-// The distance is a side line: walls have boxes of what is beyond them, but of the regions below
-// only the planes on the way bound how near they can be.
+// The distance is a side line: splitting planes have boxes of what is beyond them, but of the
+// regions below only the planes on the way bound how near they can be.
 //
 // Source: W. Thibault and B. Naylor, Set operations on polyhedra using binary space partitioning
 // trees (SIGGRAPH 1987); B. Naylor, J. Amanatides and W. Thibault, Merging BSP trees yields
