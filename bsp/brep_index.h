@@ -323,7 +323,7 @@ public:
     [[nodiscard]] std::vector<IndexCell> cells(FaceId face) const;
     [[nodiscard]] std::vector<IndexCell> cells(EdgeId edge) const;
     [[nodiscard]] std::vector<IndexCell> cells(VertexId vertex) const;
-    /// The leaf that a point is in (one of them, when it is on a wall).
+    /// The leaf that a point is in (one of them, when it is on a splitting plane).
     [[nodiscard]] IndexCell cell_at(const std::array<double, 3>& point) const;
 
 private:

@@ -104,8 +104,8 @@ struct MspStats {
 ///
 /// Only planes of faces cut space, and a face may fall into fragments: Θ(n²) of them at worst, n to
 /// a few n in practice. The tree of a convex solid is a list. So the tree of a whole boundary is
-/// for study, tests and small solids; large ones are divided by axis-aligned walls first, and a
-/// tree is made of the few polygons of a cell (from_polygons).
+/// for study, tests and small solids; large ones are divided by axis-perpendicular splitting planes
+/// first, and a tree is made of the few polygons of a cell (from_polygons).
 ///
 /// The tree can be walked: root(), node(ref), Node::plane, dimension, below, on, above; a leaf ref
 /// has its kind and entity.

@@ -2,7 +2,7 @@
 //
 // Nearly all meshes are triangles whose sides cancel by name. For them import is a handful of
 // linear passes: round, weld, look at every triangle once, match the sides. Whatever is found to be
-// otherwise is left to the long way, which starts afresh, so that only one place words errors.
+// otherwise is left to the general path, which starts afresh, so that only one place words errors.
 //
 // The look at a triangle decides three things by one number, the z component N of its normal in
 // doubles. With all coordinates within D of each other, u = 2^-53:

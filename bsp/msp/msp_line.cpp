@@ -32,7 +32,7 @@
 // the plane or crosses it (no face of the plane goes on behind it), and an odd number that touch
 // from above. Others change nothing: what is on one side is on the other. Lines are chosen by
 // polygons that lie in the plane or cross it, as long as there are any; if there are none, no face
-// in the plane ends in the region, so it covers all of it or nothing, and it is known which.
+// in the plane ends in the region, so it contains all of it or nothing, as decided before.
 //
 // A part of the region on which no segment is left is all alike, and what it is was seen from the
 // line that cut it off. This is the rule of Thibault and Naylor (1987) for the empty side of a
@@ -174,7 +174,7 @@ std::size_t MspLine::place_of(PointIndex p) const {
     return static_cast<std::size_t>(at - places_.begin());
 }
 
-// Segment by segment; intervals that several of them cover are looked at with all.
+// Segment by segment; intervals that several of them share are looked at with all.
 void MspLine::cover(const LineContents& contents) {
     struct Event {
         std::size_t place;

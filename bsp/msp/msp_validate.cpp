@@ -271,7 +271,7 @@ private:
         return true;
     }
 
-    /// A plane across an axis, within 2^-bits (or less, far out) of a coordinate.
+    /// An axis-perpendicular plane, within 2^-bits (or less, far out) of a coordinate.
     static Plane plane_near(int axis, double coordinate, int bits) {
         const int room = 61 - std::max(0, std::ilogb(std::fabs(coordinate) + 1));
         const int used = std::min(bits, room);

@@ -77,7 +77,7 @@ void count_fragments(std::vector<const Fragment*>& fragments, CellTreeStats& sta
 
 // --- boxes -------------------------------------------------------------------------------------
 
-/// A closed interval of wall positions.
+/// A closed interval of splitting plane positions.
 struct Interval {
     std::int64_t lower = 0;
     std::int64_t upper = 0;

@@ -32,7 +32,7 @@ public:
     [[nodiscard]] std::string_view bytes() const noexcept { return bytes_; }
     [[nodiscard]] const ReadLimits& limits() const noexcept { return limits_; }
     [[nodiscard]] char line_end() const noexcept { return line_end_; }
-    /// Whether readers may take their quick ways. The result is the same; tests compare.
+    /// Whether readers may take their fast paths. The result is the same; tests compare.
     [[nodiscard]] bool allows_quick() const noexcept { return quick_; }
     [[nodiscard]] InputText carefully() const {
         InputText copy = *this;

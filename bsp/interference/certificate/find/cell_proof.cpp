@@ -2,9 +2,9 @@
 //
 // A binary partition of space (Fuchs, Kedem and Naylor 1980) used as a proof. Open cells and the
 // planes between them fill space, so what holds for open sets in every cell holds everywhere. Where
-// many pieces are left, planes across the axes part them; few are parted by the planes of pieces,
-// each of which takes its own piece out of both sides. That ends, because every piece lies in one
-// of finitely many planes; planes that split little and keep A's pieces from B's come first.
+// many pieces are left, axis-perpendicular planes part them; few are parted by the planes of
+// pieces, each of which takes its own piece out of both sides. That ends, because every piece lies
+// in one of finitely many planes; planes that split little and keep A's pieces from B's come first.
 //
 // Every cell has a point: a cell is divided by a plane that has points of the cell on both sides,
 // and a point of each side is made of the cell's point and of the middle of a piece, which is in
