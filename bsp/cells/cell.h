@@ -54,7 +54,7 @@ struct Box {
     friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Wall positions and reference points count in 1/256 of the lattice unit.
+/// Positions of splitting planes and reference points count in 1/256 of the lattice unit.
 inline constexpr int wall_bits = 8;
 inline constexpr std::int64_t wall_scale = std::int64_t{1} << wall_bits;
 /// Beyond every lattice point.

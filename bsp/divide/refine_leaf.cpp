@@ -229,7 +229,7 @@ std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level
     const auto mark = arena_.mark();
     const auto halves = divided(list, *cut);
     std::shared_ptr<const CellNode> node;
-    // Both halves nearly as large as the whole: a splitting plane that parts nothing.
+    // Both halves nearly as large as the whole: a splitting plane that separates nothing.
     const std::size_t most = list.size() - list.size() / 16;
     if (halves && ((*halves)[0].size() <= most || (*halves)[1].size() <= most)) {
         const std::int64_t wall = (*halves)[0].cell.hi[cut->axis];

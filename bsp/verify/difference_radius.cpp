@@ -155,8 +155,8 @@ public:
 
     /// Along an edge of the surface: the one beyond which the component goes on if it is known, or
     /// of all edges between two triangles that vertices of the component are nearest to, the one
-    /// that parts it best; or else beside the triangle that the component is nearest to. Nothing
-    /// when no such plane leaves more than `margin` on both sides.
+    /// that separates it best; or else beside the triangle that the component is nearest to.
+    /// Nothing when no such plane leaves more than `margin` on both sides.
     [[nodiscard]] std::optional<Plane> along(const GridTriangles& surface, const Closeness& close,
                                              double margin) const {
         const std::vector<std::uint32_t> triangles = triangles_at(surface, close);

@@ -127,8 +127,8 @@ private:
     std::vector<ObbId> up_in_b_;
 
     std::vector<Visit> visits_;
-    // Of visits: planes that part the lanes that are not open, which stay where they are while B
-    // moves. Of a pair of triangles the first direction alone, in doubles.
+    // Of visits: planes that separate the lanes that are not open, which stay where they are while
+    // B moves. Of a pair of triangles the first direction alone, in doubles.
     std::vector<PartingPlanes> planes_;
     std::vector<std::uint32_t> unused_;
     DueList due_;                        // of visits

@@ -2,7 +2,7 @@
 //
 // A binary partition of space (Fuchs, Kedem and Naylor 1980) used as a proof. Open cells and the
 // planes between them fill space, so what holds for open sets in every cell holds everywhere. Where
-// many pieces are left, axis-perpendicular planes part them; few are parted by the planes of
+// many pieces are left, axis-perpendicular planes separate them; few are separated by the planes of
 // pieces, each of which takes its own piece out of both sides. That ends, because every piece lies
 // in one of finitely many planes; planes that split little and keep A's pieces from B's come first.
 //
