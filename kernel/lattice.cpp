@@ -219,7 +219,7 @@ public:
 
     /// Rounds up to block_size points, of which the first one has this index.
     void round(Coordinates points, std::size_t index, LatticePoint* out) {
-        // Products with less may underflow, to a zero that nobody would notice.
+        // Products with less may underflow, to an unnoticed zero.
         const bool is_product_exact = factor_ >= 1;
         if (is_product_exact && round_block(points, factor_, out).is_exact) return;
         for (const auto& p : points) *out++ = (*this)(p, index++);

@@ -98,8 +98,8 @@ Bounds rough_bounds(const System& s) {
     return {relative_bound * (p * q * r), {x, x, x}};
 }
 
-// Product by product. On planes across an axis most are 0, and a coordinate that is 0 must be known
-// exactly to be rounded.
+// Product by product. On axis-perpendicular planes most are 0, and a coordinate that is 0 must be
+// known exactly to be rounded.
 Bounds sharp_bounds(const System& s) {
     Bounds out;
     for (std::size_t k = 0; k < 3; ++k) {

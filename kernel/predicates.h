@@ -60,7 +60,7 @@ struct Approximation {
 /// Side of a homogeneous point (exact stage only).
 [[nodiscard]] Side side_of(const HomogeneousPoint& point, const Plane& plane);
 
-/// The filtered stage alone: the side, or nothing when doubles cannot tell. Never answers On.
+/// The filtered stage alone: the side, or nothing when doubles cannot decide. Never answers On.
 [[nodiscard]] inline std::optional<Side> filtered_side(const Approximation& a, const Plane& plane);
 
 /// Order of two points along a coordinate axis.

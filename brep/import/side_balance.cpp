@@ -6,11 +6,11 @@
 //
 // A triangle (a, b, c) has a side that leaves a for b, and one that comes to a from c. Sides cancel
 // when at every vertex those that leave and those that come have the same other ends, as multisets.
-// So a corner writes down its two neighbours, and nobody asks which end of a side is the lower one:
-// that is as good as random, and what costs is a branch on it. What a vertex has fills one cache
-// line, and all its ends are compared with each other at once, without a branch. Corners that find
-// their line full wait in a list; they, and vertices that meet the same end twice, are counted in a
-// table over all points.
+// So a corner writes down its two neighbours, and the lower end of a side need not be found: that
+// is as good as random, and what costs is a branch on it. What a vertex has fills one cache line,
+// and all its ends are compared with each other at once, without a branch. Corners that find their
+// line full wait in a list; they, and vertices that meet the same end twice, are counted in a table
+// over all points.
 //
 // Measured on meshes of 100k triangles: 0.55 ms; writing sides at their lower ends, in rooms whose
 // sizes a first pass counts, 0.85 ms; EdgeTable with its sorted lists 3 ms, a chain of open sides

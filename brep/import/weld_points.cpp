@@ -2,7 +2,7 @@
 //
 // An open-addressing table of 32-bit indices, at most half full, is the cheapest way to find equal
 // points: one cache line a point. These lines are spread over the whole table, so a block of points
-// is hashed and its lines are asked for before the first of them is needed.
+// is hashed and its lines are prefetched before the first of them is needed.
 //
 // The hash is fixed (results must not depend on a run), so an input can be made whose points all
 // collide; the total number of probes is therefore bounded and beyond it the points are sorted
@@ -69,7 +69,7 @@ private:
         while (table_[slot] != none) {
             if (points_[table_[slot]] == points_[index]) return table_[slot];
             slot = (slot + 1) & mask;
-            if (--probes_left_ < 0) return index;  // nobody looks at the result
+            if (--probes_left_ < 0) return index;  // the result is not used
         }
         table_[slot] = index;
         ++distinct_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes cannot tell the triangles of a large flat face apart: in a fan of needles every box meets a
-// fixed share of all others, so a search for pairs is quadratic. But nobody needs to compare them.
+// Boxes cannot distinguish the triangles of a large flat face: in a fan of needles every box meets
+// a fixed share of all others, so a search for pairs is quadratic. But they need not be compared.
 //
 // A sheet is a set of triangles, hung together over edges, whose normals are positive along one
 // axis (or negative along it). Projected along that axis it covers a point as often as its boundary
@@ -41,7 +41,7 @@ using Signs = std::array<int, 3>;
 
 // Smaller ones are compared faster than proved.
 constexpr std::uint32_t least_sheet = 16;
-// A vertex of so many triangles asks for one axis around it.
+// A vertex of so many triangles needs one axis around it.
 constexpr std::uint32_t hub_degree = 64;
 
 struct Normal {

@@ -5,7 +5,7 @@
 // edge crosses the other plane: a point named by three planes (the triangle's, the other one's, and
 // one through the edge). Comparing such points along the line is exact, so "touches in a point",
 // "shares a stretch of an edge" and "passes through" are three different answers, which a version
-// with rounded intervals cannot tell apart; and they are what matters in meshes whose neighbours
+// with rounded intervals cannot separate; and they are what matters in meshes whose neighbours
 // touch everywhere.
 //
 // Before any of this, signs decide nearly all pairs: a line through an edge that separates the

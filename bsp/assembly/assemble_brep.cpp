@@ -10,7 +10,7 @@
 //   pairing  (brep/brep_builder.h)  opposite halfedges; where four or more faces meet at an edge
 //                                   their exact radial order and the inside decide
 //
-// Every exact question is asked inside one cell, on one line or in one plane; what is global is
+// Every exact sign is computed inside one cell, on one line or in one plane; what is global is
 // sorting and hashing. Welding by float distance, the usual way, loses faces or invents them as
 // soon as two different vertices round to the same place.
 

@@ -258,7 +258,7 @@ private:
     }
 
     // Groups [begin, end) of a source, before which so many facets that pass through are written.
-    // What the loop needs is kept by value: numbers that it writes may be anybody's.
+    // What the loop needs is kept by value: numbers that it writes may alias others.
     void write_part(std::size_t t, std::size_t begin, std::size_t end, std::size_t whole_before) {
         auto next = worked_from(t, 8 * begin);
         const auto last = worked_from(t, 8 * end);
@@ -302,7 +302,8 @@ private:
             });
     }
 
-    // A facet may have been touched in vain; then nothing may tell it from one that was not.
+    // A facet may have been touched in vain; then the result must not differ from that of one that
+    // was not.
     bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
         return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
                    if (!bench_.is_corner(p)) return false;

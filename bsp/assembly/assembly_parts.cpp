@@ -72,7 +72,7 @@ public:
           axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
-    /// False when pieces are needed that nobody has made: of OutlinedSolid::cut().
+    /// False when pieces are needed that were not made: of OutlinedSolid::cut().
     [[nodiscard]] bool run() {
         list_leaves(*solid_.root.node, solid_.root.complemented, Cell{});
         for (const Leaf& leaf : leaves_) {
@@ -148,7 +148,7 @@ private:
     std::vector<Leaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
-    // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
+    // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
     std::vector<BoundaryEdge> edges_;
     AxisFaces axis_faces_;
     std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
@@ -297,7 +297,7 @@ void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::siz
 }
 
 // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
-// for each of them. So they are asked for well before.
+// for each of them. So they are prefetched well before.
 template <bool Shared>
 void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
@@ -525,7 +525,7 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
 }
 
 // A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
-// around the corner know it by the corner's name only, so that name must take part in merging.
+// around the corner have the corner's name only, so that name must take part in merging.
 void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRef& ref) {
     if (ref.source->is_half_space()) return;
     std::array<std::array<double, 3>, 3> corners;
@@ -573,7 +573,7 @@ void Gatherer::make_axis_faces() {
 // Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
-    // Few groups ask for the same planes as others.
+    // Few groups need the same planes as others.
     constexpr std::size_t many_planes = 8192;
     Workbench& bench = out_.bench;
     same_.resize(bench.point_count());
@@ -631,8 +631,8 @@ bool Gatherer::is_same(PointId value, PointId name) {
     });
 }
 
-// Edges of traced facets, which come first, and of planes across axes, which come last, have all
-// their vertices.
+// Edges of traced facets, which come first, and of axis-perpendicular planes, which come last, have
+// all their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (axis_faces_.takes_all()) {
         out_.edges = std::move(edges_);

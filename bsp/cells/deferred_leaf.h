@@ -15,9 +15,9 @@
 
 namespace trisect::detail {
 
-/// What a leaf of imported meshes needs to cut its facets when the first one asks for its polygons:
-/// a later operation there, a query. It is one in general position, or one across axes. Who writes
-/// the result as a mesh does not ask (traced_facets.h, axis_faces.h). Immutable.
+/// What a leaf of imported meshes needs to cut its facets on the first use of its polygons: a later
+/// operation there, a query. It is one in general position, or an axis-perpendicular one. A mesh of
+/// the result does not need them (traced_facets.h, axis_faces.h). Immutable.
 class DeferredLeaf {
 public:
     struct Operand {
@@ -34,7 +34,7 @@ public:
     EvaluateOptions::Winding rule = EvaluateOptions::Winding::Positive;
     /// Of a leaf in general position: those of its polygons that nothing crosses in the cell.
     PolygonList uncrossed;
-    /// Of a leaf across axes; else null.
+    /// Of an axis-perpendicular leaf; else null.
     std::unique_ptr<const AxisPicture> picture;
 
     /// The leaf's polygons, as an evaluation that does not defer would have listed them.

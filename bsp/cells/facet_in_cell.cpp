@@ -41,7 +41,8 @@ struct Pair {
 };
 
 // Does the cross product of edge i and axis k separate? Its coordinates are those of the edge
-// across the axis, turned by a quarter. The two ends of the edge have the same projection.
+// perpendicular to the axis, turned by a quarter. The two ends of the edge have the same
+// projection.
 bool edge_separates(const Pair& p, std::size_t i, std::size_t k, double margin) {
     const std::size_t l = (k + 1) % 3;
     const std::size_t m = (k + 2) % 3;

@@ -41,9 +41,9 @@ public:
     [[nodiscard]] const NamedOutlines& outlines() const { return outlines_; }
     /// Of each operand; the tree has none of them.
     [[nodiscard]] std::span<const UncrossedFacets> uncrossed() const { return uncrossed_; }
-    /// The same set with a tree as evaluate_formula() makes it, when it is first asked for. Whoever
-    /// asks meanwhile waits. \throw CancelledError by the StopScope of the thread that cuts;
-    /// nothing is kept then
+    /// The same set with a tree as evaluate_formula() makes it, on first use. Other callers wait
+    /// meanwhile. \throw CancelledError by the StopScope of the thread that cuts; nothing is kept
+    /// then
     [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
     [[nodiscard]] bool is_cut() const;
 
@@ -57,7 +57,7 @@ private:
     mutable std::shared_ptr<const SolidState> cut_;
 };
 
-/// What everybody takes but those who only write triangles.
+/// For all users but those that only write triangles.
 [[nodiscard]] inline const std::shared_ptr<const SolidState>& cut_state(const Solid& solid) {
     const auto& state = solid.state();
     return state->outlined != nullptr ? state->outlined->cut() : state;

@@ -35,7 +35,7 @@ struct SolidState {
     /// result in turn.
     std::shared_ptr<const Crossings> crossings;
     /// Of a result that has not been cut; else null. Then the tree lists only facets that are
-    /// whole, or nothing, and who wants more than to_mesh() takes OutlinedSolid::cut() instead of
+    /// whole, or nothing, and users of more than to_mesh() take OutlinedSolid::cut() instead of
     /// this.
     std::shared_ptr<const OutlinedSolid> outlined;
     /// Whether the set contains what is far away: 0 or 1; -1 where that depends on the direction,

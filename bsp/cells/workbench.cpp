@@ -117,7 +117,7 @@ std::uint64_t Workbench::line_of_edge(std::uint64_t owner, std::uint32_t v, std:
 }
 
 // What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
-// source, which both of its facets know.
+// source, which both of its facets share.
 std::uint64_t Workbench::line_item(PlaneId p) {
     PlaneRecord& r = planes_[u(p)];
     const PlaneName& n = r.name;
@@ -387,7 +387,7 @@ void Workbench::split(const WorkPolygon& polygon, PlaneId plane, const Sides& si
         if (here < 0) add(below, p, e);
         if (here > 0) add(above, p, e);
         if (here == 0) {
-            // The next strict side tells which part continues along e; the other turns into the
+            // The next strict side decides which part continues along e; the other turns into the
             // cut.
             if (next < 0) {
                 add(below, p, e);
@@ -422,8 +422,8 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, PlaneId plane, int keep) {
 }
 
 WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
-    // Seen along the dominant axis k the other two axes j, l span the plane, and the walls of the
-    // cell across them cut out a quadrilateral.
+    // Seen along the dominant axis k the other two axes j, l span the plane, and the bounding
+    // planes of the cell across them cut out a quadrilateral.
     const Plane& s = plane_at(support);
     const int k = s.dominant_axis();
     const int j = (k + 1) % 3;
@@ -441,7 +441,7 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
     return w;
 }
 
-// Whether the polygon has an edge on a wall, and so lies on one side of it.
+// Whether the polygon has an edge on a splitting plane, and so lies on one side of it.
 bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
                               bool above) const {
     const PlaneName n = PlaneName::wall(axis, wall);
@@ -453,7 +453,8 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& 
     WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : std::move(polygon);
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        // Boxes are rounded outwards, so those of parts that end at a wall reach beyond it.
+        // Boxes are rounded outwards, so those of parts that end at a splitting plane reach beyond
+        // it.
         if (box.lo[k] <= (cell.lo[k] >> wall_bits) && !is_bounded_by(w, axis, cell.lo[k], true))
             w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;

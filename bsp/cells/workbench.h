@@ -4,7 +4,7 @@
 //
 // Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
 // planes found to be the same point set share a class. Points are corners of sources or triples of
-// planes. A workbench belongs to one thread: planes are made when something asks for them.
+// planes. A workbench belongs to one thread: planes are made on demand.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ public:
     void clear();
 
     PlaneId plane(const PlaneName& name);
-    /// Made when it is first asked for: of most names only the name is ever used.
+    /// Made on first use: of most names only the name is ever used.
     [[nodiscard]] const Plane& plane_at(PlaneId id) const {
         const std::int32_t at = planes_[u(id)].place;
         return at >= 0 ? made_.at(at) : make_plane(id);
@@ -108,15 +108,15 @@ public:
     [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
     void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
     /// Of a fragment: where the lines of two of its edges meet, `at` being the doubles of that
-    /// vertex. Edges on planes of the fragment's own facet are told by their names.
+    /// vertex. Edges on planes of the fragment's own facet are found by their names.
     PointId vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
                    const Approximation& at);
     /// Room for so many planes and points without growing on the way.
     void reserve(std::size_t planes, std::size_t points);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
-    /// Gives back the planes that were made so far; they are made again where they are asked for.
-    /// Ends references to them.
+    /// Gives back the planes that were made so far; they are made again on demand. Ends references
+    /// to them.
     void forget_made_planes();
     [[nodiscard]] std::size_t made_plane_count() const { return made_.count(); }
 

@@ -19,9 +19,9 @@
 // the right continuation is the first one clockwise from the piece that we came by, because the
 // region is between the two. Loops chained like that never leave their region, so each region has
 // one outer loop, which holds its smallest vertex, and its other loops are holes: no hole is ever
-// assigned by asking which polygon contains which point. At last, vertices are dropped where all
-// loops pass straight along one line. Whether that is so is combinatorial as well: all passages
-// have the same two neighbours.
+// assigned by containment of points in polygons. At last, vertices are dropped where all loops pass
+// straight along one line. Whether that is so is combinatorial as well: all passages have the same
+// two neighbours.
 //
 // It is slow (edges are compared with all vertices in their range), on purpose: it is there to
 // agree with the fast assembly, not to replace it.

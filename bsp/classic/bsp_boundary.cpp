@@ -10,8 +10,8 @@
 //
 // The naive way keeps the polygons that the tree was built from in its nodes and filters those. It
 // fails after the first boolean: parts of a face vanish, the plane of one operand's face bounds the
-// other operand's material, coincident faces cancel. The sections know nothing of faces and
-// therefore cannot be wrong about them.
+// other operand's material, coincident faces cancel. The sections have no faces and therefore
+// cannot be wrong about them.
 //
 // Going down, a piece lies in the border of each cell that it meets. A node's plane cannot hold it,
 // because it would not cut its cell then; so the piece is cut, or is with its whole area on one

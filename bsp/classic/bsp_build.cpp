@@ -10,11 +10,11 @@
 // Which of the two? The well-known rule says: nothing below, inside; nothing above, outside. It
 // holds because the plane was chosen from a polygon with area inside this very cell. The empty part
 // below is one connected cell that does not meet the boundary and that touches that polygon from
-// below, which is the solid's side; likewise above. Planes from elsewhere (walls that balance the
-// tree, planes of faces that do not reach into the cell) break the rule silently: their empty sides
-// would have to ask a neighbour. A coplanar face of the opposite orientation in the same cell does
-// no harm: just below the plane the solid is inside at the chosen face and outside at the other
-// one, so something separates the two places and the part below is not empty.
+// below, which is the solid's side; likewise above. Planes from elsewhere (splitting planes that
+// balance the tree, planes of faces that do not reach into the cell) break the rule silently: their
+// empty sides would need a neighbour. A coplanar face of the opposite orientation in the same cell
+// does no harm: just below the plane the solid is inside at the chosen face and outside at the
+// other one, so something separates the two places and the part below is not empty.
 //
 // The choice also makes every plane cut its cell, without a test: a polygon on the border of the
 // cell would lie on an ancestor's plane and would have stayed there.

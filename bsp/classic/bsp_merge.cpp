@@ -7,10 +7,10 @@
 // tree into what it is below and above H, and merge the halves with the two children. The first
 // tree is walked once; the second one is cut up along the way.
 //
-// Partitioning a tree by H is the heart. At a node with plane P the naive way asks on which side of
-// H the *plane* P lies, which is nonsense unless they are parallel; what counts is what both planes
-// do within the cell of the node. So every node carries the section of its plane by its cell
-// (bsp_sections.h), and H is carried along as the section h of the same cell:
+// Partitioning a tree by H is the heart. At a node with plane P the naive way computes on which
+// side of H the *plane* P lies, which is nonsense unless they are parallel; what counts is what
+// both planes do within the cell of the node. So every node carries the section of its plane by its
+// cell (bsp_sections.h), and H is carried along as the section h of the same cell:
 //
 //     h lies in P           the children are the halves, swapped if the orientations differ;
 //     P cuts h              H cuts the section p as well: both halves get a node with plane P, and

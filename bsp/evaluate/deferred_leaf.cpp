@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Evaluation must know which facets cross and what the others are worth; where facets are cut only
+// Evaluation needs the facets that cross and what the others are worth; where facets are cut only
 // later operations in the same cell and queries care. Of a single operation all cutting would be in
 // vain. A deferred leaf starts from the beginning, which takes no longer than the cutting itself.
 

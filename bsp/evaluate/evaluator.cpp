@@ -5,19 +5,19 @@
 //   1. operands without boundary in the cell are constant there: replace them by their value;
 //   2. nothing left: a homogeneous cell. One operand left: share its subtree or its complement;
 //   3. few polygons: a leaf arrangement (leaf_arrangement.cpp) decides which bound the result;
-//   4. otherwise cut the cell. Where an operand already has a tree its wall is taken, so that its
-//      subtrees can be shared. A large leaf beside small ones is refined by itself, for everybody
-//      who uses it. Else the wall that soonest parts the operands.
+//   4. otherwise cut the cell. Where an operand already has a tree its plane is taken, so that its
+//      subtrees can be shared. A large leaf beside small ones is refined by itself, for all
+//      its users. Else the splitting plane that separates the operands soonest.
 //
 // The idea is EMBER's (Trettner, Nehring-Wirxel, Kobbelt 2022); keeping the cells, so that the next
 // operation finds them, is Nehring-Wirxel, Trettner, Kobbelt 2021. Two things matter more than
-// arithmetic. Walls lie off the lattice, so nothing is listed twice because its box ends at a wall.
-// And every cell knows a reference point with all winding numbers, so that classification never
-// leaves the cell.
+// arithmetic. Splitting planes lie off the lattice, so nothing is listed twice because its box ends
+// at a splitting plane. And every cell has a reference point with all winding numbers, so that
+// classification never leaves the cell.
 //
-// Cells are independent, so the two sides of a wall may be solved by two threads. Results are put
-// together by their position in the tree and not by their time, and nothing that a thread keeps
-// between cells decides anything; so the tree is the same for any number of threads.
+// Cells are independent, so the two sides of a splitting plane may be solved by two threads.
+// Results are put together by their position in the tree and not by their time, and nothing that a
+// thread keeps between cells decides anything; so the tree is the same for any number of threads.
 
 #include <trisect/bsp/evaluate/evaluator.h>
 
@@ -61,7 +61,7 @@ namespace {
 
 // Cells with fewer polygons are not worth a task of their own.
 constexpr std::uint64_t parallel_size = 4096;
-// Leaves may be so many times as large where all polygons are across an axis.
+// Leaves may be so many times as large where all polygons are axis-perpendicular.
 constexpr std::uint64_t axis_leaf_factor = 8;
 // Or where operands are small: where at least such a part of all their facets is in the cell.
 constexpr std::uint64_t small_operands_factor = 8;
@@ -162,7 +162,7 @@ void Worker::prune(CellTask& task) {
         any = true;
     }
     if (any) drop(task);
-    // What is left may cover itself.
+    // What is left may overlap itself.
     if (task.operands.size() > 2 && find_covered(task, values_, incomplete_)) drop(task);
 }
 
@@ -255,7 +255,7 @@ bool ends_pass(const CellOperand& o, const Test& test) {
     return test(polygons[0]) && test(polygons[polygons.size() - 1]);
 }
 
-// Where everything is across an axis, leaves may be larger.
+// Where everything is axis-perpendicular, leaves may be larger.
 std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
     const auto is_across_axis = [](const CellOperand& o) {
         return ends_pass(o, [](const PolygonRef& r) { return AxisPolygon().read(r); });
@@ -265,8 +265,8 @@ std::optional<CellRef> Worker::resolve_across_axes(CellTask& task) {
         task, [&](const LeafProblem& p) { return arranger_->arrange_across_axes(p, stats_); });
 }
 
-// Where operands are prisms along one axis: then a facet is across that axis or a right triangle
-// along it.
+// Where operands are prisms along one axis: then a facet is perpendicular to that axis or a right
+// triangle along it.
 std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
     if (task.operands.size() < 2) return std::nullopt;
     const auto may_be_prism = [&](const CellOperand& o) {
@@ -279,9 +279,9 @@ std::optional<CellRef> Worker::resolve_prisms(CellTask& task) {
                       [&](const LeafProblem& p) { return arranger_->arrange_prisms(p, stats_); });
 }
 
-// A wall pays where an operand is all on one side of it, and most where it covers the other side.
-// Small operands do not cover much, and walls cut most of their facets, so that these are listed
-// and compared again and again.
+// A splitting plane pays where an operand is all on one side of it, and most where it contains the
+// other side. Small operands contain little, and splitting planes cut most of their facets, so that
+// these are listed and compared again and again.
 std::optional<CellRef> Worker::resolve_small_operands(CellTask& task) {
     if (shared_.crossings == nullptr || task.operands.size() < 3) return std::nullopt;
     std::uint64_t all = 0;
@@ -464,15 +464,17 @@ CellRef Worker::divide(CellTask& task) {
     }
     if (!wall) return resolve(task);
     Children children = children_of(task, *wall);
-    // Pairs are what a leaf costs. A wall that leaves most of them on its sides was not worth it,
-    // and after a few such walls none will be: long thin facets cross all of them. Where many
-    // facets meet in a corner, though, walls around the corner cut off small cells at little cost.
+    // Pairs are what a leaf costs. A splitting plane that leaves most of them on its sides was not
+    // worth it, and after a few such splitting planes none will be: long thin facets cross all of
+    // them. Where many facets meet in a corner, though, splitting planes around the corner cut off
+    // small cells at little cost.
     const auto total = static_cast<double>(task.size());
     const auto first = static_cast<double>(children[0].size());
     const auto second = static_cast<double>(children[1].size());
     const double pairs = first * first + second * second;
     const bool worth_it = pairs < (total < 4000 ? 0.8 : 1.6) * total * total;
-    // Walls that make more pairs than there were never pay: a pair costs a few nanoseconds.
+    // Splitting planes that make more pairs than there were never pay: a pair costs a few
+    // nanoseconds.
     const bool makes_pairs = pairs > 1.05 * total * total;
     const int price = makes_pairs ? 12 : (std::min(first, second) > 0.5 * total ? 4 : 1);
     for (CellTask& c : children) c.stalled = worth_it ? 0 : task.stalled + price;
@@ -503,7 +505,7 @@ std::optional<CellRef> unchanged(const CellTask& task, const std::array<CellRef,
     return std::nullopt;
 }
 
-// What a cell is, when the two sides of its wall are known.
+// What a cell is, when the two sides of its splitting plane are known.
 CellRef merged(const CellTask& task, const Wall& wall, std::array<CellRef, 2> results) {
     if (auto node = unchanged(task, results)) return *std::move(node);
     if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&

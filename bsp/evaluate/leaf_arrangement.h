@@ -27,7 +27,7 @@ struct LeafResult {
     std::vector<FacetName> incomplete;  ///< facets that lost a part to a coincident facet
     /// So many facets that something crosses were left out.
     std::size_t deferred = 0;
-    /// Of a leaf across axes whose facets are still to be cut: then `polygons` is empty.
+    /// Of an axis-perpendicular leaf whose facets are still to be cut: then `polygons` is empty.
     std::unique_ptr<const AxisPicture> picture = nullptr;
 };
 
@@ -47,7 +47,8 @@ public:
     /// From now on the crossings of leaves are collected, and facets that something crosses are
     /// left out where that is possible. `operands` are those of the formula, by slot.
     void collect_crossings(std::span<const Crossings::Operand> operands);
-    /// From now on leaves across axes that would cut facets of imported meshes are pictured.
+    /// From now on axis-perpendicular leaves that would cut facets of imported meshes become
+    /// occupancy grids.
     void make_pictures();
     /// A facet of an operand may cross others where no leaf compares them.
     void note_doubtful(std::int32_t slot, std::uint32_t facet);
@@ -59,14 +60,14 @@ public:
     void forget();
     /// What was collected so far; unordered, and pairs may be there several times.
     [[nodiscard]] const Crossings& crossings() const;
-    /// The same when all polygons are across an axis and the leaf is not too large for that; else
-    /// nothing. Such leaves may be much larger than others.
+    /// The same when all polygons are axis-perpendicular and the leaf is not too large for that;
+    /// else nothing. Such leaves may be much larger than others.
     [[nodiscard]] std::optional<LeafResult> arrange_across_axes(const LeafProblem& problem,
                                                                 EvaluateStats& stats);
     /// The same when all operands are prisms along one axis, whole within the cell; else nothing.
     [[nodiscard]] std::optional<LeafResult> arrange_prisms(const LeafProblem& problem,
                                                            EvaluateStats& stats);
-    /// The same in general position, where doubles tell all; else nothing.
+    /// The same in general position, where doubles decide all; else nothing.
     [[nodiscard]] std::optional<LeafResult> arrange_plain(const LeafProblem& problem,
                                                           EvaluateStats& stats);
 

@@ -2,8 +2,8 @@
 //
 // A tree divides what it lists into convex pieces. Whoever writes a result to a file needs none of
 // them, and for a plate with thousands of holes in one face making them takes ten times as long as
-// finding out where the holes are. So they are made when someone asks who does need them: a query,
-// a B-rep, the next operation.
+// finding out where the holes are. So they are made on demand of those that need them: a query, a
+// B-rep, the next operation.
 
 #include <trisect/bsp/cells/outlined_solid.h>
 

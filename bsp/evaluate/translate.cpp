@@ -51,8 +51,8 @@ std::uint64_t key_of(const Source& mesh) {
 
 // Iterative, and nested operators of one kind are joined as they are met: a chain of a hundred
 // thousand differences is one conjunction, made in linear time. Nodes with several parents are
-// translated once and stay nodes with several parents; to find them, only those that somebody else
-// holds as well have to be counted.
+// translated once and stay nodes with several parents; to find them, only those with other owners
+// have to be counted.
 class Translator {
 public:
     Translation translate(const Expression& expression) {

@@ -25,7 +25,7 @@ struct LeafItem {
     bool contained = false;         ///< lies in the cell
     bool cut = false;               ///< another one runs through its interior
     bool covered = false;           ///< another one in its plane shares interior with it
-    WorkPolygon shape;              ///< unclipped; made when asked for
+    WorkPolygon shape;              ///< unclipped; made on demand
 
     [[nodiscard]] bool is_whole() const { return !cut && !covered; }
 };
@@ -44,7 +44,7 @@ struct LeafPiece {
     /// How winding numbers change across, as an index into `steps`; -1 when only the item's own
     /// operand changes.
     LeafIndex step = -1;
-    bool dropped = false;  ///< a coincident piece speaks for it
+    bool dropped = false;  ///< a coincident piece represents it
     WorkPolygon shape;
 };
 

@@ -250,7 +250,7 @@ private:
 
     const Brep& brep_;
     MspSoup soup_;
-    std::vector<PlaneIndex> edge_planes_;  // of edges between coplanar faces, when asked for
+    std::vector<PlaneIndex> edge_planes_;  // of edges between coplanar faces, on demand
     std::array<std::unordered_map<std::int64_t, PlaneIndex>, 3> by_coordinate_;
 };
 

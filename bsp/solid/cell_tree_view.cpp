@@ -77,7 +77,7 @@ void count_fragments(std::vector<const Fragment*>& fragments, CellTreeStats& sta
 
 // --- boxes -------------------------------------------------------------------------------------
 
-/// A closed interval of wall positions.
+/// A closed interval of splitting plane positions.
 struct Interval {
     std::int64_t lower = 0;
     std::int64_t upper = 0;
@@ -100,7 +100,7 @@ Interval interval_of(double lower, double upper, Lattice lattice) {
 }
 
 /// A slice may lie between two positions; then `lower` is above `upper` by one and both comparisons
-/// still tell the side on which it is.
+/// still show the side on which it is.
 bool meets_below(const Interval& box, std::int64_t wall) { return box.lower <= wall; }
 bool meets_above(const Interval& box, std::int64_t wall) { return box.upper >= wall; }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Most facets of two large meshes do not come near the other mesh. To send them all down a tree
-// takes half of an evaluation, and only who asks about points, or goes on with the result, needs
-// that tree. For a mesh of the result it is enough to know which facets cross, and on which side of
-// the other mesh the others are.
+// takes half of an evaluation, and only queries of points, or later operations, need that tree. For
+// a mesh of the result it is enough to find which facets cross, and on which side of the other mesh
+// the others are.
 //
-// 1. A grid of a few thousand cubes tells which facets share a cube with the other mesh
+// 1. A grid of a few thousand cubes shows which facets share a cube with the other mesh
 //    (cube_grid.h): some of ten.
-// 2. These alone are divided, down to cells with few of them, and compared there. Nobody asks for
-//    winding numbers, so what does not meet the box of the other mesh's facets is left out.
+// 2. These alone are divided, down to cells with few of them, and compared there. Winding numbers
+//    are not needed, so what does not meet the box of the other mesh's facets is left out.
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
 // Any doubt ends the attempt: then the whole is evaluated as all else.
@@ -60,7 +60,7 @@ struct Search {
     const Crossings& operands;  // without pairs
     MemoryBudget& memory;
     bool parallel = false;
-    std::atomic<bool> in_doubt{false};  // nobody needs to go on
+    std::atomic<bool> in_doubt{false};  // all may stop
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
@@ -73,7 +73,7 @@ public:
         crossings_.operands = search.operands.operands;
     }
 
-    /// False when doubles cannot tell about some pair.
+    /// False when doubles cannot decide some pair.
     [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
         CellTask task;
         Box all;
@@ -294,7 +294,7 @@ struct TwoMeshes {
     }
 };
 
-// All pairs of facets that cross, arranged; false when doubles cannot tell about one.
+// All pairs of facets that cross, arranged; false when doubles cannot decide one.
 bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
                 MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
     Search search{options, crossings, memory, parallel};

@@ -155,8 +155,8 @@ public:
 
     /// Along an edge of the surface: the one beyond which the component goes on if it is known, or
     /// of all edges between two triangles that vertices of the component are nearest to, the one
-    /// that parts it best; or else beside the triangle that the component is nearest to. Nothing
-    /// when no such plane leaves more than `margin` on both sides.
+    /// that separates it best; or else beside the triangle that the component is nearest to.
+    /// Nothing when no such plane leaves more than `margin` on both sides.
     [[nodiscard]] std::optional<Plane> along(const GridTriangles& surface, const Closeness& close,
                                              double margin) const {
         const std::vector<std::uint32_t> triangles = triangles_at(surface, close);
@@ -189,7 +189,8 @@ public:
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-        // Multiples of 1/128: the position fits 64 bits, and walls are at odd multiples of 1/256.
+        // Multiples of 1/128: the position fits 64 bits, and splitting planes are at odd multiples
+        // of 1/256.
         constexpr int fine_bits = 7;
         const Int128 middle = (low[axis] + high[axis]) / 2;
         const auto position = static_cast<std::int64_t>(middle >> (grid_bits - fine_bits));

@@ -6,7 +6,7 @@
 // The widths of numbers that belong to two posed solids differ by a factor of twenty: a corner on a
 // lattice of 20 bits under a quarter turn, or the common point of three wide planes under a pose of
 // 400 bits. One register for all would be slow for nearly all of them, a register for each case
-// would be a hundred instances of every formula. So a number knows its length and formulas are
+// would be a hundred instances of every formula. So a number stores its length and formulas are
 // written once.
 #pragma once
 

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A plate with ten thousand pockets is a few planes. What its leaves list are convex parts of its
-// triangles, cut along walls of cells, along the lines of all tools, and by the diagonals of the
-// triangles. To give every corner of every part a name, to find the vertices that lie inside their
-// sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is about
-// places where in the end nothing is.
+// triangles, cut along bounding planes of cells, along the lines of all tools, and by the diagonals
+// of the triangles. To give every corner of every part a name, to find the vertices that lie inside
+// their sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is
+// about places where in the end nothing is.
 //
-// Where all polygons of a cell are across an axis the slanted sides of those in one plane cancel:
-// nothing else that bounds the solid there has a slanted side. The other sides lie at integers. So
-// the outline of all that a plane has is a sum of integers (axis_outline.h), over all cells
-// together, and walls vanish with the rest.
+// Where all polygons of a cell are axis-perpendicular the slanted sides of those in one plane
+// cancel: nothing else that bounds the solid there has a slanted side. The other sides lie at
+// integers. So the outline of all that a plane has is a sum of integers (axis_outline.h), over all
+// cells together, and splitting planes vanish with the rest.
 //
 // Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
 // vertex lies inside it, then the faces around change there, and so does one of those two outlines:
-// of the four quadrants around the line those that are inside can be told from the two outlines,
-// and if they are the same before and behind, no third plane has a boundary in between. So the ends
-// of all stretches on one line are all vertices on it, but for those of facets that are not taken.
+// of the four quadrants around the line the two outlines determine those that are inside, and if
+// they are the same before and behind, no third plane has a boundary in between. So the ends of all
+// intervals on one line are all vertices on it, but for those of facets that are not taken.
 //
 // Those are facets that may come out as they went in: to_mesh copies them with their corners.
 // Whether a facet has changed shows in its area, or in an outline that turns inside one of its
-// edges. In doubt its plane is left to the general way.
+// edges. In doubt its plane is left to the general path.
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
 
@@ -85,7 +85,7 @@ bool reaches_out(const PolygonRef& r, const Cell& cell) {
 }
 
 // Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
-// tell.
+// decide.
 template <class Add>
 bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t across, const Add& add) {
     if (!reaches_out(polygon, cell)) {
@@ -192,7 +192,7 @@ void AxisFaces::pass(const PolygonRef& facet) {
     sheet.has_passing = sheet.is_general = true;
 }
 
-// Its parts are in the picture's units. One that is not cut has all its area in the cell.
+// Its parts are in the occupancy grid's units. One that is not cut has all its area in the cell.
 void AxisFaces::read_facet(const PolygonRef& facet, std::int32_t number,
                            const AxisPicture::Part& part, const Cell& cell) {
     Sheet& sheet = sheet_of(facet, number);
@@ -659,7 +659,7 @@ void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryE
     }
 }
 
-// An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
+// An edge ends at splitting planes too, for which doubles suffice: the caller checks the result.
 void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) {
     const Workbench& bench = parts_.bench;
     const auto support = axis_plane(bench.name(parts_.facets[u(edge.facet)].support));

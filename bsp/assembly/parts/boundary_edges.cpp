@@ -3,8 +3,8 @@
 // A region is a 2-chain, its boundary a 1-chain: the boundary of a union of parts with disjoint
 // interiors is the sum of their directed edges, where opposite ones cancel. So joining needs no
 // geometry but the order of points on a line. A vertex matters only if some region turns there or
-// touches itself; walls of cells, lines of local cuts and the operands' own triangulation leave
-// vertices that no region turns at, and those go.
+// touches itself; bounding planes of cells, lines of local cuts and the operands' own triangulation
+// leave vertices that no region turns at, and those go.
 //
 // Most regions have a handful of edges: everything works on runs of one flat array.
 
@@ -86,8 +86,8 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
     return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
 }
 
-// Where coincident facets of two operands meet at a wall because one of them dropped out of the
-// formula beyond it, each side knows only its own vertices on the wall.
+// Where coincident facets of two operands meet at a splitting plane because one of them dropped out
+// of the formula beyond it, each side has only its own vertices on the splitting plane.
 void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     const auto on_wall = [&](const BoundaryEdge& e) {
         return parts.bench.name(e.line.plane).is_wall();

@@ -25,7 +25,7 @@ std::size_t longest_axis(const std::array<double, 3>& a, const std::array<double
     return best;
 }
 
-// The certified doubles of an edge's ends, to tell points that are clearly not on it.
+// The certified doubles of an edge's ends, to reject points that are clearly not on it.
 class EdgeFilter {
 public:
     /// `error`: of the ends and of a point together.
@@ -64,7 +64,7 @@ private:
 };
 
 // An axis along which the ends of an edge differ. Ends that are nearer to each other than doubles
-// can tell may be equal along the axis that looks longest: then an edge would never be split.
+// can decide may be equal along the axis that looks longest: then an edge would never be split.
 int separating_axis(const Workbench& bench, PointId from, PointId to) {
     const auto axis =
         static_cast<int>(longest_axis(bench.approximation(from).c, bench.approximation(to).c));

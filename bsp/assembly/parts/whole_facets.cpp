@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A B-rep with maximal faces has to ask of every pair of neighbours whether they are coplanar. For
-// facets that passed through, which are nearly all, that question needs no planes and no
-// workbench: the corner opposite to the common edge is off the plane of the other three, and
-// doubles can tell. Only facets that do join with a neighbour are turned into edges.
+// A B-rep with maximal faces has to test every pair of neighbours for coplanarity. For facets that
+// passed through, which are nearly all, that question needs no planes and no workbench: the corner
+// opposite to the common edge is off the plane of the other three, and doubles can decide. Only
+// facets that do join with a neighbour are turned into edges.
 
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 
@@ -22,7 +22,7 @@ std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::uint32_t face_of(const Source& source, std::uint32_t facet) { return source.face_of(facet); }
 
-// Whether doubles can tell that d is not on the plane of a, b, c. Differences, products and sums
+// Whether doubles can decide that d is not on the plane of a, b, c. Differences, products and sums
 // are each rounded once: below 10 · 2^-53 of the sum of all products.
 bool is_clearly_off(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                     const LatticePoint& d) {

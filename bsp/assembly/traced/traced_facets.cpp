@@ -4,12 +4,12 @@
 // segments, and these are where the result's part of the facet ends (facet_outline.cpp). So the
 // outline of that part is known without any cutting, however many operands cross the facet.
 //
-// What leaves have made of the same facet is convex pieces, cut by the walls of cells and by the
-// lines of segments far beyond their ends. To join those takes several times as long, and comes to
-// the same: every vertex of either is where an edge pierces a facet, where three facets meet, or a
-// corner.
+// What leaves have made of the same facet is convex pieces, cut by the bounding planes of cells and
+// by the lines of segments far beyond their ends. To join those takes several times as long, and
+// comes to the same: every vertex of either is where an edge pierces a facet, where three facets
+// meet, or a corner.
 //
-// A facet of which doubles cannot tell the outline is left to the pieces.
+// A facet of which doubles cannot decide the outline is left to the pieces.
 
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 
@@ -279,14 +279,14 @@ private:
     BoundaryParts& parts_;
     std::vector<BoundaryEdge>& edges_;
     std::vector<FacetMarks*> marks_;                // by operand
-    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were asked for
+    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
     std::vector<PlaneId> planes_;                   // the same by number of the facet
     // Of one facet:
     std::vector<Side> sides_;
     std::vector<OutlineSegment> segments_;
     FacetOutline outline_;
-    std::array<PointId, 3> corners_{};  // where they were asked for
+    std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
     PlaneId own_ = -1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CommonFrame: two posed lattices in one coordinate system.
-// Distances in it are those that a query asks for.
+// Distances in it are Euclidean.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ namespace trisect::hierarchies {
 
 /// Maps of the lattices of A and of B into one space, where both stand as their poses put them up
 /// to one translation and one scale. Points come in doubles with certified errors, and as integers
-/// of any size when asked for exactly. Poses may be any affine maps.
+/// of any size for exact answers. Poses may be any affine maps.
 ///
 /// Cheap to make; the integers are made when first needed. Move-only, for one thread.
 class CommonFrame {
@@ -27,7 +27,7 @@ public:
     /// Both at the origin.
     CommonFrame();
     /// Distances are those of the world, in the user's units. `reach_a`, `reach_b`: no coordinate
-    /// of a point that will be asked for is larger in magnitude (ConvexPolytope::largest).
+    /// of a point that will be used is larger in magnitude (ConvexPolytope::largest).
     CommonFrame(const Pose& pose_a, Lattice lattice_a, double reach_a, const Pose& pose_b,
                 Lattice lattice_b, double reach_b);
     /// Distances are those in the lattice of A, in its units.

@@ -13,7 +13,7 @@
 namespace trisect::hierarchies {
 
 /// Places of both bodies are integers here: x -> M x + t. A distance in this space is `scale` times
-/// the one that was asked for.
+/// the requested one.
 struct CommonFrame::Exact {
     struct Map {
         std::array<std::array<mpz_class, 3>, 3> m;

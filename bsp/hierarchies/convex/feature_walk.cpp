@@ -107,7 +107,7 @@ std::array<FeatureWalk::Place, 2> FeatureWalk::ends(const Part& edge) const {
     return {Place{edge.body, e.vertex[0]}, Place{edge.body, e.vertex[1]}};
 }
 
-// The sign of a formula over any numbers: in doubles if they can tell.
+// The sign of a formula over any numbers: in doubles if they can decide.
 template <class F>
 int FeatureWalk::sign(const F& f) const {
     if (counts_ != nullptr) ++counts_->signs;

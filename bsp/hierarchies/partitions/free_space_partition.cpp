@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // For a small body that flies through a field of obstacles, most of the time nothing is near. Held,
-// Klosowski and Mitchell fill space with tetrahedra that know the obstacles in them, and walk: from
+// Klosowski and Mitchell fill space with tetrahedra that list the obstacles in them, and walk: from
 // frame to frame the body enters a few new tetrahedra and leaves a few. What is tested is what the
 // tetrahedra that it is in have to do with; where that is nothing, the body's own triangles are not
 // even moved.

@@ -4,9 +4,9 @@
 // a point y inside of t, near x and on no plane but its own. Inside and outside meet at y, so the
 // way of y through the tree ends on a node's plane, that of t; x is in the closure of every region
 // on that way. At each node x is on the side of y or on the plane, and where it is on the plane, or
-// so near that doubles cannot tell, both sides are visited. So the polygon, cut on the safe side,
-// comes to that node and touches its plane, where t is listed. Walls above change nothing: y is on
-// none of them.
+// so near that doubles cannot decide, both sides are visited. So the polygon, cut on the safe side,
+// comes to that node and touches its plane, where t is listed. Splitting planes above change
+// nothing: y is on none of them.
 //
 // Cuts. A corner's value n·x + d has an error below 2^-49 of the sum of magnitudes, and what the
 // corner's own error makes of it; `bound` is the largest of both. A polygon is cut at twice the
@@ -181,7 +181,7 @@ bool PlaneTree::push(const RoughPolygon& polygon, const Box& box,
 }
 
 // A region beyond a plane is at least as far as the plane; what is on a plane likewise. Beyond a
-// wall it is as far as the box around the boundary there.
+// splitting plane it is as far as the box around the boundary there.
 void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
                           CostCounters& counters) {
     for (const std::uint32_t i : strays_) limit = offer(i);

@@ -5,8 +5,8 @@
 // of Thibault and Naylor a plane has a list of them; in Vanecek's tree, the Brep-Index, a tree in
 // the plane says which face is there.
 //
-// What no other structure here knows is where inside and outside are. So deep penetration is seen
-// without one pair of triangles, the early accept of the Brep-Index, in two ways.
+// No other structure here has inside and outside. So deep penetration is seen without one pair of
+// triangles, the early accept of the Brep-Index, in two ways.
 //  - Tree against tree, as trees are merged (Naylor, Amanatides and Thibault 1990): a leaf of B
 //    that is inside goes down A's tree, cut by its planes, until a part of it is in a leaf of A
 //    that is inside too. A leaf is a ball in it, so that B's tree need not be moved. With a vertex
@@ -15,8 +15,8 @@
 //    outside. Some vertices from all over B are tried, not all: where these say nothing, pairs of
 //    triangles do.
 //
-// The distance is a side line: walls have boxes of what is beyond them, but of the regions below
-// only the planes on the way bound how near they can be.
+// The distance is a side line: splitting planes have boxes of what is beyond them, but of the
+// regions below only the planes on the way bound how near they can be.
 //
 // Source: W. Thibault and B. Naylor, Set operations on polyhedra using binary space partitioning
 // trees (SIGGRAPH 1987); B. Naylor, J. Amanatides and W. Thibault, Merging BSP trees yields

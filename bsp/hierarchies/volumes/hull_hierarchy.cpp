@@ -4,7 +4,7 @@
 // corners (small_hull.h). The tightest convex volume and the dearest test; `convex-parts` has the
 // hulls of all vertices and tracked features instead, over parts that are convex themselves.
 //
-// A volume of B remembers the direction that parted it last: the next volume of A that it is
+// A volume of B remembers the direction that separated it last: the next volume of A that it is
 // compared with is the brother of that one, as a rule, and parted by nearly the same direction.
 
 #include <trisect/bsp/hierarchies/volumes/small_hull.h>

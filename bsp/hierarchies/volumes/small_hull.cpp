@@ -175,7 +175,7 @@ private:
         return least;
     }
 
-    // What a float cannot tell from nothing anyway.
+    // What a float cannot distinguish from nothing.
     static constexpr double small = 0x1p-24;
 
     std::vector<Double3> points_;

@@ -50,9 +50,9 @@ enum class GapEffort : std::uint8_t {
 };
 
 /// A lower bound of the distance of two hulls; 0 where they meet, or are so near that floats cannot
-/// tell. `direction` is where the search begins, from a to b, and becomes the direction of the
-/// bound; 0 where nothing is known. Some ten nanoseconds if the direction still parts them, up to a
-/// microsecond where they meet.
+/// decide. `direction` is where the search begins, from a to b, and becomes the direction of the
+/// bound; 0 where nothing is known. Some ten nanoseconds if the direction still separates them, up
+/// to a microsecond where they meet.
 ///
 /// Gilbert, Johnson and Keerthi's iteration (1988) proposes directions; every one of them gives a
 /// bound by the extreme points of both, rounded down, so the iteration itself need not be right.

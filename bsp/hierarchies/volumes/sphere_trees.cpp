@@ -42,7 +42,7 @@ struct Division {
     std::vector<std::optional<Double3>> centers;  // of each group, where wanted
 };
 
-// What all rules know about the model, in units of the frame.
+// Data of the model for all rules, in units of the frame.
 struct Surface {
     const detail::InterferenceModelData& model;
     TreeFrame frame;
@@ -328,7 +328,7 @@ private:
         }
         shape_.nodes[node] = {first, count, false};
     }
-    // Triangles that a rule cannot tell apart: by their order.
+    // Triangles that a rule cannot decide apart: by their order.
     static void deal_out(Division& d) {
         d.centers.assign(arity, std::nullopt);
         for (std::size_t i = 0; i < d.group.size(); ++i)
@@ -483,7 +483,7 @@ AnytimeAnswer SphereTrees::answer_within(std::uint64_t tests, CostCounters& coun
         const Open o = open.front();
         const TreeNode& na = a_.shape.nodes[o.a];
         const TreeNode& nb = b_.shape.nodes[o.b];
-        if (na.leaf && nb.leaf) break;  // spheres cannot tell more
+        if (na.leaf && nb.leaf) break;  // spheres cannot decide more
         std::ranges::pop_heap(open, later);
         open.pop_back();
         open_larger(o.a, o.b, [&](std::uint32_t i, std::uint32_t j) { push(i, j, o.gap); });

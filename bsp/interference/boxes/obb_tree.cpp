@@ -6,7 +6,7 @@
 //
 // Why four: a walk tests one box against the four children of another, and four of them fit into
 // one register, so that fifteen axes cost for four boxes what they cost for one. Why oriented
-// boxes: where surfaces come close over an area, thin boxes along the surface part them after
+// boxes: where surfaces come close over an area, thin boxes along the surface separate them after
 // O(n^1/2) pairs, axis-parallel ones after O(n) (Gottschalk, Lin and Manocha 1996).
 //
 // Certified containment. In units of the tree a point is known within e = 2^-50 + error / unit: the

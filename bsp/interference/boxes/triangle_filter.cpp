@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two triangles have a common point exactly if a side of one meets the other. Whether a side pq
-// meets the triangle abc is told by the sides of abc's plane on which p and q lie and by the three
-// orientations of pq with the sides of abc (Guigue and Devillers 2003 order such signs cleverly;
-// here all that matter are computed, since nearly every pair that comes this far is close).
+// meets the triangle abc is decided by the sides of abc's plane on which p and q lie and by the
+// three orientations of pq with the sides of abc (Guigue and Devillers 2003 order such signs
+// cleverly; here all that matter are computed, since nearly every pair that comes this far is
+// close).
 //
 // Every value is the determinant of three differences of points. Let g bound the components of all
 // differences, e the error of a difference's exact components (of the two points) and u = 2^-53;

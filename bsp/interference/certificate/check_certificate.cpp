@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The checker shares nothing with what decides: it has the vertices, loops and shells of the two
-// boundaries, the numbers of the poses, and fractions. What a boundary can be asked is in
+// boundaries, the numbers of the poses, and fractions. Operations on a boundary are in
 // certified_boundary.h, partitions of space are in certified_cells.h.
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checker asks the motions for enclosures and has corners, polynomials and fractions. A corner
+// The checker gets enclosures from the motions and has corners, polynomials and fractions. A corner
 // x is at X(s) / w(s) up to a distance of by_length |x| + constant, so its height n·X / w is off by
 // |n| times that at most; both lengths are bounded by sums of magnitudes, which need no roots.
 

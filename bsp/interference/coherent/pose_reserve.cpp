@@ -56,7 +56,7 @@ double stretch_of_inverse(const std::array<double, 12>& m) {
     for (std::size_t i = 0; i < 9; ++i)
         off = std::max(off, std::abs(gram[i] - (i % 4 == 0 ? square : 0)));
     if (square > 0 && off <= 0x1p-25 * square) return (1 + 0x1p-20) / std::sqrt(square);
-    // Of a determinant much smaller than its terms doubles know nothing.
+    // Doubles decide nothing about a determinant much smaller than its terms.
     if (!(std::abs(det) > 0x1p-20 * square * std::sqrt(square))) return HUGE_VAL;
     return (1 + 0x1p-20) * std::sqrt(squares) / std::abs(det);
 }

@@ -50,7 +50,7 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
         if (coarse.empty()) return;
     }
     if (depth == max_depth) {
-        // Boxes smaller than the sweep of an interval this short: too small to be told apart.
+        // Boxes smaller than the sweep of an interval this short: too small to be distinguished.
         leaves.clear();
         walk_.refine(pose, 0, coarse, leaves, coarse);
         solve(over, leaves, events);

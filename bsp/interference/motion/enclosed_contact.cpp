@@ -162,7 +162,7 @@ private:
     }
 
     // Ends at the first contact that is proved. Until a range is given up as undecided, ranges are
-    // halved down to the floor and the end of a short one is asked for a contact at once. The
+    // halved down to the floor and the end of a short one is tested for a contact at once. The
     // ranges after an undecided one, each twice as long as the one before it, end there.
     void visit(double from, double to, const Pairs& front) {
         const double middle = from + (to - from) / 2;
@@ -299,7 +299,7 @@ private:
                 det(column(0), column(1), v) / whole};
     }
 
-    // \pre is_contact(to), and asked last
+    // \pre is_contact(to), called last
     double narrowed(double from, double to) {
         double proved = to;
         std::vector<ContactWitness> witnesses = result_.witnesses;

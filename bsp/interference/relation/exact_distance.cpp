@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The exact distance of two triangles apart: all pairs of sides, and corners above insides, in
-// rationals. Slow, and only for the pairs that are left when somebody asks for the exact number.
+// rationals. Slow, and only for the pairs that are left when the exact number is requested.
 //
 // The closest pairs of points of two triangles are a convex polytope in the space of pairs. At each
 // of its corners one of the points is a corner of its triangle, or both are on sides that are not

@@ -6,7 +6,7 @@
 // s has its lower corner within [lo - s, hi]; on grids not finer than its own that are at most
 // three cells along an axis, 27 in all. A box looks for partners in its own grid and in coarser
 // ones. So each pair comes up once, at the smaller of the two; a giant is found by the dwarfs near
-// it and asks for none of them.
+// it and uses none of them.
 //
 // An update moves an entry from one list to another, if its cell has changed at all. The number of
 // grids in use is the logarithm of the ratio of sizes: a constant for similar ones.

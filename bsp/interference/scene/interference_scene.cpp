@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A frame in three steps: boxes of the bodies that moved; pairs of boxes that meet; for each pair
-// its relation, exactly. The first two only decide which pairs are not asked about, so all that
-// their doubles must be is on the safe side.
+// its relation, exactly. The first two only exclude pairs, so all that their doubles must be is on
+// the safe side.
 //
 // What stays between frames (Cohen, Lin, Manocha and Ponamgi 1995 call it coherence): the order of
 // the boxes, and for each pair of boxes that meet its answer and, of large bodies, what its query
-// remembers. A pair of which neither body has moved keeps its answer. Answers are told apart by
+// remembers. A pair of which neither body has moved keeps its answer. Answers are distinguished by
 // placements, numbers that no two poses of a scene share, so that a body that came in the place of
 // a removed one is never mistaken for it.
 //
-// Pairs are independent of each other and of the order in which they are asked, and each writes to
-// a place of its own; so threads cannot change the outcome, not even which of two errors is thrown.
+// Pairs are independent of each other and of the order in which they are processed, and each writes
+// to a place of its own; so threads cannot change the outcome, not even which of two errors is
+// thrown.
 #include <trisect/bsp/interference/interference_scene.h>
 
 #include <algorithm>
@@ -112,7 +113,7 @@ public:
     }
 
 private:
-    /// Of a slot, what the broad phase knows.
+    /// State of a slot in the broad phase.
     struct Known {
         std::uint64_t placement = 0;  ///< 0: nothing
         detail::BodyBox box;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What plain_pairs.cpp asks of two triangles in doubles, of four pairs in single precision: the
+// The tests of plain_pairs.cpp on two triangles in doubles, of four pairs in single precision: the
 // sides of the corners, and the order of the points where edges pierce the other support. Most of
 // what boxes leave is parted by a plane, half of the rest is apart along the line that the supports
 // have in common, and what crosses surely needs no more from doubles than the ends of the segment.

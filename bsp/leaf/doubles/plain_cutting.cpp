@@ -4,8 +4,8 @@
 // meet, an edge of the cutters' mesh pierces the facet. The facet is split along the whole line of
 // a segment, within the part that the segment runs through, so parts stay convex. Then the next
 // segment begins on a line that was cut before, exactly at the point that both lines have in
-// common: such points carry the name of the edge that pierces there, and no arithmetic asks about
-// them. Whatever else is asked is about points that differ, and doubles nearly always tell.
+// common: such points carry the name of the edge that pierces there, and no arithmetic is done on
+// them. Other signs are of points that differ, and doubles nearly always decide.
 //
 // Facets of one plane with a common edge, the two halves of a quadrilateral say, give one line.
 
@@ -195,8 +195,8 @@ int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
     return exact_sign(vertex, other.source->support(other.facet));
 }
 
-// The same for the middle of a part; 0 when nothing tells. Where its corners are on one side of the
-// support, so is the middle.
+// The same for the middle of a part; 0 when nothing decides. Where its corners are on one side of
+// the support, so is the middle.
 int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& middle, int attempt,
                                  std::size_t contact) {
     const int s = facets_->plane(contacts_[contact].other).sign(middle);
@@ -253,7 +253,7 @@ void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
 }
 
 // Whether a vertex on a contact's line is an end of the contact's segment. Points of different
-// names that are the same are left to doubles, which cannot tell.
+// names that are the same are left to doubles, which cannot decide.
 bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
                           const PlainEnd& end) const {
     const PlainContact& c = contacts_[contact];
@@ -409,7 +409,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
     for (std::size_t i = 0; i < from.size; ++i) {
         int s = 0;
         if (from.vertices[i] < (*facets_)[item_].size && point(i).error == 0) {
-            // A lattice position, and the last one below the wall is exact too.
+            // A lattice position, and the last one below the splitting plane is exact too.
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
         } else {
@@ -421,7 +421,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
         below = below || s < 0;
         above = above || s > 0;
     }
-    if (!(high ? above : below)) return true;  // nothing is beyond the wall
+    if (!(high ? above : below)) return true;  // nothing is beyond the splitting plane
     was_clipped_ = true;
     if (!(high ? below : above)) {
         clipped_.size = 0;
@@ -681,7 +681,8 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
             parts_[first].winding = -1;
             std::copy_n(above(parts_[k]).begin(), 2 * row_, above(parts_[first]).begin());
         }
-        // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+        // Nothing but the first cutter can have cut a whole item in the cell: it need not be
+        // tested.
         bool sure = first == 1 && (*facets_)[item_].contained;
         for (std::size_t c = begin; c < end; ++c) {
             const std::size_t last = count_;

@@ -5,11 +5,11 @@
 // end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
 // points exactly, pairs of facets by orientations of corners, and constructed points by doubles
 // with a bound. A point on a line that was cut before is known to be on it by name
-// (plain_cutting.cpp), and single signs are asked exactly where that is likely to help, such as
+// (plain_cutting.cpp), and single signs are decided exactly where that is likely to help, such as
 // those of corners on other facets (plain_pair_relation.cpp); every other sign that doubles cannot
-// tell ends the attempt, and the leaf is arranged the long way. So the short way never decides
-// anything that it does not know; leaves with coincident facets, or with edges along others, lose
-// the attempt, which mostly ends at the first such pair.
+// decide ends the attempt, and the leaf takes the exact path. So the filtered path never guesses;
+// leaves with coincident facets, or with edges along others, lose the attempt, which mostly ends at
+// the first such pair.
 //
 // Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
 // and whose edges name the planes that cut them out. So they are items like whole facets, of up to
@@ -125,7 +125,7 @@ void PlainLeaf::start_covers(const Crossings* crossings) {
 }
 
 // Notes a facet that something crosses, and the operands that it lies in here, of those that do not
-// cross it. One whose part in the cell is empty is somebody else's.
+// cross it. One whose part in the cell is empty belongs to other cells.
 bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
     if (crossings.operands.size() == 2) return true;
     const std::size_t own = LeafWork::u(facets_[item].operand);

@@ -24,13 +24,13 @@ namespace trisect::detail {
 class PlainLeaf {
 public:
     /// Lists what bounds the result; `out` is empty before. False when the leaf is of another kind
-    /// or doubles cannot tell; then `out` and `stats` are as before.
+    /// or doubles cannot decide; then `out` and `stats` are as before.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out);
-    /// The same without the facets that something crosses in the cell: these and what covers them
-    /// are added to `crossings`, which has the operands of the formula, and their numbers to `seen`
-    /// if the formula has more than two. Returns nothing for false, else how many of those facets
-    /// there are.
+    /// The same without the facets that something crosses in the cell: these and the operands that
+    /// contain them are added to `crossings`, which has the operands of the formula, and their
+    /// numbers to `seen` if the formula has more than two. Returns nothing for false, else how many
+    /// of those facets there are.
     [[nodiscard]] std::optional<std::size_t> arrange_uncrossed(const LeafProblem& problem,
                                                                EvaluateStats& stats,
                                                                std::vector<PolygonRef>& out,
@@ -58,7 +58,7 @@ private:
     LeafFormula formula_;
     std::size_t crossed_ = 0;  // facets
     std::vector<std::uint32_t>* seen_ = nullptr;
-    // By operand, where crossings are collected: its winding number where it covers nothing, and
+    // By operand, where crossings are collected: its winding number where it contains nothing, and
     // its slot.
     std::vector<int> open_;
     std::vector<std::uint32_t> slots_;

@@ -56,10 +56,10 @@ struct PlainContact {
 /// Compares all polygons of different operands whose boxes meet; keeps its memory.
 class PlainPairs {
 public:
-    /// False when doubles cannot tell about some pair. Where edges meet edges, or a corner comes
-    /// near a support, that is asked exactly, unless `edges_apart`: then such a pair is one about
-    /// which they cannot tell. Polygons that meet in no more than a point do not cross, but are
-    /// marked as touched. False also when an edge lies in a support. Counts pairs.
+    /// False when doubles cannot decide some pair. Where edges meet edges, or a corner comes near a
+    /// support, that is decided exactly, unless `edges_apart`: then such a pair is one that they
+    /// cannot decide. Polygons that meet in no more than a point do not cross, but are marked as
+    /// touched. False also when an edge lies in a support. Counts pairs.
     [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
         return relate(facets, {}, edges_apart, stats);
     }

@@ -2,9 +2,9 @@
 //
 // A trace is a straight segment from the leaf's reference point, or from the end of an earlier
 // trace on the same operand, which is mostly near: then there is little to look at. It counts the
-// facets that it goes through. Which side of a facet its ends are on tells the value of the facet's
-// plane there; whether it goes through the facet or beside it is seen along the axis that is
-// nearest to the normal. A segment so near to an edge that doubles cannot tell is given up.
+// facets that it goes through. The sides of a facet on which its ends are give the value of the
+// facet's plane there; whether it goes through the facet or beside it is seen along the axis that
+// is nearest to the normal. A segment so near to an edge that doubles cannot decide is given up.
 
 #include <trisect/bsp/leaf/doubles/plain_windings.h>
 
@@ -19,8 +19,8 @@ namespace trisect::detail {
 
 namespace {
 
-// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
-// doubles and with a margin.
+// Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
+// planes, in doubles and with a margin.
 bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b) {
     const Vector3& lo = facets.inner_lo();
     const Vector3& hi = facets.inner_hi();
@@ -41,7 +41,7 @@ bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b)
 }
 
 // Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
-// outside, 0 when doubles cannot tell.
+// outside, 0 when doubles cannot decide.
 template <class Corner>
 int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x) {
     const Vector3& n = f.plane.normal;
@@ -163,7 +163,7 @@ LeafIndex PlainWindings::windings_in(int region) {
 }
 
 // A fragment has a node for each corner of its facet that is left of that. At a corner on another
-// operand there is no winding number; whoever has that corner knows it.
+// operand there is no winding number; the owner of that corner has it.
 void PlainWindings::add_corners(LeafIndex item, bool free) {
     const PlainFacet& f = (*facets_)[item];
     auto& vertices = vertices_[LeafWork::u(item)];
@@ -376,7 +376,7 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
     if (!(std::fabs(at.start) > at.start_error)) return false;
     Approximation x;
     if (!(std::fabs(at.target) > at.target_error)) {
-        // The target may be in the plane. It is not on the facet: so beside that, or nobody knows.
+        // The target may be in the plane. It is not on the facet: so beside it, or undecided.
         return near_target(at, start, target, x) && is_inside(*facets_, f, x) < 0;
     }
     if ((at.start > 0) == (at.target > 0)) return true;

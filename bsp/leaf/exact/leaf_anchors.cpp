@@ -17,8 +17,8 @@ bool is_facet(const LeafItem& item) {
     return item.ref.fragment == nullptr && !item.ref.source->is_half_space();
 }
 
-// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
-// doubles and with a margin.
+// Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
+// planes, in doubles and with a margin.
 bool runs_through(const Cell& cell, const LatticePoint& a, const LatticePoint& b) {
     double from = 0;
     double to = 1;
@@ -52,7 +52,7 @@ void LeafAnchors::build(LeafWork& work, LeafWindings& windings) {
     known_count_ = 0;
     first_.assign(work.items.size(), none);
     for (LeafIndex i = 0; i < work.item_count(); ++i) {
-        // Only what nothing touches makes others hang together; the rest is looked at when asked.
+        // Only what nothing touches makes others hang together; the rest is looked at on demand.
         if (!work.contacts(i).empty()) continue;
         const std::size_t n = corner_count(i);
         for (std::size_t k = 0; k < n; ++k) join_item(i, vertex_of(i, k));
@@ -85,7 +85,7 @@ bool LeafAnchors::is_in_cell(LeafIndex i, std::size_t corner) {
             Box::of(item.ref.source->corner(item.ref.facet, static_cast<int>(corner))));
     const PointId p = work_->shape(i).points[corner];
     if (work_->bench.is_corner(p)) return cell.contains(Box::of(work_->bench.lattice(p)));
-    // A vertex very near to a wall does not count.
+    // A vertex very near to a splitting plane does not count.
     const Approximation& a = work_->bench.approximation(p);
     for (std::size_t k = 0; k < 3; ++k) {
         const double slack = 1.001 * a.error + 0x1p-45 * std::fabs(a.c[k]);

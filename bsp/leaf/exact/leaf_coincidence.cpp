@@ -43,7 +43,7 @@ void resolve_coincidence(LeafWork& work, std::size_t first) {
                     work.incomplete.push_back({item.ref.source->serial(), item.ref.facet});
                 break;
             }
-            // Orientation of the cover relative to this item's support.
+            // Orientation of the coincident polygon relative to this item's support.
             const LeafItem& other = work.item(c.other);
             const bool same = same_orientation(work.bench.plane_at(item.shape.support),
                                                work.bench.plane_at(other.shape.support));

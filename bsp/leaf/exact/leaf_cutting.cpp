@@ -4,8 +4,8 @@
 // runs in the item's plane, so it meets only what cuts the item: a handful of polygons instead of
 // the whole leaf. What is wanted are the winding numbers just above the plane. A cutter that goes
 // through the plane is met there as it is in the plane; one that stands on the plane with an edge
-// is met just above it, although in the plane only its edge is; one that hangs below is not.
-// All signs come from doubles; where those cannot tell, a trace through the leaf does.
+// is met just above it, although in the plane only its edge is; one that hangs below is not. All
+// signs come from doubles; where those cannot decide, a trace through the leaf does.
 
 #include <trisect/bsp/leaf/exact/leaf_cutting.h>
 
@@ -86,8 +86,8 @@ bool LeafCutting::may_bound(const Part& part) {
     return above < 0 || above != formula_->value(part.sides.below);
 }
 
-// Drops what lies in a coincident facet that speaks for both. That comes first: a part may be known
-// to bound the result long before all is known about the operand of that facet.
+// Drops what lies in a coincident facet that represents both. That comes first: a part may be
+// decided to bound the result long before all is known about the operand of that facet.
 void LeafCutting::leave_to_speakers() {
     const LeafItem& item = work_->item(item_);
     if (!item.covered) return;
@@ -310,14 +310,14 @@ void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cu
     }
 }
 
-// The edges of a covering facet are lines in the plane of the item.
+// The edges of a overlapping facet are lines in the plane of the item.
 void LeafCutting::split_along_edges(std::size_t first, LeafIndex cover) {
     for (const WorkEdge& e : work_->with_edges(cover).edges)
         split_along_line(first, e.plane, cover, false);
 }
 
 void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
-    // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+    // Nothing but the first cutter can have cut a whole item in the cell: it need not be tested.
     bool sure = first == 1 && !work_->item(item_).covered && work_->item(item_).contained;
     for (const LeafContact& c : contacts) {
         if (!c.cuts) continue;

@@ -3,8 +3,9 @@
 // A trace costs as much as all other work on a piece, and neighbours nearly always have the same
 // answer. Walking from one to the next over their common edge is a trace of length zero: the only
 // surfaces that it can cross are those that contain the part of the edge where it is done, and
-// contacts tell which these are. So what is asked here is local, and a leaf with one sheet of each
-// of two operands needs no trace at all where the sheets cross, and one a sheet where they do not.
+// contacts determine these. So the signs here are local, and a leaf with one connected surface of
+// each of two operands needs no trace at all where the surfaces cross, and one a surface where they
+// do not.
 //
 // EMBER (Trettner, Nehring-Wirxel, Kobbelt 2022, sec. 5.4) propagates winding numbers along walks
 // through the local BSP; here only certain neighbours count, the others get a trace.
@@ -51,7 +52,8 @@ bool certainly_enters(const Cell& cell, const Approximation& p, const Approximat
     if (!(from < to)) return false;
     const double middle = 0.5 * (from + to);
     // The candidate is within three roundings and the errors of the ends of a point of the segment;
-    // walls carry one rounding, at most that of the candidate's size where they are near it.
+    // splitting planes carry one rounding, at most that of the candidate's size where they are near
+    // it.
     const double margin = 1.0001 * (p.error + q.error) + 0x1p-48 * largest;
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = p.c[k] + middle * (q.c[k] - p.c[k]);
@@ -80,11 +82,11 @@ void LeafLinks::build(LeafWork& work) {
         if (work.item(i).is_whole()) add_node(i);
     for (std::size_t p = 0; p < work.pieces.size(); ++p)
         if (!work.pieces[p].dropped) add_node(items_ + static_cast<LeafIndex>(p));
-    // Those for which others speak are no nodes, but at their edges there are more than two facets.
+    // Those that others represent are no nodes, but at their edges there are more than two facets.
     for (const LeafPiece& piece : work.pieces)
         if (piece.dropped && !work.operand_of(work.item(piece.item)).embedded)
             count_at_edges(piece);
-    // Lines within facets first: they tell winding numbers, and a pair that is linked already is
+    // Lines within facets first: they give winding numbers, and a pair that is linked already is
     // not looked at again.
     for (const Line& line : lines_)
         if (line.within_facet) link_line(line);
@@ -299,7 +301,7 @@ void LeafLinks::try_within_facet(const Edge& a, const Edge& b) {
     const bool same_line =
         i.sheet == j.sheet && i.ref.facet == j.ref.facet && plane_name(a) == plane_name(b);
     if (!same_line || !overlap(a, b)) return;
-    // Of two edges the shorter one is less likely to be partly covered by something.
+    // Of two edges the shorter one is less likely to be partly overlapped.
     const auto length = [&](const Edge& e) {
         const Ends ends = ends_of(e);
         double sum = 0;

@@ -14,7 +14,7 @@
 
 namespace trisect::detail {
 
-/// A polygon that gets one answer: item i, when nothing cuts or covers it, is node i; piece p is
+/// A polygon that gets one answer: item i, when nothing cuts or overlaps it, is node i; piece p is
 /// node (number of items) + p. "Above" is in the sense of the item's support.
 using LeafNode = LeafIndex;
 
@@ -29,11 +29,11 @@ struct LeafChange {
 ///
 /// Two nodes may be linked when they have an open part of an edge in common, in the cell:
 ///  - across an edge of their mesh, when no other surface contains part of it: nothing changes. An
-///    operand that may meet itself must have exactly two facets there, or they are several sheets;
+///    operand that may meet itself must have exactly two facets there, or they are separate;
 ///  - across a line within one facet, when every other polygon that contains part of it contains
 ///    it in its interior: crossing such a polygon takes its step. If that polygon's operand is
 ///    embedded, the winding numbers on both sides are even known: 0 outside and 1 inside.
-/// Contact is decided exactly. Whether two edges overlap is asked in doubles with a margin: a
+/// Contact is decided exactly. Whether two edges overlap is decided in doubles with a margin: a
 /// contact may be missed, never invented, and a missing link costs a trace.
 class LeafLinks {
 public:

@@ -125,7 +125,7 @@ private:
         }
         return is_outside_cell(ends[0], ends[1]);
     }
-    // Surely: a segment on a wall is not.
+    // Surely: a segment on a splitting plane is not.
     [[nodiscard]] bool is_outside_cell(const Approximation& a, const Approximation& b) const {
         const Cell& cell = work_.problem->cell;
         for (std::size_t k = 0; k < 3; ++k) {

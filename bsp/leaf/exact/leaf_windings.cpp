@@ -131,7 +131,7 @@ TraceTarget middle_of(const Workbench& bench, const WorkPolygon& part) {
 }
 
 // Another reference in the cell: some point between the old one and a pseudo-random corner of the
-// polygons' box, at even positions so that it lies on no wall.
+// polygons' box, at even positions so that it lies on no splitting plane.
 void LeafWindings::next_reference() {
     Box around;
     for (const LeafItem& item : work_->items) around.add(item.box);

@@ -21,8 +21,8 @@
 
 namespace trisect::detail {
 
-/// Arranges a leaf of embedded operands whose polygons are all across an axis. The planes make a
-/// grid of the cell, and a set is a bit for each of its units. Coincident, touching and crossing
+/// Arranges a leaf of embedded operands whose polygons are all axis-perpendicular. The planes make
+/// a grid of the cell, and a set is a bit for each of its units. Coincident, touching and crossing
 /// facets are nothing special, no pair is compared and no segment traced. Keeps its memory from
 /// leaf to leaf; what it returns depends on the problem alone.
 ///
@@ -32,9 +32,9 @@ public:
     /// False, and nothing is done, when some polygon is of another kind or the grid is too large.
     [[nodiscard]] bool arrange(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete);
-    /// The same for whoever can do with a picture. There is one afterwards, and `out` has its
-    /// facets, where facets of imported meshes have to be cut, all that bound the result in their
-    /// planes, and the others are not touched.
+    /// The same for users of an occupancy grid. There is one afterwards, and `out` has its facets,
+    /// where facets of imported meshes have to be cut, all that bound the result in their planes,
+    /// and the others are not touched.
     [[nodiscard]] bool picture(const LeafProblem& problem, EvaluateStats& stats,
                                std::vector<PolygonRef>& out, std::vector<FacetName>& incomplete,
                                std::unique_ptr<AxisPicture>& picture);
@@ -108,7 +108,7 @@ private:
     bool remembers_ = false;
     Units toggles_;
     std::array<std::vector<UnitRows>, 3> claimed_;  // by axis and plane
-    // The sheet that is being emitted.
+    // The plane that is being emitted.
     std::size_t axis_ = 0;
     std::size_t plane_ = 0;
     std::size_t first_row_ = 0;
@@ -121,13 +121,13 @@ private:
     Polygons sheet_;
     std::vector<std::uint8_t> clean_;  // by polygon, see find_clean()
     bool may_picture_ = false;
-    bool pictures_ = false;     // a picture is made instead of parts of facets
-    bool needs_parts_ = false;  // a picture is not enough
+    bool pictures_ = false;     // an occupancy grid is made instead of parts of facets
+    bool needs_parts_ = false;  // an occupancy grid is not enough
     bool any_cut_ = false;
     static constexpr std::uint8_t found_clean = 1;
     static constexpr std::uint8_t found_cut = 2;
     std::array<std::vector<std::uint8_t>, 3> found_;  // by axis and plane
-    std::vector<AxisPicture::Part> parts_;            // of what is pictured
+    std::vector<AxisPicture::Part> parts_;            // of the occupancy grid
     Workbench bench_;
 };
 

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A plate with ten thousand engraved stars is one arrangement of segments in a plane for each layer
-// between two covers' positions. Cut into cells it is thousands of small arrangements in which
+// between two caps' positions. Cut into cells it is thousands of small arrangements in which
 // nothing is whole any more: the plate's upper side becomes half a million convex pieces, only to
 // be put together again.
 //
-// Walls that end in a common edge make outlines, and outlines are walked along. What is inside
-// beside a wall changes where another wall crosses it and nowhere else, so it is looked up once for
-// each outline: one sweep over all of them counts the walls that a straight way out of the figure
-// crosses. From then on it is a matter of turning over one operand at each crossing.
+// Side faces that end in a common edge make outlines, and outlines are walked along. What is inside
+// beside a side face changes where another side face crosses it and nowhere else, so it is looked
+// up once for each outline: one sweep over all of them counts the side faces that a straight way
+// out of the figure crosses. From then on it is a matter of turning over one operand at each
+// crossing.
 //
-// What bounds the result can be read off beside the walls. In the plane of a cover it is bounded
-// where the layers below and above differ, so the region's outline is made of the stretches of
-// walls with a difference on one side only; what is in the middle of it need not be known. Covers
-// of one operand that hang together, a sheet, come out whole if all that bounds them bounds the
-// region in the same way and no outline of the region lies within; for that the walk knows which
-// sheets are around it. Of walls that bound the result as a whole nothing is written either.
+// What bounds the result can be read off beside the side faces. In the plane of a cap it is bounded
+// where the layers below and above differ, so the region's outline is made of the intervals of side
+// faces with a difference on one side only; what is in the middle of it need not be known.
+// Connected components of caps of one operand come out whole if all that bounds them bounds the
+// region in the same way and no outline of the region lies within; for that the walk keeps which
+// components are around it. Of side faces that bound the result as a whole nothing is written
+// either.
 //
-// All vertices on a wall at a position are where what is on its two sides, below and above,
+// All vertices on a side face at a position are where what is on its two sides, below and above,
 // changes. All four faces that meet there are divided in the same places.
 
 #include <trisect/bsp/leaf/prism/prism_arrangement.h>
@@ -54,7 +56,7 @@ bool PrismArrangement::arrange(const LeafProblem& problem, EvaluateStats& stats)
     return true;
 }
 
-// Every wall is looked at in each of its layers, and every crossing turns over as many.
+// Every side face is looked at in each of its layers, and every crossing turns over as many.
 bool PrismArrangement::has_few_layers() const {
     constexpr std::size_t few = 16;
     std::size_t looked_at = 0;
@@ -71,7 +73,7 @@ bool PrismArrangement::has_few_layers() const {
 
 void PrismArrangement::find_chains() {
     const auto walls = static_cast<LeafIndex>(facets_.walls().size());
-    // Ends of walls by their edges along the axis, as lists.
+    // Ends of side faces by their edges along the axis, as lists.
     std::vector<std::int32_t> first(sheets_.edge_count(), -1);
     std::vector<std::int32_t> next(2 * facets_.walls().size());
     for (std::int32_t end = 2 * walls; end-- > 0;) {
@@ -96,7 +98,7 @@ void PrismArrangement::find_chains() {
     chain_begin_.push_back(steps_.size());
 }
 
-// False where too many walls lie across the lines of chains, as in PrismCrossings.
+// False where too many side faces lie across the lines of chains, as in PrismCrossings.
 bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
     const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
     const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
@@ -131,7 +133,7 @@ bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& st
     return true;
 }
 
-// All walls of a chain are in the same layers, and bound the same two sheets.
+// All side faces of a chain are in the same layers, and bound the same two components.
 void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crossed) {
     const PrismWall& w = wall(chain[0].wall);
     layers_here_ = w.end_layer - w.first_layer + 2;
@@ -161,7 +163,7 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     changed_.clear();
 }
 
-// Sheets in the planes of other layers do no harm: nothing asks for them.
+// Components in the planes of other layers do no harm: they are not used.
 void PrismArrangement::enter_sheet(std::int32_t sheet) {
     const auto at = std::ranges::find(around_, sheet);
     if (at == around_.end()) {
@@ -179,7 +181,8 @@ void PrismArrangement::set_row(std::size_t layer, LeafIndex operand, bool in) {
     changed_.push_back(operand);
 }
 
-// What a wall's operand is on its other side, in the layers of another wall and next to them.
+// What a side face's operand is on its other side, in the layers of another side face and next to
+// them.
 void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) {
     const std::size_t first = std::max(crossed.first_layer, by.first_layer - 1);
     const std::size_t end = std::min(crossed.end_layer, by.end_layer + 1);
@@ -187,7 +190,7 @@ void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) 
         set_row(layer, crossed.operand, row(layer)[u(crossed.operand)] == 0);
 }
 
-// --- Along a wall.
+// --- Along a side face.
 
 void PrismArrangement::walk_wall(const Step& step) {
     const PrismWall& w = wall(step.wall);
@@ -217,7 +220,7 @@ void PrismArrangement::walk_wall(const Step& step) {
     if (step.backwards) turn_stretches();
 }
 
-// Begins a stretch, unless all is as it was before.
+// Begins an interval, unless all is as it was before.
 void PrismArrangement::look(const PrismWall& w, Bound begin) {
     const std::size_t first = w.first_layer - 1;
     const std::size_t before = insides_.size();
@@ -295,7 +298,7 @@ PrismArrangement::WallState PrismArrangement::state_of(LeafIndex i) const {
     return out;
 }
 
-// Whether a half of a wall has its edge across the axis at the lower end.
+// Whether a half of a side face has its edge perpendicular to the axis at the lower end.
 bool PrismArrangement::is_low(const PrismWall& w, std::size_t half) const {
     const PolygonRef& f = w.facets[half];
     const int third = (facets_.upright_edge(w, half).edge + 2) % 3;
@@ -308,7 +311,7 @@ bool PrismArrangement::is_unbroken(std::size_t position) const {
     return true;
 }
 
-// Whether two stretches have the same on all four sides of a position (of those here).
+// Whether two intervals have the same on all four sides of a position (of those here).
 bool PrismArrangement::is_same_beside(std::size_t position, std::size_t s, std::size_t t) const {
     return std::ranges::equal(stretch(s).subspan(position, 2), stretch(t).subspan(position, 2));
 }
@@ -353,7 +356,7 @@ void PrismArrangement::note_sheet(LeafIndex i, std::size_t p, std::array<int, 2>
     sheet.bounds = here;
 }
 
-// Of the faces in the plane of the position, to the left and to the right of stretches [s, t).
+// Of the faces in the plane of the position, to the left and to the right of intervals [s, t).
 void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t) {
     const PrismWall& w = wall(i);
     const std::size_t position = w.first_layer - 1 + p;
@@ -376,7 +379,7 @@ void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s
     }
 }
 
-// Where stretches [s, t) of the wall begin or end to bound the result, along the axis.
+// Where intervals [s, t) of the side face begin or end to bound the result, along the axis.
 void PrismArrangement::add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
                                       const WallState& state) {
     const PrismWall& w = wall(i);
@@ -412,7 +415,7 @@ void PrismArrangement::add_vertical_edges(LeafIndex i, const WallState& state) {
         }
 }
 
-// The edge in which a face of the wall begins (or ends, seen from `from` to `to`), in layers
+// The edge in which a face of the side face begins (or ends, seen from `from` to `to`), in layers
 // [first, end) of those here.
 void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_t first,
                                    std::size_t end, Facing f, const WallState& state) {
@@ -426,7 +429,8 @@ void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_
     outlines_.edges.push_back(e);
 }
 
-// One half of a wall that bounds the result as a whole: vertices lie in the edge that it ends with.
+// One half of a side face that bounds the result as a whole: vertices lie in the edge that it ends
+// with.
 void PrismArrangement::add_half(LeafIndex i, const WallState& state) {
     const PrismWall& w = wall(i);
     const std::size_t half = state.outlined == 1 ? 0 : 1;
@@ -476,7 +480,8 @@ NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t
                         plane_at(position));
 }
 
-// The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the wall's `to`.
+// The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the side face's
+// `to`.
 EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) const {
     const PrismWall& w = wall(i);
     if (b < 0) {
@@ -489,7 +494,7 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
     return {support_of(b), left == other.above_is_left[0]};
 }
 
-// --- Covers.
+// --- Caps.
 
 namespace {
 

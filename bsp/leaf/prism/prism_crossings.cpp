@@ -18,17 +18,17 @@ Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
 // Two neighbours in one outline: in a common corner, and nowhere else.
 bool are_neighbours(const PrismWall& s, const PrismWall& t, bool in_line) {
     if (s.operand != t.operand || s.lo != t.lo || s.hi != t.hi) return false;
-    // `from` is the smaller end, so walls in one line that share the same end overlap.
+    // `from` is the smaller end, so side faces in one line that share the same end overlap.
     if (s.to == t.from || s.from == t.to) return true;
     return !in_line && (s.from == t.from || s.to == t.to);
 }
 
-// The part of the way along a wall at which another one crosses it.
+// The part of the way along a side face at which another one crosses it.
 struct Fraction {
     Int128 part;
     Int128 whole;
 
-    /// From the sides of the other wall on which its ends lie.
+    /// From the sides of the other side face on which its ends lie.
     Fraction(Int128 from, Int128 to)
         : part(magnitude(from)), whole(magnitude(from) + magnitude(to)) {}
     Fraction(const PrismWall& on, const PrismWall& other)
@@ -93,7 +93,7 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
     return true;
 }
 
-// Notes where two walls cross, if they do; false when they touch otherwise than as neighbours.
+// Notes where two side faces cross, if they do; false when they touch otherwise than as neighbours.
 bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
     const PrismWall& a = walls_[LeafWork::u(s)];
     const PrismWall& b = walls_[LeafWork::u(t)];

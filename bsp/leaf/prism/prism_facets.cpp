@@ -82,7 +82,7 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
                 !problem.cell.contains(ref.box()))
                 return false;
         }
-    // Where everything is across an axis other ways are shorter.
+    // Where everything is axis-perpendicular other ways are shorter.
     const bool is_grid = std::ranges::all_of(
         walls_, [](const PrismWall& w) { return w.from[0] == w.to[0] || w.from[1] == w.to[1]; });
     if (is_grid || !join_halves() || !find_layers()) return false;
@@ -163,7 +163,7 @@ bool PrismFacets::find_layers() {
     for (PrismWall& w : walls_) {
         w.first_layer = index(w.lo) + 1;
         w.end_layer = index(w.hi) + 1;
-        // Ends where nothing covers it.
+        // Ends where it meets no cap.
         if (w.end_layer > positions_.size() || positions_[w.first_layer - 1] != w.lo ||
             positions_[w.end_layer - 1] != w.hi)
             return false;

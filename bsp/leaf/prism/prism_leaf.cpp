@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Gears side by side, plates with holes, a stack of profiles: operands that are prisms along one
-// axis, and many of them begin and end in the same planes. Compared facet by facet all covers
-// coincide, every wall ends in every cover's plane, and nothing is in general position. Yet there
-// is no more to it than an arrangement of segments in a plane, one for each layer between two
-// covers' positions.
+// axis, and many of them begin and end in the same planes. Compared facet by facet all caps
+// coincide, every side face ends in every cap's plane, and nothing is in general position. Yet
+// there is no more to it than an arrangement of segments in a plane, one for each layer between two
+// caps' positions.
 //
-// So nothing is compared but walls, as segments. Along a wall the operands that are inside on its
-// two sides change only where other walls cross it; with the order of these places, fractions of
-// integers, the stretches that bound the result are read off. In the plane of a cover the result is
-// bounded where the layers below and above it differ; of several operands with a cover there the
-// first one speaks. How that region is divided among its speakers shows on the walls' stretches,
-// too: on the two sides of a stretch other operands speak. A cover is cut along the stretches that
-// bound its operand's share and no others, hence n coincident covers make n small sets of parts and
-// not n² ones.
+// So nothing is compared but side faces, as segments. Along a side face the operands that are
+// inside on its two sides change only where other side faces cross it; with the order of these
+// places, fractions of integers, the intervals that bound the result are read off. In the plane of
+// a cap the result is bounded where the layers below and above it differ; of several operands with
+// a cap there the first one is the representative. The division of that region among its
+// representatives shows on the side faces' intervals, too: on the two sides of an interval other
+// operands are representatives. A cap is cut along the intervals that bound its operand's share and
+// no others, hence n coincident caps make n small sets of parts and not n² ones.
 //
-// Where walls touch or overlap instead of crossing the leaf is arranged the long way.
+// Where side faces touch or overlap instead of crossing the leaf takes the exact path.
 
 #include <trisect/bsp/leaf/prism/prism_leaf.h>
 
@@ -35,7 +35,7 @@ namespace {
 constexpr std::size_t left = 0;
 constexpr std::size_t right = 1;
 
-// crosses_way() from a point in doubles; nothing when they cannot tell.
+// crosses_way() from a point in doubles; nothing when they cannot decide.
 std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
     const double from_v = static_cast<double>(w.from[1]) - p[1];
     const double to_v = static_cast<double>(w.to[1]) - p[1];
@@ -57,7 +57,7 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
 bool PrismLeaf::arrange(const LeafProblem& problem, EvaluateStats& stats,
                         std::vector<PolygonRef>& out) {
     if (!facets_.list(problem)) return false;
-    // Fragments that nobody has taken end here, whatever is thrown or given up.
+    // Fragments without owners end here, whatever is thrown or given up.
     struct EndCovers {
         std::vector<PolygonRef>& covers;
         ~EndCovers() {
@@ -117,7 +117,7 @@ bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats)
     return true;
 }
 
-// --- Along a wall.
+// --- Along a side face.
 
 void PrismLeaf::walk(LeafIndex i, std::size_t position) {
     const PrismWall& wall = facets_.walls()[LeafWork::u(i)];
@@ -149,7 +149,7 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
     add_stretch(stretch, now, position);
 }
 
-// What is where the wall begins. On its own operand's side there it is known without looking.
+// What is where the side face begins. On its own operand's side there it is known without looking.
 void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
     for (std::size_t layer = 0; layer < 2; ++layer) {
         std::uint8_t* in = insides(layer, left);
@@ -227,9 +227,9 @@ void PrismLeaf::add_stretch(const Stretch& stretch, const Sides& s, std::size_t 
             outlines_[LeafWork::u(s[side].speaker)].push_back(stretch);
 }
 
-// --- Covers.
+// --- Caps.
 
-// A wall along a stretch: its support, and the planes that end it.
+// A side face along an interval: its support, and the planes that end it.
 WorkPolygon PrismLeaf::cutter_of(const Stretch& stretch) {
     const PrismWall& wall = facets_.walls()[LeafWork::u(stretch.wall)];
     WorkPolygon out;
@@ -291,15 +291,14 @@ bool PrismLeaf::cut_cover(const PrismCover& cover) {
     return true;
 }
 
-// Most points of a cut cover are of parts that were cut further or dropped: what thousands of
-// covers leave would be most of the memory of a leaf. \pre nothing holds numbers of points or
-// planes.
+// Most points of a cut cap are of parts that were cut further or dropped: what thousands of caps
+// leave would be most of the memory of a leaf. \pre nothing holds numbers of points or planes.
 void PrismLeaf::keep_bench_small() {
     constexpr std::size_t most_points = 1024;
     if (bench_.point_count() > most_points) bench_.clear();
 }
 
-// A part is on one side of whatever divides its cover's shares, so any point of it will do.
+// A part is on one side of whatever divides its cap's shares, so any point of it will do.
 std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part,
                                                          std::size_t position) {
     ++stats_->traces;
@@ -348,7 +347,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
 
 // --- What bounds the result.
 
-// The parts of one wall.
+// The parts of one side face.
 void PrismLeaf::emit_wall(std::size_t first, std::size_t last, std::vector<PolygonRef>& out) {
     keep_bench_small();
     const auto parts = std::span(wall_parts_).subspan(first, last - first);

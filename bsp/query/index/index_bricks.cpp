@@ -308,7 +308,7 @@ float IndexBrickBuilder::write_corners(const Work& w, std::uint32_t count, const
             r = std::max({r, -from_middle(t.lo, k), from_middle(t.hi, k)});
         return r;
     };
-    double reach = 0.75;  // of points that are asked about
+    double reach = 0.75;  // of query points
     for (std::uint32_t i = 0; i < count; ++i)
         if (const double r = reach_of(w.items[w.leaf_items[i]]); r < LeafCorners::farthest)
             reach = std::max(reach, r);

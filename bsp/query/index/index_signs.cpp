@@ -14,7 +14,7 @@
 // point itself moves a component of a difference by that much, hence the determinant by at most
 // 6 L^2 error.
 //
-// When doubles cannot tell, every one of these determinants is linear in p: n · (p - x) with a
+// When doubles cannot decide, every one of these determinants is linear in p: n · (p - x) with a
 // normal n made of lattice points and the reference alone, of at most 2^126. So the exact stage is
 // one dot product: in 128 bits when p has few bits, which is the common case for points that lie
 // exactly on something, in 576 bits for what a HomogeneousPoint holds, in rationals otherwise.

@@ -84,7 +84,7 @@ bool IndexWindings::add_along(const BlockItem& item, double margin, double large
     return true;
 }
 
-// A triangle and a line in doubles; false when they cannot tell.
+// A triangle and a line in doubles; false when they cannot decide.
 template <std::size_t Axis>
 bool IndexWindings::add_quickly(const BlockItem& item, std::array<std::uint32_t, 3> line,
                                 double largest) {

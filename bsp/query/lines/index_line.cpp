@@ -5,9 +5,10 @@
 // t = N · (a - o) / N · d. Bounds as in index_signs.cpp: a determinant of differences with largest
 // components M, M and D errs by less than 2^-47 M^2 D.
 //
-// What doubles cannot tell is asked of planes in rationals: a line meets a convex polygon where it
-// meets the support between its edges, or, when it runs in the support, from the last edge that it
-// enters by to the first one that it leaves by. Such a parameter is where the line meets a plane.
+// What doubles cannot decide is decided by planes in rationals: a line meets a convex polygon where
+// it meets the support between its edges, or, when it runs in the support, from the last edge that
+// it enters by to the first one that it leaves by. Such a parameter is where the line meets a
+// plane.
 
 #include <trisect/bsp/query/lines/index_line.h>
 
@@ -258,7 +259,7 @@ Range quotient(double n, double n_error, double d, double d_error) {
     return {t - e, t + e, e < HUGE_VAL};
 }
 
-// -1: misses; 0: doubles cannot tell; 1: crosses in `contact`.
+// -1: misses; 0: doubles cannot decide; 1: crosses in `contact`.
 int meet_triangle(const Vector& a, const Vector& b, const Vector& c, const IndexLine& line,
                   LineContact& contact) {
     const Vector& d = line.direction();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays. The tree is walked from front to back with enclosures of the parameters at its walls, so
-// that no cell that the ray touches is missed; each polygon of a cell is tested whole, wherever it
-// meets the ray. The walk for a first hit ends when every cell left begins behind the upper bound
-// of a hit.
+// Rays. The tree is walked from front to back with enclosures of the parameters at its splitting
+// planes, so that no cell that the ray touches is missed; each polygon of a cell is tested whole,
+// wherever it meets the ray. The walk for a first hit ends when every cell left begins behind the
+// upper bound of a hit.
 //
 // A line meets most polygons in an interior point, which doubles decide. What is left are rays
 // through edges and vertices, along edges and in faces. There all contacts are collected, their
-// ends sorted exactly, and between and at these the rank of the normals tells what the ray is on.
+// ends sorted exactly, and between and at these the rank of the normals decides what the ray is on.
 // Of a point and the intervals beside it that have the same rank one hit is made: the point was the
 // end of a triangle, but not of a face or edge.
 
@@ -38,7 +38,7 @@ struct Range {
     double hi = 0;
 };
 
-// The enclosure of the parameter at which the line passes a wall.
+// The enclosure of the parameter at which the line passes a splitting plane.
 Range at_wall(const IndexLine& line, std::size_t axis, double wall, double wall_error) {
     const double d = line.direction()[axis];
     const double t = (wall - line.origin()[axis]) / d;
@@ -75,7 +75,7 @@ private:
         Range range;
     };
 
-    // For lines of which doubles do not tell the cells.
+    // For lines whose cells doubles do not decide.
     void visit_all() {
         for_leaves(
             index_.tree, [](const DoubleBox&) { return true; },

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What kind of boundary point it is, the normals of the polygons that contain it tell: in one plane
-// a face, planes through one line an edge, else a vertex. Near the point the boundary is a cone
-// over these polygons, so this is a property of the set.
+// The normals of the polygons that contain it decide the kind of boundary point: in one plane a
+// face, planes through one line an edge, else a vertex. Near the point the boundary is a cone over
+// these polygons, so this is a property of the set.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector& n) {
 }
 
 // Polygons whose normals are linearly independent, up to three: each one that is not a combination
-// of those before. Doubles tell mostly.
+// of those before. Doubles mostly decide.
 class Independent {
 public:
     explicit Independent(const IndexPolygons& polygons) : polygons_(polygons) {}

@@ -2,9 +2,9 @@
 //
 // A binary partition of space (Fuchs, Kedem and Naylor 1980) used as a proof. Open cells and the
 // planes between them fill space, so what holds for open sets in every cell holds everywhere. Where
-// many pieces are left, planes across the axes part them; few are parted by the planes of pieces,
-// each of which takes its own piece out of both sides. That ends, because every piece lies in one
-// of finitely many planes; planes that split little and keep A's pieces from B's come first.
+// many pieces are left, axis-perpendicular planes separate them; few are separated by the planes of
+// pieces, each of which takes its own piece out of both sides. That ends, because every piece lies
+// in one of finitely many planes; planes that split little and keep A's pieces from B's come first.
 //
 // Every cell has a point: a cell is divided by a plane that has points of the cell on both sides,
 // and a point of each side is made of the cell's point and of the middle of a piece, which is in
@@ -201,7 +201,7 @@ bool parts(const GmpPlane& plane, const std::vector<ConvexPolygon>& a,
 std::optional<std::vector<CertifiedCell>> CellProof::run(Polygons a, Polygons b) {
     cells_.clear();
     path_.clear();
-    // Any point that is on no boundary will do; it is replaced as soon as it is asked about.
+    // Any point that is on no boundary will do; it is replaced on first use.
     const GmpVector point = a.empty() ? GmpVector{} : middle_of(a.front());
     if (divide(a, b, point, 0) != Progress::Done) return std::nullopt;
     return std::move(cells_);
@@ -272,7 +272,7 @@ GmpVector CellProof::point_beside(const Bound& cut, const Polygons& a, const Pol
     const auto sign_at = [&cut](const GmpVector& p) {
         return sgn(mpq_class(dot(cut.normal, p) + cut.offset));
     };
-    // The middle of a piece is no good itself where the piece is the boundary asked about later: it
+    // The middle of a piece is no good itself where the piece is the boundary of a later query: it
     // is moved towards the cell's point. So is the point itself when it is in the plane.
     const auto near = [&](const GmpVector& from, const GmpVector& direction) {
         mpq_class step = 1;
