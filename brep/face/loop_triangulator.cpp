@@ -26,6 +26,7 @@
 #include <trisect/brep/face/convex_cut.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
@@ -34,8 +35,6 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::uint64_t work_limit = std::uint64_t{1} << 32;
-
-Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
 
 // Twice the vector area. 2^17 terms of at most 2^109: below 2^127.
 std::array<Int128, 3> newell(std::span<const LatticePoint> points,

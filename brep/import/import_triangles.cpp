@@ -80,11 +80,11 @@ bool is_triangle_mesh(const PolygonMesh& mesh, const Sharing& sharing) {
     return is_one;
 }
 
-struct Range {
+struct CoordinateBox {
     std::array<std::int64_t, 3> low;
     std::array<std::int64_t, 3> high;
 
-    Range() {
+    CoordinateBox() {
         low.fill(coordinate_limit);
         high.fill(-coordinate_limit);
     }
@@ -99,17 +99,17 @@ struct Range {
 // How far the points extend along each axis.
 Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
     const ParallelParts parts = sharing.parts(points.size());
-    std::vector<Range> ranges(parts.count());
+    std::vector<CoordinateBox> ranges(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Range range;
+        CoordinateBox range;
         for (const LatticePoint& p : points.subspan(begin, end - begin)) {
             const std::array<std::int64_t, 3> c{p.x, p.y, p.z};
             range.add(c, c);
         }
         ranges[part] = range;
     });
-    Range all;
-    for (const Range& r : ranges) all.add(r.low, r.high);
+    CoordinateBox all;
+    for (const CoordinateBox& r : ranges) all.add(r.low, r.high);
     Point3d d{};
     if (points.empty()) return d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = static_cast<double>(all.high[k] - all.low[k]);

@@ -90,9 +90,9 @@ TRISECT_WIDE_CLONES void list_unclear(const Row* rows, const std::uint8_t* count
     }
 }
 
-class Corners {
+class CornerRows {
 public:
-    explicit Corners(std::size_t point_count)
+    explicit CornerRows(std::size_t point_count)
         : rows_(std::make_unique_for_overwrite<Row[]>(point_count)), counts_(point_count) {}
 
     // Not inlined: the loop wants all registers.
@@ -175,7 +175,7 @@ private:
 }  // namespace
 
 SideBalance balance_sides(std::size_t point_count, std::span<const std::uint32_t> corners) {
-    Corners all(point_count);
+    CornerRows all(point_count);
     all.add(corners);
     return {all.cancel(), all.are_at_all_points()};
 }

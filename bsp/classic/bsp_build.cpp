@@ -35,9 +35,9 @@ namespace trisect {
 
 namespace {
 
-using Label = BspTree::Label;
-using Node = BspTree::Node;
-using NodeId = BspTree::NodeId;
+using BspLabel = BspTree::Label;
+using BspNode = BspTree::Node;
+using BspNodeId = BspTree::NodeId;
 using Polygons = std::vector<ConvexPolygon>;
 using Indices = std::vector<std::uint32_t>;
 
@@ -65,19 +65,19 @@ private:
     struct Cell {
         Indices polygons;
         std::uint32_t parent = 0;
-        NodeId Node::*child = nullptr;  // null for the root
+        BspNodeId BspNode::*child = nullptr;  // null for the root
     };
 
     void refine(const Cell& cell) {
         const auto id = static_cast<std::uint32_t>(nodes_.size());
         const Plane plane = polygons_[choose(cell.polygons)].support();
-        nodes_.push_back({plane, NodeId(Label::In), NodeId(Label::Out)});
-        if (cell.child != nullptr) nodes_[cell.parent].*cell.child = NodeId(id);
+        nodes_.push_back({plane, BspNodeId(BspLabel::In), BspNodeId(BspLabel::Out)});
+        if (cell.child != nullptr) nodes_[cell.parent].*cell.child = BspNodeId(id);
         Indices below;
         Indices above;
         for (const std::uint32_t i : cell.polygons) send(i, plane, below, above);
-        if (!above.empty()) pending_.push_back({std::move(above), id, &Node::above});
-        if (!below.empty()) pending_.push_back({std::move(below), id, &Node::below});
+        if (!above.empty()) pending_.push_back({std::move(above), id, &BspNode::above});
+        if (!below.empty()) pending_.push_back({std::move(below), id, &BspNode::below});
     }
 
     void send(std::uint32_t i, const Plane& plane, Indices& below, Indices& above) {
@@ -127,7 +127,7 @@ private:
 
     BspBuildOptions options_;
     Polygons polygons_;  // grows where polygons are cut; a cell names its own
-    std::vector<Node> nodes_;
+    std::vector<BspNode> nodes_;
     std::vector<Cell> pending_;
 };
 

@@ -34,7 +34,7 @@ constexpr std::int64_t wall_offset = 83;
 // often.
 constexpr int levels_at_once = 4;
 // Where boxes get this short in the frame a leaf is left for a frame of its own.
-constexpr int coarse_extent = 128;
+constexpr int least_extent = 128;
 
 /// A point of a cell and the winding number there.
 struct KnownPoint {
@@ -224,7 +224,7 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
 }
 
 std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level) {
-    const auto cut = longest(list, level == 1 ? 1 : coarse_extent);
+    const auto cut = longest(list, level == 1 ? 1 : least_extent);
     if (!cut) return nullptr;
     const auto mark = arena_.mark();
     const auto halves = divided(list, *cut);

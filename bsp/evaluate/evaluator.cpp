@@ -60,7 +60,7 @@ namespace trisect::detail {
 namespace {
 
 // Cells with fewer polygons are not worth a task of their own.
-constexpr std::uint64_t parallel_size = 4096;
+constexpr std::uint64_t parallel_polygons = 4096;
 // Leaves may be so many times as large where all polygons are axis-perpendicular.
 constexpr std::uint64_t axis_leaf_factor = 8;
 // Or where operands are small: where at least such a part of all their facets is in the cell.
@@ -524,7 +524,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
             if (o.is_list) listed += o.count;
     const auto held = shared_.memory.hold(listed * sizeof(PackedBox));
     std::array<CellRef, 2> results;
-    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_polygons) {
         SharedFailure& failure = shared_.failure;
         fork_join([&] { failure.guard([&] { results[1] = shared_.worker().solve(children[1]); }); },
                   [&] { failure.guard([&] { results[0] = deep_solve(children[0]); }); });
@@ -610,7 +610,7 @@ Evaluation evaluate_formula(const Residual::Ref& formula,
     for (const auto& s : solids) polygons += s->root.node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
     shared.parallel =
-        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_size;
+        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_polygons;
     Evaluation result;
     if (shared.parallel) {
         tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic

@@ -70,7 +70,7 @@ bool OutlinedSolid::is_cut() const {
 namespace {
 
 // Of an operand that is all facets of one mesh: the mesh, else null.
-const Source* mesh_of(const SolidState& solid) {
+const Source* only_mesh_of(const SolidState& solid) {
     const CellNode& root = *solid.root.node;
     if (!solid.embedded || !root.is_leaf() || root.deferred() != nullptr || root.size() == 0)
         return nullptr;
@@ -97,7 +97,7 @@ std::shared_ptr<const SolidState> outline_prisms(
     if (total <= prism_leaf_factor * options.leaf_polygons) return nullptr;
     Box all;
     for (const auto& s : solids) {
-        const Source* const mesh = mesh_of(*s);
+        const Source* const mesh = only_mesh_of(*s);
         if (mesh == nullptr || !lies_outside(s->root.node->reference(), mesh->box()) ||
             !PrismFacets::may_be_of_prism({mesh, nullptr, 0, false, false}))
             return nullptr;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t least_facets = 64;
 
 // The mesh that a solid was imported from, if the solid is still that; else null.
-const Source* mesh_of(const SolidState& solid) {
+const Source* imported_mesh_of(const SolidState& solid) {
     const CellNode& root = *solid.root.node;
     if (solid.outlined != nullptr || !root.is_leaf() || !root.polygons().has_all_facets())
         return nullptr;
@@ -33,8 +33,8 @@ const Source* mesh_of(const SolidState& solid) {
 
 // The same points and triangles in the same order, and the same side of them.
 bool are_equal_meshes(const SolidState& a, const SolidState& b) {
-    const LatticeMesh& m = mesh_of(a)->mesh();
-    const LatticeMesh& n = mesh_of(b)->mesh();
+    const LatticeMesh& m = imported_mesh_of(a)->mesh();
+    const LatticeMesh& n = imported_mesh_of(b)->mesh();
     return a.lattice == b.lattice && a.embedded == b.embedded && a.far_out == b.far_out &&
            a.root.complemented == b.root.complemented &&
            a.root.node->polygons().flipped() == b.root.node->polygons().flipped() &&
@@ -157,7 +157,7 @@ private:
     // A file that was read twice is one operand: nothing has to be compared then, where all would
     // coincide.
     std::int32_t slot_of_equal_mesh(const SolidState& solid, std::int32_t next) {
-        const Source* const mesh = mesh_of(solid);
+        const Source* const mesh = imported_mesh_of(solid);
         if (mesh == nullptr) return next;
         const std::uint64_t key = key_of(*mesh);
         const auto [begin, end] = meshes_.equal_range(key);

@@ -25,6 +25,11 @@ enum class Relation : std::uint8_t {
     Equal         ///< the same set
 };
 
+/// Whether the intersection of two solids in this relation has a volume.
+[[nodiscard]] constexpr bool interiors_meet(Relation r) {
+    return r != Relation::Disjoint && r != Relation::Touching;
+}
+
 /// "disjoint", "touching", "overlapping", "inside", "contains", "equal".
 [[nodiscard]] const char* to_string(Relation relation);
 

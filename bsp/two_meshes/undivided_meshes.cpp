@@ -50,12 +50,12 @@ namespace {
 using TwoLists = std::array<std::vector<std::uint32_t>, 2>;
 
 // Cells with fewer facets are not worth a task of their own.
-constexpr std::uint64_t parallel_size = 4096;
+constexpr std::uint64_t parallel_facets = 4096;
 
 class PairFinder;
 
 // What the threads of one search share.
-struct Search {
+struct SharedSearch {
     const EvaluateOptions& options;
     const Crossings& operands;  // without pairs
     MemoryBudget& memory;
@@ -69,7 +69,7 @@ struct Search {
 // Compares facets of two meshes, some of each.
 class PairFinder {
 public:
-    explicit PairFinder(Search& search) : search_(search) {
+    explicit PairFinder(SharedSearch& search) : search_(search) {
         crossings_.operands = search.operands.operands;
     }
 
@@ -109,7 +109,7 @@ private:
 
     [[nodiscard]] bool solve_both(std::array<CellTask, 2>& children);
 
-    Search& search_;
+    SharedSearch& search_;
     EvaluateStats stats_;
     Crossings crossings_;
     StackArena arena_;
@@ -118,7 +118,7 @@ private:
     std::vector<PolygonRef> polygons_;
 };
 
-PairFinder& Search::finder() {
+PairFinder& SharedSearch::finder() {
     return finders.local([&] { return std::make_unique<PairFinder>(*this); });
 }
 
@@ -198,7 +198,7 @@ bool PairFinder::divide(const CellTask& task, const Wall& wall) {
 // The lists of both lie in the arena of this thread, which waits for the other one.
 bool PairFinder::solve_both(std::array<CellTask, 2>& children) {
     std::array<bool, 2> known{};
-    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_facets) {
         both_at_once([&] { known[1] = search_.finder().solve(children[1]); },
                      [&] { known[0] = with_enough_stack([&] { return solve(children[0]); }); });
     } else {
@@ -297,7 +297,7 @@ struct TwoMeshes {
 // All pairs of facets that cross, arranged; false when doubles cannot decide one.
 bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
                 MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
-    Search search{options, crossings, memory, parallel};
+    SharedSearch search{options, crossings, memory, parallel};
     if (!search.finder().run(two.nodes, near)) return false;
     search.finders.for_each([&](const PairFinder& f) {
         crossings.append(f.crossings());
@@ -360,7 +360,8 @@ std::shared_ptr<const SolidState> evaluate_undivided(
     if (two.smaller() < least_facets || !two.are_of_a_size() || !two.have_outer_references() ||
         two.common.is_empty())
         return nullptr;
-    const bool parallel = options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_size;
+    const bool parallel =
+        options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_facets;
     EvaluateStats made;
     auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
         return find_uncrossed(two, solids, options, parallel, *crossings, made);

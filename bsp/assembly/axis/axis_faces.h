@@ -13,6 +13,7 @@
 #include <trisect/bsp/assembly/axis/axis_outline.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -36,7 +37,7 @@ public:
     void choose(std::span<const Leaf> leaves);
     /// Whether make_edges() makes the edges of a facet: nothing else may.
     [[nodiscard]] bool takes(std::int32_t facet) const {
-        return !taken_.empty() && taken_[u(facet)];
+        return !taken_.empty() && taken_[as_index(facet)];
     }
     /// How many facets are taken, and how many parts of facets.
     [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
@@ -62,8 +63,6 @@ public:
     void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out);
 
 private:
-    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
     // A vertex on a line.
     struct Stop {
         std::uint32_t place = 0;  // its rank along the line

@@ -31,14 +31,11 @@
 #include <utility>
 
 #include <trisect/brep/planar_loops.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
-namespace {
-
-constexpr double slack = 1.0001;
-
-}  // namespace
+namespace {}  // namespace
 
 bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
                          std::span<const OutlineSegment> segments) {
@@ -130,7 +127,8 @@ bool FacetOutline::sort_stops_on(std::size_t edge) {
     }
     std::ranges::sort(stops, {}, &Stop::along);
     for (std::size_t i = 1; i < stops.size(); ++i)
-        if (!(stops[i].along - stops[i - 1].along > slack * (stops[i - 1].error + stops[i].error)))
+        if (!(stops[i].along - stops[i - 1].along >
+              bound_slack * (stops[i - 1].error + stops[i].error)))
             return false;
     return true;
 }

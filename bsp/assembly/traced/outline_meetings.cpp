@@ -27,13 +27,12 @@
 #include <utility>
 
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/double2.h>
 
 namespace trisect::detail {
 
 namespace {
-
-constexpr double slack = 1.0001;
 
 // The axis along which a segment is longest, and the way along it with its sign.
 std::pair<std::size_t, double> longest_way(const OutlineSegment& s) {
@@ -219,7 +218,8 @@ bool OutlineMeetings::sort_along(const OutlineSegment& segment, std::span<Meetin
     std::ranges::sort(run, {}, &Meeting::along);
     const auto error = [&](std::size_t i) { return points_[run[i].point].at.error; };
     for (std::size_t i = 1; i < run.size(); ++i)
-        if (!(run[i].along - run[i - 1].along > slack * (error(i - 1) + error(i)))) return false;
+        if (!(run[i].along - run[i - 1].along > bound_slack * (error(i - 1) + error(i))))
+            return false;
     return true;
 }
 

@@ -21,12 +21,11 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/traced/facet_outline.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Which operand a facet belongs to, of many: by a table of about twice as many equal ranges of
 // facets as there are operands, most of which are in one or two.
@@ -188,7 +187,7 @@ private:
             const auto n = static_cast<std::ptrdiff_t>(outline_.edges().size());
             std::reverse(edges_.end() - n, edges_.end());
         }
-        BoundaryFacet& f = parts_.facets[u(number)];
+        BoundaryFacet& f = parts_.facets[as_index(number)];
         f.support = parts_.bench.support_of(own_);
         f.parts = 1;
     }
@@ -206,7 +205,7 @@ private:
                 return point;
             }
             case OutlinePoint::Kind::End:
-                return end_of(p.place, u(p.which));
+                return end_of(p.place, as_index(p.which));
             case OutlinePoint::Kind::Meeting:
                 break;
         }
@@ -268,7 +267,7 @@ private:
         const std::uint32_t facet = number - o.first;
         PlaneId none = -1;
         PlaneId& known = marks.takes_part(facet, o.inside_above)
-                             ? planes_[u(marks.number_of_worked(facet, o.inside_above))]
+                             ? planes_[as_index(marks.number_of_worked(facet, o.inside_above))]
                              : none;
         if (known < 0) known = parts_.bench.plane(PlaneName::edge(marks.source(), facet, 0));
         return plane = known;

@@ -13,6 +13,7 @@
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
 #include <trisect/kernel/number/bounded_double.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::hierarchies {
@@ -44,12 +45,12 @@ public:
     enum class Body : std::uint8_t { A, B };
 
     /// Up to a factor `unit()`; all coordinates are at most about 1.
-    [[nodiscard]] detail::Vector<detail::BoundedDouble> approximate(Body body,
-                                                                    const LatticePoint& p) const {
+    [[nodiscard]] detail::VectorOf<detail::BoundedDouble> approximate(Body body,
+                                                                      const LatticePoint& p) const {
         const Map& m = body == Body::A ? a_ : b_;
         const std::array<double, 3> x{static_cast<double>(p.x), static_cast<double>(p.y),
                                       static_cast<double>(p.z)};
-        detail::Vector<detail::BoundedDouble> r;
+        detail::VectorOf<detail::BoundedDouble> r;
         for (std::size_t i = 0; i < 3; ++i)
             r[i] = {((m.m[i][0] * x[0] + m.m[i][1] * x[1]) + m.m[i][2] * x[2]) + m.t[i], m.error};
         return r;

@@ -9,6 +9,7 @@
 
 #include <trisect/bsp/hierarchies/convex/common_frame.h>
 #include <trisect/kernel/number/bounded_double.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
@@ -23,10 +24,10 @@ struct CommonFrame::Exact {
     Map b;
     mpq_class scale;
 
-    [[nodiscard]] detail::Vector<mpz_class> place(Body body, const LatticePoint& p) const {
+    [[nodiscard]] detail::VectorOf<mpz_class> place(Body body, const LatticePoint& p) const {
         static_assert(sizeof(long) == sizeof(p.x), "GMP takes long");
         const Map& map = body == Body::A ? a : b;
-        detail::Vector<mpz_class> r;
+        detail::VectorOf<mpz_class> r;
         for (std::size_t i = 0; i < 3; ++i) {
             r[i] = map.t[i];
             r[i] += map.m[i][0] * static_cast<long>(p.x);

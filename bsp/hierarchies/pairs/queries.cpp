@@ -118,16 +118,16 @@ Relation relation_of_unknown(const PairStructure& s, const std::vector<TriangleP
 }
 
 // All pairs that may be the closest, and bounds on the distance.
-struct Nearest {
+struct NearestPairs {
     DistanceInterval interval;
     std::vector<DistanceCandidate> pairs;
 };
 
-Nearest nearest(PairStructure& s, CostCounters& counters) {
+NearestPairs nearest(PairStructure& s, CostCounters& counters) {
     const detail::PairDistance pairs(s.model_a().data(), s.pose_a(), s.model_b().data(),
                                      s.pose_b());
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    Nearest r;
+    NearestPairs r;
     double upper = infinite;
     double limit = infinite;
     s.near(
@@ -225,7 +225,7 @@ DistanceInterval distance(PairStructure& structure, CostCounters& counters) {
 ClosestFeatures closest(PairStructure& structure, CostCounters& counters) {
     const InterferenceModelData& a = structure.model_a().data();
     const InterferenceModelData& b = structure.model_b().data();
-    const Nearest found = nearest(structure, counters);
+    const NearestPairs found = nearest(structure, counters);
     if (std::ranges::any_of(found.pairs, &DistanceCandidate::crossing)) return {};
     std::optional<ClosestFeatures> best;
     for (const DistanceCandidate& c : found.pairs) {

@@ -36,19 +36,20 @@
 #include <trisect/bsp/hierarchies/partitions/partition.h>
 #include <trisect/bsp/hierarchies/partitions/partitions.h>
 #include <trisect/bsp/hierarchies/partitions/plane_tree.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
+using detail::Vector3;
+
 namespace {
 
-using Double3 = std::array<double, 3>;
-
 // The vertices that are farthest along the axes and diagonals.
-std::vector<Double3> extremes_of(const detail::InterferenceModelData& model) {
-    std::vector<Double3> r;
+std::vector<Vector3> extremes_of(const detail::InterferenceModelData& model) {
+    std::vector<Vector3> r;
     for (int code = 0; code < 27; ++code) {
-        const Double3 along{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
-        const auto reach = [&along](const Double3& p) {
+        const Vector3 along{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
+        const auto reach = [&along](const Vector3& p) {
             return along[0] * p[0] + along[1] * p[1] + along[2] * p[2];
         };
         r.push_back(*std::ranges::max_element(model.positions, {}, reach));
@@ -62,7 +63,7 @@ std::vector<Double3> extremes_of(const detail::InterferenceModelData& model) {
 struct SolidTree {
     PlaneTree tree;
     std::vector<InnerBall> balls;  // of leaves inside
-    std::vector<Double3> extremes;
+    std::vector<Vector3> extremes;
     Box bounds;
 
     SolidTree(PlaneTree made, const detail::InterferenceModelData& model)
@@ -142,9 +143,9 @@ private:
         const detail::ApproximateMap& to_a = placement().to_a;
         const double error =
             to_a.error_below(data_b().largest, data_b().position_error) + data_a().position_error;
-        Double3 middle{};
+        Vector3 middle{};
         for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * data_b().lo[k] + 0.5 * data_b().hi[k];
-        const Double3 center = to_a(middle);
+        const Vector3 center = to_a(middle);
         bool meets = true;
         for (std::size_t i = 0; i < 3; ++i) {
             double reach = 2 * error;
@@ -192,7 +193,7 @@ private:
                             const detail::ApproximateMap& map, const PlaneTree& other,
                             CostCounters& counters) {
         const double error = map.error_below(model.largest, model.position_error);
-        return std::ranges::any_of(side.extremes, [&](const Double3& p) {
+        return std::ranges::any_of(side.extremes, [&](const Vector3& p) {
             return !other.is_inside(map(p), error, counters).value_or(true);
         });
     }

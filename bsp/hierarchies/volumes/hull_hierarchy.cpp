@@ -19,7 +19,7 @@ struct HullKind {
     using Volume = SmallHull;
     struct Moved {
         SmallHull hull;
-        mutable detail::Double3 direction{};  ///< from the last volume of A; 0 at first
+        mutable detail::Vector3 direction{};  ///< from the last volume of A; 0 at first
     };
     class Pose {
     public:
@@ -36,7 +36,7 @@ struct HullKind {
         FrameMap map_;
     };
     static constexpr bool has_unite = false;
-    static Volume fit(std::span<const detail::Double3> corners, double error) {
+    static Volume fit(std::span<const detail::Vector3> corners, double error) {
         return SmallHull::around(corners, error);
     }
     static float size(const Volume& v) { return v.size(); }

@@ -42,12 +42,12 @@
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr float infinite_float = std::numeric_limits<float>::infinity();
 
 float size(const ObbTree& t, ObbId id) {

@@ -23,7 +23,7 @@ namespace trisect::detail {
 
 namespace {
 
-double length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+double length_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
 // A bound on the norm of the matrix, up to rounding.
 double norm(const std::array<double, 12>& m) {
@@ -73,7 +73,7 @@ struct PoseReserve::Difference {
             return (rows[4 * i] * c[0] + rows[4 * i + 1] * c[1]) + rows[4 * i + 2] * c[2] +
                    rows[4 * i + 3];
         };
-        return length(row(0), row(1), row(2)) + norm * body.radius;
+        return length_of(row(0), row(1), row(2)) + norm * body.radius;
     }
 };
 

@@ -22,14 +22,11 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/seconds_since.h>
 
 namespace trisect::detail {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 VertexId place_of(const Brep& brep, VertexId v) {
     const auto copies = brep.copies(v);

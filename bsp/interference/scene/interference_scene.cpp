@@ -28,6 +28,7 @@
 #include <trisect/bsp/interference/scene/scene_bodies.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/seconds_since.h>
 
 namespace trisect {
 namespace {
@@ -35,25 +36,7 @@ namespace {
 using detail::BodyPair;
 using detail::SceneBodies;
 using detail::SceneBody;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// What is known about a pair of bodies.
-struct Answer {
-    BodyPair pair;
-    std::uint64_t placement_a = 0;
-    std::uint64_t placement_b = 0;
-    bool has_contacts = false;
-    Relation relation = Relation::Disjoint;
-    std::vector<Contact> contacts;
-    /// Of large models only, and those for which it was made; it keeps them alive.
-    std::unique_ptr<InterferenceQuery> query;
-    const detail::InterferenceModelData* query_a = nullptr;
-    const detail::InterferenceModelData* query_b = nullptr;
-    std::exception_ptr error;
-};
+using detail::seconds_since;
 
 /// Of both models together. Below that a walk from the roots takes no longer than remembering.
 constexpr std::size_t worth_remembering = 4096;
@@ -113,6 +96,21 @@ public:
     }
 
 private:
+    /// State of a pair of bodies.
+    struct Answer {
+        BodyPair pair;
+        std::uint64_t placement_a = 0;
+        std::uint64_t placement_b = 0;
+        bool has_contacts = false;
+        Relation relation = Relation::Disjoint;
+        std::vector<Contact> contacts;
+        /// Of large models only, and those for which it was made; it keeps them alive.
+        std::unique_ptr<InterferenceQuery> query;
+        const detail::InterferenceModelData* query_a = nullptr;
+        const detail::InterferenceModelData* query_b = nullptr;
+        std::exception_ptr error;
+    };
+
     /// State of a slot in the broad phase.
     struct Known {
         std::uint64_t placement = 0;  ///< 0: nothing

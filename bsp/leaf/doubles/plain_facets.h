@@ -12,12 +12,12 @@
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/stamp_map.h>
 
 namespace trisect::detail {
-
-using Vector3 = std::array<double, 3>;
 
 /// The support of a facet: points p with normal · (p - origin) = 0. Exact points of the leaf have a
 /// value within `bound` of the computed one; points with an error add `slope` times that.
@@ -110,12 +110,10 @@ public:
     [[nodiscard]] bool list(const LeafProblem& leaf);
 
     [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
-    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[LeafWork::u(i)]; }
-    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const {
-        return facets_[LeafWork::u(i)];
-    }
+    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[as_index(i)]; }
+    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const { return facets_[as_index(i)]; }
     [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
-        PlainFacet& f = facets_[LeafWork::u(i)];
+        PlainFacet& f = facets_[as_index(i)];
         if (f.plane.bound < 0) {
             f.plane = plane_of(f.corners, extent_);
             make_outline(i);
@@ -127,7 +125,7 @@ public:
                                              const Vector3& extent);
     /// Corners of most fragments are never used.
     void make_outline(LeafIndex i) {
-        PlainFacet& f = facets_[LeafWork::u(i)];
+        PlainFacet& f = facets_[as_index(i)];
         if (!f.is_whole() && f.outline == PlainFacet::no_outline) add_outline(f);
     }
     /// A corner of an item's outline. \pre an item of which plane() or make_outline() was called

@@ -23,6 +23,7 @@
 #include <algorithm>
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -128,7 +129,7 @@ void PlainLeaf::start_covers(const Crossings* crossings) {
 // cross it. One whose part in the cell is empty belongs to other cells.
 bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std::uint32_t>& seen) {
     if (crossings.operands.size() == 2) return true;
-    const std::size_t own = LeafWork::u(facets_[item].operand);
+    const std::size_t own = as_index(facets_[item].operand);
     const std::uint32_t number = crossings.number_of(slots_[own], facets_[item].ref.facet);
     const auto contacts = pairs_.contacts(item);
     // They come operand by operand.
@@ -150,7 +151,7 @@ bool PlainLeaf::add_covers(LeafIndex item, Crossings& crossings, std::vector<std
     for (std::size_t o = 0; o < open_.size(); ++o) {
         if ((*windings)[o] == open_[o] || o == own) continue;
         const bool crosses = std::ranges::any_of(contacts, [&](const PlainContact& c) {
-            return LeafWork::u(facets_[c.other].operand) == o;
+            return as_index(facets_[c.other].operand) == o;
         });
         if (!crosses) crossings.covers.push_back({number, slots_[o]});
     }

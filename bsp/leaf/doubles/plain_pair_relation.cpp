@@ -28,13 +28,14 @@ namespace trisect::detail {
 namespace {
 
 // Corners of one facet with respect to the support of another one.
-struct Sides {
+struct CornerSides {
     std::array<double, 3> value{};
     double bound = 0;
     int above = 0;
     int below = 0;
 
-    Sides(const PlainPlane& plane, const std::array<Vector3, 3>& corners) : bound(plane.bound) {
+    CornerSides(const PlainPlane& plane, const std::array<Vector3, 3>& corners)
+        : bound(plane.bound) {
         for (std::size_t i = 0; i < 3; ++i) {
             value[i] = plane.value(corners[i]);
             above += value[i] > bound ? 1 : 0;
@@ -72,7 +73,7 @@ struct Numbered {
 Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
 
 // Where the edge from the lonely corner to corner i pierces the other support.
-bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation& x) {
+bool pierce(const Numbered& t, const CornerSides& sides, std::size_t i, Approximation& x) {
     return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
                        sides.value[t.corner[i]], 2 * sides.bound, x);
 }
@@ -287,9 +288,9 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
     const PlainFacet& a = facets[s];
     const PlainFacet& b = facets[t];
-    const Sides of_b(facets.plane(s), b.corners);
+    const CornerSides of_b(facets.plane(s), b.corners);
     if (of_b.is_off()) return Relation::Apart;
-    const Sides of_a(facets.plane(t), a.corners);
+    const CornerSides of_a(facets.plane(t), a.corners);
     if (of_a.is_off()) return Relation::Apart;
     if (!of_a.is_sure() || !of_b.is_sure()) return relate_outlines(facets, s, t, out);
     const std::size_t lonely_a = of_a.lonely();

@@ -13,6 +13,7 @@
 #include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -78,12 +79,12 @@ public:
     [[nodiscard]] std::span<const PlainCrossing> crossings() const { return crossings_; }
     /// Whether an item's box meets that of all facets of some other operand. \pre two operands
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
-        return is_candidate_[LeafWork::u(item)] != 0;
+        return is_candidate_[as_index(item)] != 0;
     }
     /// Whether an item's box meets that of some facet of the other operand. \pre relate_all(), two
     /// operands
     [[nodiscard]] bool has_partner(LeafIndex item) const {
-        return has_partner_[LeafWork::u(item)] != 0;
+        return has_partner_[as_index(item)] != 0;
     }
     /// The boxes of all items in their order, if they are there: in all but large leaves.
     [[nodiscard]] const BoxRows* all_boxes() const { return has_all_boxes_ ? &boxes_ : nullptr; }
@@ -93,7 +94,7 @@ public:
     }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
-        const auto i = LeafWork::u(item);
+        const auto i = as_index(item);
         return {contacts_.data() + first_contact_[i], contacts_.data() + first_contact_[i + 1]};
     }
 

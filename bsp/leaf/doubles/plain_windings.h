@@ -11,6 +11,7 @@
 #include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -39,7 +40,7 @@ public:
     LeafIndex remember(LeafIndex item, std::span<const int> windings);
     /// By operand; the entry of the facet's own is meaningless.
     [[nodiscard]] std::span<const int> windings(LeafIndex i) const {
-        return {known_.data() + LeafWork::u(i) * operands_, operands_};
+        return {known_.data() + as_index(i) * operands_, operands_};
     }
     /// Winding numbers at a point on a facet of the operand `own`, with a meaningless one for that.
     /// The way there starts at the nearest point on that operand where they are known by now, or at

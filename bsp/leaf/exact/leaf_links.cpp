@@ -17,6 +17,8 @@
 #include <cmath>
 #include <utility>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -95,24 +97,25 @@ void LeafLinks::build(LeafWork& work) {
 }
 
 LeafNode LeafLinks::tree_of(LeafNode node) {
-    while (parent_[u(node)] != node) node = parent_[u(node)] = parent_[u(parent_[u(node)])];
+    while (parent_[as_index(node)] != node)
+        node = parent_[as_index(node)] = parent_[as_index(parent_[as_index(node)])];
     return node;
 }
 
 LeafIndex LeafLinks::item_index(LeafNode node) const {
-    return node < items_ ? node : work_->pieces[u(node - items_)].item;
+    return node < items_ ? node : work_->pieces[as_index(node - items_)].item;
 }
 
 const LeafItem& LeafLinks::item_of(LeafNode node) const { return work_->item(item_index(node)); }
 
 const WorkPolygon& LeafLinks::shape_of(LeafNode node) {
-    return node < items_ ? work_->shape(node) : work_->pieces[u(node - items_)].shape;
+    return node < items_ ? work_->shape(node) : work_->pieces[as_index(node - items_)].shape;
 }
 
 void LeafLinks::add_node(LeafNode node) {
     const PolygonRef& ref = item_of(node).ref;
     if (node >= items_) {
-        const auto& edges = work_->pieces[u(node - items_)].shape.edges;
+        const auto& edges = work_->pieces[as_index(node - items_)].shape.edges;
         for (std::size_t k = 0; k < edges.size(); ++k)
             add_edge(node, static_cast<int>(k), work_->bench.name(edges[k].plane));
     } else if (ref.fragment != nullptr) {
@@ -152,7 +155,7 @@ LeafLinks::Line& LeafLinks::line_at(const Key128& key, bool within_facet) {
         Line& line = lines_.emplace_back();
         line.within_facet = within_facet;
     }
-    return lines_[u(id)];
+    return lines_[as_index(id)];
 }
 
 void LeafLinks::count_facet(Line& line, std::uint32_t facet) {
@@ -177,13 +180,13 @@ void LeafLinks::add_to_line(const Key128& key, bool within_facet, LeafNode node,
 }
 
 void LeafLinks::link_line(const Line& line) {
-    for (LeafIndex i = line.first; i >= 0; i = edges_[u(i)].next) {
-        const Edge& a = edges_[u(i)];
+    for (LeafIndex i = line.first; i >= 0; i = edges_[as_index(i)].next) {
+        const Edge& a = edges_[as_index(i)];
         if (!line.within_facet && line.facet_count != 2 &&
             !work_->operand_of(item_of(a.node)).embedded)
             return;
-        for (LeafIndex j = a.next; j >= 0; j = edges_[u(j)].next) {
-            const Edge& b = edges_[u(j)];
+        for (LeafIndex j = a.next; j >= 0; j = edges_[as_index(j)].next) {
+            const Edge& b = edges_[as_index(j)];
             if (tree_of(a.node) == tree_of(b.node)) continue;
             if (line.within_facet) {
                 try_within_facet(a, b);
@@ -341,20 +344,20 @@ void LeafLinks::try_across_edge(const Edge& a, const Edge& b) {
 // `side`: where the node lies with respect to a polygon whose interior its edge runs through.
 void LeafLinks::note_known(LeafNode node, const LeafItem& crossed, int side) {
     const int winding = side * crossed.orientation > 0 ? 0 : 1;
-    known_.push_back({crossed.operand, winding, first_known_[u(node)]});
-    first_known_[u(node)] = static_cast<LeafIndex>(known_.size()) - 1;
+    known_.push_back({crossed.operand, winding, first_known_[as_index(node)]});
+    first_known_[as_index(node)] = static_cast<LeafIndex>(known_.size()) - 1;
 }
 
 void LeafLinks::join(LeafNode a, LeafNode b, std::span<const LeafChange> changes) {
     ++work_->stats->linked;
-    parent_[u(tree_of(a))] = tree_of(b);
+    parent_[as_index(tree_of(a))] = tree_of(b);
     const auto first = static_cast<std::uint32_t>(changes_.size());
     const auto count = static_cast<std::uint32_t>(changes.size());
     changes_.insert(changes_.end(), changes.begin(), changes.end());
-    links_.push_back({b, first_link_[u(a)], first, count, 1});
-    first_link_[u(a)] = static_cast<LeafIndex>(links_.size()) - 1;
-    links_.push_back({a, first_link_[u(b)], first, count, -1});
-    first_link_[u(b)] = static_cast<LeafIndex>(links_.size()) - 1;
+    links_.push_back({b, first_link_[as_index(a)], first, count, 1});
+    first_link_[as_index(a)] = static_cast<LeafIndex>(links_.size()) - 1;
+    links_.push_back({a, first_link_[as_index(b)], first, count, -1});
+    first_link_[as_index(b)] = static_cast<LeafIndex>(links_.size()) - 1;
 }
 
 }  // namespace trisect::detail

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -55,14 +56,16 @@ public:
     };
     /// The root of a node's tree; the same for all nodes of the tree.
     [[nodiscard]] LeafNode tree_of(LeafNode node);
-    [[nodiscard]] LeafIndex first_link(LeafNode node) const { return first_link_[u(node)]; }
-    [[nodiscard]] const Link& link(LeafIndex i) const { return links_[u(i)]; }
+    [[nodiscard]] LeafIndex first_link(LeafNode node) const { return first_link_[as_index(node)]; }
+    [[nodiscard]] const Link& link(LeafIndex i) const { return links_[as_index(i)]; }
     [[nodiscard]] std::span<const LeafChange> changes(const Link& l) const {
         return {changes_.data() + l.first_change, l.change_count};
     }
-    [[nodiscard]] LeafIndex first_known(LeafNode node) const { return first_known_[u(node)]; }
+    [[nodiscard]] LeafIndex first_known(LeafNode node) const {
+        return first_known_[as_index(node)];
+    }
     [[nodiscard]] bool any_known() const { return !known_.empty(); }
-    [[nodiscard]] const Known& known(LeafIndex i) const { return known_[u(i)]; }
+    [[nodiscard]] const Known& known(LeafIndex i) const { return known_[as_index(i)]; }
 
 private:
     /// Edge k of a node, in the list of those on its line.
@@ -83,8 +86,6 @@ private:
         Approximation a;
         Approximation b;
     };
-
-    static std::size_t u(LeafIndex i) { return static_cast<std::size_t>(i); }
     void add_node(LeafNode node);
     void add_edge(LeafNode node, int k, const PlaneName& plane);
     void add_to_line(const Key128& key, bool within_facet, LeafNode node, int k);

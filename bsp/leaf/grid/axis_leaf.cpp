@@ -21,6 +21,7 @@
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect::detail {
@@ -174,7 +175,7 @@ void AxisLeaf::fill(LeafIndex operand, Polygons polygons) {
                 toggles_[plane * n + r] ^= grid_.scan(p, frame, r);
         }
     }
-    const bool inside = problem_->operands[LeafWork::u(operand)].winding > 0;
+    const bool inside = problem_->operands[as_index(operand)].winding > 0;
     if (((line >> bit & 1) != 0) != inside) line = ~line & all_bits();
     units[layer * n + row] = line;
     for (std::size_t r = row + 1; r < n; ++r)
@@ -192,7 +193,7 @@ void AxisLeaf::evaluate(const Residual& formula, Units& out) {
         return;
     }
     const auto units_of_slot = [&](std::int32_t slot) {
-        return units_of(operand_of_slot_[LeafWork::u(slot)]);
+        return units_of(operand_of_slot_[as_index(slot)]);
     };
     out.assign(words(), 0);
     const std::uint64_t all = all_bits();

@@ -18,6 +18,7 @@
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/bsp/leaf/grid/axis_clip.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -61,7 +62,7 @@ private:
     [[nodiscard]] std::size_t layers() const { return grid_.units(2).count(); }
     [[nodiscard]] std::size_t words() const { return rows() * layers(); }
     [[nodiscard]] std::uint64_t* units_of(LeafIndex operand) {
-        return insides_.data() + LeafWork::u(operand) * words();
+        return insides_.data() + as_index(operand) * words();
     }
     [[nodiscard]] std::uint64_t all_bits() const { return unit_bits(0, grid_.units(0).count()); }
 

@@ -30,6 +30,7 @@
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -61,7 +62,7 @@ bool PrismArrangement::has_few_layers() const {
     constexpr std::size_t few = 16;
     std::size_t looked_at = 0;
     std::size_t all = 0;
-    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i) {
+    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i) {
         const std::size_t places = 1 + crossings_.of(i).size();
         looked_at += places * (wall(i).end_layer - wall(i).first_layer);
         all += places;
@@ -77,21 +78,21 @@ void PrismArrangement::find_chains() {
     std::vector<std::int32_t> first(sheets_.edge_count(), -1);
     std::vector<std::int32_t> next(2 * facets_.walls().size());
     for (std::int32_t end = 2 * walls; end-- > 0;) {
-        std::int32_t& head = first[sheets_.edge_at(end / 2, u(end) % 2)];
-        next[u(end)] = head;
+        std::int32_t& head = first[sheets_.edge_at(end / 2, as_index(end) % 2)];
+        next[as_index(end)] = head;
         head = end;
     }
     std::vector<bool> walked(facets_.walls().size(), false);
     steps_.clear();
     chain_begin_.clear();
     for (LeafIndex i = 0; i < walls; ++i) {
-        if (walked[u(i)]) continue;
+        if (walked[as_index(i)]) continue;
         chain_begin_.push_back(steps_.size());
         for (Step step{i, false}; step.wall >= 0;) {
             steps_.push_back(step);
-            walked[u(step.wall)] = true;
+            walked[as_index(step.wall)] = true;
             std::int32_t end = first[sheets_.edge_at(step.wall, step.backwards ? 0 : 1)];
-            while (end >= 0 && walked[u(end / 2)]) end = next[u(end)];
+            while (end >= 0 && walked[as_index(end / 2)]) end = next[as_index(end)];
             step = end < 0 ? Step{-1, false} : Step{end / 2, end % 2 == 1};
         }
     }
@@ -103,7 +104,7 @@ bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& st
     const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
     const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
     std::vector<std::pair<std::int64_t, LeafIndex>> walls;  // by their lower ends
-    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i)
+    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i)
         if (low(i) != high(i)) walls.emplace_back(low(i), i);
     std::ranges::sort(walls);
     const auto start = [&](std::size_t chain) -> const FlatPoint& {
@@ -142,14 +143,14 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     met_.clear();
     for (const LeafIndex c : crossed) {
         for (const std::int32_t sheet : sheets_.of_wall(c)) {
-            odd_[u(sheet)] ^= 1U;
+            odd_[as_index(sheet)] ^= 1U;
             met_.push_back(sheet);
         }
         turn_over(wall(c), w);
     }
     for (const std::int32_t sheet : met_) {
-        if (odd_[u(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
-        odd_[u(sheet)] = 0;
+        if (odd_[as_index(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
+        odd_[as_index(sheet)] = 0;
     }
     for (const Step& step : chain) {
         walk_wall(step);
@@ -157,8 +158,9 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     }
     for (const LeafIndex operand : changed_) {
         for (std::size_t i = 0; i < layers_here_; ++i)
-            formula_.set(row(w.first_layer - 1 + i), u(operand), facets_.outside()[u(operand)]);
-        is_changed_[u(operand)] = false;
+            formula_.set(row(w.first_layer - 1 + i), as_index(operand),
+                         facets_.outside()[as_index(operand)]);
+        is_changed_[as_index(operand)] = false;
     }
     changed_.clear();
 }
@@ -175,9 +177,9 @@ void PrismArrangement::enter_sheet(std::int32_t sheet) {
 }
 
 void PrismArrangement::set_row(std::size_t layer, LeafIndex operand, bool in) {
-    formula_.set(row(layer), u(operand), in ? 1 : 0);
-    if (is_changed_[u(operand)]) return;
-    is_changed_[u(operand)] = true;
+    formula_.set(row(layer), as_index(operand), in ? 1 : 0);
+    if (is_changed_[as_index(operand)]) return;
+    is_changed_[as_index(operand)] = true;
     changed_.push_back(operand);
 }
 
@@ -187,7 +189,7 @@ void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) 
     const std::size_t first = std::max(crossed.first_layer, by.first_layer - 1);
     const std::size_t end = std::min(crossed.end_layer, by.end_layer + 1);
     for (std::size_t layer = first; layer < end; ++layer)
-        set_row(layer, crossed.operand, row(layer)[u(crossed.operand)] == 0);
+        set_row(layer, crossed.operand, row(layer)[as_index(crossed.operand)] == 0);
 }
 
 // --- Along a side face.
@@ -197,7 +199,8 @@ void PrismArrangement::walk_wall(const Step& step) {
     begins_.clear();
     insides_.clear();
     for (std::size_t end = 0; end < 2; ++end) {
-        const bool beyond = row(end == 0 ? w.first_layer - 1 : w.end_layer)[u(w.operand)] != 0;
+        const bool beyond =
+            row(end == 0 ? w.first_layer - 1 : w.end_layer)[as_index(w.operand)] != 0;
         cover_is_left_[end] = beyond != w.inside_is_left;
     }
     look(w, step.backwards ? at_to : at_from);

@@ -16,6 +16,7 @@
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/bsp/leaf/prism/prism_sheets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -69,9 +70,7 @@ private:
         Facing facing = Facing::None;
     };
     static constexpr unsigned both_halves = 3;
-
-    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[u(i)]; }
+    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[as_index(i)]; }
     [[nodiscard]] bool has_few_layers() const;
     void find_chains();
     [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);

@@ -9,6 +9,7 @@
 
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -34,7 +35,7 @@ public:
                             EvaluateStats& stats);
     /// In their order along the side face.
     [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex wall) const {
-        const std::size_t i = LeafWork::u(wall);
+        const std::size_t i = as_index(wall);
         return std::span(found_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
     /// Exact order of two places on one side face.

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t few_pieces = 12;
 constexpr std::size_t most_candidates = 24;
-constexpr int max_depth = 2000;
+constexpr int most_cell_levels = 2000;
 
 GmpVector middle_of(const ConvexPolygon& p) {
     GmpVector sum;
@@ -97,11 +97,11 @@ std::vector<ConvexPolygon> part(const std::vector<ConvexPolygon>& polygons, cons
     return r;
 }
 
-struct Extent {
+struct PolygonExtent {
     std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL};
     std::array<double, 3> hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
-    explicit Extent(const std::vector<ConvexPolygon>& polygons) {
+    explicit PolygonExtent(const std::vector<ConvexPolygon>& polygons) {
         for (const ConvexPolygon& p : polygons)
             for (const GmpVector& v : p)
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -129,8 +129,8 @@ double short_between(double low, double high) {
 // part anything.
 std::optional<GmpPlane> plane_across_an_axis(const std::vector<ConvexPolygon>& a,
                                              const std::vector<ConvexPolygon>& b) {
-    const Extent ea(a);
-    const Extent eb(b);
+    const PolygonExtent ea(a);
+    const PolygonExtent eb(b);
     std::size_t axis = 0;
     double longest = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -224,7 +224,7 @@ std::optional<CertifiedCell::Kind> CellProof::verdict(const Polygons& a, const P
 
 CellProof::Progress CellProof::divide(const Polygons& a, const Polygons& b, const GmpVector& point,
                                       int depth) {
-    if (cells_.size() >= goal_.limit || depth > max_depth) return Progress::Failed;
+    if (cells_.size() >= goal_.limit || depth > most_cell_levels) return Progress::Failed;
     const std::size_t at = cells_.size();
     cells_.emplace_back();
     if (a.empty() || b.empty()) {
