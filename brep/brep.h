@@ -18,8 +18,8 @@
 
 namespace trisect {
 
-/// An index that knows what it counts: ids of different entities do not mix. Trivial type of four
-/// bytes; a default-constructed one names nothing.
+/// An index with a typed meaning: ids of different entities do not mix. Trivial type of four bytes;
+/// a default-constructed one names nothing.
 template <class Entity>
 struct EntityId {
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -110,8 +110,8 @@ struct BrepCounts {
 /// Where the solid touches itself the set is not a manifold. There the boundary is taken apart by
 /// an infinitesimal amount, so that the solid's inside decides what stays connected: two cubes
 /// that share an edge become two shells, each with its own copy of the edge and its ends. Copies
-/// know each other (`copies`). Two copies of an edge may join the same two vertices, where the
-/// boundary stays connected at both.
+/// are linked to each other (`copies`). Two copies of an edge may join the same two vertices, where
+/// the boundary stays connected at both.
 ///
 /// The two faces of an edge may be the same one. The empty Brep bounds the empty set.
 ///

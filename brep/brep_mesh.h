@@ -26,7 +26,7 @@ struct MeshMap {
 ///
 /// Vertex v of the mesh is vertex v of the Brep, so copies at a contact stay apart; faces keep
 /// their order. Every directed edge of the mesh occurs once, except where two copies of an edge
-/// join the same vertices (see Brep): indices alone cannot tell those apart. Rounding can make
+/// join the same vertices (see Brep): indices alone cannot distinguish those. Rounding can make
 /// small faces degenerate or let them intersect: the connectivity is exact, the coordinates are the
 /// nearest ones.
 [[nodiscard]] PolygonMesh to_polygon_mesh(const Brep& brep, MeshOptions options = {},

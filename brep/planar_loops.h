@@ -101,7 +101,7 @@ public:
     [[nodiscard]] int turn(std::uint32_t c) const {
         return orientation(place_of(prev(c)), place_of(c), place_of(next(c)));
     }
-    // Edge c leaves corner c. What detail::SweepLine asks:
+    // Edge c leaves corner c. Members that detail::SweepLine needs:
     [[nodiscard]] std::uint32_t from(std::uint32_t edge) const { return place_of(edge); }
     [[nodiscard]] std::uint32_t to(std::uint32_t edge) const { return place_of(next(edge)); }
     [[nodiscard]] int above(std::uint32_t edge, std::uint32_t place) const {

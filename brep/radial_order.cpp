@@ -26,8 +26,8 @@
 // an infinitesimal separation. Pairing across the empty wedges would be just as consistent, but
 // would weld solids that merely touch.
 //
-// Two faces in the same half-plane with opposite senses are either a slit without width between
-// two solid wedges or a sheet without thickness. A regular solid has neither; the boundary of two
+// Two faces in the same half-plane with opposite senses are either a slit without width between two
+// solid wedges or a surface without thickness. A regular solid has neither; the boundary of two
 // solids that touch in a face has the slit. Closing faces come first, which means the slit.
 
 #include <trisect/brep/radial_order.h>

@@ -13,7 +13,7 @@
 
 namespace trisect {
 
-/// A direction known by the sign (-1 or 1) of one of its components; enough to tell the two
+/// A direction given by the sign (-1 or 1) of one of its components; enough to distinguish the two
 /// directions of a line apart.
 struct AxisDirection {
     int axis = 0;

@@ -17,9 +17,9 @@ namespace trisect {
 using ExactPoint = std::array<ExactRational, 3>;
 
 /// How often the triangles wind around the point, counter-clockwise seen from outside counting 1;
-/// nothing when the point lies on a triangle. Exact. The mesh may intersect and cover itself. For a
-/// mesh that is not closed the answer is the crossing number of the ray towards +x.
-/// O(n), about 5 ns for a triangle that the ray passes by.
+/// nothing when the point lies on a triangle. Exact. The mesh may intersect and overlap itself. For
+/// a mesh that is not closed the answer is the crossing number of the ray towards +x. O(n), about 5
+/// ns for a triangle that the ray passes by.
 [[nodiscard]] std::optional<int> winding_number(const LatticeMesh& mesh, const ExactPoint& point);
 
 }  // namespace trisect

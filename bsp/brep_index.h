@@ -95,8 +95,8 @@ struct Segment {
 
 /// The t of a point of a ray or segment: exact, comparable.
 ///
-/// It is kept as the ray and a plane that the ray meets there; exact numbers are worked out when
-/// asked for. Value type of about 200 bytes; nothing is allocated unless `exact` is called.
+/// It is kept as the ray and a plane that the ray meets there; exact numbers are worked out on
+/// demand. Value type of about 200 bytes; nothing is allocated unless `exact` is called.
 class RayParameter {
 public:
     /// 0.
@@ -117,7 +117,7 @@ public:
     [[nodiscard]] double nearest() const;
     /// \pre !is_infinite()
     [[nodiscard]] ExactRational exact() const;
-    /// Of parameters of the same ray. Doubles first, rationals where these cannot tell.
+    /// Of parameters of the same ray. Doubles first, rationals where these cannot decide.
     friend std::strong_ordering operator<=>(const RayParameter& a, const RayParameter& b);
     friend bool operator==(const RayParameter& a, const RayParameter& b) { return a <=> b == 0; }
 
@@ -240,7 +240,7 @@ struct IndexStats {
 };
 
 /// An index over the boundary of a solid. Results of evaluate() are indexed from the leaves of
-/// their cell tree; no B-rep is built unless asked for.
+/// their cell tree; no B-rep is built unless requested.
 ///
 /// Immutable value; copying shares. Safe to use from many threads. It keeps the solid alive. An
 /// index that was moved from is that of the empty set.
@@ -290,7 +290,7 @@ public:
     /// \throw UsageError for coordinates that are not finite and directions of length 0.
     [[nodiscard]] std::optional<RayHit> first_hit(const Ray& ray) const;
     [[nodiscard]] std::optional<RayHit> first_hit(const Segment& segment) const;
-    /// The same decided as exactly, for who needs no more of it than this.
+    /// The same, decided as exactly, without further data.
     [[nodiscard]] std::optional<FacetHit> first_facet(const Ray& ray) const;
     [[nodiscard]] std::optional<FacetHit> first_facet(const Segment& segment) const;
     /// In order along the ray.
@@ -303,7 +303,7 @@ public:
     /// The nearest point that is on an edge or vertex; the nearest that is a vertex.
     [[nodiscard]] std::optional<Nearest> nearest_edge(const std::array<double, 3>& point) const;
     [[nodiscard]] std::optional<Nearest> nearest_vertex(const std::array<double, 3>& point) const;
-    /// For who does not need the exact point: no rational number is made.
+    /// Without the exact point: no rational number is made.
     [[nodiscard]] std::optional<NearestBounds> distance(const std::array<double, 3>& point) const;
     [[nodiscard]] std::optional<SignedDistance> signed_distance(
         const std::array<double, 3>& point) const;
@@ -323,7 +323,7 @@ public:
     [[nodiscard]] std::vector<IndexCell> cells(FaceId face) const;
     [[nodiscard]] std::vector<IndexCell> cells(EdgeId edge) const;
     [[nodiscard]] std::vector<IndexCell> cells(VertexId vertex) const;
-    /// The leaf that a point is in (one of them, when it is on a wall).
+    /// The leaf that a point is in (one of them, when it is on a splitting plane).
     [[nodiscard]] IndexCell cell_at(const std::array<double, 3>& point) const;
 
 private:

@@ -29,7 +29,7 @@ namespace trisect {
 ///
 /// Invariants:
 ///  1. Node 0 is the root. A child has a larger number than its parent and exactly one parent.
-///  2. Every plane cuts its cell: both children's cells have volume. The constructor cannot know;
+///  2. Every plane cuts its cell: both children's cells have volume. The constructor cannot check;
 ///     build_bsp, merge, complement and reduced promise it (cell_sections finds violations).
 /// The second one makes a point's class exact: a point of all closed half-spaces on the way to a
 /// leaf is in the closure of that leaf's cell, which is false for a cell that is empty.
@@ -111,7 +111,7 @@ public:
     [[nodiscard]] BspTree reduced() const;
 
     /// Where a point of the cube lies. A point on a node's plane belongs to the closures of cells
-    /// on both sides: both are asked, and the answers agree unless the point is on the boundary.
+    /// on both sides: both are queried, and the answers agree unless the point is on the boundary.
     /// O(depth) predicates for a point on no plane; a point on k planes visits up to 2^k ways, but
     /// no more than there are nodes.
     [[nodiscard]] Membership classify(const LatticePoint& p) const;

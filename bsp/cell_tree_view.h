@@ -15,13 +15,13 @@ namespace trisect {
 
 /// The size of a cell tree. Subtrees that a solid shares with others count in full.
 struct CellTreeStats {
-    std::size_t nodes = 0;  ///< walls and leaves
+    std::size_t nodes = 0;  ///< splitting planes and leaves
     std::size_t leaves = 0;
     std::size_t inside_leaves = 0;    ///< homogeneous: no polygon, and in the solid
     std::size_t outside_leaves = 0;   ///< the same, not in the solid
     std::size_t listing_leaves = 0;   ///< with polygons
     std::size_t arranged_leaves = 0;  ///< of those: where operands met and an arrangement was made
-    std::size_t depth = 0;            ///< walls above the deepest leaf
+    std::size_t depth = 0;            ///< splitting planes above the deepest leaf
     std::size_t polygons = 0;         ///< listed, in all leaves together
     std::size_t largest_leaf = 0;     ///< most polygons of one leaf
     std::size_t fragments = 0;        ///< parts of facets that an operation cut out, each once
@@ -33,7 +33,7 @@ struct CellTreeStats {
 
 /// A leaf of the partition.
 struct CellLeaf {
-    std::array<double, 3> lower{};  ///< user's units, rounded; infinite where there is no wall
+    std::array<double, 3> lower{};  ///< user's units, rounded; infinite where nothing bounds it
     std::array<double, 3> upper{};
     std::size_t polygons = 0;  ///< 0: homogeneous
     std::size_t depth = 0;
@@ -42,8 +42,8 @@ struct CellLeaf {
 };
 
 /// The leaves that meet a closed box in the user's units, whose ends may be infinite and may be
-/// equal: lower.z == upper.z asks for a slice. Leaves are in the order of the walls, below first.
-/// O(walls that the box meets).
+/// equal: lower.z == upper.z gives a slice. Leaves are in the order of the splitting planes, below
+/// first. O(splitting planes that the box meets).
 /// \throw UsageError when an end is not a number or lower > upper.
 [[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid,
                                                      const std::array<double, 3>& lower,

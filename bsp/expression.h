@@ -67,10 +67,10 @@ private:
 struct EvaluateOptions {
     /// A cell with at most this many polygons is resolved instead of refined.
     std::uint32_t leaf_polygons = 100;
-    /// Offset of walls from lattice positions in 1/256 units: odd, below 256. For tests of vertices
-    /// on walls.
+    /// Offset of splitting planes from lattice positions in 1/256 units: odd, below 256. For tests
+    /// of vertices on splitting planes.
     std::uint32_t wall_offset = 83;
-    /// What counts as inside an operand that covers itself several times.
+    /// What counts as inside an operand that overlaps itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
     /// Work budget: cells visited plus polygon pairs compared in leaves, not counting what operands
     /// owe from the operation that made them; 0: no limit. The same input always hits the same one.
@@ -108,7 +108,7 @@ struct EvaluateStats {
     /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
     std::uint64_t untouched_polygons = 0;
     std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves, but for cutting put off
-    /// Polygons and pieces that know their winding numbers from a neighbour.
+    /// Polygons and pieces with winding numbers from a neighbour.
     std::uint64_t linked = 0;
     std::uint64_t traces = 0;          ///< winding numbers found by a segment trace
     std::uint64_t traces_retried = 0;  ///< degenerate segments

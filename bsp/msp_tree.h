@@ -98,17 +98,17 @@ struct MspStats {
 /// three-way sign of (point, plane) a level, whatever the dimension. It is exact.
 ///
 /// What happens when things touch. Where several entities contain a point, the one of the lowest
-/// dimension speaks: a corner that touches a face's interior is OnVertex, an edge that lies in
-/// another face OnEdge. Among equals the smallest handle speaks; so a vertex or edge that a Brep
+/// dimension is named: a corner that touches a face's interior is OnVertex, an edge that lies in
+/// another face OnEdge. Among equals the smallest handle is named; so a vertex or edge that a Brep
 /// keeps in several copies is named by the smallest of them (Brep::copies leads to the others).
 ///
 /// Only planes of faces cut space, and a face may fall into fragments: Θ(n²) of them at worst, n to
 /// a few n in practice. The tree of a convex solid is a list. So the tree of a whole boundary is
-/// for study, tests and small solids; large ones are divided by axis-aligned walls first, and a
-/// tree is made of the few polygons of a cell (from_polygons).
+/// for study, tests and small solids; large ones are divided by axis-perpendicular splitting planes
+/// first, and a tree is made of the few polygons of a cell (from_polygons).
 ///
 /// The tree can be walked: root(), node(ref), Node::plane, dimension, below, on, above; a leaf ref
-/// knows its kind and entity.
+/// has its kind and entity.
 ///
 /// Regular value type; 16 bytes a node, 112 a plane. Safe to read from many threads. Nothing here
 /// recurses, so trees may be as deep as they have nodes.
@@ -184,7 +184,7 @@ public:
 
     /// The index of the part of a boundary within a convex cell, the common part of the half-spaces
     /// below `walls` (none for all of space). Polygons may reach out of the cell and are cut there;
-    /// all that meet the open cell must be given. What a point outside the cell is told has no
+    /// all that meet the open cell must be given. The answer for a point outside the cell has no
     /// meaning. A cell that no polygon meets is one leaf, `empty`.
     /// \pre as above.
     [[nodiscard]] static MspTree from_polygons(std::span<const MspPolygon> polygons,

@@ -25,7 +25,7 @@ enum class Embedding : std::uint8_t {
     /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0
     /// and 1. Only cells where operands meet are resolved.
     Assume,
-    /// May intersect, cover or contain itself: every cell is resolved.
+    /// May intersect, overlap or contain itself: every cell is resolved.
     Resolve,
     /// Found out first (brep/validate/embedding.h): as Assume for a boundary that is embedded, else
     /// as Resolve. Some microseconds a triangle; resolving takes several times as long.
@@ -94,7 +94,7 @@ public:
 
     /// The boundary. Assembled anew at every call; costs O(n log n) in the faces. That of a
     /// complement has the volume below its faces negative. The empty set and whole space both have
-    /// none: is_whole_space() tells them apart.
+    /// none: is_whole_space() distinguishes them.
     /// \throw UnsupportedError when the boundary is unbounded (a half-space).
     [[nodiscard]] Brep to_brep(const AssembleOptions& options = {}) const;
     /// Triangles with correctly rounded coordinates. Facets that nothing changed are copied; what

@@ -80,7 +80,7 @@ struct VerifyOptions {
 
 enum class Verdict : std::uint8_t {
     Equal,
-    Within,     ///< equal within the r that was asked for
+    Within,     ///< equal within the given r
     Different,  ///< there is a witness
     Undecided,  ///< r lies between lower and upper, and piece_limit was reached
     NotClosed   ///< RESULT bounds nothing: its faces' boundaries do not cancel

@@ -83,8 +83,8 @@ public:
 
     /// Cuts the polygon into its parts Below and Above a plane. Where the returned classification
     /// is a cut, both parts have area and meet in the new edge; otherwise nothing is written to
-    /// them and the classification tells where the whole polygon lies. `below` and `above` may be
-    /// this polygon. O(n) predicates, at most two new points.
+    /// them and the classification locates the whole polygon. `below` and `above` may be this
+    /// polygon. O(n) predicates, at most two new points.
     Classification split(const Plane& plane, ConvexPolygon& below, ConvexPolygon& above) const;
 
     /// The part on the closed lower or upper side of a plane: the whole polygon when it touches

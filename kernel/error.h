@@ -18,7 +18,7 @@ enum class ErrorCode : std::uint8_t {
     Input = 3,         ///< unreadable or malformed file
     InvalidSolid = 4,  ///< well-formed data that does not bound a solid
     Limit = 5,         ///< a stated limit (memory, work, coordinate range) was hit
-    Cancelled = 6,     ///< the caller asked to stop
+    Cancelled = 6,     ///< cancelled by the caller
     Unsupported = 7,   ///< a valid request that this version cannot carry out
     Internal = 70      ///< a broken promise of ours
 };

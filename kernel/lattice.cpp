@@ -14,10 +14,14 @@
 #include <string>
 
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect {
+
+using detail::is_normal_exponent;
+using detail::power_of_two;
 
 namespace {
 
@@ -36,11 +40,6 @@ int lowest_bit(double v) {
     return std::max(field, 1) - 1075 + std::countr_zero((bits & mantissa_bits) | leading);
 }
 
-// v · 2^e. A product with a power of two rounds like ldexp and is many times faster.
-bool is_normal_exponent(int e) { return e >= -1022 && e <= 1023; }
-double power_of_two(int e) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
-}
 double scaled(double v, int e) {
     return is_normal_exponent(e) ? v * power_of_two(e) : std::ldexp(v, e);
 }
@@ -219,7 +218,7 @@ public:
 
     /// Rounds up to block_size points, of which the first one has this index.
     void round(Coordinates points, std::size_t index, LatticePoint* out) {
-        // Products with less may underflow, to a zero that nobody would notice.
+        // Products with less may underflow, to an unnoticed zero.
         const bool is_product_exact = factor_ >= 1;
         if (is_product_exact && round_block(points, factor_, out).is_exact) return;
         for (const auto& p : points) *out++ = (*this)(p, index++);

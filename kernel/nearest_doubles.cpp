@@ -15,17 +15,20 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/power_of_two.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
 
+using detail::cross;
+using detail::determinant_rounding;
+using detail::largest_component;
+using detail::power_of_two;
+using detail::Vector3;
+
 namespace {
-
-using Vector = std::array<double, 3>;
-
-double power_of_two(int k) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + k) << 52);
-}
 
 // 0 <= v < 2^126, within two roundings.
 double to_double(Uint128 v) {
@@ -34,11 +37,11 @@ double to_double(Uint128 v) {
            static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(v) & low));
 }
 
-Vector normal_of(const Plane& p) {
+Vector3 normal_of(const Plane& p) {
     return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
 }
 
-double sum_of_magnitudes(const Vector& v) {
+double sum_of_magnitudes(const Vector3& v) {
     return std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
 }
 
@@ -63,52 +66,42 @@ double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k,
     return sum.to_double();
 }
 
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double largest_of(const Vector& v) {
-    return std::max(std::fabs(v[0]), std::max(std::fabs(v[1]), std::fabs(v[2])));
-}
-
 // Three planes n·x + d = 0, in doubles.
 struct System {
-    std::array<Vector, 3> n;
-    Vector d;
+    std::array<Vector3, 3> n;
+    Vector3 d;
 };
 
-// How far the determinants of Cramer's rule may be off. u = 2^-53. Coefficients carry one rounding
-// each, offsets two; an entry of a cross product is then within 5u of the sum of the magnitudes of
-// its two products, a term of w or x (one more product, two more sums) within 11u of the sum of
-// magnitudes of all products, and 16u covers second-order terms and roundings of the bounds.
+// How far the determinants of Cramer's rule may be off. Coefficients carry one rounding each,
+// offsets two: 12 u of determinant_rounding's 16.
 struct Bounds {
     double w = 0;
-    Vector x{};
+    Vector3 x{};
 };
-
-constexpr double relative_bound = 0x1p-49;  // 16 u
 
 // The products are some of those that the product of the normals' sums of magnitudes has.
 Bounds rough_bounds(const System& s) {
     const double p = sum_of_magnitudes(s.n[0]);
     const double q = sum_of_magnitudes(s.n[1]);
     const double r = sum_of_magnitudes(s.n[2]);
-    const double x = relative_bound * (std::fabs(s.d[0]) * (q * r) + std::fabs(s.d[1]) * (r * p) +
-                                       std::fabs(s.d[2]) * (p * q));
-    return {relative_bound * (p * q * r), {x, x, x}};
+    const double x =
+        determinant_rounding *
+        (std::fabs(s.d[0]) * (q * r) + std::fabs(s.d[1]) * (r * p) + std::fabs(s.d[2]) * (p * q));
+    return {determinant_rounding * (p * q * r), {x, x, x}};
 }
 
-// Product by product. On planes across an axis most are 0, and a coordinate that is 0 must be known
-// exactly to be rounded.
+// Product by product. On axis-perpendicular planes most are 0, and a coordinate that is 0 must be
+// known exactly to be rounded.
 Bounds sharp_bounds(const System& s) {
     Bounds out;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vector& a = s.n[(k + 1) % 3];
-        const Vector& b = s.n[(k + 2) % 3];
+        const Vector3& a = s.n[(k + 1) % 3];
+        const Vector3& b = s.n[(k + 2) % 3];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
             const std::size_t l = (i + 2) % 3;
-            const double minor = relative_bound * (std::fabs(a[j] * b[l]) + std::fabs(a[l] * b[j]));
+            const double minor =
+                determinant_rounding * (std::fabs(a[j] * b[l]) + std::fabs(a[l] * b[j]));
             out.x[i] += std::fabs(s.d[k]) * minor;
             if (k == 0) out.w += std::fabs(s.n[0][i]) * minor;
         }
@@ -118,14 +111,14 @@ Bounds sharp_bounds(const System& s) {
 
 // A vector with a bound of the error of each component.
 struct Enclosed {
-    Vector c{};
-    Vector error{};
+    Vector3 c{};
+    Vector3 error{};
 };
 
 std::optional<Enclosed> solve(const System& s, const Bounds& bounds) {
-    const Vector qr = cross(s.n[1], s.n[2]);
-    const Vector rp = cross(s.n[2], s.n[0]);
-    const Vector pq = cross(s.n[0], s.n[1]);
+    const Vector3 qr = cross(s.n[1], s.n[2]);
+    const Vector3 rp = cross(s.n[2], s.n[0]);
+    const Vector3 pq = cross(s.n[0], s.n[1]);
     const double w = s.n[0][0] * qr[0] + s.n[0][1] * qr[1] + s.n[0][2] * qr[2];
     // Then |w| - δw is at least 3/4 |w|; beyond, the quotient's error is not linear any more.
     if (!(bounds.w < 0.25 * std::fabs(w))) return std::nullopt;
@@ -142,8 +135,8 @@ std::optional<Enclosed> solve(const System& s, const Bounds& bounds) {
 }
 
 // The double that both ends of an enclosure about an integer round to.
-std::optional<Vector> rounded(const std::array<std::int64_t, 3>& c, const Enclosed& step) {
-    Vector out{};
+std::optional<Vector3> rounded(const std::array<std::int64_t, 3>& c, const Enclosed& step) {
+    Vector3 out{};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto at = static_cast<double>(c[i]);
         // The last term pays for the rounding of step - error and step + error.
@@ -154,9 +147,9 @@ std::optional<Vector> rounded(const std::array<std::int64_t, 3>& c, const Enclos
     return out;
 }
 
-std::optional<Vector> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
-                                       const Plane& r) {
-    const double largest = std::max(largest_of(a.c), 0x1p-40);
+std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
+                                        const Plane& r) {
+    const double largest = std::max(largest_component(a.c), 0x1p-40);
     // In units of 2^-k the largest coordinate has 61 bits. A double has 53, so it is exact; what
     // others have below that is cut off.
     const int k = 60 - (static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023);
@@ -168,7 +161,7 @@ std::optional<Vector> filtered_nearest(const Approximation& a, const Plane& p, c
     const System system{
         {normal_of(p), normal_of(q), normal_of(r)},
         {residual(p, c, k, reach), residual(q, c, k, reach), residual(r, c, k, reach)}};
-    const auto rounded_with = [&](const Bounds& bounds) -> std::optional<Vector> {
+    const auto rounded_with = [&](const Bounds& bounds) -> std::optional<Vector3> {
         const auto step = solve(system, bounds);
         return step ? rounded(c, *step) : std::nullopt;
     };

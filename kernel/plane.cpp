@@ -3,16 +3,17 @@
 #include <trisect/kernel/plane.h>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/int128.h>
 
 namespace trisect {
+
+using detail::magnitude;
 
 namespace {
 
 // The largest limits for which 256 bits suffice (see predicates.cpp).
 constexpr Int128 narrow_normal_limit = Int128{1} << 56;
 constexpr int narrow_offset_bits = 83;
-
-Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
 
 // Differences of coordinates have 54 bits and their products 108: Int128 is wide enough.
 std::array<Int128, 3> cross(const LatticePoint& u, const LatticePoint& v) {

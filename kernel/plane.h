@@ -14,12 +14,12 @@ namespace trisect {
 
 /// The set of points x with n·x + d = 0, oriented by n: Above is n·x + d > 0.
 ///
-/// Widths (V = 2^53 bounds |coordinate|): a plane through three lattice points has
-/// |n_i| <= 8 V^2 = 2^109 (differences of coordinates are below 2V, a component is a difference of
-/// two products of them) and |d| = |det(a, b, c)| <= 6 V^3 < 2^162. Every other plane that the
-/// library makes (edge planes, walls) stays within these bounds. `is_narrow` tells the planes with
-/// |n_i| < 2^56 and |d| < 2^83, for which 256-bit predicates suffice: all planes of lattices up to
-/// 26 bits, and nearly all of 27 bits.
+/// Widths (V = 2^53 bounds |coordinate|): a plane through three lattice points has |n_i| <= 8 V^2 =
+/// 2^109 (differences of coordinates are below 2V, a component is a difference of two products of
+/// them) and |d| = |det(a, b, c)| <= 6 V^3 < 2^162. Every other plane that the library makes (edge
+/// planes, splitting planes) stays within these bounds. `is_narrow` marks the planes with |n_i| <
+/// 2^56 and |d| < 2^83, for which 256-bit predicates suffice: all planes of lattices up to 26 bits,
+/// and nearly all of 27 bits.
 ///
 /// Value type of 112 bytes; beside the exact coefficients it carries their nearest doubles for the
 /// filtered stage of predicates.

@@ -89,7 +89,7 @@ Side side_of(const Point& point, const Plane& plane) {
 std::strong_ordering compare_coordinate(const Point& a, const Point& b, int axis) {
     const auto i = static_cast<std::size_t>(axis);
     if (a.is_lattice() && b.is_lattice()) return a.lattice()[axis] <=> b.lattice()[axis];
-    // Rounding is monotone, so different nearest doubles tell the order of the exact values.
+    // Rounding is monotone, so different nearest doubles give the order of the exact values.
     const double u = a.approximation().c[i];
     const double v = b.approximation().c[i];
     if (u < v) return std::strong_ordering::less;

@@ -24,6 +24,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/digits.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/filters.h>
 
 namespace trisect {
@@ -31,6 +32,7 @@ namespace trisect {
 using detail::add_product;
 using detail::carried;
 using detail::Columns;
+using detail::determinant_rounding;
 using detail::Digits;
 using detail::negate_if;
 using detail::sign_of;
@@ -176,10 +178,7 @@ bool all_narrow(const Plane& p, const Plane& q, const Plane& r) {
     return p.is_narrow() && q.is_narrow() && r.is_narrow();
 }
 
-// Forward error of Cramer's rule in doubles. u = 2^-53. Coefficients carry one rounding each; an
-// entry of a cross product is then within 5u of the sum of the magnitudes of its two products, a
-// term of w or x (one more product, two more sums) within 11u of the sum of magnitudes of all
-// products. 16u covers the second-order terms and the rounding of the magnitudes.
+// Cramer's rule in doubles, off by less than determinant_rounding of the magnitudes.
 struct DoubleCramer {
     std::array<double, 3> x{};
     std::array<double, 3> magnitude{};
@@ -213,8 +212,6 @@ DoubleCramer double_cramer(const Plane& p, const Plane& q, const Plane& r) {
     return out;
 }
 
-constexpr double relative_bound = 0x1p-49;  // 16 u
-
 // The quotients x / w, each with a bound of its error, when that is known well enough.
 struct Quotients {
     std::array<double, 3> c{};
@@ -222,7 +219,7 @@ struct Quotients {
 };
 
 std::optional<Quotients> quotients(const DoubleCramer& d) {
-    const double w_error = relative_bound * d.w_magnitude;
+    const double w_error = determinant_rounding * d.w_magnitude;
     const double w_safe = std::fabs(d.w) - w_error;
     // Below a quarter the quotient's own error would not be linear any more.
     if (!(w_safe > 0.75 * std::fabs(d.w))) return std::nullopt;
@@ -232,7 +229,7 @@ std::optional<Quotients> quotients(const DoubleCramer& d) {
         // |X/W - x/w| <= (δx + |x/w| δw) / (|w| - δw), plus the division's own rounding.
         const double c = std::fabs(out.c[i]);
         out.error[i] =
-            (relative_bound * d.magnitude[i] + c * w_error) / w_safe * 1.0001 + c * 0x1p-52;
+            (determinant_rounding * d.magnitude[i] + c * w_error) / w_safe * 1.0001 + c * 0x1p-52;
     }
     return out;
 }

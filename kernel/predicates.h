@@ -13,6 +13,7 @@
 #include <optional>
 
 #include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/side.h>
 #include <trisect/kernel/wide_int.h>
@@ -60,7 +61,7 @@ struct Approximation {
 /// Side of a homogeneous point (exact stage only).
 [[nodiscard]] Side side_of(const HomogeneousPoint& point, const Plane& plane);
 
-/// The filtered stage alone: the side, or nothing when doubles cannot tell. Never answers On.
+/// The filtered stage alone: the side, or nothing when doubles cannot decide. Never answers On.
 [[nodiscard]] inline std::optional<Side> filtered_side(const Approximation& a, const Plane& plane);
 
 /// Order of two points along a coordinate axis.
@@ -80,10 +81,7 @@ struct Approximation {
 [[nodiscard]] int sign_of_det(const Plane& a, const Plane& b, const Plane& c);
 
 inline std::optional<Side> filtered_side(const Approximation& a, const Plane& plane) {
-    // s = Σ n_i c_i + d in doubles. The coefficients carry one rounding (relative 2^-53), products
-    // another, the three additions one each, so the rounding error is below 6·2^-53 Σ|terms|;
-    // moving each c_i by `error` changes s by at most error·Σ|n_i|. Factor 8 pays for the rounding
-    // of the bound itself. All terms are 0 or at least 2^-400: nothing underflows.
+    // s = Σ n_i c_i + d in doubles. All terms are 0 or at least 2^-400: nothing underflows.
     const double nx = plane.approx_normal(0);
     const double ny = plane.approx_normal(1);
     const double nz = plane.approx_normal(2);
@@ -95,7 +93,8 @@ inline std::optional<Side> filtered_side(const Approximation& a, const Plane& pl
     const double s = ((tx + ty) + tz) + d;
     const double terms = ((mag(tx) + mag(ty)) + mag(tz)) + mag(d);
     const double normals = (mag(nx) + mag(ny)) + mag(nz);
-    const double bound = 0x1p-50 * terms + 1.0000001 * (a.error * normals);
+    const double bound =
+        detail::plane_value_rounding * terms + detail::moved_value_slack * (a.error * normals);
     if (s > bound) return Side::Above;
     if (s < -bound) return Side::Below;
     return std::nullopt;

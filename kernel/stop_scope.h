@@ -4,8 +4,8 @@
 //
 // Evaluation of booleans has options for both. Reading, import, validation and assembly are linear
 // or nearly so, but a file may be large and a mesh may be made to be slow. They look at the scope
-// of their thread instead of taking an option each, so that whoever is called in between need not
-// pass anything on:
+// of their thread instead of taking an option each, so that functions in between need not pass
+// anything on:
 //
 //     std::atomic<bool> cancel = false;   // set by another thread
 //     const StopScope scope(&cancel, 100'000'000);

@@ -3,8 +3,8 @@
 // Both triangles meet the common line of their planes in an interval. With the corners numbered so
 // that the first one is alone on its side of the other plane, and above it, the intervals begin on
 // the edges from corner 0 to corner 1 and end on those from 0 to 2, in the same direction; so two
-// comparisons tell whether they overlap, and a comparison of two such points along the line is the
-// orientation of the four corners.
+// comparisons decide whether they overlap, and a comparison of two such points along the line is
+// the orientation of the four corners.
 //
 // The filter is that of Shewchuk ("Adaptive precision floating-point arithmetic", 1997, orient3d):
 // the error is below (7 + 56 ε) ε times the permanent, ε = 2^-53, rounded differences included.
@@ -18,7 +18,7 @@ namespace trisect::detail {
 
 namespace {
 
-// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot tell.
+// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot decide.
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const LatticePoint& d) {
     std::array<std::array<double, 3>, 3> m;

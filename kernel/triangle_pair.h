@@ -13,7 +13,7 @@ namespace trisect::detail {
 enum class TrianglePair : std::uint8_t {
     Disjoint,
     Crossing,  ///< interiors meet along a segment
-    Unknown    ///< doubles cannot tell, or they touch
+    Unknown    ///< doubles cannot decide, or they touch
 };
 
 /// A triangle, and on which side of the other one's support its corners lie: -1 below, 1 above.

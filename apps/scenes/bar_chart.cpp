@@ -14,7 +14,7 @@ namespace scenes {
 
 namespace {
 
-constexpr double row = 20;
+constexpr double row_height = 20;
 constexpr double left = 150;
 constexpr double width = 560;
 constexpr double panel_gap = 46;
@@ -60,7 +60,7 @@ public:
     }
 
     void panel(const BarPanel& panel, double top) {
-        const double bottom = top + 14 + static_cast<double>(panel.bars.size()) * row;
+        const double bottom = top + 14 + static_cast<double>(panel.bars.size()) * row_height;
         add("<text x=\"16\" y=\"{:.0f}\" font-weight=\"bold\" fill=\"#222\">{}</text>\n", top + 4,
             panel.title);
         for (double d = scale_.from; d <= scale_.to; ++d) {
@@ -71,7 +71,7 @@ public:
                 scale_(v), top + 10, bottom, bottom + 13, v, chart_.unit);
         }
         for (std::size_t i = 0; i < panel.bars.size(); ++i)
-            bar(panel.bars[i], top + 14 + row * static_cast<double>(i));
+            bar(panel.bars[i], top + 14 + row_height * static_cast<double>(i));
     }
 
     [[nodiscard]] std::string finished(double height) && {
@@ -117,12 +117,12 @@ private:
 std::string svg_of(const BarChart& chart) {
     double height = 80;
     for (const BarPanel& p : chart.panels)
-        height += static_cast<double>(p.bars.size()) * row + panel_gap;
+        height += static_cast<double>(p.bars.size()) * row_height + panel_gap;
     Drawing drawing(chart, height);
     double top = 50;
     for (const BarPanel& p : chart.panels) {
         drawing.panel(p, top);
-        top += static_cast<double>(p.bars.size()) * row + panel_gap;
+        top += static_cast<double>(p.bars.size()) * row_height + panel_gap;
     }
     return std::move(drawing).finished(height);
 }

@@ -249,7 +249,7 @@ PairScene fly_through(const Detail& detail) {
                               detail.frames(500, 8));
 }
 
-struct Entry {
+struct PairEntry {
     const char* name;
     const char* about;
     std::optional<PairScene> (*make)(const Detail&);
@@ -260,22 +260,23 @@ std::optional<PairScene> always(const Detail& detail) {
     return Make(detail);
 }
 
-constexpr std::array entries{
-    Entry{"tori-linked", "RAPID's sample: two linked tori, turning", always<linked>},
-    Entry{"tori-near", "linked tori, tubes 1e-1 to 1e-6 apart", always<near_tori>},
-    Entry{"tori-crossing", "two tori pushed through each other", always<crossing>},
-    Entry{"shells", "a torus in a thicker one, surfaces parallel", always<shells>},
-    Entry{"falling", "a bent torus falls through a knobby one", always<falling>},
-    Entry{"screw", "a nut on its screw, shaken", screw},
-    Entry{"parts", "two machined parts at ten distances", parts},
-    Entry{"fly-through", "a small torus flies through a field of obstacles", always<fly_through>},
+constexpr std::array pair_entries{
+    PairEntry{"tori-linked", "RAPID's sample: two linked tori, turning", always<linked>},
+    PairEntry{"tori-near", "linked tori, tubes 1e-1 to 1e-6 apart", always<near_tori>},
+    PairEntry{"tori-crossing", "two tori pushed through each other", always<crossing>},
+    PairEntry{"shells", "a torus in a thicker one, surfaces parallel", always<shells>},
+    PairEntry{"falling", "a bent torus falls through a knobby one", always<falling>},
+    PairEntry{"screw", "a nut on its screw, shaken", screw},
+    PairEntry{"parts", "two machined parts at ten distances", parts},
+    PairEntry{"fly-through", "a small torus flies through a field of obstacles",
+              always<fly_through>},
 };
 
 }  // namespace
 
 std::vector<std::string> pair_scene_names() {
     std::vector<std::string> r;
-    for (const Entry& e : entries) r.emplace_back(e.name);
+    for (const PairEntry& e : pair_entries) r.emplace_back(e.name);
     return r;
 }
 
@@ -289,8 +290,9 @@ PairScene make_fly_through(int side, std::uint32_t frames) {
 
 std::optional<PairScene> make_pair_scene(const std::string& name, Size size, std::uint32_t frames) {
     const auto found =
-        std::ranges::find_if(entries, [&name](const Entry& e) { return name == e.name; });
-    if (found == entries.end()) throw trisect::UsageError("no scene has the name '" + name + "'");
+        std::ranges::find_if(pair_entries, [&name](const PairEntry& e) { return name == e.name; });
+    if (found == pair_entries.end())
+        throw trisect::UsageError("no scene has the name '" + name + "'");
     auto s = found->make({size, frames});
     if (!s) return s;
     s->name = found->name;

@@ -170,30 +170,31 @@ SwarmScene chain(Size size) {
     return s;
 }
 
-struct Entry {
+struct SwarmEntry {
     const char* name;
     const char* about;
     SwarmScene (*make)(Size);
 };
 
-constexpr std::array entries{
-    Entry{"convex", "1,000 convex bodies of similar size", convex},
-    Entry{"giants", "giants among 600 dwarfs", giants},
-    Entry{"chain", "a chain of 400 links that coils", chain},
+constexpr std::array swarm_entries{
+    SwarmEntry{"convex", "1,000 convex bodies of similar size", convex},
+    SwarmEntry{"giants", "giants among 600 dwarfs", giants},
+    SwarmEntry{"chain", "a chain of 400 links that coils", chain},
 };
 
 }  // namespace
 
 std::vector<std::string> swarm_scene_names() {
     std::vector<std::string> r;
-    for (const Entry& e : entries) r.emplace_back(e.name);
+    for (const SwarmEntry& e : swarm_entries) r.emplace_back(e.name);
     return r;
 }
 
 SwarmScene make_swarm_scene(const std::string& name, Size size) {
-    const auto found =
-        std::ranges::find_if(entries, [&name](const Entry& e) { return name == e.name; });
-    if (found == entries.end()) throw trisect::UsageError("no scene has the name '" + name + "'");
+    const auto found = std::ranges::find_if(
+        swarm_entries, [&name](const SwarmEntry& e) { return name == e.name; });
+    if (found == swarm_entries.end())
+        throw trisect::UsageError("no scene has the name '" + name + "'");
     SwarmScene s = found->make(size);
     s.name = found->name;
     s.about = found->about;

@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "description.h"
 #include "formula.h"
+#include "import_notes.h"
 #include "mesh_files.h"
 #include "operand.h"
 #include "output_name.h"

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "import_notes.h"
 #include "mesh_files.h"
 #include "report_json.h"
 #include "values.h"

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "exact_map.h"
+#include "import_notes.h"
 #include "mesh_files.h"
 #include "output_name.h"
 #include "report_json.h"

@@ -25,6 +25,7 @@
 #include "commands.h"
 #include "corpus_families.h"
 #include "corpus_slanted.h"
+#include "operation_name.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -33,13 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t counted_points = 16;
 constexpr const char* case_schema = "trisect.corpus_case/1";
-
-BooleanOperation operation_named(const std::string& name) {
-    for (const BooleanOperation op :
-         {BooleanOperation::Union, BooleanOperation::Intersection, BooleanOperation::Difference})
-        if (name == to_string(op)) return op;
-    return BooleanOperation::SymmetricDifference;
-}
 
 Json case_json(const std::string& name, BooleanOperation operation, const CountedResult& expected,
                const std::vector<std::string>& files) {

@@ -15,7 +15,7 @@ namespace trisect::app {
 namespace {
 
 using enum BooleanOperation;
-using Scenes = std::vector<SlantedScene>;
+using SlantedScenes = std::vector<SlantedScene>;
 
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -154,12 +154,12 @@ private:
     std::vector<std::int64_t> heights_;
 };
 
-Scenes slanted_terrain(std::size_t points, std::uint64_t seed) {
+SlantedScenes slanted_terrain(std::size_t points, std::uint64_t seed) {
     constexpr int n = 16;
     constexpr int top = 8;
     const Terrain terrain(n, top, seed);
     const PolygonMesh block = make_box({0, 0, 0}, {n, n, top});
-    Scenes scenes;
+    SlantedScenes scenes;
     for (const BooleanOperation op : {Difference, Intersection, SymmetricDifference})
         scenes.push_back({fmt::format("slanted-terrain-{}-{}", seed, to_string(op)),
                           op,
@@ -257,9 +257,9 @@ CountedResult count_prism(const std::vector<Corner>& base, std::int64_t low, std
 }
 
 /// A prism of height 2 and the same one higher by 1: all sides coincide in part.
-Scenes polygons(std::size_t size, std::size_t points, std::uint64_t seed) {
+SlantedScenes polygons(std::size_t size, std::size_t points, std::uint64_t seed) {
     const std::vector<Corner> base = convex_polygon(size);
-    Scenes scenes;
+    SlantedScenes scenes;
     for (const auto& [op, low, high] :
          {std::tuple{Union, 0, 3}, std::tuple{Intersection, 1, 2}, std::tuple{Difference, 0, 1}})
         scenes.push_back({fmt::format("polygon-{}-{}", base.size(), to_string(op)),

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "description.h"
+#include "import_notes.h"
 #include "mesh_files.h"
 #include "operand.h"
 #include "report_json.h"

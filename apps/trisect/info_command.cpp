@@ -3,8 +3,11 @@
 // info A: counts, bounds, volume, area, shells, genus, lattice.
 #include <trisect/brep/io/exact_boundary.h>
 
+#include <array>
+
 #include "commands.h"
 #include "description.h"
+#include "import_notes.h"
 #include "mesh_files.h"
 
 namespace trisect::app {
@@ -26,7 +29,9 @@ Description describe_mesh(Session& session, const InfoOptions& options) {
     const PolygonMesh mesh =
         session.stage("read", [&] { return read_input(session, options.input); });
     return session.stage("measure", [&] {
-        return describe(import_input(session, mesh, options.input), {options.exact});
+        const ImportedMesh imported = import_input(session, mesh, options.input);
+        note_imports(session, std::array{ImportNote{options.input, imported.report}});
+        return describe(imported, {options.exact});
     });
 }
 

@@ -64,22 +64,6 @@ auto with_name(const std::string& name, Work&& work) {
     }
 }
 
-void note_import(Session& session, const ImportReport& report, const std::string& name) {
-    note_rounding(session, report.lattice, name);
-    if (report.nonplanar_faces != 0 && report.refitted_faces == 0) {
-        session.note(fmt::format("{}: {} faces are not planar and were cut into triangles", name,
-                                 report.nonplanar_faces));
-    }
-    if (report.refitted_faces != 0) {
-        session.note(fmt::format("{}: {} faces were made planar; corners moved by at most {}", name,
-                                 report.refitted_faces, number_text(report.max_refit_move)));
-    }
-    if (report.degenerate_faces_dropped != 0) {
-        session.detail(fmt::format("{}: {} faces without area were left out", name,
-                                   report.degenerate_faces_dropped));
-    }
-}
-
 bool is_stl(MeshFormat format) {
     return format == MeshFormat::Stl || format == MeshFormat::StlAscii ||
            format == MeshFormat::StlBinary;
@@ -127,31 +111,19 @@ void check_standard_input(std::span<const std::string> names) {
     }
 }
 
-ImportedMesh import_input(Session& session, const PolygonMesh& mesh, const std::string& name) {
+ImportedMesh import_input(const Session& session, const PolygonMesh& mesh,
+                          const std::string& name) {
     ImportOptions options;
     options.require_closed = false;
     options.nonplanar = session.options().nonplanar;
     options.refit_move = session.options().refit_move;
     if (session.options().lattice) options.lattice = Lattice{*session.options().lattice};
-    return with_name(name, [&] {
-        ImportedMesh imported = import_mesh(mesh, options);
-        note_import(session, imported.report, name);
-        return imported;
-    });
+    return with_name(name, [&] { return import_mesh(mesh, options); });
 }
 
 ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
                                 const ValidateOptions& options) {
     return with_name(name, [&] { return validate(mesh, options); });
-}
-
-void note_rounding(Session& session, const LatticeReport& report, const std::string& name) {
-    if (report.lossless) return;
-    session.note(fmt::format(
-        "{}: rounded to the lattice of unit 2^{}: {} vertices moved, by at most {}; {} faces "
-        "turned over",
-        name, report.lattice.exponent, report.moved, number_text(report.max_move),
-        report.flipped_faces));
 }
 
 MeshFormat output_format(const Session& session, const std::string& name) {

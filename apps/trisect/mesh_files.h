@@ -50,16 +50,14 @@ struct RemarkedMesh {
 /// At most one of the names may be "-". \throw UsageError
 void check_standard_input(std::span<const std::string> names);
 
-/// Import under --lattice and --nonplanar, open boundaries allowed; what was rounded is noted.
-[[nodiscard]] ImportedMesh import_input(Session& session, const PolygonMesh& mesh,
+/// Import under --lattice and --nonplanar, open boundaries allowed. What it changed is in the
+/// report (import_notes.h). For any thread.
+[[nodiscard]] ImportedMesh import_input(const Session& session, const PolygonMesh& mesh,
                                         const std::string& name);
 
 /// validate() with the name of the file in its errors.
 [[nodiscard]] ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
                                               const ValidateOptions& options);
-
-/// Says what rounding to a lattice changed, if anything.
-void note_rounding(Session& session, const LatticeReport& report, const std::string& name);
 
 /// The format in which `name` will be written; checked before the work begins.
 /// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.

@@ -9,7 +9,9 @@
 
 #include "choice.h"
 #include "commands.h"
+#include "import_notes.h"
 #include "mesh_files.h"
+#include "parallel_each.h"
 #include "report_json.h"
 
 namespace trisect::app {
@@ -68,6 +70,29 @@ Operand exact_operand(const Session& session, const std::string& name,
     }
 }
 
+/// An operand with what there is to note about it.
+struct ReadOperand {
+    Operand operand;
+    ImportNote note;
+};
+
+ReadOperand mesh_operand(const Session& session, const std::string& name,
+                         const OperandOptions& options) {
+    const PolygonMesh mesh = read_input(session, name);
+    ImportedMesh imported = import_input(session, mesh, name);
+    require_solid(imported, name, options);
+    Json facts = facts_of(imported, name, mesh.face_count());
+    return {{Solid::from_lattice_mesh(std::move(imported.mesh), embedding_of(options)),
+             std::move(facts)},
+            {name, std::move(imported.report)}};
+}
+
+ReadOperand read_operand(const Session& session, const std::string& name,
+                         const OperandOptions& options) {
+    if (has_exact_boundary(name)) return {exact_operand(session, name, options), {name, {}}};
+    return mesh_operand(session, name, options);
+}
+
 }  // namespace
 
 void add_operand_options(CLI::App& command, OperandOptions& options) {
@@ -87,21 +112,19 @@ void add_operand_options(CLI::App& command, OperandOptions& options) {
 std::vector<Operand> read_operands(Session& session, std::span<const std::string> names,
                                    const OperandOptions& options) {
     check_standard_input(names);
-    const Embedding embedding = embedding_of(options);
+    std::vector<ReadOperand> read(names.size());
+    for_each_in_parallel(names.size(), session.supervisor().stop_flag(), [&](std::size_t i) {
+        read[i] = read_operand(session, names[i], options);
+    });
     std::vector<Operand> operands;
-    operands.reserve(names.size());
-    for (const std::string& name : names) {
-        if (has_exact_boundary(name)) {
-            operands.push_back(exact_operand(session, name, options));
-            continue;
-        }
-        const PolygonMesh mesh = read_input(session, name);
-        ImportedMesh imported = import_input(session, mesh, name);
-        require_solid(imported, name, options);
-        Json facts = facts_of(imported, name, mesh.face_count());
-        operands.push_back(
-            {Solid::from_lattice_mesh(std::move(imported.mesh), embedding), std::move(facts)});
+    std::vector<ImportNote> notes;
+    operands.reserve(read.size());
+    notes.reserve(read.size());
+    for (ReadOperand& r : read) {
+        operands.push_back(std::move(r.operand));
+        notes.push_back(std::move(r.note));
     }
+    note_imports(session, notes);
     return operands;
 }
 

@@ -23,18 +23,12 @@
 #include "commands.h"
 #include "mesh_files.h"
 #include "operand.h"
+#include "operation_name.h"
 #include "report_json.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
-
-BooleanOperation operation_named(const std::string& name) {
-    if (name == "union") return BooleanOperation::Union;
-    if (name == "intersection") return BooleanOperation::Intersection;
-    if (name == "difference") return BooleanOperation::Difference;
-    return BooleanOperation::SymmetricDifference;
-}
 
 /// JSON knows no infinity.
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }

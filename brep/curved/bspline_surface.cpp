@@ -21,7 +21,7 @@ namespace trisect {
 
 namespace {
 
-using ExactPoint = std::array<ExactRational, 4>;  // w x, w y, w z, w
+using ExactHomogeneous = std::array<ExactRational, 4>;  // w x, w y, w z, w
 
 class Knots {
 public:
@@ -46,19 +46,19 @@ public:
     /// Numbers k of the knots that begin the spans.
     [[nodiscard]] const std::vector<std::size_t>& spans() const { return spans_; }
     /// The Bézier control points over span k of the curve with these control points.
-    [[nodiscard]] std::vector<ExactPoint> bezier(std::size_t k,
-                                                 const std::vector<ExactPoint>& points) const {
-        std::vector<ExactPoint> r;
+    [[nodiscard]] std::vector<ExactHomogeneous> bezier(
+        std::size_t k, const std::vector<ExactHomogeneous>& points) const {
+        std::vector<ExactHomogeneous> r;
         for (std::size_t j = 0; j <= degree_; ++j) r.push_back(polar(k, j, points));
         return r;
     }
 
 private:
     // With j arguments at the end of span k.
-    [[nodiscard]] ExactPoint polar(std::size_t k, std::size_t j,
-                                   const std::vector<ExactPoint>& points) const {
+    [[nodiscard]] ExactHomogeneous polar(std::size_t k, std::size_t j,
+                                         const std::vector<ExactHomogeneous>& points) const {
         const auto first = points.begin() + static_cast<std::ptrdiff_t>(k - degree_);
-        std::vector<ExactPoint> d(first, first + static_cast<std::ptrdiff_t>(degree_) + 1);
+        std::vector<ExactHomogeneous> d(first, first + static_cast<std::ptrdiff_t>(degree_) + 1);
         for (std::size_t r = 1; r <= degree_; ++r) {
             const ExactRational& at = r <= j ? knots_[k + 1] : knots_[k];
             for (std::size_t i = degree_; i >= r; --i) {
@@ -79,11 +79,11 @@ private:
 };
 
 BezierPatch rounded(std::size_t degree_u, std::size_t degree_v,
-                    const std::vector<std::vector<ExactPoint>>& rows) {
+                    const std::vector<std::vector<ExactHomogeneous>>& rows) {
     std::vector<Point3d> points;
     std::vector<double> weights;
     for (const auto& row : rows)
-        for (const ExactPoint& p : row) {
+        for (const ExactHomogeneous& p : row) {
             points.push_back(
                 {(p[0] / p[3]).to_double(), (p[1] / p[3]).to_double(), (p[2] / p[3]).to_double()});
             weights.push_back(p[3].to_double());
@@ -102,7 +102,7 @@ BSplinePatches to_bezier(const BSplineSurface& s) {
                          std::to_string(v.count()) + " control points, but " +
                          std::to_string(s.points.size()) + " points and " +
                          std::to_string(s.weights.size()) + " weights");
-    std::vector<std::vector<ExactPoint>> rows(u.count());
+    std::vector<std::vector<ExactHomogeneous>> rows(u.count());
     double largest = 0;
     for (std::size_t i = 0; i < u.count(); ++i)
         for (std::size_t j = 0; j < v.count(); ++j) {
@@ -111,7 +111,7 @@ BSplinePatches to_bezier(const BSplineSurface& s) {
             if (!(w > 0 && std::isfinite(w)))
                 throw UsageError("the weight of control point " + std::to_string(at) +
                                  " is not a positive number");
-            ExactPoint p;
+            ExactHomogeneous p;
             p[3] = ExactRational::from_double(w);
             for (std::size_t c = 0; c < 3; ++c) {
                 p[c] = ExactRational::from_double(s.points[at][c]) * p[3];
@@ -128,15 +128,15 @@ BSplinePatches to_bezier(const BSplineSurface& s) {
     r.largest_move = 8 * 0x1p-53 * largest;
     for (const std::size_t k : u.spans()) {
         // Over this span of u: one curve of u for each column.
-        std::vector<std::vector<ExactPoint>> across(s.degree_u + 1);
+        std::vector<std::vector<ExactHomogeneous>> across(s.degree_u + 1);
         for (std::size_t j = 0; j < v.count(); ++j) {
-            std::vector<ExactPoint> column;
+            std::vector<ExactHomogeneous> column;
             for (std::size_t i = 0; i < u.count(); ++i) column.push_back(rows[i][j]);
             const auto curve = u.bezier(k, column);
             for (std::size_t i = 0; i <= s.degree_u; ++i) across[i].push_back(curve[i]);
         }
         for (const std::size_t l : v.spans()) {
-            std::vector<std::vector<ExactPoint>> net;
+            std::vector<std::vector<ExactHomogeneous>> net;
             for (const auto& row : across) net.push_back(v.bezier(l, row));
             r.patches.push_back(rounded(s.degree_u, s.degree_v, net));
         }

@@ -19,7 +19,7 @@ namespace trisect {
 /// sphere, and has no partner.
 ///
 /// That makes a closed surface by combinatorics alone; that it does not pass through itself is up
-/// to the caller, and for its tessellations `validate` tells.
+/// to the caller, and `validate` checks its tessellations.
 ///
 /// Immutable value.
 class CurvedBoundary {

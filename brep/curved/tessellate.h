@@ -18,7 +18,7 @@ struct Tessellation {
     PolygonMesh mesh;
     std::vector<std::uint32_t> patch_of_face;
     /// Certified: every point of the curved boundary is within this distance of the mesh, and every
-    /// point of the mesh within it of the curved boundary. At most what was asked for.
+    /// point of the mesh within it of the curved boundary. At most what was requested.
     double deviation = 0;
 };
 
@@ -31,7 +31,7 @@ struct Tessellation {
 /// twice the deviation may cross. `validate` finds out; a smaller deviation helps, unless the
 /// curved boundary itself crosses.
 ///
-/// \throw UsageError for a deviation that is not positive or finer than doubles can tell,
+/// \throw UsageError for a deviation that is not positive or finer than doubles can decide,
 /// LimitError beyond 2^26 cells.
 [[nodiscard]] Tessellation tessellate(const CurvedBoundary& boundary, double deviation);
 

@@ -4,10 +4,6 @@
 // A fan is as correct, but all its needles meet in one corner: no division of space separates
 // them, and the box of each meets a fixed share of all others. Halving instead leaves every
 // corner with a logarithmic number of triangles, which get smaller towards the outline.
-//
-// A fan is as correct, but all its needles meet in one corner: no division of space parts them, and
-// the box of each meets a fixed share of all others. Halving instead leaves every corner with a
-// logarithmic number of triangles, which get smaller towards the outline.
 #pragma once
 
 #include <cstdint>

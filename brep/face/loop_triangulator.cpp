@@ -13,7 +13,7 @@
 // with corners of 180 degrees has a triangulation without flat triangles, and the dual tree of that
 // has two leaves). Only when none is left do weaker rules apply, in this order: corners on the
 // ear's boundary are allowed, corners without area are clipped, anything is clipped (the loop is
-// not simple, and the caller is told).
+// not simple, and the caller gets an error).
 //
 // Everything happens in the projection along an axis in which the loop's (Newell) normal is
 // largest, with 128-bit products of 54-bit differences: |turn| < 2^110.
@@ -26,6 +26,7 @@
 #include <trisect/brep/face/convex_cut.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
@@ -34,8 +35,6 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::uint64_t work_limit = std::uint64_t{1} << 32;
-
-Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
 
 // Twice the vector area. 2^17 terms of at most 2^109: below 2^127.
 std::array<Int128, 3> newell(std::span<const LatticePoint> points,
@@ -157,7 +156,7 @@ bool LoopTriangulator::cut_short_ears(std::span<const std::uint32_t> loop,
     return true;
 }
 
-// Whether no other corner lies in the ear's triangle: `boundary_too` asks about the closed one.
+// Whether no other corner lies in the ear's triangle: `boundary_too` selects the closed one.
 // Corners at the same place as one of the ear's do not count.
 bool LoopTriangulator::is_clear(std::uint32_t ear, bool boundary_too) {
     const FlatCorner& a = flat_[prev_[ear]];

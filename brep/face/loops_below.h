@@ -19,8 +19,8 @@ inline constexpr std::uint32_t no_loop = std::numeric_limits<std::uint32_t>::max
 /// the highest edge straight below that vertex, or no_loop. The region lies between the two: so a
 /// hole is in the face of the loop below it, which starts earlier, be it an outline or a hole.
 ///
-/// Beside what SweepLine asks of it, `Figure` has `corner_count()`, `next(corner)` (edge c leaves
-/// corner c) and `corners_in_order()`, sorted by vertex. One sweep, O(n log n).
+/// Beside the members that SweepLine needs, `Figure` has `corner_count()`, `next(corner)` (edge c
+/// leaves corner c) and `corners_in_order()`, sorted by vertex. One sweep, O(n log n).
 template <class Figure>
 std::vector<std::uint32_t> loops_below(const Figure& figure,
                                        std::span<const std::uint32_t> first_corners) {

@@ -114,8 +114,8 @@ PlanarLoops::PlanarLoops(const Plane& plane, std::span<const Point> points,
     find_loops();
 }
 
-// Rounding is monotone, so different rounded coordinates tell the order of the exact ones, and
-// those of lattice points tell when they are equal.
+// Rounding is monotone, so different rounded coordinates give the order of the exact ones, and
+// those of lattice points show when they are equal.
 void PlanarLoops::number_places() {
     struct Place {
         double u;

@@ -39,7 +39,7 @@ public:
     }
     [[nodiscard]] std::size_t size() const { return size_; }
 
-    /// 1 when corners a, b, c turn left, -1 when they turn right, 0 when doubles do not tell.
+    /// 1 when corners a, b, c turn left, -1 when they turn right, 0 when doubles do not decide.
     ///
     /// (a - c) × (b - c). A difference is off by 2e and one rounding, each product by the errors of
     /// its factors and one rounding, the difference of the products by one more: 4u (|s| + |t|),

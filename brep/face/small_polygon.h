@@ -21,11 +21,11 @@ inline constexpr std::size_t small_polygon_limit = 32;
 /// every corner, straight ones too.
 ///
 /// `orientation(i, j, k)` is the exact sign of a turn; `first_corner()` names the corner to start
-/// at, and is asked only when the polygon is not convex;
-/// `emit(i, j, k)` receives the triangles. An ear is a strictly convex corner whose triangle holds
-/// no other corner, not even on its sides; every simple polygon has one (Meisters 1975). Corners
-/// that are strictly convex cannot be in the way alone, so only the others are looked at. At most
-/// O(n^3) signs. Returns false when no ear is left: then the polygon was not simple.
+/// at, and is computed only when the polygon is not convex; `emit(i, j, k)` receives the triangles.
+/// An ear is a strictly convex corner whose triangle holds no other corner, not even on its sides;
+/// every simple polygon has one (Meisters 1975). Corners that are strictly convex cannot be in the
+/// way alone, so only the others are looked at. At most O(n^3) signs. Returns false when no ear is
+/// left: then the polygon was not simple.
 /// \pre 3 <= n <= small_polygon_limit, no two corners at the same place.
 template <class Orientation, class FirstCorner, class Emit>
 bool cut_small_polygon(std::size_t n, Orientation&& orientation, FirstCorner&& first_corner,

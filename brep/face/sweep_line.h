@@ -13,7 +13,7 @@
 namespace trisect::detail {
 
 /// Whether edge a lies below edge b where a vertical line meets both; `figure` as in SweepLine. The
-/// one that begins first is asked about the beginning of the other.
+/// one that begins first is compared with the beginning of the other.
 template <class Figure>
 [[nodiscard]] bool lies_below(const Figure& figure, std::uint32_t a, std::uint32_t b) {
     if (figure.from(a) == figure.from(b)) return figure.above(a, figure.to(b)) > 0;

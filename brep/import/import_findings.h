@@ -52,7 +52,7 @@ std::array<double, 3> newell_normal(std::span<const std::uint32_t> loop, const P
 
 /// Whether rounding turned a face over or made it flat: `before` and `after` give the points of its
 /// corners in units of their own. The doubles' normals decide, so a sliver whose own orientation
-/// doubles cannot tell may be missed; nothing depends on it.
+/// doubles cannot decide may be missed; nothing depends on it.
 template <class Before, class After>
 bool is_flipped(std::span<const std::uint32_t> loop, const Before& before, const After& after) {
     if (loop.size() < 3) return false;

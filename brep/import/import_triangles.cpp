@@ -2,7 +2,7 @@
 //
 // Nearly all meshes are triangles whose sides cancel by name. For them import is a handful of
 // linear passes: round, weld, look at every triangle once, match the sides. Whatever is found to be
-// otherwise is left to the long way, which starts afresh, so that only one place words errors.
+// otherwise is left to the general path, which starts afresh, so that only one place words errors.
 //
 // The look at a triangle decides three things by one number, the z component N of its normal in
 // doubles. With all coordinates within D of each other, u = 2^-53:
@@ -13,7 +13,7 @@
 //   normal differs between before and after by at most m = 32 D + 32 + 2^-48 D^2 with all errors of
 //   both computations (4 units for each of four differences of at most D, twice that for slack).
 //   When |N| >= 9 m, the scalar product that is_flipped computes is at least half |N|^2 and
-//   positive. Else is_flipped is asked. Exponents are kept in a range where nothing overflows and
+//   positive. Else is_flipped decides. Exponents are kept in a range where nothing overflows and
 //   what underflows is far below m.
 // - Volume. Six times the volume is the sum of N (a_z + b_z + c_z - 3 o_z) over all triangles, by
 //   the divergence theorem for (0, 0, z), for any o. A term is below 6 D_x D_y D_z and has a
@@ -80,11 +80,11 @@ bool is_triangle_mesh(const PolygonMesh& mesh, const Sharing& sharing) {
     return is_one;
 }
 
-struct Range {
+struct CoordinateBox {
     std::array<std::int64_t, 3> low;
     std::array<std::int64_t, 3> high;
 
-    Range() {
+    CoordinateBox() {
         low.fill(coordinate_limit);
         high.fill(-coordinate_limit);
     }
@@ -99,17 +99,17 @@ struct Range {
 // How far the points extend along each axis.
 Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
     const ParallelParts parts = sharing.parts(points.size());
-    std::vector<Range> ranges(parts.count());
+    std::vector<CoordinateBox> ranges(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Range range;
+        CoordinateBox range;
         for (const LatticePoint& p : points.subspan(begin, end - begin)) {
             const std::array<std::int64_t, 3> c{p.x, p.y, p.z};
             range.add(c, c);
         }
         ranges[part] = range;
     });
-    Range all;
-    for (const Range& r : ranges) all.add(r.low, r.high);
+    CoordinateBox all;
+    for (const CoordinateBox& r : ranges) all.add(r.low, r.high);
     Point3d d{};
     if (points.empty()) return d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = static_cast<double>(all.high[k] - all.low[k]);

@@ -12,7 +12,7 @@
 
 namespace trisect::detail {
 
-/// The short way: for meshes of triangles whose sides cancel by name. It gives the result and the
+/// The fast path: for meshes of triangles whose sides cancel by name. It gives the result and the
 /// report of import_polygons, or nothing where that must decide. Repeated points, points of no
 /// triangle, triangles without area, and coordinates that the lattice rounds are all right. Fewer
 /// points or triangles than `least_part` are not worth a part of their own for another thread.
@@ -21,12 +21,12 @@ namespace trisect::detail {
                                                            const ImportOptions& options,
                                                            std::size_t least_part = 16384);
 
-/// The long way: for every mesh.
+/// The general path: for every mesh.
 /// \throw as import_mesh.
 [[nodiscard]] ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options);
 
 /// How many meshes of the calling thread went which way: tests hold this against what should be,
-/// because a short way that is never taken changes nothing but the time.
+/// because a fast path that is never taken changes nothing but the time.
 struct ImportCounters {
     std::uint64_t triangles = 0;
     std::uint64_t polygons = 0;

@@ -19,7 +19,7 @@ namespace trisect::detail {
 
 namespace {
 
-struct Interval {
+struct EdgeInterval {
     LatticePoint direction;
     LatticePoint base;
     std::int64_t begin = 0;
@@ -27,7 +27,7 @@ struct Interval {
     std::int64_t count = 0;
     std::size_t edge = 0;
 
-    [[nodiscard]] bool same_line(const Interval& o) const {
+    [[nodiscard]] bool same_line(const EdgeInterval& o) const {
         return direction == o.direction && base == o.base;
     }
 };
@@ -44,15 +44,15 @@ int largest_axis(const LatticePoint& d) {
     return axis;
 }
 
-Interval interval_of(const LatticePoint& a, const LatticePoint& b, std::int64_t count,
-                     std::size_t edge) {
+EdgeInterval interval_of(const LatticePoint& a, const LatticePoint& b, std::int64_t count,
+                         std::size_t edge) {
     LatticePoint d = b - a;
     std::int64_t g = std::gcd(std::gcd(d.x, d.y), d.z);
     if (d < LatticePoint{}) g = -g;  // lexicographically: the first nonzero component decides
     d = {d.x / g, d.y / g, d.z / g};
     const int axis = largest_axis(d);
     const std::int64_t t = floor_divide(a[axis], d[axis]);
-    Interval i;
+    EdgeInterval i;
     i.direction = d;
     i.base = {a.x - t * d.x, a.y - t * d.y, a.z - t * d.z};
     i.begin = std::min(t, t + g);
@@ -63,9 +63,9 @@ Interval interval_of(const LatticePoint& a, const LatticePoint& b, std::int64_t 
 }
 
 // Marks the intervals of one line that meet a part where the counts do not add up to zero.
-void sweep_line(std::span<const Interval> line, std::vector<bool>& open) {
+void sweep_line(std::span<const EdgeInterval> line, std::vector<bool>& open) {
     std::vector<std::pair<std::int64_t, std::int64_t>> events;
-    for (const Interval& i : line) {
+    for (const EdgeInterval& i : line) {
         events.emplace_back(i.begin, i.count);
         events.emplace_back(i.end, -i.count);
     }
@@ -85,7 +85,7 @@ void sweep_line(std::span<const Interval> line, std::vector<bool>& open) {
     const auto index = [&](std::int64_t t) {
         return static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), t) - at.begin());
     };
-    for (const Interval& i : line)
+    for (const EdgeInterval& i : line)
         open[i.edge] = bad_before[index(i.end)] != bad_before[index(i.begin)];
 }
 
@@ -93,12 +93,12 @@ void sweep_line(std::span<const Interval> line, std::vector<bool>& open) {
 
 std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
                                    std::span<const NetEdge> edges) {
-    std::vector<Interval> intervals;
+    std::vector<EdgeInterval> intervals;
     intervals.reserve(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
         intervals.push_back(
             interval_of(points[edges[i].from], points[edges[i].to], edges[i].count, i));
-    std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+    std::sort(intervals.begin(), intervals.end(), [](const EdgeInterval& a, const EdgeInterval& b) {
         if (a.direction != b.direction) return a.direction < b.direction;
         if (a.base != b.base) return a.base < b.base;
         return a.edge < b.edge;

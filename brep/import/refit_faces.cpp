@@ -19,7 +19,7 @@ namespace trisect::detail {
 
 namespace {
 
-struct Range {
+struct CoordinateRange {
     std::int64_t low = coordinate_limit;
     std::int64_t high = -coordinate_limit;
 
@@ -48,7 +48,7 @@ private:
 int flattest_axis(const PreparedMesh& mesh, std::uint32_t face, std::int64_t& extent) {
     int best = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        Range r;
+        CoordinateRange r;
         for (const std::uint32_t c : mesh.loop(face)) r.add(mesh.points[c][axis]);
         if (axis == 0 || r.extent() < extent) {
             best = axis;
@@ -74,13 +74,13 @@ std::int64_t refit_axis(const PreparedMesh& mesh, std::span<const std::uint32_t>
     Groups groups(mesh.points.size());
     for (const std::uint32_t f : faces)
         for (const std::uint32_t c : mesh.loop(f)) groups.join(c, mesh.loop(f)[0]);
-    std::vector<Range> ranges(mesh.points.size());
+    std::vector<CoordinateRange> ranges(mesh.points.size());
     for (const std::uint32_t f : faces)
         for (const std::uint32_t c : mesh.loop(f)) ranges[groups.root(c)].add(mesh.points[c][axis]);
     std::int64_t largest = 0;
     for (const std::uint32_t f : faces) {
         for (const std::uint32_t c : mesh.loop(f)) {
-            const Range& r = ranges[groups.root(c)];
+            const CoordinateRange& r = ranges[groups.root(c)];
             if (r.extent() > 2 * max_move) refuse(f);
             set_coordinate(moved[c], axis, r.middle());
             largest = std::max(largest, std::abs(r.middle() - mesh.points[c][axis]));

@@ -2,7 +2,7 @@
 //
 // An open-addressing table of 32-bit indices, at most half full, is the cheapest way to find equal
 // points: one cache line a point. These lines are spread over the whole table, so a block of points
-// is hashed and its lines are asked for before the first of them is needed.
+// is hashed and its lines are prefetched before the first of them is needed.
 //
 // The hash is fixed (results must not depend on a run), so an input can be made whose points all
 // collide; the total number of probes is therefore bounded and beyond it the points are sorted
@@ -20,7 +20,7 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t hash(const LatticePoint& p) {
     auto h = static_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15U;
@@ -36,7 +36,7 @@ class FirstByHash {
 public:
     FirstByHash(std::span<const LatticePoint> points, std::size_t expected)
         : points_(points),
-          table_(std::bit_ceil(2 * std::min(expected, points.size()) + 2), none),
+          table_(std::bit_ceil(2 * std::min(expected, points.size()) + 2), empty_slot),
           probes_left_(static_cast<std::ptrdiff_t>(32 * points.size() + 1024)) {}
 
     // Fills `first`, or leaves it empty when all points are distinct; false when probing takes too
@@ -66,10 +66,10 @@ private:
     std::uint32_t insert(std::uint32_t index, std::uint64_t h) {
         const std::size_t mask = table_.size() - 1;
         std::size_t slot = h & mask;
-        while (table_[slot] != none) {
+        while (table_[slot] != empty_slot) {
             if (points_[table_[slot]] == points_[index]) return table_[slot];
             slot = (slot + 1) & mask;
-            if (--probes_left_ < 0) return index;  // nobody looks at the result
+            if (--probes_left_ < 0) return index;  // the result is not used
         }
         table_[slot] = index;
         ++distinct_;
@@ -79,7 +79,7 @@ private:
     // Keeps the table at most half full while `n` more points come; `done` ones are in it.
     void make_room(std::size_t n, std::size_t done, std::span<const std::uint32_t> first) {
         if (2 * (distinct_ + n) <= table_.size() || 2 * points_.size() <= table_.size()) return;
-        table_.assign(std::bit_ceil(std::min(4 * (distinct_ + n), 2 * points_.size())), none);
+        table_.assign(std::bit_ceil(std::min(4 * (distinct_ + n), 2 * points_.size())), empty_slot);
         distinct_ = 0;
         for (std::size_t i = 0; i < done; ++i)
             if (first.empty() || first[i] == i)

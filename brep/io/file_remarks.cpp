@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A second pass over the bytes, beside the readers: those are fast because they ignore all of this,
-// and only `check` wants to know. The file is known to be well-formed, so words are skipped freely.
+// and only `check` reports it. The file is well-formed, so words are skipped freely.
 //
 // STL states for each facet a normal that is redundant (3D Systems 1989: it "can be computed from
 // the order of the vertices") and that programs therefore get wrong or leave out. Programs that

@@ -35,7 +35,7 @@ bool same_word(std::string_view a, std::string_view b) noexcept {
 
 bool is_space(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// The data without a byte order mark, leading blanks and, where asked, leading comment lines.
+/// The data without a byte order mark, leading blanks and, optionally, leading comment lines.
 std::string_view skip_preamble(std::string_view data, bool comments) noexcept {
     if (data.starts_with("\xEF\xBB\xBF")) data.remove_prefix(3);
     for (;;) {

@@ -28,8 +28,8 @@ enum class MeshFormat : std::uint8_t {
 /// The format that goes with the extension of `path` (.obj .stl .off .ply, either case).
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of_extension(const std::filesystem::path& path);
 
-/// The format that the bytes themselves show, for data without a telling name. PLY and OFF have a
-/// magic word, a binary STL has exactly the size its count demands, an ASCII STL begins with
+/// The format that the bytes themselves show, for data without a name that decides. PLY and OFF
+/// have a magic word, a binary STL has exactly the size its count demands, an ASCII STL begins with
 /// `solid`, and an OBJ file is recognised by the keyword of its first statement.
 [[nodiscard]] std::optional<MeshFormat> detect_mesh_format(std::string_view data) noexcept;
 

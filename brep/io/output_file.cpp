@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    /// Removes the file before it throws: an exception that nobody catches runs no destructor.
+    /// Removes the file before it throws: an uncaught exception runs no destructor.
     [[noreturn]] void abandon(int error) {
         ::unlink(path_.c_str());
         gone_ = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a path or bytes to the reader of the right format. The extension decides, because a user
-// who names a file `.off` expects an error about OFF rather than a guess; the content decides
-// where the extension says nothing, and between the two kinds of STL.
+// From a path or bytes to the reader of the right format. The extension decides, because a
+// user of a file `.off` expects an error about OFF rather than a guess; the content decides where
+// the extension says nothing, and between the two kinds of STL.
 #include <trisect/brep/io/read_mesh.h>
 
 #include <trisect/brep/io/file_bytes.h>

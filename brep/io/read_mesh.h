@@ -35,7 +35,7 @@
 
 namespace trisect {
 
-/// What one file may ask for. Going beyond is a LimitError that names the place.
+/// Limits for one file. Going beyond is a LimitError that names the place.
 struct ReadLimits {
     std::uint64_t bytes = std::uint64_t{2} << 30;
     std::uint64_t vertices = 50'000'000;  ///< at most 2^32 - 2 in any case
@@ -56,7 +56,7 @@ struct ReadOptions {
                                     const ReadOptions& options = {});
 
 /// The format in which read_mesh(path, options) reads a file that holds `data`.
-/// \throw InputError when nothing tells it.
+/// \throw InputError when it is not recognised.
 [[nodiscard]] MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view data,
                                         const ReadOptions& options = {});
 

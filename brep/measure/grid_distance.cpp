@@ -24,9 +24,9 @@ constexpr double upward = 1 + 0x1p-48;
 constexpr double slack = 2;
 
 Int128 to_int128(const mpz_class& v) {
-    const mpz_class magnitude = abs(v);
-    const auto low = mpz_class(magnitude & mpz_class((mpz_class(1) << 64) - 1)).get_ui();
-    const auto high = mpz_class(magnitude >> 64).get_ui();
+    const mpz_class rounded_magnitude = abs(v);
+    const auto low = mpz_class(rounded_magnitude & mpz_class((mpz_class(1) << 64) - 1)).get_ui();
+    const auto high = mpz_class(rounded_magnitude >> 64).get_ui();
     const auto value = static_cast<Int128>((Uint128{high} << 64) | low);
     return sgn(v) < 0 ? -value : value;
 }
@@ -38,7 +38,7 @@ Int128 floor_on_grid(const mpz_class& x, const mpz_class& w) {
     return to_int128(quotient);
 }
 
-double magnitude(Int128 v) { return std::fabs(WideInt<2>(v).to_double()); }
+double rounded_magnitude(Int128 v) { return std::fabs(WideInt<2>(v).to_double()); }
 
 WideInt<3> product(Int128 a, Int128 b) { return multiply<3>(WideInt<2>(a), WideInt<2>(b)); }
 
@@ -91,7 +91,7 @@ GridTriangle::GridTriangle(const GridPoint& a, const GridPoint& b, const GridPoi
             // e × e_axis, up to its sign.
             s.nu = e[static_cast<std::size_t>(s.v)];
             s.nv = -e[static_cast<std::size_t>(s.u)];
-            s.length = magnitude(s.nu) + magnitude(s.nv);
+            s.length = rounded_magnitude(s.nu) + rounded_magnitude(s.nv);
             if (s.length == 0) continue;
             for (std::size_t k = 0; k < 3; ++k) {
                 const WideInt<3> value = product(s.nu, corner_[k][static_cast<std::size_t>(s.u)]) +
@@ -115,8 +115,8 @@ double GridTriangle::upper_distance(const GridPoint& p, double enough) const {
     double most = 0;  // in units of the grid
     const double stop = enough / grid_unit;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] < low_[k]) most = std::max(most, magnitude(low_[k] - p[k]));
-        if (p[k] > high_[k]) most = std::max(most, magnitude(p[k] - high_[k]));
+        if (p[k] < low_[k]) most = std::max(most, rounded_magnitude(low_[k] - p[k]));
+        if (p[k] > high_[k]) most = std::max(most, rounded_magnitude(p[k] - high_[k]));
     }
     if (normal_length_ > 0 && most <= stop) {
         WideInt<5> value;

@@ -32,7 +32,7 @@ inline constexpr double grid_error = 0x1p-38;
 /// Of a point in the user's units. \pre not outside the lattice's range
 [[nodiscard]] GridPoint to_grid(const ExactPoint& p, Lattice lattice);
 
-/// A triangle, ready to be asked for its distance. About 800 bytes.
+/// A triangle, prepared for distance queries. About 800 bytes.
 ///
 /// The points within r of it in the maximum norm are its sum with the cube of radius r, a convex
 /// polytope. Its faces are parallel to the triangle, to the cube's faces, or to an edge of each; so

@@ -21,9 +21,9 @@ namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<mpq_class, 3>;
+using ExactVector = std::array<mpq_class, 3>;
 
-Vector vector_of(const Point& p) {
+ExactVector vector_of(const Point& p) {
     const Corner c = corner_at(p);
     return {fraction(c.x[0], c.w), fraction(c.x[1], c.w), fraction(c.x[2], c.w)};
 }
@@ -37,26 +37,27 @@ mpz_class largest(const std::array<mpz_class, 3>& v) {
     return std::max({mpz_class(abs(v[0])), mpz_class(abs(v[1])), mpz_class(abs(v[2]))});
 }
 
-struct Triangle {
-    IndexTriangle corner{};
-    FaceId face;
-};
-
-int turn(const Vector& a, const Vector& b, const Vector& p, std::size_t u, std::size_t v) {
+int turn(const ExactVector& a, const ExactVector& b, const ExactVector& p, std::size_t u,
+         std::size_t v) {
     return sgn(mpq_class((b[u] - a[u]) * (p[v] - a[v]) - (b[v] - a[v]) * (p[u] - a[u])));
 }
 
 }  // namespace
 
 struct InteriorPoints::Data {
+    struct Triangle {
+        IndexTriangle corner{};
+        FaceId face;
+    };
+
     const Brep& brep;
-    std::vector<Vector> point;
+    std::vector<ExactVector> point;
     std::vector<Triangle> triangles;
 
     /// How far to the first triangle, in lengths of `direction`.
-    [[nodiscard]] mpq_class way(const Vector& from,
+    [[nodiscard]] mpq_class way(const ExactVector& from,
                                 const std::array<mpz_class, 3>& direction) const;
-    [[nodiscard]] bool contains(const Triangle& t, const Vector& p) const;
+    [[nodiscard]] bool contains(const Triangle& t, const ExactVector& p) const;
 };
 
 InteriorPoints::InteriorPoints(const Brep& brep) {
@@ -69,20 +70,20 @@ InteriorPoints::InteriorPoints(const Brep& brep) {
 
 InteriorPoints::~InteriorPoints() = default;
 
-bool InteriorPoints::Data::contains(const Triangle& t, const Vector& p) const {
+bool InteriorPoints::Data::contains(const Triangle& t, const ExactVector& p) const {
     const auto axis = static_cast<std::size_t>(brep.plane(t.face).dominant_axis());
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
-    const Vector& a = point[t.corner[0]];
-    const Vector& b = point[t.corner[1]];
-    const Vector& c = point[t.corner[2]];
+    const ExactVector& a = point[t.corner[0]];
+    const ExactVector& b = point[t.corner[1]];
+    const ExactVector& c = point[t.corner[2]];
     const int ab = turn(a, b, p, u, v);
     const int bc = turn(b, c, p, u, v);
     const int ca = turn(c, a, p, u, v);
     return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-mpq_class InteriorPoints::Data::way(const Vector& from,
+mpq_class InteriorPoints::Data::way(const ExactVector& from,
                                     const std::array<mpz_class, 3>& direction) const {
     mpq_class best = -1;
     FaceId face;
@@ -100,7 +101,7 @@ mpq_class InteriorPoints::Data::way(const Vector& from,
             }
         }
         if (at <= 0 || (best > 0 && at >= best)) continue;
-        Vector hit;
+        ExactVector hit;
         for (std::size_t k = 0; k < 3; ++k) hit[k] = from[k] + at * direction[k];
         if (contains(t, hit)) best = at;
     }
@@ -110,15 +111,15 @@ mpq_class InteriorPoints::Data::way(const Vector& from,
 
 ExactPoint InteriorPoints::near(VertexId v, unsigned shrink) const {
     const FaceId face = data_->brep.face(data_->brep.outgoing(v));
-    const auto found =
-        std::find_if(data_->triangles.begin(), data_->triangles.end(), [&](const Triangle& t) {
+    const auto found = std::find_if(
+        data_->triangles.begin(), data_->triangles.end(), [&](const Data::Triangle& t) {
             return t.face == face &&
                    (t.corner[0] == v.index || t.corner[1] == v.index || t.corner[2] == v.index);
         });
     TRISECT_EXPECTS(found != data_->triangles.end(), "a vertex without a triangle");
-    const Vector& corner = data_->point[v.index];
+    const ExactVector& corner = data_->point[v.index];
     const mpq_class part(1, mpz_class(1) << shrink);
-    Vector from;
+    ExactVector from;
     mpq_class reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const mpq_class middle =

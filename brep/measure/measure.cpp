@@ -252,7 +252,7 @@ double rounded_volume(const SolidMeasure& m, Lattice lattice) {
     return volume_from(m.volume6(), lattice).to_double();
 }
 
-// The double that the quotient of the enclosed numbers rounds to, if they tell.
+// The double that the quotient of the enclosed numbers rounds to, if it is unique.
 std::optional<double> rounded_coordinate(const Enclosure& moment24, const Enclosure& volume6,
                                          Lattice lattice) {
     // The extremes of a quotient whose divisor has one sign are quotients of the ends.

@@ -3,12 +3,12 @@
 // Polynomials of motions have few coefficients of many bits, so schoolbook products on GMP's
 // integers are right. Two things are worth more than speed of a single operation:
 //
-// Greatest common divisors are asked for all the time (are two roots the same? is a root double?)
-// and are nearly always 1. Euclid's algorithm modulo one prime of 61 bits proves that in well below
-// a microsecond: a common divisor stays one modulo the prime, and keeps its degree when the
-// leading coefficients do not vanish. Only when the prime finds a common divisor, the remainder
-// sequence is computed over the integers, each remainder made primitive (Knuth, The Art of
-// Computer Programming 2, section 4.6.1).
+// Greatest common divisors are needed all the time (are two roots the same? is a root double?) and
+// are nearly always 1. Euclid's algorithm modulo one prime of 61 bits proves that in well below a
+// microsecond: a common divisor stays one modulo the prime, and keeps its degree when the leading
+// coefficients do not vanish. Only when the prime finds a common divisor, the remainder sequence is
+// computed over the integers, each remainder made primitive (Knuth, The Art of Computer Programming
+// 2, section 4.6.1).
 //
 // Bernstein coefficients carry a common positive factor instead of fractions: signs are all that
 // isolation looks at.

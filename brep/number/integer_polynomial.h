@@ -14,8 +14,8 @@ namespace trisect::detail {
 /// c[0] + c[1] s + ... + c[n] s^n with c[n] != 0. The zero polynomial has no coefficients.
 ///
 /// Regular value type. Made for degrees up to some dozens: multiplication and division are
-/// quadratic in the degree. Rational polynomials are kept as integer ones: every question asked
-/// here (signs, roots, common roots) is one about the polynomial up to a positive factor.
+/// quadratic in the degree. Rational polynomials are kept as integer ones: every query here (signs,
+/// roots, common roots) is one about the polynomial up to a positive factor.
 class IntegerPolynomial {
 public:
     IntegerPolynomial() = default;

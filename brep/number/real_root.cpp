@@ -11,7 +11,7 @@
 // instead of computed from the lower end, because that end may be another root.
 //
 // Signs at a root and comparisons never use separation bounds, which are hundreds of bits even for
-// cubics: an answer that narrow intervals do not give at once is asked of the common divisor. Is
+// cubics: an answer that narrow intervals do not give at once is decided by the common divisor. Is
 // it a root of both? Then it is zero, or equal, and that is proved; if not, narrowing must end.
 
 #include <trisect/brep/number/real_root.h>
@@ -25,7 +25,7 @@ namespace trisect::detail {
 
 namespace {
 
-// Narrowings before the common divisor is asked.
+// Narrowings before the common divisor is computed.
 constexpr int quick_rounds = 4;
 
 int changes_of_sign(const std::vector<mpz_class>& coefficients) {

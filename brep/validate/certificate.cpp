@@ -1,31 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The check reads the result as the next program will: points of equal value are one vertex, and
-// nothing is known but coordinates and corners. How far a vertex moved is the exact difference
-// between the point and the written double, a rational that is rounded once.
+// only coordinates and corners count. A mesh of triangles that is plainly manifold is checked over
+// its neighbours (manifold_mesh.h), any other one is validated. How far a vertex moved is the exact
+// difference between the point and the written double, a rational that is rounded once.
 #include <trisect/brep/certificate.h>
 
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include <trisect/brep/exact_rational.h>
+#include <trisect/brep/import/weld_points.h>
+#include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
 namespace {
 
-ExactRational absolute(const ExactRational& value) { return value.sign() < 0 ? -value : value; }
+/// How far written coordinates are from the exact ones: number and largest distance of one
+/// coordinate. Distances stay fractions that are not reduced; only the largest one is.
+class Moves {
+public:
+    explicit Moves(Lattice lattice) : exponent_(lattice.exponent) {}
 
-/// How far the written point is from the exact one, along the axis where that is most.
-ExactRational move_of(const Point& exact, Lattice lattice, const Point3d& written) {
-    const HomogeneousPoint h = exact.homogeneous();
-    const ExactRational w(h.w);
-    ExactRational most;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const ExactRational x = (ExactRational(h.xyz[axis]) / w).scaled(lattice.exponent);
-        const ExactRational move = absolute(x - ExactRational::from_double(written[axis]));
-        if (move > most) most = move;
+    void add(const Point& exact, const Point3d& written) {
+        const HomogeneousPoint h = exact.homogeneous();
+        const mpz_class w = detail::to_integer(h.w);
+        bool moved = false;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            moved = add(detail::to_integer(h.xyz[axis]), w, written[axis]) || moved;
+        count_ += moved ? 1 : 0;
     }
-    return most;
-}
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] double largest() const {
+        if (count_ == 0) return 0;
+        return detail::to_rational(distance_, weight_).scaled(scale_).to_double();
+    }
+
+private:
+    // The coordinate is x / w units; written is a whole number times a power of two as well. Their
+    // distance is distance / |w| · 2^scale. True if it is not 0.
+    bool add(const mpz_class& x, const mpz_class& w, double written) {
+        int written_exponent = 0;
+        const mpz_class digits(std::ldexp(std::frexp(written, &written_exponent), 53));
+        written_exponent -= 53;
+        const int scale = std::min(exponent_, written_exponent);
+        mpz_class distance = x << static_cast<unsigned long>(exponent_ - scale);
+        distance -= (digits * w) << static_cast<unsigned long>(written_exponent - scale);
+        if (distance == 0) return false;
+        keep_larger(abs(distance), abs(w), scale);
+        return true;
+    }
+
+    void keep_larger(mpz_class distance, mpz_class weight, int scale) {
+        const double estimate = estimate_of(distance, weight, scale);
+        // Estimates are good to some 2^-51; those below the range of doubles are compared.
+        if (estimate < estimate_ * (1 - 0x1p-45) && estimate_ > 0x1p-1000) return;
+        const int both = std::min(scale, scale_);
+        const mpz_class mine = (distance * weight_) << static_cast<unsigned long>(scale - both);
+        const mpz_class other = (distance_ * weight) << static_cast<unsigned long>(scale_ - both);
+        if (mine <= other) return;
+        distance_ = std::move(distance);
+        weight_ = std::move(weight);
+        scale_ = scale;
+        estimate_ = estimate;
+    }
+
+    static double estimate_of(const mpz_class& distance, const mpz_class& weight, int scale) {
+        long a = 0;
+        long b = 0;
+        const double quotient =
+            mpz_get_d_2exp(&a, distance.get_mpz_t()) / mpz_get_d_2exp(&b, weight.get_mpz_t());
+        return std::ldexp(quotient, static_cast<int>(a - b) + scale);
+    }
+
+    int exponent_;
+    std::size_t count_ = 0;
+    mpz_class distance_ = 0;  // of the largest one, over weight_, times 2^scale_
+    mpz_class weight_ = 1;
+    int scale_ = 0;
+    double estimate_ = 0;
+};
 
 /// Lattice points are doubles: only other points, and floats, can have moved.
 bool cannot_have_moved(const Point& exact, Lattice lattice, const Point3d& written) {
@@ -34,16 +96,14 @@ bool cannot_have_moved(const Point& exact, Lattice lattice, const Point3d& writt
 }
 
 void measure_moves(const Brep& brep, const PolygonMesh& written, Certificate& out) {
-    ExactRational most;
+    Moves moves(brep.lattice());
     for (const VertexId v : brep.vertices()) {
         const Point3d& point = written.points[v.index];
-        if (cannot_have_moved(brep.point(v), brep.lattice(), point)) continue;
-        const ExactRational move = move_of(brep.point(v), brep.lattice(), point);
-        if (move.sign() == 0) continue;
-        ++out.rounded_vertices;
-        if (move > most) most = move;
+        if (!cannot_have_moved(brep.point(v), brep.lattice(), point))
+            moves.add(brep.point(v), point);
     }
-    out.max_move = most.to_double();
+    out.rounded_vertices = moves.count();
+    out.max_move = moves.largest();
 }
 
 void round_to_floats(PolygonMesh& mesh) {
@@ -72,20 +132,63 @@ std::optional<std::size_t> self_intersecting_pairs(const PolygonMesh& mesh) {
     }
 }
 
-}  // namespace
+/// `pairs` are not counted where the lattice rounds once more: the answer would be about another
+/// mesh.
+template <class Count>
+void count_pairs(bool lossless, const Count& pairs, Certificate& out) {
+    if (lossless) out.self_intersecting_pairs = pairs();
+    if (!out.self_intersecting_pairs) out.undecided = lossless ? Undecided::Work : Undecided::Span;
+}
 
-Certificate certify(const PolygonMesh& mesh) {
+Certificate validated(const PolygonMesh& mesh) {
     Certificate out;
     const ValidationReport topology = checked(mesh, false);
     const auto has_none = [&](DefectKind kind) { return topology.count(kind) == 0; };
     out.closed = has_none(DefectKind::OpenEdge);
     out.oriented = out.closed && has_none(DefectKind::FlippedFace) &&
                    has_none(DefectKind::InsideOutShell) && has_none(DefectKind::ShellNesting);
-    // On a lattice that rounds once more the answer would be about another mesh.
-    if (topology.lattice().lossless) out.self_intersecting_pairs = self_intersecting_pairs(mesh);
-    if (!out.self_intersecting_pairs)
-        out.undecided = topology.lattice().lossless ? Undecided::Work : Undecided::Span;
+    count_pairs(
+        topology.lattice().lossless, [&] { return self_intersecting_pairs(mesh); }, out);
     return out;
+}
+
+std::optional<std::vector<detail::ManifoldMesh::Triangle>> triangles_of(const PolygonMesh& mesh) {
+    std::vector<detail::ManifoldMesh::Triangle> out;
+    out.reserve(mesh.face_count());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const auto face = mesh.face(f);
+        if (face.size() != 3 || std::ranges::max(face) >= mesh.points.size()) return std::nullopt;
+        out.push_back({face[0], face[1], face[2]});
+    }
+    return out;
+}
+
+/// The same answer over the neighbours of triangles, or nothing.
+std::optional<Certificate> certified_manifold(const PolygonMesh& mesh) {
+    const auto triangles = triangles_of(mesh);
+    if (!triangles) return std::nullopt;
+    LatticeReport lattice;
+    std::vector<LatticePoint> points =
+        to_lattice(mesh.points, choose_lattice(mesh.points), lattice);
+    if (!detail::weld_in_place(points, points.size()).empty()) return std::nullopt;
+    const auto manifold = detail::ManifoldMesh::of(points, *triangles);
+    if (!manifold) return std::nullopt;
+    const std::optional<bool> nested = manifold->are_shells_nested();
+    if (!nested) return std::nullopt;
+    Certificate out;
+    out.closed = true;
+    out.oriented = *nested;
+    if (lattice.lossless && manifold->has_no_contact() != true) return std::nullopt;
+    count_pairs(
+        lattice.lossless, [] { return std::optional<std::size_t>(0); }, out);
+    return out;
+}
+
+}  // namespace
+
+Certificate certify(const PolygonMesh& mesh) {
+    const std::optional<Certificate> quick = certified_manifold(mesh);
+    return quick ? *quick : validated(mesh);
 }
 
 Certificate certify(const Brep& brep, PolygonMesh mesh, Precision precision) {

@@ -42,7 +42,7 @@ enum class DefectKind : std::uint8_t {
 };
 inline constexpr std::size_t defect_kind_count = 19;
 
-/// Errors: the mesh does not bound a solid. Warnings: it does, but somebody should look.
+/// Errors: the mesh does not bound a solid. Warnings: it does, but they deserve attention.
 enum class Severity : std::uint8_t { Warning, Error };
 
 /// The name in reports and JSON, such as "open_edge".
@@ -86,7 +86,7 @@ public:
         if (counts_[static_cast<std::size_t>(kind)]++ < list_limit_)
             defects_.push_back(std::forward<Make>(make)());
     }
-    /// What putting the mesh on a lattice changed; the checks speak about the rounded mesh.
+    /// What putting the mesh on a lattice changed; the checks are of the rounded mesh.
     [[nodiscard]] const LatticeReport& lattice() const { return lattice_; }
     void set_lattice(const LatticeReport& lattice) { lattice_ = lattice; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// empty_mesh: no faces at all. Such a mesh bounds the empty set, which is a solid; but nobody saves
-// an empty model on purpose.
+// empty_mesh: no faces at all. Such a mesh bounds the empty set, which is a solid; but saving an
+// empty model on purpose.
 
 #include <trisect/brep/validate/checked_mesh.h>
 

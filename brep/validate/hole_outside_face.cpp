@@ -5,9 +5,9 @@
 // Corners of a Brep may be points of three planes, so the test uses signs of planes only. From a
 // corner h of the inner loop a ray runs in the face's plane along the axis u; an edge p -> q of the
 // outer loop is crossed if p and q are on different sides of h along the axis v, and h is to its
-// left or right. Which side that is the neighbouring face's plane tells: with n the face's normal,
-// m the neighbour's and the edge running along s·(n × m), s = ±1, the face lies where m has the
-// sign -s, because m · (n × (n × m)) = (n·m)² - n²m² < 0. Where the neighbour is coplanar, the
+// left or right. The neighbouring face's plane decides which side that is: with n the face's
+// normal, m the neighbour's and the edge running along s·(n × m), s = ±1, the face lies where m has
+// the sign -s, because m · (n × (n × m)) = (n·m)² - n²m² < 0. Where the neighbour is coplanar, the
 // plane through the edge is built if both ends are lattice points; otherwise the hole is left to
 // the benefit of the doubt.
 

@@ -14,23 +14,24 @@ namespace trisect::detail {
 namespace {
 
 // Every corner of every loop, dealt to its vertex: the neighbours of the vertex in the loop.
-struct Corner {
+struct CornerAtVertex {
     std::uint32_t previous, next, face;
 };
 
 class CornerTable {
 public:
     explicit CornerTable(const PreparedMesh& mesh) : begin_(mesh.points.size() + 2, 0) {
-        for_each(mesh, [this](std::uint32_t v, const Corner&) { ++begin_[std::size_t{v} + 2]; });
+        for_each(mesh,
+                 [this](std::uint32_t v, const CornerAtVertex&) { ++begin_[std::size_t{v} + 2]; });
         for (std::size_t v = 2; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
         corners_.resize(begin_.back());
-        for_each(mesh, [this](std::uint32_t v, const Corner& c) {
+        for_each(mesh, [this](std::uint32_t v, const CornerAtVertex& c) {
             corners_[begin_[std::size_t{v} + 1]++] = c;
         });
         begin_.pop_back();
     }
     [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
-    [[nodiscard]] std::span<const Corner> at(std::size_t v) const {
+    [[nodiscard]] std::span<const CornerAtVertex> at(std::size_t v) const {
         return {corners_.data() + begin_[v], corners_.data() + begin_[v + 1]};
     }
 
@@ -46,16 +47,16 @@ private:
             const std::size_t n = loop.size();
             if (n < 3) continue;
             for (std::size_t i = 0; i < n; ++i)
-                visit(loop[i], Corner{loop[(i + n - 1) % n], loop[(i + 1) % n], f});
+                visit(loop[i], CornerAtVertex{loop[(i + n - 1) % n], loop[(i + 1) % n], f});
         }
     }
     std::vector<std::uint32_t> begin_;
-    std::vector<Corner> corners_;
+    std::vector<CornerAtVertex> corners_;
 };
 
 class FanCounter {
 public:
-    std::size_t count(std::span<const Corner> corners) {
+    std::size_t count(std::span<const CornerAtVertex> corners) {
         root_.resize(corners.size());
         std::iota(root_.begin(), root_.end(), 0U);
         ends_.clear();
@@ -97,7 +98,7 @@ void check_non_manifold_vertices(const CheckedMesh& m, ValidationReport& report)
         if (fans == 1) continue;
         report.add(DefectKind::NonManifoldVertex, [&] {
             std::vector<std::uint32_t> faces;
-            for (const Corner& c : corners) faces.push_back(c.face);
+            for (const CornerAtVertex& c : corners) faces.push_back(c.face);
             return Defect{
                 DefectKind::NonManifoldVertex,
                 {m.name(v)},

@@ -19,30 +19,25 @@
 #include <cstddef>
 #include <limits>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 namespace {
 
-using Vector = TurnedBox::Vector;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector scaled(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Vector normalized(const Vector& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
-Vector without(const Vector& a, const Vector& unit) {
+Vector3 normalized(const Vector3& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
+Vector3 without(const Vector3& a, const Vector3& unit) {
     const double along = dot(a, unit);
     return {a[0] - along * unit[0], a[1] - along * unit[1], a[2] - along * unit[2]};
 }
 
 // Relative to the frame; the difference is exact, the double rounds it once.
-Vector relative(const BoxFrame& frame, const LatticePoint& p) {
+Vector3 relative(const BoxFrame& frame, const LatticePoint& p) {
     return {static_cast<double>(p.x - frame.origin[0]), static_cast<double>(p.y - frame.origin[1]),
             static_cast<double>(p.z - frame.origin[2])};
 }
 
-bool are_orthonormal(const std::array<Vector, 3>& axis) {
+bool are_orthonormal(const std::array<Vector3, 3>& axis) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k <= i; ++k)  // a NaN is not
             if (!(std::fabs(dot(axis[i], axis[k]) - (i == k ? 1 : 0)) < 0x1p-49)) return false;
@@ -51,20 +46,20 @@ bool are_orthonormal(const std::array<Vector, 3>& axis) {
 
 // The sum of the normals, or that of the largest triangle where they cancel; and the longest edge.
 struct Directions {
-    Vector normal{}, edge{};
+    Vector3 normal{}, edge{};
 };
 
 Directions directions_of(const BoxFrame& frame, std::span<const LatticePoint> points,
                          std::span<const std::array<std::uint32_t, 3>> triangles,
                          std::span<const std::uint32_t> order) {
     Directions out;
-    Vector largest{};
+    Vector3 largest{};
     double most = 0;
     double longest = 0;
     for (const std::uint32_t t : order) {
-        std::array<Vector, 3> p{};
+        std::array<Vector3, 3> p{};
         for (std::size_t i = 0; i < 3; ++i) p[i] = relative(frame, points[triangles[t][i]]);
-        std::array<Vector, 3> edge{};
+        std::array<Vector3, 3> edge{};
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) edge[i][k] = p[(i + 1) % 3][k] - p[i][k];
             if (const double length = dot(edge[i], edge[i]); length > longest) {
@@ -72,7 +67,7 @@ Directions directions_of(const BoxFrame& frame, std::span<const LatticePoint> po
                 out.edge = edge[i];
             }
         }
-        const Vector n = cross(edge[0], edge[1]);
+        const Vector3 n = cross(edge[0], edge[1]);
         for (std::size_t k = 0; k < 3; ++k) out.normal[k] += n[k];
         if (const double size = dot(n, n); size > most) {
             most = size;
@@ -114,7 +109,7 @@ std::optional<TurnedBox> TurnedBox::around(const BoxFrame& frame,
     box.high.fill(-std::numeric_limits<double>::infinity());
     for (const std::uint32_t t : order)
         for (const std::uint32_t c : triangles[t]) {
-            const Vector p = relative(frame, points[c]);
+            const Vector3 p = relative(frame, points[c]);
             for (std::size_t i = 0; i < 3; ++i) {
                 const double s = dot(p, box.axis[i]);
                 box.low[i] = std::min(box.low[i], s);

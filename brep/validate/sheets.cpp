@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes cannot tell the triangles of a large flat face apart: in a fan of needles every box meets a
-// fixed share of all others, so a search for pairs is quadratic. But nobody needs to compare them.
+// Boxes cannot distinguish the triangles of a large flat face: in a fan of needles every box meets
+// a fixed share of all others, so a search for pairs is quadratic. But they need not be compared.
 //
 // A sheet is a set of triangles, hung together over edges, whose normals are positive along one
 // axis (or negative along it). Projected along that axis it covers a point as often as its boundary
@@ -41,20 +41,20 @@ using Signs = std::array<int, 3>;
 
 // Smaller ones are compared faster than proved.
 constexpr std::uint32_t least_sheet = 16;
-// A vertex of so many triangles asks for one axis around it.
+// A vertex of so many triangles needs one axis around it.
 constexpr std::uint32_t hub_degree = 64;
 
-struct Normal {
+struct RoughNormal {
     Signs sign;        // of each coordinate, exact
     std::size_t most;  // the axis in which it is largest, nearly
 };
 
 // Differences round once and are below 2^54, so a coordinate is within 4·2^-53 of the sum of the
 // magnitudes of its products.
-Normal normal_of(std::span<const LatticePoint> points, const Triangle& t) {
+RoughNormal normal_of(std::span<const LatticePoint> points, const Triangle& t) {
     const LatticePoint p = points[t[1]] - points[t[0]];
     const LatticePoint q = points[t[2]] - points[t[0]];
-    Normal out{};
+    RoughNormal out{};
     std::array<double, 3> n{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
@@ -80,7 +80,7 @@ Normal normal_of(std::span<const LatticePoint> points, const Triangle& t) {
 // Where a triangle is seen from: 2·axis, or 2·axis + 1 from the negative side.
 using View = std::uint8_t;
 
-View view_along(const Normal& n, std::size_t axis) {
+View view_along(const RoughNormal& n, std::size_t axis) {
     return static_cast<View>(2 * axis + (n.sign[axis] > 0 ? 0 : 1));
 }
 FlatAxes axes_of(View view) {
@@ -104,7 +104,7 @@ public:
         around_.resize(count);
     }
 
-    void turn(std::span<const Triangle> triangles, std::span<const Normal> normals,
+    void turn(std::span<const Triangle> triangles, std::span<const RoughNormal> normals,
               std::vector<View>& views) {
         if (around_.empty()) return;
         for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -124,7 +124,7 @@ private:
         std::array<std::uint32_t, 6> chosen{};
         std::array<bool, 6> hidden{};
 
-        void add(const Normal& n, View view) {
+        void add(const RoughNormal& n, View view) {
             ++chosen[view];
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 if (n.sign[axis] <= 0) hidden[2 * axis] = true;
@@ -143,7 +143,7 @@ private:
     std::vector<Around> around_;
 };
 
-bool is_flat(const Normal& n) { return n.sign == Signs{}; }
+bool is_flat(const RoughNormal& n) { return n.sign == Signs{}; }
 
 struct Views {
     std::vector<View> of_triangle;
@@ -151,7 +151,7 @@ struct Views {
 };
 
 Views choose_views(std::span<const LatticePoint> points, std::span<const Triangle> triangles) {
-    std::vector<Normal> normals;
+    std::vector<RoughNormal> normals;
     Views views;
     normals.reserve(triangles.size());
     views.of_triangle.reserve(triangles.size());

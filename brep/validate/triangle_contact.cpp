@@ -5,7 +5,7 @@
 // edge crosses the other plane: a point named by three planes (the triangle's, the other one's, and
 // one through the edge). Comparing such points along the line is exact, so "touches in a point",
 // "shares a stretch of an edge" and "passes through" are three different answers, which a version
-// with rounded intervals cannot tell apart; and they are what matters in meshes whose neighbours
+// with rounded intervals cannot separate; and they are what matters in meshes whose neighbours
 // touch everywhere.
 //
 // Before any of this, signs decide nearly all pairs: a line through an edge that separates the
@@ -128,12 +128,12 @@ void set_signs(Half& h, const Plane& other) {
     for (std::size_t i = 0; i < 3; ++i) h.sign[i] = sign_of(side_of(h.p[i], other));
 }
 
-struct Interval {
+struct LineInterval {
     Point low, high;
 };
 
 // The part of the triangle on the other plane. \pre some corner is on it or on each side.
-Interval interval_on(const Half& h, const Plane& other, int axis) {
+LineInterval interval_on(const Half& h, const Plane& other, int axis) {
     std::array<Point, 2> ends;
     std::size_t n = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -158,8 +158,8 @@ int line_axis(const Plane& a, const Plane& b) {
 PairContact contact_on_line(const Half& a, const Half& b, int shared) {
     const int axis = line_axis(a.plane, b.plane);
     if (axis < 0) return {};  // parallel and, by the signs, not the same plane
-    const Interval i = interval_on(a, b.plane, axis);
-    const Interval k = interval_on(b, a.plane, axis);
+    const LineInterval i = interval_on(a, b.plane, axis);
+    const LineInterval k = interval_on(b, a.plane, axis);
     const Point& low = compare_coordinate(i.low, k.low, axis) < 0 ? k.low : i.low;
     const Point& high = compare_coordinate(i.high, k.high, axis) < 0 ? i.high : k.high;
     const auto order = compare_coordinate(low, high, axis);

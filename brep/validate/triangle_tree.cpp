@@ -10,7 +10,7 @@ namespace trisect::detail {
 namespace {
 
 // Moves the smaller half to the front, along the axis in which the centres of the boxes spread
-// most. `id` tells equal centres apart.
+// most. `id` distinguishes equal centres.
 template <class Iterator, class BoxOf, class IdOf>
 Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id_of) {
     const auto centre = [&](const auto& item, std::size_t axis) {

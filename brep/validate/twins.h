@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Twins: the opposite half-edges of a triangle mesh that is a closed, oriented 2-manifold.
+// Twins: opposite half-edges of a closed, oriented triangle mesh.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@
 //   pairing  (brep/brep_builder.h)  opposite halfedges; where four or more faces meet at an edge
 //                                   their exact radial order and the inside decide
 //
-// Every exact question is asked inside one cell, on one line or in one plane; what is global is
+// Every exact sign is computed inside one cell, on one line or in one plane; what is global is
 // sorting and hashing. Welding by float distance, the usual way, loses faces or invents them as
 // soon as two different vertices round to the same place.
 
@@ -25,12 +25,11 @@
 #include <trisect/bsp/assembly/parts/face_loops.h>
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 FaceSource source_of(const BoundaryFacet& f) {
     return {static_cast<std::uint32_t>(f.source->serial()), f.source->face_of(f.facet)};
@@ -50,7 +49,7 @@ public:
         for (const WholeFacet& w : whole) {
             if (w.joins) continue;
             const BoundaryFacet f{parts_.sources[w.table].source(), w.facet, w.flipped};
-            while (i < edges.size() && precedes(parts_.facets[u(edges[i].facet)], f))
+            while (i < edges.size() && precedes(parts_.facets[as_index(edges[i].facet)], f))
                 i = write_cut(edges, i);
             write_whole(f, w);
         }
@@ -76,7 +75,7 @@ private:
         check_stop();
         std::size_t end = first;
         while (end < edges.size() && edges[end].facet == edges[first].facet) ++end;
-        const BoundaryFacet& f = parts_.facets[u(edges[first].facet)];
+        const BoundaryFacet& f = parts_.facets[as_index(edges[first].facet)];
         const Plane& support = parts_.bench.plane_at(f.support);
         const Plane plane = f.flipped ? support.flipped() : support;
         loops_.set_region(f.support, f.flipped, edges.subspan(first, end - first));

@@ -28,22 +28,21 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+constexpr std::uint32_t no_number = static_cast<std::uint32_t>(-1);
 constexpr std::uint32_t in_use = 0;  // until corners have numbers
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 // Fewer points are not worth a part of their own, nor fewer groups of eight facets.
 constexpr std::size_t least_points = 16384;
-constexpr std::size_t least_groups = 4096;
+constexpr std::size_t least_group_count = 4096;
 
 // By source: the numbers of its corners in the mesh.
 using CornerTables = std::vector<std::vector<std::uint32_t>>;
@@ -55,8 +54,8 @@ CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
     for (const FacetMarks& marks : parts.sources) {
         const Triangle* const triangles = marks.source()->mesh().triangles.data();
         const std::size_t count = marks.source()->mesh().points.size();
-        std::uint32_t* const table = tables.emplace_back(count, none).data();
-        const ParallelParts of_groups(marks.group_count(), threads, least_groups);
+        std::uint32_t* const table = tables.emplace_back(count, no_number).data();
+        const ParallelParts of_groups(marks.group_count(), threads, least_group_count);
         if (of_groups.count() == 1) {
             const auto mark = [=](std::uint32_t facet, bool) {
                 for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
@@ -71,7 +70,7 @@ CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
             marks.for_each_whole(begin, end, [=](std::uint32_t facet, bool) {
                 for (const std::uint32_t v : triangles[facet]) {
                     const std::atomic_ref corner(table[v]);
-                    if (corner.load(std::memory_order_relaxed) == none)
+                    if (corner.load(std::memory_order_relaxed) == no_number)
                         corner.store(in_use, std::memory_order_relaxed);
                 }
             });
@@ -95,7 +94,7 @@ public:
           loops_(parts.bench) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
-        number_.assign(bench_.point_count(), none);
+        number_.assign(bench_.point_count(), no_number);
         number_corners(edges);
         worked_.reserve(3 * edges.size());
         for (rest_ = edges; !rest_.empty();) cut_worked();
@@ -123,7 +122,7 @@ private:
     void number_corners(std::span<const BoundaryEdge> edges) {
         std::size_t made = 0;  // at most: vertices that are no corners
         for (const BoundaryEdge& e : edges) {
-            if (std::exchange(number_[u(e.from)], in_use) != none) continue;
+            if (std::exchange(number_[as_index(e.from)], in_use) != no_number) continue;
             if (bench_.is_corner(e.from)) {
                 corner_of(e.from) = in_use;
             } else {
@@ -131,7 +130,7 @@ private:
             }
         }
         const auto used_in = [](std::span<const std::uint32_t> part) {
-            return part.size() - static_cast<std::size_t>(std::ranges::count(part, none));
+            return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
         };
         std::vector<std::vector<std::size_t>> counts;  // of every part of a table
         std::size_t count = made;
@@ -146,7 +145,7 @@ private:
         mesh_.points.reserve(count);
         for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
         for (const BoundaryEdge& e : edges)
-            number_[u(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : none;
+            number_[as_index(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : no_number;
     }
 
     // Numbers and coordinates for the corners in use; `counts` of them in each part.
@@ -161,7 +160,7 @@ private:
             .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
                 std::size_t n = first[part];
                 for (std::size_t i = begin; i < end; ++i) {
-                    if (table[i] == none) continue;
+                    if (table[i] == no_number) continue;
                     out[n] = coordinates_of(points[i], unit);
                     table[i] = static_cast<std::uint32_t>(n++);
                 }
@@ -198,7 +197,7 @@ private:
 
     // Cuts the facet whose edges come next into triangles.
     void cut_worked() {
-        const BoundaryFacet& f = parts_.facets[u(rest_[0].facet)];
+        const BoundaryFacet& f = parts_.facets[as_index(rest_[0].facet)];
         check_stop();
         std::size_t n = 1;
         while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
@@ -245,7 +244,7 @@ private:
     // Facets in their order, whether they pass through or were cut.
     void write_source(std::size_t t) {
         const FacetMarks& marks = parts_.sources[t];
-        const ParallelParts parts(marks.group_count(), threads_, least_groups);
+        const ParallelParts parts(marks.group_count(), threads_, least_group_count);
         std::vector<std::size_t> whole(parts.count());  // before each part
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             whole[part] = marks.counts(begin, end).whole;
@@ -259,7 +258,7 @@ private:
     }
 
     // Groups [begin, end) of a source, before which so many facets that pass through are written.
-    // What the loop needs is kept by value: numbers that it writes may be anybody's.
+    // What the loop needs is kept by value: numbers that it writes may alias others.
     void write_part(std::size_t t, std::size_t begin, std::size_t end, std::size_t whole_before) {
         auto next = worked_from(t, 8 * begin);
         const auto last = worked_from(t, 8 * end);
@@ -303,7 +302,8 @@ private:
             });
     }
 
-    // A facet may have been touched in vain; then nothing may tell it from one that was not.
+    // A facet may have been touched in vain; then the result must not differ from that of one that
+    // was not.
     bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
         return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
                    if (!bench_.is_corner(p)) return false;
@@ -315,8 +315,8 @@ private:
     }
 
     std::uint32_t vertex(PointId p) {
-        std::uint32_t& at = number_[u(p)];
-        if (at == none) at = add_point(in_units(bench_.nearest(p), unit_));
+        std::uint32_t& at = number_[as_index(p)];
+        if (at == no_number) at = add_point(in_units(bench_.nearest(p), unit_));
         return at;
     }
 
@@ -375,19 +375,19 @@ private:
         points_.clear();
         ids_.clear();
         outline_.clear();
-        local_.resize(bench_.point_count(), none);
+        local_.resize(bench_.point_count(), no_number);
         for (std::size_t l = first; l < end; ++l) {
             auto& loop = outline_.emplace_back();
             for (const PointId p : loops_.loop(l)) {
-                if (local_[u(p)] == none) {
-                    local_[u(p)] = static_cast<std::uint32_t>(ids_.size());
+                if (local_[as_index(p)] == no_number) {
+                    local_[as_index(p)] = static_cast<std::uint32_t>(ids_.size());
                     ids_.push_back(p);
                     points_.push_back(bench_.point(p));
                 }
-                loop.push_back(local_[u(p)]);
+                loop.push_back(local_[as_index(p)]);
             }
         }
-        for (const PointId p : ids_) local_[u(p)] = none;
+        for (const PointId p : ids_) local_[as_index(p)] = no_number;
         const Plane& support = bench_.plane_at(f.support);
         for (const IndexTriangle& t :
              triangulate(f.flipped ? support.flipped() : support, points_, outline_))
@@ -431,7 +431,7 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
         const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
         // No table: a corner of a facet that only named the point.
         const std::int32_t t = parts.table_ids.find(BoundaryParts::key_of(source));
-        if (t >= 0 && used[u(t)][v]) out.push_back(parts.representatives[p]);
+        if (t >= 0 && used[as_index(t)][v]) out.push_back(parts.representatives[p]);
     }
     return out;
 }
@@ -455,7 +455,7 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     };
     // What was cut and what passes through have nothing to do with each other yet.
     CornerTables tables;
-    const bool large = parts.stats.whole_facets >= 8 * least_groups;
+    const bool large = parts.stats.whole_facets >= 8 * least_group_count;
     const auto find_corners = [&] { tables = corners_in_use(parts, large ? threads : 1); };
     if (large && threads != 1) {
         both_at_once(find_corners, join);
@@ -483,7 +483,7 @@ struct ListedFacets {
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                           std::uint32_t threads) {
     // No arena for what no step would divide.
-    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_groups;
+    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
     return on_threads(small ? 1 : threads,
                       [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
 }

@@ -15,7 +15,7 @@ namespace trisect::detail {
                                  AssemblyStats* stats = nullptr);
 
 /// The boundary as triangles; facets that nothing touched are copied. Without `by_planes` all
-/// others go the general way (gather_parts()); the set, the vertices and the number of triangles
+/// others go the general path (gather_parts()); the set, the vertices and the number of triangles
 /// are the same. `threads` as in ParallelParts.
 [[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr,
                                         bool by_planes = true, std::uint32_t threads = 1);

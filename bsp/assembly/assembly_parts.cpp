@@ -34,6 +34,7 @@
 #include <trisect/bsp/cells/near_points.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
@@ -41,9 +42,7 @@ namespace trisect::detail {
 
 namespace {
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
-struct Leaf {
+struct AssembledLeaf {
     const CellNode* node = nullptr;
     bool complemented = false;
     Cell cell;
@@ -57,7 +56,7 @@ struct Leaf {
 struct ListPart {
     std::span<const std::uint32_t> facets;
     bool contained = false;  ///< in the cell of the leaf, so that no other leaf lists them
-    const Leaf* leaf = nullptr;
+    const AssembledLeaf* leaf = nullptr;
     std::size_t table = 0;
     bool flipped = false;
 };
@@ -84,23 +83,24 @@ private:
     void gather(const PrismOutlines& prisms);
     void finish();
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
-    [[nodiscard]] const DeferredLeaf* deferred(const Leaf& leaf) const;
-    [[nodiscard]] const AxisPicture* picture(const Leaf& leaf) const;
-    void mark_facets(const Leaf& leaf);
+    [[nodiscard]] const DeferredLeaf* deferred(const AssembledLeaf& leaf) const;
+    [[nodiscard]] const AxisPicture* picture(const AssembledLeaf& leaf) const;
+    void mark_facets(const AssembledLeaf& leaf);
     void mark_leaves();
     void mark_crossed(const Crossings& crossings);
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
-    [[nodiscard]] bool needs_parts(const Leaf& leaf, const AxisPicture& picture) const;
-    void note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table);
+    [[nodiscard]] bool needs_parts(const AssembledLeaf& leaf, const AxisPicture& picture) const;
+    void note_list(const AssembledLeaf& leaf, const PolygonList& polygons, std::size_t table);
     void mark_lists();
     void mark_uncrossed(std::span<const UncrossedFacets> lists);
     void mark_outlines(const NamedOutlines& outlines);
     void number_facets();
-    void make_parts(Leaf& leaf);
-    void make_list_parts(const Leaf& leaf);
-    void make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet);
-    void make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet);
-    void note_part(const Leaf& leaf, BoundaryFacet& facet);
+    void make_parts(AssembledLeaf& leaf);
+    void make_list_parts(const AssembledLeaf& leaf);
+    void make_part(const PolygonRef& ref, const AssembledLeaf& leaf, std::int32_t facet);
+    void make_group(std::span<const PolygonRef> group, const AssembledLeaf& leaf,
+                    std::int32_t facet);
+    void note_part(const AssembledLeaf& leaf, BoundaryFacet& facet);
     void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
     void choose_axis_faces();
     void make_axis_faces();
@@ -117,10 +117,10 @@ private:
     std::uint32_t threads_;
     std::span<const FacetName> incomplete_;  // of a tree
     bool defers_ = false;  // crossings of all leaves in general position are known
-    std::vector<Leaf> leaves_;
+    std::vector<AssembledLeaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
-    // Of traced facets, then of the parts, leaf by leaf, then of planes across axes.
+    // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
     std::vector<BoundaryEdge> edges_;
     AxisFaces axis_faces_;
     std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
@@ -144,7 +144,7 @@ void Gatherer::gather(const CellTree& tree) {
     if (defers_) trace_facets(*tree.crossings, out_, edges_);
 }
 
-// Facets whose outlines doubles cannot tell are left to the parts of the tree.
+// Facets whose outlines doubles do not decide are left to the parts of the tree.
 void Gatherer::gather(const UndividedMeshes& meshes) {
     mark_uncrossed(meshes.uncrossed);
     mark_crossed(*meshes.crossings);
@@ -167,7 +167,7 @@ void Gatherer::gather(const PrismOutlines& prisms) {
 void Gatherer::finish() {
     const std::size_t traced = edges_.size();
     if (by_planes_ && traced == 0) choose_axis_faces();
-    for (Leaf& leaf : leaves_) {
+    for (AssembledLeaf& leaf : leaves_) {
         if (out_.stats.traced_facets == out_.facets.size()) break;
         check_stop(1 + leaf.node->size());
         make_parts(leaf);
@@ -189,7 +189,7 @@ void Gatherer::finish() {
 }
 
 void Gatherer::mark_leaves() {
-    for (const Leaf& leaf : leaves_) {
+    for (const AssembledLeaf& leaf : leaves_) {
         check_stop(1 + leaf.node->size());
         mark_facets(leaf);
     }
@@ -202,7 +202,7 @@ std::size_t Gatherer::table(const Source* source) {
     const auto next = static_cast<std::int32_t>(tables.size());
     const auto [id, inserted] = out_.table_ids.insert(BoundaryParts::key_of(source), next);
     if (inserted) mark_incomplete(tables.emplace_back(source));
-    return last_table_ = u(id);
+    return last_table_ = as_index(id);
 }
 
 void Gatherer::mark_incomplete(FacetMarks& marks) const {
@@ -234,13 +234,13 @@ bool is_owned(const Cell& cell, const FacetMarks& marks, std::uint32_t facet, bo
 }
 
 // Where the crossings of all leaves are known, those that were deferred stay so.
-const DeferredLeaf* Gatherer::deferred(const Leaf& leaf) const {
+const DeferredLeaf* Gatherer::deferred(const AssembledLeaf& leaf) const {
     const DeferredLeaf* const d = leaf.node->deferred();
     return defers_ && d != nullptr && d->uncrossed() != nullptr ? d : nullptr;
 }
 
 // Where planes are outlined as a whole.
-const AxisPicture* Gatherer::picture(const Leaf& leaf) const {
+const AxisPicture* Gatherer::picture(const AssembledLeaf& leaf) const {
     const DeferredLeaf* const d = leaf.node->deferred();
     return by_planes_ && d != nullptr ? d->picture() : nullptr;
 }
@@ -269,7 +269,7 @@ void Gatherer::mark_crossed(const Crossings& crossings) {
     }
 }
 
-void Gatherer::mark_facets(const Leaf& leaf) {
+void Gatherer::mark_facets(const AssembledLeaf& leaf) {
     const DeferredLeaf* const deferred = this->deferred(leaf);
     if (deferred != nullptr)
         for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
@@ -310,7 +310,8 @@ void Gatherer::mark_facets(const Leaf& leaf) {
 
 // A list of nothing but whole facets of one source is marked later, by several threads: what other
 // leaves say of a facet makes no difference to it.
-void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::size_t table) {
+void Gatherer::note_list(const AssembledLeaf& leaf, const PolygonList& polygons,
+                         std::size_t table) {
     FacetMarks& marks = out_.sources[table];
     const bool flipped = polygons.flipped() != leaf.complemented;
     if (polygons.has_all_facets()) {
@@ -329,7 +330,7 @@ void Gatherer::note_list(const Leaf& leaf, const PolygonList& polygons, std::siz
 }
 
 // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
-// for each of them. So they are asked for well before.
+// for each of them. So they are prefetched well before.
 template <bool Shared>
 void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
@@ -435,7 +436,7 @@ bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
     });
 }
 
-bool Gatherer::needs_parts(const Leaf& leaf, const AxisPicture& picture) const {
+bool Gatherer::needs_parts(const AssembledLeaf& leaf, const AxisPicture& picture) const {
     return std::any_of(picture.facets.begin(), picture.facets.end(), [&](const PolygonRef& r) {
         const FacetMarks& marks = out_.sources[out_.table_of(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
@@ -444,7 +445,7 @@ bool Gatherer::needs_parts(const Leaf& leaf, const AxisPicture& picture) const {
     });
 }
 
-void Gatherer::make_parts(Leaf& leaf) {
+void Gatherer::make_parts(AssembledLeaf& leaf) {
     leaf.first_edge = leaf.end_edge = edges_.size();
     if (const auto* d = deferred(leaf); d != nullptr && !needs_parts(*d)) return;
     if (const auto* p = picture(leaf); p != nullptr && !needs_parts(leaf, *p)) return;
@@ -470,7 +471,7 @@ void Gatherer::make_parts(Leaf& leaf) {
 }
 
 // Fragments of one facet come one after the other.
-void Gatherer::make_list_parts(const Leaf& leaf) {
+void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
     const PolygonList& polygons = leaf.node->polygons();
     for (std::size_t i = 0; i < polygons.size();) {
         const PolygonRef r = polygons[i++];
@@ -496,7 +497,7 @@ void Gatherer::make_list_parts(const Leaf& leaf) {
 }
 
 // The number of parts decides what is left to join, and their leaves where.
-void Gatherer::note_part(const Leaf& leaf, BoundaryFacet& facet) {
+void Gatherer::note_part(const AssembledLeaf& leaf, BoundaryFacet& facet) {
     const auto number = static_cast<std::int32_t>(&leaf - leaves_.data());
     if (!leaf.node->is_mixed() || (facet.leaf >= 0 && facet.leaf != number))
         facet.in_several_cells = true;
@@ -505,10 +506,11 @@ void Gatherer::note_part(const Leaf& leaf, BoundaryFacet& facet) {
     ++facet.parts;
 }
 
-void Gatherer::make_group(std::span<const PolygonRef> group, const Leaf& leaf, std::int32_t facet) {
+void Gatherer::make_group(std::span<const PolygonRef> group, const AssembledLeaf& leaf,
+                          std::int32_t facet) {
     Workbench& bench = out_.bench;
     const PolygonRef& ref = group[0];
-    BoundaryFacet& f = out_.facets[u(facet)];
+    BoundaryFacet& f = out_.facets[as_index(facet)];
     f.support = bench.plane(PlaneName::support(ref.source, ref.facet));
     if (!fragments_.join(group)) {
         for (const PolygonRef& r : group) make_part(r, leaf, facet);
@@ -535,11 +537,11 @@ void Gatherer::make_group(std::span<const PolygonRef> group, const Leaf& leaf, s
     }
 }
 
-void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t facet) {
+void Gatherer::make_part(const PolygonRef& ref, const AssembledLeaf& leaf, std::int32_t facet) {
     Workbench& bench = out_.bench;
     WorkPolygon shape = bench.polygon(ref);
     bench.with_edges(shape, ref);
-    BoundaryFacet& f = out_.facets[u(facet)];
+    BoundaryFacet& f = out_.facets[as_index(facet)];
     f.support = shape.support;
     if (!leaf.cell.contains(ref.box()) || shape.is_empty())
         shape = bench.clipped(shape, ref.box(), leaf.cell);
@@ -557,18 +559,19 @@ void Gatherer::make_part(const PolygonRef& ref, const Leaf& leaf, std::int32_t f
 }
 
 // A cut through a corner of the facet leaves a vertex that is named by the cut. Untouched facets
-// around the corner know it by the corner's name only, so that name must take part in merging.
+// around the corner have the corner's name only, so that name must take part in merging.
 void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRef& ref) {
     if (ref.source->is_half_space()) return;
     std::array<std::array<double, 3>, 3> corners;
-    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(ref.source->corner(ref.facet, i)).c;
+    for (int i = 0; i < 3; ++i)
+        corners[as_index(i)] = approximate(ref.source->corner(ref.facet, i)).c;
     for (const PointId p : points) {
         if (out_.bench.is_corner(p)) continue;
         const Approximation a = out_.bench.approximation(p);
         for (int i = 0; i < 3; ++i) {
             bool near = true;
             for (std::size_t k = 0; k < 3; ++k)
-                near = near && std::fabs(a.c[k] - corners[u(i)][k]) <= 1.0000001 * a.error;
+                near = near && std::fabs(a.c[k] - corners[as_index(i)][k]) <= 1.0000001 * a.error;
             if (near) (void)out_.bench.corner(ref.source, ref.facet, i);
         }
     }
@@ -577,7 +580,7 @@ void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRe
 void Gatherer::choose_axis_faces() {
     std::vector<AxisFaces::Leaf> leaves;
     leaves.reserve(leaves_.size());
-    for (const Leaf& leaf : leaves_) {
+    for (const AssembledLeaf& leaf : leaves_) {
         if (deferred(leaf) != nullptr) return;
         const AxisPicture* const p = picture(leaf);
         leaves.push_back(
@@ -587,7 +590,7 @@ void Gatherer::choose_axis_faces() {
 }
 
 void Gatherer::make_axis_faces() {
-    const auto edges_of = [&](const Leaf& leaf) {
+    const auto edges_of = [&](const AssembledLeaf& leaf) {
         return std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
     };
     for (std::size_t i = 0; i < leaves_.size(); ++i)
@@ -605,7 +608,7 @@ void Gatherer::make_axis_faces() {
 // Union of points that are equal under different names. The representative is a corner of a source
 // if there is one, else the point made first.
 void Gatherer::merge_equal_points() {
-    // Few groups ask for the same planes as others.
+    // Few groups need the same planes as others.
     constexpr std::size_t many_planes = 8192;
     Workbench& bench = out_.bench;
     same_.resize(bench.point_count());
@@ -628,13 +631,14 @@ void Gatherer::merge_equal_points() {
                 add_planes_through(p);
                 continue;
             }
-            const PointId kept = same_[u(*value)];
-            same_[u(p)] = kept;
-            if (better(p, kept)) same_[u(kept)] = same_[u(*value)] = same_[u(p)] = p;
+            const PointId kept = same_[as_index(*value)];
+            same_[as_index(p)] = kept;
+            if (better(p, kept))
+                same_[as_index(kept)] = same_[as_index(*value)] = same_[as_index(p)] = p;
         }
     });
     for (PointId& p : same_)
-        while (same_[u(p)] != p) p = same_[u(p)];
+        while (same_[as_index(p)] != p) p = same_[as_index(p)];
 }
 
 void Gatherer::add_planes_through(PointId value) {
@@ -663,22 +667,22 @@ bool Gatherer::is_same(PointId value, PointId name) {
     });
 }
 
-// Edges of traced facets, which come first, and of planes across axes, which come last, have all
-// their vertices.
+// Edges of traced facets, which come first, and of axis-perpendicular planes, which come last, have
+// all their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (axis_faces_.takes_all()) {
         out_.edges = std::move(edges_);
         return;
     }
     for (BoundaryEdge& e : edges_) {
-        e.from = same_[u(e.from)];
-        e.to = same_[u(e.to)];
+        e.from = same_[as_index(e.from)];
+        e.to = same_[as_index(e.to)];
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
     out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
     out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
                       edges_.end());
-    for (const Leaf& leaf : leaves_) {
+    for (const AssembledLeaf& leaf : leaves_) {
         check_stop();
         const auto edges =
             std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
@@ -689,7 +693,7 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
         splitter_.clear();
         for (const BoundaryEdge& e : edges) splitter_.add_candidate(e.from);
         for (std::size_t i = leaf.first_inside; i < leaf.end_inside; ++i)
-            splitter_.add_candidate(same_[u(inside_[i])]);
+            splitter_.add_candidate(same_[as_index(inside_[i])]);
         splitter_.split(edges, out_.edges);
     }
 }

@@ -13,7 +13,7 @@
 namespace trisect::detail {
 
 /// The units of one axis: open intervals between neighbouring planes; those at the ends are the
-/// cell's walls.
+/// cell's bounding planes.
 class AxisUnits {
 public:
     struct Position {
@@ -45,13 +45,13 @@ private:
     std::vector<std::int64_t> centres_;
 };
 
-/// A two-dimensional picture of units: a word for each row.
+/// A two-dimensional bitmap of units: a word for each row.
 inline constexpr std::size_t axis_units_limit = 64;
 using UnitRows = std::array<std::uint64_t, axis_units_limit>;
 
 class AxisGrid {
 public:
-    /// What a picture of units in a plane has for rows and for bits.
+    /// Rows and bits of a bitmap of units in a plane.
     struct Frame {
         std::size_t row_axis = 0;
         std::size_t bit_axis = 0;
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] AxisUnits& units(std::size_t axis) { return units_[axis]; }
     [[nodiscard]] const AxisUnits& units(std::size_t axis) const { return units_[axis]; }
 
-    /// Rows and bits of planes across an axis.
+    /// Rows and bits of axis-perpendicular planes.
     [[nodiscard]] static Frame frame(std::size_t axis) {
         return {axis == 2 ? 1U : 2U, axis == 0 ? 1U : 0U};
     }

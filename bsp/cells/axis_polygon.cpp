@@ -4,18 +4,18 @@
 
 #include <algorithm>
 
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
 
 namespace {
 
-std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
-
 // The axis across which a facet lies; 3 is none.
 std::size_t axis_of(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
     std::size_t k = 0;
-    while (k < 3 && (at(a, k) != at(b, k) || at(a, k) != at(c, k))) ++k;
+    while (k < 3 && (coordinate(a, k) != coordinate(b, k) || coordinate(a, k) != coordinate(c, k)))
+        ++k;
     return k;
 }
 
@@ -24,8 +24,10 @@ int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePo
                    std::size_t axis) {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
-    const Int128 s = Int128{at(b, u) - at(a, u)} * (at(c, v) - at(a, v));
-    const Int128 t = Int128{at(b, v) - at(a, v)} * (at(c, u) - at(a, u));
+    const Int128 s =
+        Int128{coordinate(b, u) - coordinate(a, u)} * (coordinate(c, v) - coordinate(a, v));
+    const Int128 t =
+        Int128{coordinate(b, v) - coordinate(a, v)} * (coordinate(c, u) - coordinate(a, u));
     return s > t ? 1 : -1;
 }
 
@@ -41,7 +43,8 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     std::size_t across = axis_of(a, b, c);
     if (!name.is_edge()) {
         if (across == 3) return std::nullopt;
-        return AxisPlane{across, sign_of_normal(a, b, c, across), at(a, across) * wall_scale};
+        return AxisPlane{across, sign_of_normal(a, b, c, across),
+                         coordinate(a, across) * wall_scale};
     }
     // Through an edge and along the axis that the support lies across, or nearly so.
     const auto i = static_cast<int>(name.kind);
@@ -50,15 +53,15 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     const LatticePoint& third = source.corner(name.facet, (i + 2) % 3);
     std::size_t along = 3;
     for (std::size_t k = 0; k < 3; ++k)
-        if (at(from, (k + 1) % 3) == at(to, (k + 1) % 3) &&
-            at(from, (k + 2) % 3) == at(to, (k + 2) % 3))
+        if (coordinate(from, (k + 1) % 3) == coordinate(to, (k + 1) % 3) &&
+            coordinate(from, (k + 2) % 3) == coordinate(to, (k + 2) % 3))
             along = k;
     if (along == 3) return std::nullopt;
     if (across == 3) across = static_cast<std::size_t>(source.support(name.facet).dominant_axis());
     const std::size_t axis = 3 - along - across;
     // The facet lies below its edge planes.
-    const int sign = at(third, axis) < at(from, axis) ? 1 : -1;
-    return AxisPlane{axis, sign, at(from, axis) * wall_scale};
+    const int sign = coordinate(third, axis) < coordinate(from, axis) ? 1 : -1;
+    return AxisPlane{axis, sign, coordinate(from, axis) * wall_scale};
 }
 
 bool AxisPolygon::read(const PolygonRef& polygon) {
@@ -70,7 +73,7 @@ bool AxisPolygon::read(const PolygonRef& polygon) {
     if (plane.axis == 3) return false;
     ref = polygon;
     plane.sign = sign_of_normal(*corners[0], *corners[1], *corners[2], plane.axis);
-    plane.position = at(*corners[0], plane.axis) * wall_scale;
+    plane.position = coordinate(*corners[0], plane.axis) * wall_scale;
     slanted_count = 0;
     if (polygon.fragment != nullptr) return read_fragment(corners);
     read_facet(corners);
@@ -97,8 +100,8 @@ bool AxisPolygon::meets(const Cell& cell) const {
 
 void AxisPolygon::read_facet(const Corners& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] =
-            std::minmax({at(*corners[0], k), at(*corners[1], k), at(*corners[2], k)});
+        const auto [low, high] = std::minmax(
+            {coordinate(*corners[0], k), coordinate(*corners[1], k), coordinate(*corners[2], k)});
         lo[k] = low * wall_scale;
         hi[k] = high * wall_scale;
     }
@@ -108,9 +111,10 @@ void AxisPolygon::read_facet(const Corners& corners) {
 void AxisPolygon::add_slanted(const LatticePoint& from, const LatticePoint& to) {
     const std::size_t u = (plane.axis + 1) % 3;
     const std::size_t v = (plane.axis + 2) % 3;
-    if (at(from, u) == at(to, u) || at(from, v) == at(to, v)) return;
+    if (coordinate(from, u) == coordinate(to, u) || coordinate(from, v) == coordinate(to, v))
+        return;
     SlantedEdge& e = slanted[slanted_count++];
-    e = {{at(from, u), at(from, v)}, {at(to, u), at(to, v)}};
+    e = {{coordinate(from, u), coordinate(from, v)}, {coordinate(to, u), coordinate(to, v)}};
     if (plane.sign < 0) std::swap(e.from, e.to);
 }
 

@@ -15,14 +15,15 @@
 
 namespace trisect::detail {
 
-/// A plane across an axis. Positions count in 1/256 lattice units, as those of walls do.
+/// An axis-perpendicular plane. Positions count in 1/256 lattice units, as those of splitting
+/// planes do.
 struct AxisPlane {
     std::size_t axis = 0;
     int sign = 1;  ///< of its normal's component along the axis
     std::int64_t position = 0;
 };
 
-/// The plane that a name means, if it is across an axis.
+/// The plane that a name means, if it is axis-perpendicular.
 [[nodiscard]] std::optional<AxisPlane> axis_plane(const PlaneName& name);
 
 /// An edge along no axis, of a facet across one. In the two other axes, cyclically after the
@@ -34,8 +35,8 @@ struct SlantedEdge {
     friend bool operator==(const SlantedEdge&, const SlantedEdge&) = default;
 };
 
-/// A facet across an axis, or a fragment of it whose edges run along axes or are the facet's own:
-/// what its slanted edges leave of a box.
+/// An axis-perpendicular facet, or a fragment of it whose edges run along axes or are the facet's
+/// own: what its slanted edges leave of a box.
 struct AxisPolygon {
     PolygonRef ref;
     LeafIndex operand = 0;

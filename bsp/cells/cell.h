@@ -2,9 +2,10 @@
 //
 // Boxes and cells of the partition.
 //
-// A wall lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies on one, and
-// a closed box of lattice points is on one side of a wall or truly crosses it. That makes closed
-// cells as good as half-open ones: nothing is listed twice because it ends at a wall.
+// A splitting plane lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies
+// on one, and a closed box of lattice points is on one side of a splitting plane or truly crosses
+// it. That makes closed cells as good as half-open ones: nothing is listed twice because it ends at
+// a splitting plane.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +54,7 @@ struct Box {
     friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Wall positions and reference points count in 1/256 of the lattice unit.
+/// Positions of splitting planes and reference points count in 1/256 of the lattice unit.
 inline constexpr int wall_bits = 8;
 inline constexpr std::int64_t wall_scale = std::int64_t{1} << wall_bits;
 /// Beyond every lattice point.
@@ -65,7 +66,7 @@ struct FinePoint {
     friend bool operator==(const FinePoint&, const FinePoint&) = default;
 };
 
-/// A box of the partition, bounded by walls; positions in 1/256 lattice units.
+/// A box of the partition, bounded by splitting planes; positions in 1/256 lattice units.
 struct Cell {
     std::array<std::int64_t, 3> lo{-universe_limit, -universe_limit, -universe_limit};
     std::array<std::int64_t, 3> hi{universe_limit, universe_limit, universe_limit};
@@ -74,7 +75,7 @@ struct Cell {
     [[nodiscard]] Box lattice_box() const {
         Box b;
         for (std::size_t k = 0; k < 3; ++k) {
-            b.lo[k] = (lo[k] >> wall_bits) + 1;  // walls are never lattice positions
+            b.lo[k] = (lo[k] >> wall_bits) + 1;  // splitting planes are never lattice positions
             b.hi[k] = hi[k] >> wall_bits;
         }
         return b;

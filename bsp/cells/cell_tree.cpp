@@ -141,7 +141,7 @@ CellNode::~CellNode() {
     const auto doom = [&](Ref& ref) {
         if (ref == nullptr || ref.use_count() != 1) return ref.reset();
         Ref n = std::move(ref);
-        unused_pointer(const_cast<CellNode&>(*n)) = std::move(doomed);  // nobody else sees it
+        unused_pointer(const_cast<CellNode&>(*n)) = std::move(doomed);  // not shared any more
         doomed = std::move(n);
     };
     const auto doom_children = [&](CellNode& n) {

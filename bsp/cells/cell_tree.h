@@ -28,8 +28,8 @@ namespace trisect::detail {
 struct PlaneName {
     enum Kind : std::uint32_t { Edge0, Edge1, Edge2, Support, Wall };
 
-    std::uint64_t owner = 0;  ///< address of the Source, or the wall's position
-    std::uint32_t facet = 0;  ///< facet of the source, or the wall's axis
+    std::uint64_t owner = 0;  ///< address of the Source, or the splitting plane's position
+    std::uint32_t facet = 0;  ///< facet of the source, or the splitting plane's axis
     std::uint32_t kind = Support;
 
     [[nodiscard]] static PlaneName support(const Source* s, std::uint32_t facet) {
@@ -61,12 +61,11 @@ struct EdgeName {
 
 /// A convex part of a facet, cut out by an operation. Edges counter-clockwise seen from above the
 /// facet's support; consecutive edges lie on different lines. Its vertices are what the edges'
-/// planes say; their doubles are kept, so that nobody has to compute them again. Immutable,
-/// reference-counted by the leaves that list it. One piece of memory.
+/// planes say; their doubles are stored for later. Immutable, reference-counted by the leaves that
+/// list it. One piece of memory.
 class Fragment {
 public:
-    /// A fragment that nobody has retained yet. `vertices[i]` is where edge i begins, in lattice
-    /// units.
+    /// A fragment without owners yet. `vertices[i]` is where edge i begins, in lattice units.
     [[nodiscard]] static const Fragment* make(std::span<const EdgeName> edges,
                                               std::span<const Approximation> vertices,
                                               const Box& box);
@@ -108,7 +107,7 @@ static_assert(sizeof(Fragment) % alignof(EdgeName) == 0 &&
 /// A polygon in a cell: a whole facet (its clipping by the cell is implied, not carried out) or a
 /// fragment. `flipped` turns its orientation. A whole facet that an arrangement listed is `touched`
 /// when something of another surface comes into contact with it, so that vertices may lie in its
-/// edges. Trivial type; whoever stores it keeps its fragment.
+/// edges. Trivial type; its owner keeps the fragment.
 ///
 /// What cuts or touches a facet in one cell need not show in its other cells: it may be listed
 /// whole there. Where any cell lists a fragment of it, it counts in each cell for what is of it
@@ -223,9 +222,9 @@ struct CellRef {
     bool complemented = false;
 };
 
-/// A node of the tree. Either it has a wall and two children, or it is a leaf. A leaf may get a
-/// refinement: the same cell with children, made once when a question needs it and kept with the
-/// leaf, so that all versions that share the leaf share it too.
+/// A node of the tree. Either it has a splitting plane and two children, or it is a leaf. A leaf
+/// may get a refinement: the same cell with children, made once when a question needs it and kept
+/// with the leaf, so that all versions that share the leaf share it too.
 ///
 /// Invariants of a leaf: `reference` lies in its cell and on no polygon; `winding` is the winding
 /// number there (0 or 1 for results of operations); every polygon of the boundary that meets the
@@ -237,8 +236,8 @@ class CellNode : public std::enable_shared_from_this<CellNode> {
 public:
     static std::shared_ptr<const CellNode> leaf(PolygonList polygons, const FinePoint& reference,
                                                 int winding, bool mixed);
-    /// A mixed leaf that cuts its facets when it is first asked for its polygons. `size`: about how
-    /// many they are, and not 0.
+    /// A mixed leaf that cuts its facets on the first use of its polygons. `size`: about how many
+    /// they are, and not 0.
     static std::shared_ptr<const CellNode> deferred(std::unique_ptr<const DeferredLeaf> leaf,
                                                     int winding, std::uint64_t size);
     /// All facets of a source, unrefined.
@@ -259,7 +258,7 @@ public:
         if (deferred_ != nullptr && !is_arranged_.load(std::memory_order_acquire)) arrange();
         return polygons_;
     }
-    /// How a leaf that was deferred was put, whether its polygons were asked for or not.
+    /// How a leaf that was deferred was put, whether its polygons were requested or not.
     [[nodiscard]] const DeferredLeaf* deferred() const { return deferred_.get(); }
     [[nodiscard]] const FinePoint& reference() const { return reference_; }
     [[nodiscard]] int winding() const { return winding_; }

@@ -154,7 +154,7 @@ void Crossings::sort_pairs() {
     for (const auto& [second, at] : keys) by_second.push_back(at);
 }
 
-// What covers a facet somewhere covers all of it unless it crosses it elsewhere.
+// An operand that contains a part of a facet contains all of it unless it crosses it elsewhere.
 void Crossings::list_shown() {
     std::size_t first = 0;   // in pairs
     std::size_t second = 0;  // in by_second

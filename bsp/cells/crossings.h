@@ -32,8 +32,8 @@ struct FacetCrossing {
 };
 
 /// What an evaluation of a union, an intersection or a difference of imported meshes has found out
-/// about whole facets; so assembly need not put together what the walls of cells have cut apart
-/// (traced_facets.h).
+/// about whole facets; so assembly need not put together what the bounding planes of cells have cut
+/// apart (traced_facets.h).
 ///
 /// The facets of all operands are numbered, one operand after the other. Of a facet that is not
 /// `doubtful` all crossings are known, and nothing else of another boundary touches it.
@@ -49,7 +49,7 @@ struct Crossings {
         std::int8_t open = 0;       ///< its winding number where it leaves others open
         [[nodiscard]] bool is_open_below() const { return (open == 1) != flipped; }
     };
-    /// A facet with a part in a cell that an operand covers there without crossing it.
+    /// A facet with a part in a cell that is contained in an operand there without a crossing.
     struct Cover {
         std::uint32_t facet = 0;
         std::uint32_t operand = 0;

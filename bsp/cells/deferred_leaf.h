@@ -36,12 +36,12 @@ public:
     Residual::Ref formula;
     EvaluateOptions::Winding rule = EvaluateOptions::Winding::Positive;
     /// Of a leaf in general position those of its polygons that nothing crosses in the cell; of a
-    /// leaf across axes its picture.
+    /// axis-perpendicular leaf its occupancy grid.
     std::variant<PolygonList, Picture> known;
     /// Lists the leaf's polygons as an evaluation that does not defer would have.
     Arrange arrange = nullptr;
 
-    /// Null for a leaf across axes.
+    /// Null for an axis-perpendicular leaf.
     [[nodiscard]] const PolygonList* uncrossed() const { return std::get_if<PolygonList>(&known); }
     /// Null for a leaf in general position.
     [[nodiscard]] const AxisPicture* picture() const {

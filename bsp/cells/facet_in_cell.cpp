@@ -7,8 +7,9 @@
 //
 // Rounding: coordinates relative to the box's centre are below 2^55 with an error of at most 4,
 // made good by growing the box by 8 units. A projection onto a cross product of an edge and an axis
-// is a sum of four products of an edge and a coordinate; with the largest of either its terms are
-// bounded for all axes at once. The margin is 2^-40 of that bound, a thousand times the rounding.
+// is a sum of four products of an edge and a coordinate; with the largest_component of either its
+// terms are bounded for all axes at once. The margin is 2^-40 of that bound, a thousand times the
+// rounding.
 
 #include <trisect/bsp/cells/facet_in_cell.h>
 
@@ -17,37 +18,30 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double largest(const Vector& v) {
-    return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-}
-
 // A triangle with the box's centre as origin, and the box's half extents.
 struct Pair {
-    std::array<Vector, 3> corners;
-    std::array<Vector, 3> edges;
-    Vector half;
-    double reach = 0;  // largest coordinate of a corner or half extent
-    double step = 0;   // largest coordinate of an edge
+    std::array<Vector3, 3> corners;
+    std::array<Vector3, 3> edges;
+    Vector3 half;
+    double reach = 0;  // largest_component coordinate of a corner or half extent
+    double step = 0;   // largest_component coordinate of an edge
 };
 
 // Does the cross product of edge i and axis k separate? Its coordinates are those of the edge
-// across the axis, turned by a quarter. The two ends of the edge have the same projection.
+// perpendicular to the axis, turned by a quarter. The two ends of the edge have the same
+// projection.
 bool edge_separates(const Pair& p, std::size_t i, std::size_t k, double margin) {
     const std::size_t l = (k + 1) % 3;
     const std::size_t m = (k + 2) % 3;
-    const Vector& e = p.edges[i];
-    const Vector& a = p.corners[i];
-    const Vector& c = p.corners[(i + 2) % 3];
+    const Vector3& e = p.edges[i];
+    const Vector3& a = p.corners[i];
+    const Vector3& c = p.corners[(i + 2) % 3];
     const double at_edge = e[m] * a[l] - e[l] * a[m];
     const double at_corner = e[m] * c[l] - e[l] * c[m];
     const double radius = std::fabs(e[m]) * p.half[l] + std::fabs(e[l]) * p.half[m] + margin;
@@ -55,7 +49,7 @@ bool edge_separates(const Pair& p, std::size_t i, std::size_t k, double margin) 
 }
 
 bool plane_separates(const Pair& p) {
-    const Vector n = cross(p.edges[0], p.edges[1]);
+    const Vector3 n = cross(p.edges[0], p.edges[1]);
     double at = 0;
     double radius = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -70,25 +64,25 @@ bool plane_separates(const Pair& p) {
 bool certainly_misses(const PolygonRef& ref, const Box& box) {
     if (ref.source->is_half_space()) return false;
     Pair p;
-    Vector centre{};
+    Vector3 centre{};
     for (std::size_t k = 0; k < 3; ++k) {
         const auto lo = static_cast<double>(box.lo[k]);
         const auto hi = static_cast<double>(box.hi[k]);
         centre[k] = 0.5 * (lo + hi);
         p.half[k] = 0.5 * (hi - lo) + 8;
     }
-    p.reach = largest(p.half);
+    p.reach = largest_component(p.half);
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& c = ref.source->corner(ref.facet, i);
-        Vector& v = p.corners[static_cast<std::size_t>(i)];
+        Vector3& v = p.corners[static_cast<std::size_t>(i)];
         v = {static_cast<double>(c.x) - centre[0], static_cast<double>(c.y) - centre[1],
              static_cast<double>(c.z) - centre[2]};
-        p.reach = std::max(p.reach, largest(v));
+        p.reach = std::max(p.reach, largest_component(v));
     }
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k)
             p.edges[i][k] = p.corners[(i + 1) % 3][k] - p.corners[i][k];
-        p.step = std::max(p.step, largest(p.edges[i]));
+        p.step = std::max(p.step, largest_component(p.edges[i]));
     }
     if (plane_separates(p)) return true;
     const double margin = 0x1p-40 * 8 * p.step * p.reach;

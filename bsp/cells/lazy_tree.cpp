@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A tree divides what it lists into convex pieces. Whoever writes a result to a file needs none of
-// them, and for a plate with thousands of holes in one face making them takes ten times as long as
-// finding out where the holes are. So they are made for what does need them: a query, a B-rep, the
+// A tree divides what it lists into convex pieces. A mesh of the result needs none of them, and for
+// a plate with thousands of holes in one face making them takes ten times as long as finding out
+// where the holes are. So they are made on demand of those that need them: a query, a B-rep, the
 // next operation.
 
 #include <trisect/bsp/cells/lazy_tree.h>

@@ -25,7 +25,7 @@ public:
     LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateOptions& options,
              Evaluate evaluate);
 
-    /// The set with a tree. Whoever asks while it is evaluated waits.
+    /// The set with a tree. Calls during its evaluation wait.
     /// \throw CancelledError by the StopScope of the thread that evaluates; nothing is kept then
     [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
     [[nodiscard]] bool is_cut() const;

@@ -20,7 +20,7 @@ struct LeafOperand {
     std::int32_t slot = -1;
     std::span<const PolygonRef> polygons;
     bool flipped = false;  ///< the polygons are to be read with the other orientation
-    /// The polygons do not cross, cover or touch each other except in common edges and vertices,
+    /// The polygons do not cross, overlap or touch each other except in common edges and vertices,
     /// and the winding number is 0 outside and 1 inside.
     bool embedded = false;
     int winding = 0;  ///< at the reference point

@@ -22,11 +22,11 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(PointId p) { return static_cast<std::size_t>(p); }
 
 // Somewhat wider than the error bound, for the rounding of its ends.
 double reach(const Approximation& a, std::size_t axis) {
@@ -53,7 +53,7 @@ public:
         std::vector<std::pair<PointId, PointId>> order;  // smallest of the group, point
         for (std::size_t p = 0; p < root_.size(); ++p) {
             const PointId r = root(static_cast<PointId>(p));
-            if (u(r) == p) continue;
+            if (as_index(r) == p) continue;
             order.emplace_back(r, static_cast<PointId>(p));
         }
         std::sort(order.begin(), order.end());
@@ -66,7 +66,8 @@ public:
     }
     /// The smallest point of a point's group.
     [[nodiscard]] PointId root(PointId p) {
-        while (root_[u(p)] != p) p = root_[u(p)] = root_[u(root_[u(p)])];
+        while (root_[as_index(p)] != p)
+            p = root_[as_index(p)] = root_[as_index(root_[as_index(p)])];
         return p;
     }
 
@@ -123,7 +124,7 @@ private:
             } else {
                 const PointId a = root(entries_[table[i]].point);
                 const PointId b = root(entries_[e].point);
-                root_[u(std::max(a, b))] = std::min(a, b);
+                root_[as_index(std::max(a, b))] = std::min(a, b);
             }
         }
     }
@@ -135,7 +136,7 @@ private:
     std::vector<PointId> root_;
 };
 
-struct Range {
+struct PointRange {
     double low = 0;
     double high = 0;
     PointId point = -1;
@@ -156,29 +157,29 @@ public:
 
 private:
     // `uncut`: how many axes before this one left the group as it is.
-    void part(std::span<Range> group, std::size_t axis, int uncut);
-    void measure(std::span<Range> group, std::size_t axis) const;
-    void emit(std::span<const Range> group);
+    void part(std::span<PointRange> group, std::size_t axis, int uncut);
+    void measure(std::span<PointRange> group, std::size_t axis) const;
+    void emit(std::span<const PointRange> group);
 
     static constexpr std::size_t few = 16;
     const Workbench& bench_;
     const std::function<void(std::span<const PointId>)>& visit_;
-    std::vector<Range> ranges_;
+    std::vector<PointRange> ranges_;
     std::vector<PointId> points_;
 };
 
-void Groups::measure(std::span<Range> group, std::size_t axis) const {
-    for (Range& r : group) {
+void Groups::measure(std::span<PointRange> group, std::size_t axis) const {
+    for (PointRange& r : group) {
         const Approximation& a = bench_.approximation(r.point);
         r.low = a.c[axis] - reach(a, axis);
         r.high = a.c[axis] + reach(a, axis);
     }
-    std::sort(group.begin(), group.end(), [](const Range& a, const Range& b) {
+    std::sort(group.begin(), group.end(), [](const PointRange& a, const PointRange& b) {
         return std::tie(a.low, a.point) < std::tie(b.low, b.point);
     });
 }
 
-void Groups::part(std::span<Range> group, std::size_t axis, int uncut) {
+void Groups::part(std::span<PointRange> group, std::size_t axis, int uncut) {
     if (group.size() < 2) return;
     if (uncut == 3) return emit(group);
     measure(group, axis);
@@ -193,9 +194,9 @@ void Groups::part(std::span<Range> group, std::size_t axis, int uncut) {
     }
 }
 
-void Groups::emit(std::span<const Range> group) {
+void Groups::emit(std::span<const PointRange> group) {
     points_.clear();
-    for (const Range& r : group) points_.push_back(r.point);
+    for (const PointRange& r : group) points_.push_back(r.point);
     std::sort(points_.begin(), points_.end());
     visit_(points_);
 }

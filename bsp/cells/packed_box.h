@@ -6,9 +6,10 @@
 // misses caches.
 //
 // Rounding loses nothing that matters. All positions are rounded down to multiples of a power of
-// two, and walls are put between such multiples only: then a position is below the wall exactly if
-// its rounded value is. Boxes rounded outwards would not do: a mesh whose triangles end at a wall
-// would have them on both sides, nothing would ever separate, and refinement would not end.
+// two, and splitting planes are put between such multiples only: then a position is below the
+// splitting plane exactly if its rounded value is. Boxes rounded outwards would not do: a mesh
+// whose triangles end at a splitting plane would have them on both sides, nothing would ever
+// separate, and refinement would not end.
 #pragma once
 
 #include <algorithm>
@@ -51,11 +52,12 @@ struct Frame {
         const std::int64_t q = (c - origin[axis]) >> shift;
         return q > -packed_limit && q < packed_limit;
     }
-    /// The wall below rounded position q: the last lattice position below it.
+    /// The splitting plane below rounded position q: the last lattice position below it.
     [[nodiscard]] std::int64_t last_below(std::size_t axis, int q) const {
         return origin[axis] + (static_cast<std::int64_t>(q) << shift) - 1;
     }
-    /// The rounded position above a wall; nothing when the wall is not between two of them.
+    /// The rounded position above a splitting plane; nothing when the splitting plane is not
+    /// between two of them.
     [[nodiscard]] std::optional<int> first_above(std::size_t axis, std::int64_t last) const {
         const std::int64_t c = last + 1;
         if (!covers(axis, c) || last_below(axis, at(axis, c)) != last) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Doubles with certified errors tell nearly all points apart. What is left is mostly equal along
+// Doubles with certified errors distinguish nearly all points. What is left is mostly equal along
 // the axis, by a plane across it; only then coordinates are compared as fractions.
 
 #include <trisect/bsp/cells/point_order.h>
@@ -13,8 +13,8 @@ namespace trisect::detail {
 
 namespace {
 
-// Between lattice points, and where a plane across the axis names b, the order is that of small
-// integers or the side of a plane: models with axis parallel faces ask little else.
+// Between lattice points, and where a plane perpendicular to the axis names b, the order is that of
+// small integers or the side of a plane: models with axis-parallel faces need little else.
 std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b, int axis) {
     if (bench.is_lattice(a) && bench.is_lattice(b)) {
         const auto order = bench.lattice(a)[axis] <=> bench.lattice(b)[axis];

@@ -10,7 +10,7 @@
 
 namespace trisect::detail {
 
-/// Where doubles do not tell: by planes across the axis, then by fractions.
+/// Where doubles do not decide: by planes perpendicular to the axis, then by fractions.
 [[nodiscard]] int compare_closely_along(const Workbench& bench, PointId a, PointId b, int axis);
 
 /// -1, 0 or 1 where a comes before b along the axis, with it, or after it: filtered, then exact.

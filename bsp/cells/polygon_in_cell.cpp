@@ -23,7 +23,8 @@ Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
     return b;
 }
 
-// Whether a fragment certainly lies in a cell: by its box, or where it ends at a wall by name.
+// Whether a fragment certainly lies in a cell: by its box, or where it ends at a splitting plane by
+// name.
 bool lies_in(const Fragment& fragment, const Cell& cell) {
     Box box = fragment.box();
     for (const EdgeName& e : fragment.edges()) {

@@ -20,8 +20,8 @@ namespace trisect::detail {
 /// Whether a polygon has area in the cell; its box may reach into cells that it misses.
 [[nodiscard]] bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell);
 
-/// Whether all that the walls of a cell could cut off a fragment has been cut off: its box is
-/// rounded outwards and says too much where it ends at a wall.
+/// Whether all that the bounding planes of a cell could cut off a fragment has been cut off: its
+/// box is rounded outwards and says too much where it ends at a splitting plane.
 [[nodiscard]] bool ends_at_walls(const Fragment& fragment, const Cell& cell);
 
 /// Room for one more polygon, to be made before its fragment is: a fragment that no list holds yet
@@ -30,7 +30,7 @@ inline void make_room(std::vector<PolygonRef>& list) {
     if (list.size() == list.capacity()) list.reserve(2 * list.size() + 8);
 }
 
-/// Ends the fragments of a list that did not become a PolygonList: those that nobody else holds.
+/// Ends the fragments of a list that did not become a PolygonList: those without other owners.
 inline void end_fragments(std::vector<PolygonRef>& list) {
     const PolygonList freed(std::move(list));
 }

@@ -10,7 +10,7 @@ namespace trisect::detail {
 
 namespace {
 
-using Kind = Residual::Kind;
+using FormulaKind = Residual::Kind;
 using Ref = Residual::Ref;
 
 std::uint32_t operations_of(std::span<const Ref> terms) {
@@ -20,11 +20,11 @@ std::uint32_t operations_of(std::span<const Ref> terms) {
 }
 
 // Keeps the first of equal terms, or, for an exclusive or, one of an odd number of them.
-void drop_repeated(Kind kind, std::vector<Ref>& terms) {
+void drop_repeated(FormulaKind kind, std::vector<Ref>& terms) {
     std::unordered_map<const Residual*, std::size_t> left;
     for (const Ref& t : terms) ++left[t.get()];
     if (left.size() == terms.size()) return;
-    if (kind == Kind::Xor)
+    if (kind == FormulaKind::Xor)
         for (auto& [term, n] : left) n %= 2;
     std::erase_if(terms, [&](const Ref& t) { return std::exchange(left[t.get()], 0) == 0; });
 }
@@ -53,23 +53,23 @@ Residual::Ref Residual::constant(bool value) {
 
 Residual::Ref Residual::of_slot(std::int32_t slot) {
     auto r = std::make_shared<Residual>();
-    r->kind = Kind::Slot;
+    r->kind = FormulaKind::Slot;
     r->slot = slot;
     return r;
 }
 
 Residual::Ref Residual::negation(Ref a) {
-    if (a->kind == Kind::Constant) return constant(!a->value);
-    if (a->kind == Kind::Not) return a->children[0];
+    if (a->kind == FormulaKind::Constant) return constant(!a->value);
+    if (a->kind == FormulaKind::Not) return a->children[0];
     auto r = std::make_shared<Residual>();
-    r->kind = Kind::Not;
+    r->kind = FormulaKind::Not;
     r->operations = operations_of({&a, 1});
     r->children.push_back(std::move(a));
     return r;
 }
 
-Residual::Ref Residual::of_distinct(Kind kind, std::vector<Ref> terms) {
-    if (terms.empty()) return constant(kind == Kind::And);
+Residual::Ref Residual::of_distinct(FormulaKind kind, std::vector<Ref> terms) {
+    if (terms.empty()) return constant(kind == FormulaKind::And);
     if (terms.size() == 1) return terms.front();
     auto n = std::make_shared<Residual>();
     n->kind = kind;
@@ -78,14 +78,14 @@ Residual::Ref Residual::of_distinct(Kind kind, std::vector<Ref> terms) {
     return n;
 }
 
-Residual::Ref Residual::combination(Kind kind, std::span<const Ref> terms) {
+Residual::Ref Residual::combination(FormulaKind kind, std::span<const Ref> terms) {
     std::vector<Ref> left;
     bool flip = false;  // constants of an exclusive or
     for (const Ref& t : terms) {
-        if (t->kind == Kind::Constant) {
-            if (kind == Kind::And && !t->value) return constant(false);
-            if (kind == Kind::Or && t->value) return constant(true);
-            if (kind == Kind::Xor) flip = flip != t->value;
+        if (t->kind == FormulaKind::Constant) {
+            if (kind == FormulaKind::And && !t->value) return constant(false);
+            if (kind == FormulaKind::Or && t->value) return constant(true);
+            if (kind == FormulaKind::Xor) flip = flip != t->value;
         } else if (t->kind == kind) {
             left.insert(left.end(), t->children.begin(), t->children.end());
         } else {
@@ -106,8 +106,8 @@ public:
         : values_(values), remembers_(formula.is_large()) {}
 
     Ref of(const Ref& formula) {
-        if (formula->kind == Kind::Constant) return formula;
-        if (formula->kind == Kind::Slot) {
+        if (formula->kind == FormulaKind::Constant) return formula;
+        if (formula->kind == FormulaKind::Slot) {
             const auto v = values_[static_cast<std::size_t>(formula->slot)];
             return v < 0 ? formula : Residual::constant(v != 0);
         }
@@ -121,8 +121,8 @@ public:
 
 private:
     Ref of_operation(const Ref& formula) {
-        const Kind kind = formula->kind;
-        if (kind == Kind::Not) {
+        const FormulaKind kind = formula->kind;
+        if (kind == FormulaKind::Not) {
             Ref child = of(formula->children[0]);
             return child == formula->children[0] ? formula : Residual::negation(std::move(child));
         }
@@ -134,16 +134,16 @@ private:
             children.push_back(of(c));
             if (children.back() == c) continue;
             changed = true;
-            if (children.back()->kind != Kind::Constant || kind == Kind::Xor) {
+            if (children.back()->kind != FormulaKind::Constant || kind == FormulaKind::Xor) {
                 distinct = false;
-            } else if ((kind == Kind::And && !children.back()->value) ||
-                       (kind == Kind::Or && children.back()->value)) {
+            } else if ((kind == FormulaKind::And && !children.back()->value) ||
+                       (kind == FormulaKind::Or && children.back()->value)) {
                 return children.back();
             }
         }
         if (!changed) return formula;
         if (!distinct) return Residual::combination(kind, children);
-        std::erase_if(children, [](const Ref& c) { return c->kind == Kind::Constant; });
+        std::erase_if(children, [](const Ref& c) { return c->kind == FormulaKind::Constant; });
         return Residual::of_distinct(kind, std::move(children));
     }
 
@@ -159,8 +159,9 @@ public:
         : values_(values), remembers_(formula.is_large()) {}
 
     int of(const Residual& formula) {
-        if (formula.kind == Kind::Constant) return formula.value ? 1 : 0;
-        if (formula.kind == Kind::Slot) return values_[static_cast<std::size_t>(formula.slot)];
+        if (formula.kind == FormulaKind::Constant) return formula.value ? 1 : 0;
+        if (formula.kind == FormulaKind::Slot)
+            return values_[static_cast<std::size_t>(formula.slot)];
         if (!remembers_) return of_operation(formula);
         if (const auto known = known_.find(&formula); known != known_.end()) return known->second;
         const int result = with_enough_stack([&] { return of_operation(formula); });
@@ -172,15 +173,15 @@ private:
     int of_operation(const Residual& formula) {
         const auto& cs = formula.children;
         switch (formula.kind) {
-            case Kind::Not: {
+            case FormulaKind::Not: {
                 const int v = of(*cs[0]);
                 return v < 0 ? -1 : 1 - v;
             }
-            case Kind::And:
+            case FormulaKind::And:
                 return of_terms(cs, 0);
-            case Kind::Or:
+            case FormulaKind::Or:
                 return of_terms(cs, 1);
-            case Kind::Xor: {
+            case FormulaKind::Xor: {
                 int sum = 0;
                 for (const Ref& c : cs) {
                     const int v = of(*c);
@@ -189,8 +190,8 @@ private:
                 }
                 return sum;
             }
-            case Kind::Constant:
-            case Kind::Slot:
+            case FormulaKind::Constant:
+            case FormulaKind::Slot:
                 break;
         }
         return -1;

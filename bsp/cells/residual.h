@@ -4,8 +4,8 @@
 // An operand is constant where its boundary does not meet the cell.
 //
 // A formula is a graph: subformulas that occur several times are one node with several parents, and
-// written out as a tree it may be exponentially larger. So whoever walks it and may meet a node
-// again remembers what it found there.
+// written out as a tree it may be exponentially larger. So a traversal that may meet a node again
+// stores its result there.
 #pragma once
 
 #include <cstdint>

@@ -77,7 +77,7 @@ Plane Source::edge_plane(std::uint32_t facet, int i, const Plane& support) const
 
 std::shared_ptr<const Source> Source::numbered(std::shared_ptr<const Source> source,
                                                std::uint64_t serial) {
-    const_cast<Source&>(*source).serial_ = serial;  // nobody else has seen it yet
+    const_cast<Source&>(*source).serial_ = serial;  // it is not shared yet
     return source;
 }
 

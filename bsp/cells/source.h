@@ -77,7 +77,7 @@ public:
     [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const {
         return edge_plane(facet, i, support(facet));
     }
-    /// The same for a caller who has the support at hand.
+    /// The same for a given support.
     [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i, const Plane& support) const;
 
     /// The same facets under the same serial on the lattice of exponent `exponent`, which must be

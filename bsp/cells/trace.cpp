@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/plane_value.h>
 
 namespace trisect::detail {
 
@@ -27,7 +28,7 @@ int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
     return sum.sign();
 }
 
-WideInt<4> value_at(const FinePoint& p, const Plane& plane) {
+WideInt<4> plane_value_at(const FinePoint& p, const Plane& plane) {
     WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
     for (int k = 0; k < 3; ++k)
         sum +=
@@ -35,30 +36,11 @@ WideInt<4> value_at(const FinePoint& p, const Plane& plane) {
     return sum;
 }
 
-WideInt<20> value_at(const TraceTarget::Exact& t, const Plane& plane) {
+WideInt<20> plane_value_at(const TraceTarget::Exact& t, const Plane& plane) {
     WideInt<20> sum = multiply<20>(t.w, plane.offset());
     for (int k = 0; k < 3; ++k)
         sum += multiply<20>(t.xyz[static_cast<std::size_t>(k)], WideInt<2>(plane.normal(k)));
     return sum;
-}
-
-// Value of the plane's equation with the error bound of filtered_side.
-struct Bounded {
-    double value;
-    double error;
-};
-
-Bounded bounded_value(const Approximation& a, const Plane& plane) {
-    double value = plane.approx_offset();
-    double terms = std::fabs(value);
-    double normals = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double t = plane.approx_normal(k) * a.c[static_cast<std::size_t>(k)];
-        value += t;
-        terms += std::fabs(t);
-        normals += std::fabs(plane.approx_normal(k));
-    }
-    return {value, 0x1p-50 * terms + 1.0000001 * (a.error * normals)};
 }
 
 }  // namespace
@@ -66,8 +48,8 @@ Bounded bounded_value(const Approximation& a, const Plane& plane) {
 // The crossing in doubles: R + λ (G - R), λ = r / (r - g) with r and g of different signs.
 std::optional<Approximation> approximate_crossing(const Approximation& from,
                                                   const Approximation& to, const Plane& plane) {
-    const Bounded r = bounded_value(from, plane);
-    const Bounded g = bounded_value(to, plane);
+    const Ball r = value_at_point(plane, from.c, from.error);
+    const Ball g = value_at_point(plane, to.c, to.error);
     const double spread = std::fabs(r.value) + std::fabs(g.value);
     const double error = r.error + g.error;
     if (!(spread > 4 * error) || r.value * g.value >= 0) return std::nullopt;
@@ -143,7 +125,7 @@ int side(const FinePoint& p, const Approximation& approximation, const Plane& pl
         return sign_of(*s);
     }
     ++predicate_counters().exact_wide;
-    return value_at(p, plane).sign();
+    return plane_value_at(p, plane).sign();
 }
 
 int side(const TraceTarget& target, const Plane& plane) {
@@ -152,7 +134,7 @@ int side(const TraceTarget& target, const Plane& plane) {
         return sign_of(*s);
     }
     ++predicate_counters().exact_wide;
-    return value_at(target.exact(), plane).sign();
+    return plane_value_at(target.exact(), plane).sign();
 }
 
 SupportCrossing::SupportCrossing(const FinePoint& reference, const Approximation& approximation,
@@ -171,8 +153,8 @@ int SupportCrossing::side_of(const Plane& edge) const {
     }
     ++predicate_counters().exact_wide;
     const TraceTarget::Exact& t = target_.exact();
-    const WideInt<4> r = value_at(reference_, support_);
-    const WideInt<20> g = value_at(t, support_);
+    const WideInt<4> r = plane_value_at(reference_, support_);
+    const WideInt<20> g = plane_value_at(t, support_);
     std::array<Huge, 3> x;
     for (std::size_t k = 0; k < 3; ++k)
         x[k] = multiply<22>(g, WideInt<1>(reference_.c[k])) - multiply<22>(t.xyz[k], r);

@@ -5,8 +5,8 @@
 //
 // The target is either a reference point of another cell or the barycentre of three vertices of a
 // polygon. All signs come from doubles with proved bounds first and from wide integers when those
-// cannot tell; when the segment runs through an edge, a vertex or along a face the trace says so
-// and the caller takes another target or another reference: nothing is perturbed.
+// cannot decide; when the segment runs through an edge, a vertex or along a face the trace reports
+// it and the caller takes another target or another reference: nothing is perturbed.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ enum class Crossing : std::int8_t {
 /// Side of a target.
 [[nodiscard]] int side(const TraceTarget& target, const Plane& plane);
 
-/// Where a segment crosses a plane, in doubles. Nothing when they cannot tell that it does.
+/// Where a segment crosses a plane, in doubles. Nothing when they cannot decide that it does.
 [[nodiscard]] std::optional<Approximation> approximate_crossing(const Approximation& from,
                                                                 const Approximation& to,
                                                                 const Plane& plane);

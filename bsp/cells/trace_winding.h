@@ -24,7 +24,7 @@ namespace trisect::detail {
 /// A segment with an end in the plane of a polygon. The reference lies on no polygon, so if it is
 /// the reference's end there is no crossing. If it is the target's, or the whole segment lies in
 /// the plane, the segment avoids the polygon when all of it is beyond one edge; otherwise nothing
-/// is claimed. `..._outside(edge)` tells whether that end is strictly beyond the edge.
+/// is claimed. `..._outside(edge)` states whether that end is strictly beyond the edge.
 template <class Edges, class ReferenceOutside, class TargetOutside>
 bool avoids_in_plane(int at_reference, int at_target, const Edges& edges,
                      const ReferenceOutside& reference_outside,

@@ -7,7 +7,7 @@
 
 namespace trisect::detail {
 
-/// \throw LimitError when the work so far exceeds the budget, CancelledError when asked to stop.
+/// \throw LimitError when the work so far exceeds the budget, CancelledError when cancelled.
 void check_budget(const EvaluateOptions& options, const EvaluateStats& stats);
 
 }  // namespace trisect::detail

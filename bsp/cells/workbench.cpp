@@ -7,6 +7,7 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -47,7 +48,7 @@ PlaneId Workbench::add_plane(const PlaneName& name, PlaneId support) {
 }
 
 const Plane& Workbench::make_plane(PlaneId id) const {
-    const PlaneRecord& r = planes_[u(id)];
+    const PlaneRecord& r = planes_[as_index(id)];
     r.place = made_.add(r.name.is_edge()
                             ? r.name.source()->edge_plane(
                                   r.name.facet, static_cast<int>(r.name.kind), plane_at(r.support))
@@ -67,14 +68,14 @@ PlaneId Workbench::plane(const PlaneName& name) {
     for (int k = 0; k < 3; ++k) add_plane(PlaneName::edge(source, name.facet, k));
     // The support may be new as well: its id comes after theirs.
     const PlaneId support = plane(PlaneName::support(source, name.facet));
-    for (PlaneId k = 0; k < 3; ++k) planes_[u(id + k)].support = support;
+    for (PlaneId k = 0; k < 3; ++k) planes_[as_index(id + k)].support = support;
     return id + offset;
 }
 
 void Workbench::declare_same(PlaneId a, PlaneId b) {
     const PlaneId ca = plane_class(a);
     const PlaneId cb = plane_class(b);
-    planes_[u(std::max(ca, cb))].same = std::min(ca, cb);
+    planes_[as_index(std::max(ca, cb))].same = std::min(ca, cb);
 }
 
 PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
@@ -117,9 +118,9 @@ std::uint64_t Workbench::line_of_edge(std::uint64_t owner, std::uint32_t v, std:
 }
 
 // What a plane adds to the name of a point: itself, or for the plane of an edge that edge of the
-// source, which both of its facets know.
+// source, which both of its facets share.
 std::uint64_t Workbench::line_item(PlaneId p) {
-    PlaneRecord& r = planes_[u(p)];
+    PlaneRecord& r = planes_[as_index(p)];
     const PlaneName& n = r.name;
     if (!n.is_edge()) return static_cast<std::uint64_t>(p);
     if (r.line < 0) {
@@ -204,7 +205,7 @@ PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId 
 }
 
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
-    const PointRecord& r = points_[u(id)];
+    const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) {
         const LatticePoint at = r.lattice();
         return {{WideInt<7>(at.x), WideInt<7>(at.y), WideInt<7>(at.z)}, WideInt<6>(1)};
@@ -215,13 +216,13 @@ HomogeneousPoint Workbench::homogeneous(PointId id) const {
 }
 
 Point Workbench::point(PointId id) const {
-    const PointRecord& r = points_[u(id)];
+    const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return Point(r.lattice());
     return Point(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
 }
 
 std::array<double, 3> Workbench::nearest(PointId id) const {
-    const PointRecord& r = points_[u(id)];
+    const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return r.approximation.c;
     return nearest_doubles(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]));
@@ -258,7 +259,7 @@ bool Workbench::contains_common_edge(const PlaneName& plane, const PlaneName& a,
 }
 
 int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
-    const PointRecord& r = points_[u(point)];
+    const PointRecord& r = points_[as_index(point)];
     const Plane& p = plane_at(plane);
     auto& counters = predicate_counters();
     if (r.planes[0] < 0) {
@@ -293,8 +294,8 @@ bool Workbench::may_be_same(PointId a, PointId b) const {
 bool Workbench::same_point(PointId a, PointId b) const {
     if (a == b) return true;
     if (!may_be_same(a, b)) return false;
-    const PointRecord& ra = points_[u(a)];
-    const PointRecord& rb = points_[u(b)];
+    const PointRecord& ra = points_[as_index(a)];
+    const PointRecord& rb = points_[as_index(b)];
     if (ra.is_lattice && rb.is_lattice) return ra.approximation.c == rb.approximation.c;
     const PointRecord& named = ra.planes[0] < 0 ? rb : ra;
     const PointId other = ra.planes[0] < 0 ? a : b;
@@ -387,7 +388,7 @@ void Workbench::split(const WorkPolygon& polygon, PlaneId plane, const Sides& si
         if (here < 0) add(below, p, e);
         if (here > 0) add(above, p, e);
         if (here == 0) {
-            // The next strict side tells which part continues along e; the other turns into the
+            // The next strict side decides which part continues along e; the other turns into the
             // cut.
             if (next < 0) {
                 add(below, p, e);
@@ -422,8 +423,8 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, PlaneId plane, int keep) {
 }
 
 WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
-    // Seen along the dominant axis k the other two axes j, l span the plane, and the walls of the
-    // cell across them cut out a quadrilateral.
+    // Seen along the dominant axis k the other two axes j, l span the plane, and the bounding
+    // planes of the cell across them cut out a quadrilateral.
     const Plane& s = plane_at(support);
     const int k = s.dominant_axis();
     const int j = (k + 1) % 3;
@@ -441,7 +442,7 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
     return w;
 }
 
-// Whether the polygon has an edge on a wall, and so lies on one side of it.
+// Whether the polygon has an edge on a splitting plane, and so lies on one side of it.
 bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
                               bool above) const {
     const PlaneName n = PlaneName::wall(axis, wall);
@@ -453,7 +454,8 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& 
     WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : std::move(polygon);
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
-        // Boxes are rounded outwards, so those of parts that end at a wall reach beyond it.
+        // Boxes are rounded outwards, so those of parts that end at a splitting plane reach beyond
+        // it.
         if (box.lo[k] <= (cell.lo[k] >> wall_bits) && !is_bounded_by(w, axis, cell.lo[k], true))
             w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;

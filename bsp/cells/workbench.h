@@ -4,7 +4,7 @@
 //
 // Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
 // planes found to be the same point set share a class. Points are corners of sources or triples of
-// planes. A workbench belongs to one thread: planes are made when something asks for them.
+// planes. A workbench belongs to one thread: planes are made on demand.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/few.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>
@@ -46,18 +47,18 @@ public:
     void clear();
 
     PlaneId plane(const PlaneName& name);
-    /// Made when it is first asked for: of most names only the name is ever used.
+    /// Made on first use: of most names only the name is ever used.
     [[nodiscard]] const Plane& plane_at(PlaneId id) const {
-        const std::int32_t at = planes_[u(id)].place;
+        const std::int32_t at = planes_[as_index(id)].place;
         return at >= 0 ? made_.at(at) : make_plane(id);
     }
     /// Of the plane of an edge: the support of its facet.
-    [[nodiscard]] PlaneId support_of(PlaneId edge) const { return planes_[u(edge)].support; }
-    [[nodiscard]] const PlaneName& name(PlaneId id) const { return planes_[u(id)].name; }
+    [[nodiscard]] PlaneId support_of(PlaneId edge) const { return planes_[as_index(edge)].support; }
+    [[nodiscard]] const PlaneName& name(PlaneId id) const { return planes_[as_index(id)].name; }
     /// Records that two planes are the same point set.
     void declare_same(PlaneId a, PlaneId b);
     [[nodiscard]] PlaneId plane_class(PlaneId id) const {
-        while (planes_[u(id)].same != id) id = planes_[u(id)].same;
+        while (planes_[as_index(id)].same != id) id = planes_[as_index(id)].same;
         return id;
     }
 
@@ -68,21 +69,21 @@ public:
     /// may still have several names (see same_point). \pre the planes meet in one point.
     PointId meet(PlaneId p, PlaneId q, PlaneId r);
     [[nodiscard]] std::size_t point_count() const { return points_.size(); }
-    [[nodiscard]] bool is_corner(PointId id) const { return points_[u(id)].planes[0] < 0; }
+    [[nodiscard]] bool is_corner(PointId id) const { return points_[as_index(id)].planes[0] < 0; }
     /// \pre is_corner(id)
     [[nodiscard]] std::pair<const Source*, std::uint32_t> corner_name(PointId id) const {
-        return {points_[u(id)].source, points_[u(id)].vertex};
+        return {points_[as_index(id)].source, points_[as_index(id)].vertex};
     }
     /// \pre is_lattice(id)
-    [[nodiscard]] LatticePoint lattice(PointId id) const { return points_[u(id)].lattice(); }
+    [[nodiscard]] LatticePoint lattice(PointId id) const { return points_[as_index(id)].lattice(); }
     /// Whether its coordinates are known to be integers: of corners, and of points that planes name
     /// but whose doubles came without an error.
-    [[nodiscard]] bool is_lattice(PointId id) const { return points_[u(id)].is_lattice; }
+    [[nodiscard]] bool is_lattice(PointId id) const { return points_[as_index(id)].is_lattice; }
     [[nodiscard]] const std::array<PlaneId, 3>& planes_of(PointId id) const {
-        return points_[u(id)].planes;
+        return points_[as_index(id)].planes;
     }
     [[nodiscard]] const Approximation& approximation(PointId id) const {
-        return points_[u(id)].approximation;
+        return points_[as_index(id)].approximation;
     }
     [[nodiscard]] HomogeneousPoint homogeneous(PointId id) const;
     [[nodiscard]] Point point(PointId id) const;
@@ -108,15 +109,15 @@ public:
     [[nodiscard]] WorkPolygon polygon(const PolygonRef& ref);
     void with_edges(WorkPolygon& polygon, const PolygonRef& ref);
     /// Of a fragment: where the lines of two of its edges meet, `at` being the doubles of that
-    /// vertex. Edges on planes of the fragment's own facet are told by their names.
+    /// vertex. Edges on planes of the fragment's own facet are found by their names.
     PointId vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
                    const Approximation& at);
     /// Room for so many planes and points without growing on the way.
     void reserve(std::size_t planes, std::size_t points);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
-    /// Gives back the planes that were made so far; they are made again where they are asked for.
-    /// Ends references to them.
+    /// Gives back the planes that were made so far; they are made again on demand. Ends references
+    /// to them.
     void forget_made_planes();
     [[nodiscard]] std::size_t made_plane_count() const { return made_.count(); }
 
@@ -148,7 +149,6 @@ private:
                     static_cast<std::int64_t>(approximation.c[2])};
         }
     };
-    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
     [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;
     [[nodiscard]] static bool has_vertex(const PlaneName& plane, const Source* source,
                                          std::uint32_t vertex);
@@ -169,15 +169,15 @@ private:
     class MadePlanes {
     public:
         [[nodiscard]] const Plane& at(std::int32_t i) const {
-            return (*blocks_[u(i) / block_size])[u(i) % block_size];
+            return (*blocks_[as_index(i) / block_size])[as_index(i) % block_size];
         }
         std::int32_t add(const Plane& plane) {
-            if (u(count_) == block_size * blocks_.size())
+            if (as_index(count_) == block_size * blocks_.size())
                 blocks_.push_back(std::make_unique<Block>());
-            (*blocks_[u(count_) / block_size])[u(count_) % block_size] = plane;
+            (*blocks_[as_index(count_) / block_size])[as_index(count_) % block_size] = plane;
             return count_++;
         }
-        [[nodiscard]] std::size_t count() const { return u(count_); }
+        [[nodiscard]] std::size_t count() const { return as_index(count_); }
         void clear() { count_ = 0; }
         void free() {
             clear();

@@ -19,9 +19,9 @@
 // the right continuation is the first one clockwise from the piece that we came by, because the
 // region is between the two. Loops chained like that never leave their region, so each region has
 // one outer loop, which holds its smallest vertex, and its other loops are holes: no hole is ever
-// assigned by asking which polygon contains which point. At last, vertices are dropped where all
-// loops pass straight along one line. Whether that is so is combinatorial as well: all passages
-// have the same two neighbours.
+// assigned by containment of points in polygons. At last, vertices are dropped where all loops pass
+// straight along one line. Whether that is so is combinatorial as well: all passages have the same
+// two neighbours.
 //
 // It is slow (edges are compared with all vertices in their range), on purpose: it is there to
 // agree with the fast assembly, not to replace it.
@@ -47,7 +47,7 @@ namespace {
 using Fragments = std::span<const ConvexPolygon>;
 using Index = std::uint32_t;
 
-constexpr Index none = ~Index{0};
+constexpr Index no_vertex = ~Index{0};
 
 Index to_index(std::size_t i) { return static_cast<Index>(i); }
 
@@ -112,7 +112,7 @@ private:
 };
 
 /// A piece of a fragment's edge between neighbouring vertices, its region on the left.
-struct Piece {
+struct EdgePiece {
     Index from = 0;
     Index to = 0;
     Index fragment = 0;
@@ -138,7 +138,7 @@ private:
 };
 
 struct Loop {
-    std::vector<Piece> pieces;
+    std::vector<EdgePiece> pieces;
     Index region = 0;
     Index smallest_vertex = 0;
 };
@@ -146,18 +146,18 @@ struct Loop {
 /// Chains the pieces that bound the regions of one plane to loops.
 class LoopChainer {
 public:
-    LoopChainer(const Plane& plane, std::vector<Piece> pieces)
+    LoopChainer(const Plane& plane, std::vector<EdgePiece> pieces)
         : plane_(plane), pieces_(std::move(pieces)), used_(pieces_.size(), false) {
-        std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
+        std::sort(pieces_.begin(), pieces_.end(), [](const EdgePiece& a, const EdgePiece& b) {
             return std::pair(a.from, a.to) < std::pair(b.from, b.to);
         });
     }
 
-    std::vector<std::vector<Piece>> run() {
-        std::vector<std::vector<Piece>> loops;
+    std::vector<std::vector<EdgePiece>> run() {
+        std::vector<std::vector<EdgePiece>> loops;
         for (std::size_t first = 0; first < pieces_.size(); ++first) {
             if (used_[first]) continue;
-            std::vector<Piece> loop;
+            std::vector<EdgePiece> loop;
             for (std::size_t at = first; !used_[at]; at = next(pieces_[at])) {
                 used_[at] = true;
                 loop.push_back(pieces_[at]);
@@ -168,10 +168,10 @@ public:
     }
 
 private:
-    std::size_t next(const Piece& arriving) const {
-        const auto [first, last] =
-            std::equal_range(pieces_.begin(), pieces_.end(), Piece{arriving.to, 0, 0, nullptr},
-                             [](const Piece& a, const Piece& b) { return a.from < b.from; });
+    std::size_t next(const EdgePiece& arriving) const {
+        const auto [first, last] = std::equal_range(
+            pieces_.begin(), pieces_.end(), EdgePiece{arriving.to, 0, 0, nullptr},
+            [](const EdgePiece& a, const EdgePiece& b) { return a.from < b.from; });
         if (first == last)
             throw Error(ErrorCode::InvalidSolid, "the fragments of a boundary are not closed");
         auto best = first;
@@ -183,7 +183,7 @@ private:
     // Clockwise from the direction back along the arriving piece. In the plane with normal n the
     // piece with edge plane normal e runs along n × e, so det(n, e, f) > 0 when the direction of f
     // is less than half a turn counter-clockwise from that of e.
-    [[nodiscard]] bool comes_first_clockwise(const Piece& a, const Piece& b,
+    [[nodiscard]] bool comes_first_clockwise(const EdgePiece& a, const EdgePiece& b,
                                              const Plane& arriving) const {
         const Plane back = arriving.flipped();
         const int half_a = half_turns(back, *a.edge);
@@ -197,7 +197,7 @@ private:
     }
 
     const Plane& plane_;
-    std::vector<Piece> pieces_;
+    std::vector<EdgePiece> pieces_;
     std::vector<bool> used_;
 };
 
@@ -237,21 +237,22 @@ private:
     }
 
     void chain_loops(const std::vector<Index>& group) {
-        std::vector<Piece> pieces;
+        std::vector<EdgePiece> pieces;
         for (const Index f : group) append_pieces(f, pieces);
         pieces = without_opposites(std::move(pieces));
         const Plane& plane = fragments_[group.front()].support();
-        for (std::vector<Piece>& loop : LoopChainer(plane, std::move(pieces)).run()) {
-            const auto smallest =
-                std::min_element(loop.begin(), loop.end(), [](const Piece& a, const Piece& b) {
-                    return a.from < b.from;
-                })->from;
+        for (std::vector<EdgePiece>& loop : LoopChainer(plane, std::move(pieces)).run()) {
+            const auto smallest = std::min_element(loop.begin(), loop.end(),
+                                                   [](const EdgePiece& a, const EdgePiece& b) {
+                                                       return a.from < b.from;
+                                                   })
+                                      ->from;
             const Index region = regions_.find(loop.front().fragment);
             loops_.push_back({std::move(loop), region, smallest});
         }
     }
 
-    void append_pieces(Index f, std::vector<Piece>& pieces) const {
+    void append_pieces(Index f, std::vector<EdgePiece>& pieces) const {
         const ConvexPolygon& fragment = fragments_[f];
         const std::size_t n = fragment.size();
         for (std::size_t i = 0; i < n; ++i) {
@@ -265,14 +266,14 @@ private:
     }
 
     /// Cancels pieces that run both ways and joins their fragments.
-    std::vector<Piece> without_opposites(std::vector<Piece> pieces) {
-        const auto key = [](const Piece& p) {
+    std::vector<EdgePiece> without_opposites(std::vector<EdgePiece> pieces) {
+        const auto key = [](const EdgePiece& p) {
             return std::pair(std::min(p.from, p.to), std::max(p.from, p.to));
         };
         std::stable_sort(pieces.begin(), pieces.end(),
-                         [&](const Piece& a, const Piece& b) { return key(a) < key(b); });
-        std::vector<Piece> left;
-        for (const Piece& p : pieces) {
+                         [&](const EdgePiece& a, const EdgePiece& b) { return key(a) < key(b); });
+        std::vector<EdgePiece> left;
+        for (const EdgePiece& p : pieces) {
             if (!left.empty() && left.back().from == p.to && left.back().to == p.from) {
                 regions_.join(left.back().fragment, p.fragment);
                 left.pop_back();
@@ -286,16 +287,16 @@ private:
     /// A vertex turns unless all loops pass it between the same two neighbours.
     void find_turning_vertices() {
         using Neighbours = std::pair<Index, Index>;
-        std::vector<Neighbours> seen(vertices_.size(), {none, none});
+        std::vector<Neighbours> seen(vertices_.size(), {no_vertex, no_vertex});
         turns_.assign(vertices_.size(), false);
         for (const Loop& loop : loops_) {
             const Plane& plane = fragments_[loop.pieces.front().fragment].support();
             for (std::size_t i = 0; i < loop.pieces.size(); ++i) {
-                const Piece& in = loop.pieces[i];
-                const Piece& out = loop.pieces[i + 1 < loop.pieces.size() ? i + 1 : 0];
+                const EdgePiece& in = loop.pieces[i];
+                const EdgePiece& out = loop.pieces[i + 1 < loop.pieces.size() ? i + 1 : 0];
                 const Neighbours here = std::minmax(in.from, out.to);
                 Neighbours& before = seen[out.from];
-                if (before.first == none) before = here;
+                if (before.first == no_vertex) before = here;
                 if (before != here || sign_of_det(plane, *in.edge, *out.edge) != 0)
                     turns_[out.from] = true;
             }
@@ -311,14 +312,14 @@ private:
     }
 
     void emit() {
-        std::vector<Index> number(vertices_.size(), none);
+        std::vector<Index> number(vertices_.size(), no_vertex);
         std::vector<std::vector<Index>> face;
         for (std::size_t i = 0; i < loops_.size(); ++i) {
             face.emplace_back();
-            for (const Piece& piece : loops_[i].pieces) {
+            for (const EdgePiece& piece : loops_[i].pieces) {
                 if (!turns_[piece.from]) continue;
                 Index& id = number[piece.from];
-                if (id == none) id = builder_.add_vertex(vertices_.point(piece.from));
+                if (id == no_vertex) id = builder_.add_vertex(vertices_.point(piece.from));
                 face.back().push_back(id);
             }
             if (i + 1 < loops_.size() && loops_[i + 1].region == loops_[i].region) continue;

@@ -3,9 +3,6 @@
 // brep_from_fragments: a Brep with maximal faces from convex fragments.
 // It is the second, simple assembly of the project: its input is the fragments alone, not their
 // origin.
-//
-// The second, simple assembly of the project: it knows only the fragments, not where they come
-// from.
 #pragma once
 
 #include <span>

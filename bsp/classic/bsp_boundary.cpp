@@ -10,8 +10,8 @@
 //
 // The naive way keeps the polygons that the tree was built from in its nodes and filters those. It
 // fails after the first boolean: parts of a face vanish, the plane of one operand's face bounds the
-// other operand's material, coincident faces cancel. The sections know nothing of faces and
-// therefore cannot be wrong about them.
+// other operand's material, coincident faces cancel. The sections have no faces and therefore
+// cannot be wrong about them.
 //
 // Going down, a piece lies in the border of each cell that it meets. A node's plane cannot hold it,
 // because it would not cut its cell then; so the piece is cut, or is with its whole area on one
@@ -31,12 +31,12 @@ namespace trisect {
 
 namespace {
 
-using Label = BspTree::Label;
-using NodeId = BspTree::NodeId;
+using BspLabel = BspTree::Label;
+using BspNodeId = BspTree::NodeId;
 
 struct LabelledPiece {
     ConvexPolygon piece;
-    Label label;
+    BspLabel label;
 };
 
 /// Splits a polygon in the border of a subtree's cell by the leaves that it touches.
@@ -44,7 +44,7 @@ class LeafSplitter {
 public:
     explicit LeafSplitter(const BspTree& tree) : tree_(tree) {}
 
-    void split(ConvexPolygon polygon, NodeId subtree, std::vector<LabelledPiece>& pieces) {
+    void split(ConvexPolygon polygon, BspNodeId subtree, std::vector<LabelledPiece>& pieces) {
         pending_.emplace_back(std::move(polygon), subtree);
         while (!pending_.empty()) {
             auto [piece, at] = std::move(pending_.back());
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    NodeId descend(ConvexPolygon& piece, const BspTree::Node& node) {
+    BspNodeId descend(ConvexPolygon& piece, const BspTree::Node& node) {
         ConvexPolygon upper;
         const auto parts = piece.split(node.plane, piece, upper);
         TRISECT_EXPECTS(!parts.is_coplanar(), "a BSP plane lies in the border of its cell");
@@ -64,7 +64,7 @@ private:
     }
 
     const BspTree& tree_;
-    std::vector<std::pair<ConvexPolygon, NodeId>> pending_;
+    std::vector<std::pair<ConvexPolygon, BspNodeId>> pending_;
 };
 
 template <int N>
@@ -114,8 +114,8 @@ std::vector<ConvexPolygon> boundary_of(const BspTree& tree) {
             splitter.split(std::move(lower.piece), node.above, above);
             for (LabelledPiece& piece : above) {
                 if (piece.label == lower.label) continue;
-                boundary.push_back(piece.label == Label::Out ? std::move(piece.piece)
-                                                             : piece.piece.flipped());
+                boundary.push_back(piece.label == BspLabel::Out ? std::move(piece.piece)
+                                                                : piece.piece.flipped());
             }
         }
     }

@@ -10,11 +10,11 @@
 // Which of the two? The well-known rule says: nothing below, inside; nothing above, outside. It
 // holds because the plane was chosen from a polygon with area inside this very cell. The empty part
 // below is one connected cell that does not meet the boundary and that touches that polygon from
-// below, which is the solid's side; likewise above. Planes from elsewhere (walls that balance the
-// tree, planes of faces that do not reach into the cell) break the rule silently: their empty sides
-// would have to ask a neighbour. A coplanar face of the opposite orientation in the same cell does
-// no harm: just below the plane the solid is inside at the chosen face and outside at the other
-// one, so something separates the two places and the part below is not empty.
+// below, which is the solid's side; likewise above. Planes from elsewhere (splitting planes that
+// balance the tree, planes of faces that do not reach into the cell) break the rule silently: their
+// empty sides would need a neighbour. A coplanar face of the opposite orientation in the same cell
+// does no harm: just below the plane the solid is inside at the chosen face and outside at the
+// other one, so something separates the two places and the part below is not empty.
 //
 // The choice also makes every plane cut its cell, without a test: a polygon on the border of the
 // cell would lie on an ancestor's plane and would have stayed there.
@@ -35,9 +35,9 @@ namespace trisect {
 
 namespace {
 
-using Label = BspTree::Label;
-using Node = BspTree::Node;
-using NodeId = BspTree::NodeId;
+using BspLabel = BspTree::Label;
+using BspNode = BspTree::Node;
+using BspNodeId = BspTree::NodeId;
 using Polygons = std::vector<ConvexPolygon>;
 using Indices = std::vector<std::uint32_t>;
 
@@ -65,19 +65,19 @@ private:
     struct Cell {
         Indices polygons;
         std::uint32_t parent = 0;
-        NodeId Node::*child = nullptr;  // null for the root
+        BspNodeId BspNode::*child = nullptr;  // null for the root
     };
 
     void refine(const Cell& cell) {
         const auto id = static_cast<std::uint32_t>(nodes_.size());
         const Plane plane = polygons_[choose(cell.polygons)].support();
-        nodes_.push_back({plane, NodeId(Label::In), NodeId(Label::Out)});
-        if (cell.child != nullptr) nodes_[cell.parent].*cell.child = NodeId(id);
+        nodes_.push_back({plane, BspNodeId(BspLabel::In), BspNodeId(BspLabel::Out)});
+        if (cell.child != nullptr) nodes_[cell.parent].*cell.child = BspNodeId(id);
         Indices below;
         Indices above;
         for (const std::uint32_t i : cell.polygons) send(i, plane, below, above);
-        if (!above.empty()) pending_.push_back({std::move(above), id, &Node::above});
-        if (!below.empty()) pending_.push_back({std::move(below), id, &Node::below});
+        if (!above.empty()) pending_.push_back({std::move(above), id, &BspNode::above});
+        if (!below.empty()) pending_.push_back({std::move(below), id, &BspNode::below});
     }
 
     void send(std::uint32_t i, const Plane& plane, Indices& below, Indices& above) {
@@ -127,7 +127,7 @@ private:
 
     BspBuildOptions options_;
     Polygons polygons_;  // grows where polygons are cut; a cell names its own
-    std::vector<Node> nodes_;
+    std::vector<BspNode> nodes_;
     std::vector<Cell> pending_;
 };
 

@@ -7,10 +7,10 @@
 // tree into what it is below and above H, and merge the halves with the two children. The first
 // tree is walked once; the second one is cut up along the way.
 //
-// Partitioning a tree by H is the heart. At a node with plane P the naive way asks on which side of
-// H the *plane* P lies, which is nonsense unless they are parallel; what counts is what both planes
-// do within the cell of the node. So every node carries the section of its plane by its cell
-// (bsp_sections.h), and H is carried along as the section h of the same cell:
+// Partitioning a tree by H is the heart. At a node with plane P the naive way computes on which
+// side of H the *plane* P lies, which is nonsense unless they are parallel; what counts is what
+// both planes do within the cell of the node. So every node carries the section of its plane by its
+// cell (bsp_sections.h), and H is carried along as the section h of the same cell:
 //
 //     h lies in P           the children are the halves, swapped if the orientations differ;
 //     P cuts h              H cuts the section p as well: both halves get a node with plane P, and
@@ -52,9 +52,9 @@ namespace trisect {
 
 namespace {
 
-using Label = BspTree::Label;
-using NodeId = BspTree::NodeId;
-using Children = std::array<NodeId, 2>;  // below, above
+using BspLabel = BspTree::Label;
+using BspNodeId = BspTree::NodeId;
+using Children = std::array<BspNodeId, 2>;  // below, above
 
 constexpr std::size_t half_of(Side side) { return side == Side::Above ? 1 : 0; }
 
@@ -67,71 +67,71 @@ struct Slot {
 /// The linked nodes of all trees in work, with their sections.
 class WorkForest {
 public:
-    [[nodiscard]] const ConvexPolygon& section(NodeId id) const { return sections_[id.index()]; }
-    ConvexPolygon& section(NodeId id) { return sections_[id.index()]; }
-    [[nodiscard]] const Children& children(NodeId id) const { return children_[id.index()]; }
-    [[nodiscard]] NodeId at(Slot slot) const { return children_[slot.node][slot.half]; }
-    void put(Slot slot, NodeId id) { children_[slot.node][slot.half] = id; }
+    [[nodiscard]] const ConvexPolygon& section(BspNodeId id) const { return sections_[id.index()]; }
+    ConvexPolygon& section(BspNodeId id) { return sections_[id.index()]; }
+    [[nodiscard]] const Children& children(BspNodeId id) const { return children_[id.index()]; }
+    [[nodiscard]] BspNodeId at(Slot slot) const { return children_[slot.node][slot.half]; }
+    void put(Slot slot, BspNodeId id) { children_[slot.node][slot.half] = id; }
 
     /// A node without meaning whose children are roots.
     std::uint32_t add_anchor() { return add(ConvexPolygon(), {}).index(); }
 
-    NodeId add(ConvexPolygon section, Children children) {
+    BspNodeId add(ConvexPolygon section, Children children) {
         if (free_.empty()) {
             sections_.push_back(std::move(section));
             children_.push_back(children);
-            return NodeId(static_cast<std::uint32_t>(sections_.size() - 1));
+            return BspNodeId(static_cast<std::uint32_t>(sections_.size() - 1));
         }
-        const NodeId id = free_.back();
+        const BspNodeId id = free_.back();
         free_.pop_back();
         sections_[id.index()] = std::move(section);
         children_[id.index()] = children;
         return id;
     }
 
-    NodeId add_tree(const BspTree& tree) {
+    BspNodeId add_tree(const BspTree& tree) {
         if (tree.root().is_leaf()) return tree.root();
         const auto first = static_cast<std::uint32_t>(sections_.size());
-        const auto moved = [first](NodeId id) {
-            return id.is_leaf() ? id : NodeId(id.index() + first);
+        const auto moved = [first](BspNodeId id) {
+            return id.is_leaf() ? id : BspNodeId(id.index() + first);
         };
         for (ConvexPolygon& section : cell_sections(tree)) sections_.push_back(std::move(section));
         for (const BspTree::Node& node : tree.nodes())
             children_.push_back({moved(node.below), moved(node.above)});
-        return NodeId(first);
+        return BspNodeId(first);
     }
 
-    void remove(NodeId id) {
+    void remove(BspNodeId id) {
         sections_[id.index()] = ConvexPolygon();
         free_.push_back(id);
     }
 
     /// The nodes of a tree, parents first.
-    [[nodiscard]] std::vector<NodeId> nodes_of(NodeId root) const {
-        std::vector<NodeId> order;
+    [[nodiscard]] std::vector<BspNodeId> nodes_of(BspNodeId root) const {
+        std::vector<BspNodeId> order;
         if (!root.is_leaf()) order.push_back(root);
         for (std::size_t i = 0; i < order.size(); ++i)
-            for (const NodeId child : children(order[i]))
+            for (const BspNodeId child : children(order[i]))
                 if (!child.is_leaf()) order.push_back(child);
         return order;
     }
 
     /// What is left of a tree as one operand when the other one is known.
-    NodeId apply(UnaryRule rule, NodeId root) {
+    BspNodeId apply(UnaryRule rule, BspNodeId root) {
         if (rule == UnaryRule::Keep) return root;
-        const std::vector<NodeId> order = nodes_of(root);
+        const std::vector<BspNodeId> order = nodes_of(root);
         if (rule == UnaryRule::Complement) {
-            for (const NodeId id : order)
-                for (NodeId& child : children_[id.index()]) child = complemented(child);
+            for (const BspNodeId id : order)
+                for (BspNodeId& child : children_[id.index()]) child = complemented(child);
             return complemented(root);
         }
-        for (const NodeId id : order) remove(id);
-        return NodeId(rule == UnaryRule::In ? Label::In : Label::Out);
+        for (const BspNodeId id : order) remove(id);
+        return BspNodeId(rule == UnaryRule::In ? BspLabel::In : BspLabel::Out);
     }
 
     /// Replaces a child that has two equal leaves by such a leaf.
     void drop_useless_children(std::uint32_t node) {
-        for (NodeId& child : children_[node]) {
+        for (BspNodeId& child : children_[node]) {
             if (child.is_leaf()) continue;
             const Children grandchildren = children(child);
             if (!grandchildren[0].is_leaf() || grandchildren[0] != grandchildren[1]) continue;
@@ -140,30 +140,32 @@ public:
         }
     }
 
-    [[nodiscard]] BspTree to_tree(NodeId root) const {
+    [[nodiscard]] BspTree to_tree(BspNodeId root) const {
         if (root.is_leaf()) return BspTree(root.label());
-        const std::vector<NodeId> order = nodes_of(root);
-        std::vector<NodeId> number(children_.size());
+        const std::vector<BspNodeId> order = nodes_of(root);
+        std::vector<BspNodeId> number(children_.size());
         for (std::size_t i = 0; i < order.size(); ++i)
-            number[order[i].index()] = NodeId(static_cast<std::uint32_t>(i));
-        const auto renumbered = [&](NodeId id) { return id.is_leaf() ? id : number[id.index()]; };
+            number[order[i].index()] = BspNodeId(static_cast<std::uint32_t>(i));
+        const auto renumbered = [&](BspNodeId id) {
+            return id.is_leaf() ? id : number[id.index()];
+        };
         std::vector<BspTree::Node> nodes;
         nodes.reserve(order.size());
-        for (const NodeId id : order)
+        for (const BspNodeId id : order)
             nodes.push_back(
                 {section(id).support(), renumbered(children(id)[0]), renumbered(children(id)[1])});
         return BspTree(std::move(nodes));
     }
 
 private:
-    static NodeId complemented(NodeId id) {
+    static BspNodeId complemented(BspNodeId id) {
         if (!id.is_leaf()) return id;
-        return NodeId(id.label() == Label::In ? Label::Out : Label::In);
+        return BspNodeId(id.label() == BspLabel::In ? BspLabel::Out : BspLabel::In);
     }
 
     std::vector<ConvexPolygon> sections_;
     std::vector<Children> children_;
-    std::vector<NodeId> free_;
+    std::vector<BspNodeId> free_;
 };
 
 /// Cuts a tree of the forest into what it is below and above a plane.
@@ -172,7 +174,7 @@ public:
     explicit Partitioner(WorkForest& forest) : forest_(forest), anchor_(forest.add_anchor()) {}
 
     /// Consumes the tree. \param cut the section of the tree's cell by the plane.
-    Children run(NodeId tree, const ConvexPolygon& cut) {
+    Children run(BspNodeId tree, const ConvexPolygon& cut) {
         touched_.assign(1, anchor_);
         pending_.push_back({tree, cut, {Slot{anchor_, 0}, Slot{anchor_, 1}}});
         while (!pending_.empty()) {
@@ -190,14 +192,14 @@ public:
 
 private:
     struct Task {
-        NodeId tree;
+        BspNodeId tree;
         ConvexPolygon cut;
         std::array<Slot, 2> to;  // where the parts below and above the cutting plane go
     };
 
     /// Moves the task to a child. \return false when the task is finished.
     bool descend(Task& task) {
-        const NodeId id = task.tree;
+        const BspNodeId id = task.tree;
         const Plane plane = forest_.section(id).support();
         ConvexPolygon cut_above;
         const auto parts = task.cut.split(plane, task.cut, cut_above);
@@ -221,16 +223,16 @@ private:
 
     // The cutting plane and the node's plane cross in the cell.
     void split_node(Task& task, ConvexPolygon cut_above) {
-        const NodeId lower = task.tree;
+        const BspNodeId lower = task.tree;
         const Children children = forest_.children(lower);
         ConvexPolygon upper_section;
         ConvexPolygon& section = forest_.section(lower);
         const auto parts = section.split(task.cut.support(), section, upper_section);
         TRISECT_EXPECTS(parts.is_cut(), "only one of two crossing sections is cut");
-        const NodeId upper = forest_.add(std::move(upper_section), {});
+        const BspNodeId upper = forest_.add(std::move(upper_section), {});
         const std::array<std::uint32_t, 2> halves{lower.index(), upper.index()};
         for (std::size_t h = 0; h < 2; ++h) {
-            forest_.put(task.to[h], NodeId(halves[h]));
+            forest_.put(task.to[h], BspNodeId(halves[h]));
             touched_.push_back(halves[h]);
         }
         pending_.push_back(
@@ -241,7 +243,7 @@ private:
 
     // The cutting plane meets only one child, on the given side of the node's plane.
     void pass_node(Task& task, Side met) {
-        const NodeId id = task.tree;
+        const BspNodeId id = task.tree;
         const auto parts = forest_.section(id).classify(task.cut.support());
         TRISECT_EXPECTS(!parts.is_cut() && !parts.is_coplanar(), "sections disagree about a cut");
         const std::size_t half = half_of(parts.side());
@@ -263,15 +265,15 @@ public:
         : rule_(rule), anchor_(forest_.add_anchor()), partitioner_(forest_) {}
 
     BspTree run(const BspTree& a, const BspTree& b) {
-        const NodeId first = forest_.add_tree(a);
+        const BspNodeId first = forest_.add_tree(a);
         pending_.push_back({first, forest_.add_tree(b), {anchor_, 0}});
         while (!pending_.empty()) {
             const Task task = pending_.back();
             pending_.pop_back();
             merge(task);
         }
-        const NodeId root = forest_.at({anchor_, 0});
-        const std::vector<NodeId> order = forest_.nodes_of(root);
+        const BspNodeId root = forest_.at({anchor_, 0});
+        const std::vector<BspNodeId> order = forest_.nodes_of(root);
         for (std::size_t i = order.size(); i-- > 0;)
             forest_.drop_useless_children(order[i].index());
         forest_.drop_useless_children(anchor_);
@@ -280,19 +282,19 @@ public:
 
 private:
     struct Task {
-        NodeId first;
-        NodeId second;
+        BspNodeId first;
+        BspNodeId second;
         Slot to;
     };
 
     void merge(const Task& task) {
         if (task.first.is_leaf()) {
-            const UnaryRule left = rule_.given_first(task.first.label() == Label::In);
+            const UnaryRule left = rule_.given_first(task.first.label() == BspLabel::In);
             forest_.put(task.to, forest_.apply(left, task.second));
             return;
         }
         if (task.second.is_leaf()) {
-            const UnaryRule left = rule_.given_second(task.second.label() == Label::In);
+            const UnaryRule left = rule_.given_second(task.second.label() == BspLabel::In);
             forest_.put(task.to, forest_.apply(left, task.first));
             return;
         }
@@ -319,7 +321,7 @@ BspTree merge(const BspTree& a, const BspTree& b, BooleanRule rule) {
 
 bool is_same_set(const BspTree& a, const BspTree& b) {
     const BspTree difference = merge(a, b, BooleanRule::symmetric_difference());
-    return difference.root() == NodeId(Label::Out);
+    return difference.root() == BspNodeId(BspLabel::Out);
 }
 
 }  // namespace trisect

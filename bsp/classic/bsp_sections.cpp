@@ -2,7 +2,7 @@
 //
 // The plane of a node within its cell.
 //
-// Whether a plane cuts a convex cell is a feasibility question. Floating-point codes ask a linear
+// Whether a plane cuts a convex cell is a feasibility question. Floating-point codes solve a linear
 // programme and get "nearly"; here the plane's polygon is clipped by the planes above it in the
 // tree, exactly and without new planes, and the plane cuts the cell when something with area is
 // left: a section within the border of the cell would be coplanar with one of the ancestors' planes

@@ -34,13 +34,13 @@ namespace trisect {
 
 namespace {
 
-using Label = BspTree::Label;
+using BspLabel = BspTree::Label;
 using Membership = BspTree::Membership;
-using Node = BspTree::Node;
-using NodeId = BspTree::NodeId;
+using BspNode = BspTree::Node;
+using BspNodeId = BspTree::NodeId;
 
-NodeId opposite_leaf(NodeId leaf) {
-    return NodeId(leaf.label() == Label::In ? Label::Out : Label::In);
+BspNodeId opposite_leaf(BspNodeId leaf) {
+    return BspNodeId(leaf.label() == BspLabel::In ? BspLabel::Out : BspLabel::In);
 }
 
 /// Labels of the leaves whose closed cells hold the point.
@@ -48,17 +48,17 @@ template <class AnyPoint>
 Membership classify_point(const BspTree& tree, const AnyPoint& p) {
     bool touches_in = false;
     bool touches_out = false;
-    std::vector<NodeId> pending{tree.root()};
+    std::vector<BspNodeId> pending{tree.root()};
     while (!pending.empty()) {
-        NodeId at = pending.back();
+        BspNodeId at = pending.back();
         pending.pop_back();
         while (!at.is_leaf()) {
-            const Node& node = tree.node(at);
+            const BspNode& node = tree.node(at);
             const Side side = side_of(p, node.plane);
             if (side == Side::On) pending.push_back(node.above);
             at = side == Side::Above ? node.above : node.below;
         }
-        (at.label() == Label::In ? touches_in : touches_out) = true;
+        (at.label() == BspLabel::In ? touches_in : touches_out) = true;
         if (touches_in && touches_out) return Membership::OnBoundary;
     }
     return touches_in ? Membership::Inside : Membership::Outside;
@@ -67,7 +67,7 @@ Membership classify_point(const BspTree& tree, const AnyPoint& p) {
 /// Finds subtrees that are equal node by node and drops the nodes that have two equal children.
 class Reducer {
 public:
-    explicit Reducer(std::span<const Node> nodes) : nodes_(nodes), kept_as_(nodes.size()) {}
+    explicit Reducer(std::span<const BspNode> nodes) : nodes_(nodes), kept_as_(nodes.size()) {}
 
     BspTree run() {
         for (std::size_t i = nodes_.size(); i-- > 0;) kept_as_[i] = canonical(nodes_[i]);
@@ -75,26 +75,26 @@ public:
     }
 
 private:
-    NodeId resolved(NodeId id) const { return id.is_leaf() ? id : kept_as_[id.index()]; }
+    BspNodeId resolved(BspNodeId id) const { return id.is_leaf() ? id : kept_as_[id.index()]; }
 
     // Equal subtrees get the number of the one that was met first. Between canonical children,
     // equality of subtrees is equality of ids.
-    NodeId canonical(const Node& node) {
-        const Node with{node.plane, resolved(node.below), resolved(node.above)};
+    BspNodeId canonical(const BspNode& node) {
+        const BspNode with{node.plane, resolved(node.below), resolved(node.above)};
         if (with.below == with.above) return with.below;
         const auto [first, last] = by_hash_.equal_range(hash(with));
         for (auto it = first; it != last; ++it) {
-            const Node& known = canonical_[it->second];
+            const BspNode& known = canonical_[it->second];
             if (known.below == with.below && known.above == with.above && known.plane == with.plane)
-                return NodeId(it->second);
+                return BspNodeId(it->second);
         }
         const auto id = static_cast<std::uint32_t>(canonical_.size());
         by_hash_.emplace(hash(with), id);
         canonical_.push_back(with);
-        return NodeId(id);
+        return BspNodeId(id);
     }
 
-    static std::size_t hash(const Node& node) {
+    static std::size_t hash(const BspNode& node) {
         std::uint64_t h = 0;
         const auto mix = [&h](std::uint64_t v) { h = (h ^ v) * 0x9e3779b97f4a7c15U + (h >> 29U); };
         mix(child_key(node.below));
@@ -103,41 +103,41 @@ private:
         mix(node.plane.offset().limb(0));
         return static_cast<std::size_t>(h);
     }
-    static std::uint64_t child_key(NodeId id) {
-        if (id.is_leaf()) return id.label() == Label::In ? 1 : 0;
+    static std::uint64_t child_key(BspNodeId id) {
+        if (id.is_leaf()) return id.label() == BspLabel::In ? 1 : 0;
         return std::uint64_t{id.index()} + 2;
     }
 
     // Canonical subtrees may be used several times; a tree repeats them.
-    BspTree copy(NodeId root) const {
+    BspTree copy(BspNodeId root) const {
         if (root.is_leaf()) return BspTree(root.label());
-        std::vector<Node> result{canonical_[root.index()]};
+        std::vector<BspNode> result{canonical_[root.index()]};
         for (std::size_t i = 0; i < result.size(); ++i) {
-            for (NodeId Node::*child : {&Node::below, &Node::above}) {
-                const NodeId old = result[i].*child;
+            for (BspNodeId BspNode::*child : {&BspNode::below, &BspNode::above}) {
+                const BspNodeId old = result[i].*child;
                 if (old.is_leaf()) continue;
-                result[i].*child = NodeId(static_cast<std::uint32_t>(result.size()));
+                result[i].*child = BspNodeId(static_cast<std::uint32_t>(result.size()));
                 result.push_back(canonical_[old.index()]);
             }
         }
         return BspTree(std::move(result));
     }
 
-    std::span<const Node> nodes_;
-    std::vector<NodeId> kept_as_;  // what remains of each node, as an id into canonical_
-    std::vector<Node> canonical_;
+    std::span<const BspNode> nodes_;
+    std::vector<BspNodeId> kept_as_;  // what remains of each node, as an id into canonical_
+    std::vector<BspNode> canonical_;
     std::unordered_multimap<std::size_t, std::uint32_t> by_hash_;
 };
 
 }  // namespace
 
-BspTree::BspTree(std::vector<Node> nodes) : nodes_(std::move(nodes)) {
-    if (!nodes_.empty()) root_ = NodeId(std::uint32_t{0});
+BspTree::BspTree(std::vector<BspNode> nodes) : nodes_(std::move(nodes)) {
+    if (!nodes_.empty()) root_ = BspNodeId(std::uint32_t{0});
     validate();
 }
 
 BspTree BspTree::half_space(const Plane& plane) {
-    return BspTree({{plane, NodeId(Label::In), NodeId(Label::Out)}});
+    return BspTree({{plane, BspNodeId(BspLabel::In), BspNodeId(BspLabel::Out)}});
 }
 
 std::size_t BspTree::depth() const {
@@ -145,7 +145,7 @@ std::size_t BspTree::depth() const {
     std::size_t deepest = 0;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         deepest = std::max(deepest, level[i]);
-        for (const NodeId child : {nodes_[i].below, nodes_[i].above})
+        for (const BspNodeId child : {nodes_[i].below, nodes_[i].above})
             if (!child.is_leaf()) level[child.index()] = level[i] + 1;
     }
     return deepest;
@@ -154,7 +154,7 @@ std::size_t BspTree::depth() const {
 BspTree BspTree::complement() const {
     BspTree result = *this;
     if (result.root_.is_leaf()) result.root_ = opposite_leaf(result.root_);
-    for (Node& node : result.nodes_) {
+    for (BspNode& node : result.nodes_) {
         if (node.below.is_leaf()) node.below = opposite_leaf(node.below);
         if (node.above.is_leaf()) node.above = opposite_leaf(node.above);
     }
@@ -178,7 +178,7 @@ void BspTree::validate() const {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
         if (!nodes_[i].plane.is_valid()) refuse(i, "has no plane");
         if (i > 0 && !has_parent[i]) refuse(i, "has no parent before it");
-        for (const NodeId child : {nodes_[i].below, nodes_[i].above}) {
+        for (const BspNodeId child : {nodes_[i].below, nodes_[i].above}) {
             if (child.is_leaf()) continue;
             if (child.index() >= nodes_.size()) refuse(i, "has a child that does not exist");
             if (child.index() <= i) refuse(i, "has a child with a smaller number");

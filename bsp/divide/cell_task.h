@@ -47,7 +47,7 @@ struct CellTask {
     Residual::Ref formula;
     std::span<CellOperand> operands;
     int depth = 0;
-    int stalled = 0;  ///< walls in a row that did not part the polygons
+    int stalled = 0;  ///< splitting planes in a row that did not separate the polygons
 
     [[nodiscard]] std::uint64_t size() const {
         std::uint64_t sum = 0;

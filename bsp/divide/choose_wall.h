@@ -11,15 +11,16 @@
 
 namespace trisect::detail {
 
-/// The wall that soonest parts the operands: it peels off a slab that only one of them enters, when
-/// that is at least 30 % of the extent; else it halves the box of what at least two enter (or what
-/// an operand that has to be resolved by itself enters). Nothing when the polygons cannot be parted
-/// in the task's frame. `offset` is that of walls from lattice positions, in 1/256 units.
+/// The splitting plane that separates the operands soonest: it trims off a slab that only one of
+/// them enters, when that is at least 30 % of the extent; else it halves the box of what at least
+/// two enter (or what an operand that has to be resolved by itself enters). Nothing when the
+/// polygons cannot be parted in the task's frame. `offset` is that of splitting planes from lattice
+/// positions, in 1/256 units.
 /// \pre all operands are lists.
 [[nodiscard]] std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset);
 
-/// The wall beyond which most polygons lie that are beside the box of what is contested; nothing
-/// where these are fewer than `least`, which is not 0. Looks at all polygons.
+/// The splitting plane beyond which most polygons lie that are beside the box of what is contested;
+/// nothing where these are fewer than `least`, which is not 0. Looks at all polygons.
 /// \pre all operands are lists.
 [[nodiscard]] std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least,
                                                std::int64_t offset);

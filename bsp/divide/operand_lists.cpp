@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists are made of leaves and, where the operands' trees do not share a wall, of whole subtrees:
-// the polygons below a node, each clipped to the leaf that lists it. A whole facet that all leaves
-// list which it meets stays whole: clipped it would come back as a fragment for each of them, at
-// every step of a chain that comes by. Boxes of lists are rounded to
-// a frame; one frame that covers all lists and leaves of the task is made when the first list is,
-// and a finer one where rounding would hide what has to be parted.
+// Lists are made of leaves and, where the operands' trees do not share a splitting plane, of whole
+// subtrees: the polygons below a node, each clipped to the leaf that lists it. A whole facet that
+// all leaves list which it meets stays whole: clipped it would come back as a fragment for each of
+// them, at every step of a chain that comes by. Boxes of lists are rounded to a frame; one frame
+// that covers all lists and leaves of the task is made when the first list is, and a finer one
+// where rounding would hide what has to be parted.
 
 #include <trisect/bsp/divide/operand_lists.h>
 
@@ -97,7 +97,7 @@ void OperandLists::add_clipped(const PolygonRef& polygon, const Cell& cell,
 
 // Whether all leaves list a facet that it meets. `listed`: by those that do.
 bool OperandLists::is_whole(std::span<const Reaching> listed) const {
-    // Every leaf would be asked about every facet.
+    // Every leaf would be tested with every facet.
     constexpr std::size_t many_leaves = 64;
     if (leaf_cells_.size() > many_leaves) return false;
     const PolygonRef& facet = listed[0].polygon;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three ways to distribute a list, from fast to slow. A list that lies on one side of the wall is
-// handed on as it is. When the wall is between two rounded positions of the frame, comparing the
-// rounded boxes is exact: one pass without branches. Otherwise (a wall that another evaluation
-// chose in another frame) the polygons' own boxes are looked up.
+// Three ways to distribute a list, from fast to slow. A list that lies on one side of the splitting
+// plane is handed on as it is. When the splitting plane is between two rounded positions of the
+// frame, comparing the rounded boxes is exact: one pass without branches. Otherwise (a splitting
+// plane that another evaluation chose in another frame) the polygons' own boxes are looked up.
 //
 // Memory that is touched for the first time costs a fault and its clearing, more than the pass
 // itself. So both sides of a large list share one piece that has room for few entries that cross
-// the wall, which arenas can keep for the next evaluation; where there are more a larger one is
-// taken. The lists of two large operands are distributed, and the boxes of large meshes made, by
-// several threads.
+// the splitting plane, which arenas can keep for the next evaluation; where there are more a larger
+// one is taken. The lists of two large operands are distributed, and the boxes of large meshes
+// made, by several threads.
 
 #include <trisect/bsp/divide/partition.h>
 
@@ -53,16 +53,16 @@ void set_box(CellOperand& operand, const CellTask& task, const Cell& cell) {
     operand.box = box_of(operand.entries, operand.count).intersected(packed_cell(task.frame, cell));
 }
 
-// Where the next entries go: those below the wall upwards from the front of the memory, those above
-// it downwards from its end. Both get the entries that cross the wall.
+// Where the next entries go: those below the splitting plane upwards from the front of the memory,
+// those above it downwards from its end. Both get the entries that cross the splitting plane.
 struct Ends {
     PackedBox* below;
     PackedBox* above;
 };
 
-// The wall is below rounded position `first_above`. Every entry is written to both ends, and those
-// are advanced by the outcome of the comparisons. Entries that cross the wall and are longer than
-// `long_facet` are left to `add_long`; without a limit the loop has no branch.
+// The splitting plane is below rounded position `first_above`. Every entry is written to both ends,
+// and those are advanced by the outcome of the comparisons. Entries that cross the splitting plane
+// and are longer than `long_facet` are left to `add_long`; without a limit the loop has no branch.
 template <bool Limited, class AddLong>
 Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_above, int long_facet,
                 Ends ends, const AddLong& add_long) {
@@ -84,8 +84,8 @@ Ends distribute(std::span<const PackedBox> list, std::size_t axis, int first_abo
     return ends;
 }
 
-// The same for a wall anywhere. Where it lies within a rounded position that tells less than all:
-// then polygons that begin or end in that position are looked up.
+// The same for a splitting plane anywhere. Where it lies within a rounded position that does not
+// decide all: then polygons that begin or end in that position are looked up.
 template <class AddLong>
 Ends distribute_exactly(const CellOperand& operand, std::span<const PackedBox> list,
                         const Frame& frame, std::size_t axis, std::int64_t last_below,
@@ -160,7 +160,7 @@ Box exact_box(const CellOperand& operand, const Cell& cell) {
 
 namespace {
 
-// What loops over all points or facets need is passed by value: for all that the compiler knows,
+// What loops over all points or facets need is passed by value: as far as the compiler can prove,
 // boxes that are written may be anything that is read through a pointer.
 void pack_points(Frame frame, std::span<const LatticePoint> points, PackedBox* out) {
     for (const LatticePoint& p : points) *out++ = packed_point(frame, p);
@@ -241,7 +241,7 @@ void reframe(CellOperand& operand, const CellTask& task, StackArena& arena) {
 
 namespace {
 
-// A wall, and what all lists of a task have in common there.
+// A splitting plane, and what all lists of a task have in common there.
 class Division {
 public:
     Division(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells)
@@ -295,8 +295,8 @@ private:
             if (!reach_[i]) reach_[i] = reach_in(task_, cells_[i]);
             return certainly_misses(o.polygon(e.id), *reach_[i]);
         };
-        // A facet that crosses the wall and is long for its cell may still miss one of the
-        // children.
+        // A facet that crosses the splitting plane and is long for its cell may still miss one of
+        // the children.
         const auto add_long = [&](const PackedBox& e, Ends to) {
             if (!misses(e, 0)) *to.below++ = e;
             if (!misses(e, 1)) *--to.above = e;
@@ -314,7 +314,7 @@ private:
     const std::array<Cell, 2>& cells_;
     std::size_t axis_;
     std::int64_t last_;
-    std::optional<int> first_above_;  // where rounded positions tell the sides apart
+    std::optional<int> first_above_;  // where rounded positions distinguish the sides
     bool small_;                      // all lists together
     int long_facet_;
     std::array<std::optional<Box>, 2> reach_;  // made for small lists
@@ -325,8 +325,9 @@ struct ListToDivide {
     std::array<CellOperand*, 2> out{};
 };
 
-// Room for both sides: for large lists enough unless many entries cross the wall, or in any case.
-// What stays free between them is never touched, but a few large blocks are all that arenas keep.
+// Room for both sides: for large lists enough unless many entries cross the splitting plane, or in
+// any case. What stays free between them is never touched, but a few large blocks are all that
+// arenas keep.
 std::span<PackedBox> take_room(const CellOperand& o, bool in_any_case, StackArena& arena) {
     constexpr std::size_t large = std::size_t{1} << 18;
     const std::size_t n = o.count;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A child of a cell needs a point off all polygons with the winding numbers of all operands there.
-// The parent's point is one child's too. For the other one the way leads straight through the wall:
-// so it meets little, and most lists have nothing near it. A tree that is cut along its own wall
-// knows a point itself. What is hit in an edge or a vertex gives up, and the next point is tried.
+// The parent's point is one child's too. For the other one the way leads straight through the
+// splitting plane: so it meets little, and most lists have nothing near it. A tree that is cut
+// along its own splitting plane has a point itself. What is hit in an edge or a vertex gives up,
+// and the next point is tried.
 
 #include <trisect/bsp/divide/reference_points.h>
 
@@ -100,9 +101,9 @@ bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> ax
     return true;
 }
 
-// The same for a point straight behind a wall, on whose other side the reference lies. What meets
-// the way there reaches over to that side, unless the way passes a lattice position behind the
-// wall.
+// The same for a point straight behind a splitting plane, on whose other side the reference lies.
+// What meets the way there reaches over to that side, unless the way passes a lattice position
+// behind the splitting plane.
 bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
                const CellTask& other_side, CellTask& out) {
     const auto k = static_cast<std::size_t>(wall.axis);
@@ -132,7 +133,7 @@ bool place_reference(const CellTask& task, const Wall& wall, int which, CellChil
             out.operands[i].winding = task.operands[i].winding;
         return true;
     }
-    // A tree that is cut along its own wall knows points on both sides, without a trace.
+    // A tree that is cut along its own splitting plane has points on both sides, without a trace.
     for (const CellOperand& o : out.operands) {
         if (o.is_list) continue;
         const CellNode* node = o.node;
@@ -141,7 +142,7 @@ bool place_reference(const CellTask& task, const Wall& wall, int which, CellChil
         if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
         break;
     }
-    // Straight through the wall; the segment hits little.
+    // Straight through the splitting plane; the segment hits little.
     FinePoint p = task.reference;
     for (const std::int64_t step : {3, 37, 59, 101}) {
         p.c[k] = wall.position + (which == 0 ? -step : step);

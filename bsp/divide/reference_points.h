@@ -10,7 +10,7 @@
 
 namespace trisect::detail {
 
-/// Both sides of a wall.
+/// Both sides of a splitting plane.
 using CellChildren = std::array<CellTask, 2>;
 
 /// A leaf that someone refined stands for its refinement.

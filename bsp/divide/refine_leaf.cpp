@@ -6,8 +6,8 @@
 // before they become leaves. Between rounded positions of the frame a comparison of packed boxes is
 // exact.
 //
-// The walls depend on the leaf and its cell alone. So it does not matter who asks first, nor
-// whether someone had everything refined before.
+// The splitting planes depend on the leaf and its cell alone. So the order of users does not
+// matter, nor whether someone had everything refined before.
 
 #include <trisect/bsp/divide/refine_leaf.h>
 
@@ -34,7 +34,7 @@ constexpr std::int64_t wall_offset = 83;
 // often.
 constexpr int levels_at_once = 4;
 // Where boxes get this short in the frame a leaf is left for a frame of its own.
-constexpr int coarse_extent = 128;
+constexpr int least_extent = 128;
 
 /// A point of a cell and the winding number there.
 struct KnownPoint {
@@ -69,7 +69,7 @@ public:
         root_.reference = {leaf.reference(), leaf.winding()};
     }
 
-    /// A node with children; null when no wall parts the polygons.
+    /// A node with children; null when no splitting plane separates the polygons.
     [[nodiscard]] std::shared_ptr<const CellNode> halved() {
         if (source_.box().intersected(root_.cell.lattice_box()).is_empty()) return nullptr;
         list_facets();
@@ -96,7 +96,7 @@ private:
     Frame frame_;
     StackArena arena_;
     ListInCell root_;
-    std::vector<PackedBox> cut_;  // of the list that is divided, what crosses the wall
+    std::vector<PackedBox> cut_;  // of the list that is divided, what crosses the splitting plane
 };
 
 PackedBox Halving::packed_facet(std::uint32_t facet) const {
@@ -146,7 +146,7 @@ std::optional<Cut> Halving::longest(const ListInCell& list, int shortest) const 
     return cut;
 }
 
-// The list's reference moved through the wall, with the winding number there.
+// The list's reference moved through the splitting plane, with the winding number there.
 std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, const Cell& cell,
                                                     int axis, std::int64_t wall,
                                                     std::int64_t direction) const {
@@ -224,12 +224,12 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
 }
 
 std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level) {
-    const auto cut = longest(list, level == 1 ? 1 : coarse_extent);
+    const auto cut = longest(list, level == 1 ? 1 : least_extent);
     if (!cut) return nullptr;
     const auto mark = arena_.mark();
     const auto halves = divided(list, *cut);
     std::shared_ptr<const CellNode> node;
-    // Both halves nearly as large as the whole: a wall that parts nothing.
+    // Both halves nearly as large as the whole: a splitting plane that separates nothing.
     const std::size_t most = list.size() - list.size() / 16;
     if (halves && ((*halves)[0].size() <= most || (*halves)[1].size() <= most)) {
         const std::int64_t wall = (*halves)[0].cell.hi[cut->axis];

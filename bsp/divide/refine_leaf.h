@@ -15,9 +15,9 @@ namespace trisect::detail {
 /// large are halved at once, a few levels deep.
 inline constexpr std::size_t refinable_leaf = 512;
 
-/// The leaf's two halves as a node with children, made when first asked for and kept with the leaf.
-/// The walls depend on the leaf and its cell only. Nothing when halving does not part the polygons.
-/// Safe to call from several threads at once.
+/// The leaf's two halves as a node with children, made on first use and kept with the leaf. The
+/// splitting planes depend on the leaf and its cell only. Nothing when halving does not separate
+/// the polygons. Safe to call from several threads at once.
 [[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell);
 
 /// Refines all large leaves below a node, those of refinements too. `threads` as in

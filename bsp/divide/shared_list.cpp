@@ -3,8 +3,8 @@
 // Polygons were sent to the cell by their boxes, rounded outwards, so that a list may hold some
 // that only pass by. To look at each would make sharing as dear as cutting. One polygon that
 // certainly lies in the cell is enough for the leaf's promise (a leaf without polygons is
-// homogeneous, others are rarely so); boxes tell that for nearly all. Those that lie within come
-// first: who reads the leaf later knows without looking that they need no clipping.
+// homogeneous, others are rarely so); boxes decide that for nearly all. Those that lie within come
+// first: later readers of the leaf need not test whether to clip them.
 
 #include <trisect/bsp/divide/shared_list.h>
 
@@ -25,7 +25,7 @@ namespace {
 // Positions of a task's frame that certainly lie in its cell.
 PackedBox certain_positions(const CellTask& task) {
     PackedBox b = packed_cell(task.frame, task.cell);
-    // Rounding outwards at walls of other frames: one position farther in is certain.
+    // Rounding outwards at splitting planes of other frames: one position farther in is certain.
     for (std::size_t k = 0; k < 3; ++k) {
         if (!task.frame.first_above(k, task.cell.lo[k] >> wall_bits) && b.low(k) > -packed_limit)
             ++b.lo[k];

@@ -20,7 +20,7 @@ namespace trisect::detail {
 
 namespace {
 
-// More polygons are hardly all across one axis.
+// More polygons are hardly all perpendicular to one axis.
 constexpr std::uint32_t most_polygons = 16;
 
 class Covering {
@@ -111,7 +111,7 @@ bool Covering::covers(const Slab& slab, const CellOperand& o) const {
         if (has_lo && box.lo[k] * wall_scale < slab.lo) return false;
         if (has_hi && box.hi[k] * wall_scale > slab.hi) return false;
     }
-    // Nothing of the operand's boundary is beyond the slab, so one point there tells.
+    // Nothing of the operand's boundary is beyond the slab, so one point there decides.
     const auto between = [](std::int64_t a, std::int64_t b) { return a + (b - a) / 2; };
     return (!has_lo || is_outside_at(o, k, between(task_.cell.lo[k], slab.lo))) &&
            (!has_hi || is_outside_at(o, k, between(slab.hi, task_.cell.hi[k])));

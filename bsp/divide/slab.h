@@ -13,8 +13,9 @@
 
 namespace trisect::detail {
 
-/// What an operand has of a cell where all its polygons are across one axis: the space between two
-/// positions, in 1/256 lattice units, or beyond one of them. The cell's walls stand for no bound.
+/// What an operand has of a cell where all its polygons are perpendicular to one axis: the space
+/// between two positions, in 1/256 lattice units, or beyond one of them. The cell's bounding planes
+/// stand for no bound.
 struct Slab {
     std::int32_t slot = -1;
     std::size_t axis = 0;

@@ -2,11 +2,12 @@
 //
 // A cell within one operand of a union is done at once, whatever others have in it. But a facet
 // that reaches out of it and bounds the result elsewhere is traced by all its crossings
-// (facet_outline.cpp): where it comes out of the cell it must be known what else covers it.
+// (facet_outline.cpp): where it comes out of the cell the other operands that contain it are
+// needed.
 //
-// Where the result's part of such a facet ends, another one crosses it outside of all covered
-// cells, or there would be no end. So a facet that no leaf has seen crossed needs nothing from
-// here, and most facets in covered cells are of that kind.
+// Where the result's part of such a facet ends, another one crosses it outside of all such cells,
+// or there would be no end. So a facet that no leaf has seen crossed needs nothing from here, and
+// most facets in such cells are of that kind.
 
 #include <trisect/bsp/evaluate/covered_cells.h>
 

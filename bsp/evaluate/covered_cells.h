@@ -17,7 +17,7 @@
 namespace trisect::detail {
 
 /// Remembers such cells until all other crossings are known. Then it shows which facets may bound
-/// the result elsewhere: only of those the crossings in covered cells count (traced_facets.h).
+/// the result elsewhere: only of those the crossings in such cells count (traced_facets.h).
 class CoveredCells {
 public:
     /// \pre all operands of the task with polygons are lists of whole facets of one source each

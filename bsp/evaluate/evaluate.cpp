@@ -22,7 +22,8 @@ using detail::SolidState;
 namespace {
 
 // Cells are kept apart from corners and from reference points, which have even coordinates in this
-// scale: an even offset could put a wall through one, and so could an offset of a unit or more.
+// scale: an even offset could put a splitting plane through one, and so could an offset of a unit
+// or more.
 void expect_valid(const EvaluateOptions& options) {
     if (options.wall_offset % 2 == 0 || options.wall_offset >= detail::wall_scale)
         throw UsageError("EvaluateOptions::wall_offset: must be odd and below " +

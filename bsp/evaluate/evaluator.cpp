@@ -4,21 +4,20 @@
 //
 //   1. operands without boundary in the cell are constant there: replace them by their value;
 //   2. take the first rule of the table (rules.h) that serves: nothing left is a homogeneous cell,
-//   of
-//      one operand left the subtree is shared, few polygons are arranged;
-//   3. the last rule cuts the cell. Where an operand already has a tree its wall is taken, so that
-//      its subtrees can be shared. A large leaf beside small ones is refined by itself, for
-//      everybody who uses it. Else the wall that soonest parts the operands.
+//      of one operand left the subtree is shared, few polygons are arranged;
+//   3. the last rule cuts the cell. Where an operand already has a tree its plane is taken, so that
+//      its subtrees can be shared. A large leaf beside small ones is refined by itself, for all its
+//      users. Else the splitting plane that separates the operands soonest.
 //
 // The idea is EMBER's (Trettner, Nehring-Wirxel, Kobbelt 2022); keeping the cells, so that the next
 // operation finds them, is Nehring-Wirxel, Trettner, Kobbelt 2021. Two things matter more than
-// arithmetic. Walls lie off the lattice, so nothing is listed twice because its box ends at a wall.
-// And every cell knows a reference point with all winding numbers, so that classification never
-// leaves the cell.
+// arithmetic. Splitting planes lie off the lattice, so nothing is listed twice because its box ends
+// at a splitting plane. And every cell has a reference point with all winding numbers, so that
+// classification never leaves the cell.
 //
-// Cells are independent, so the two sides of a wall may be solved by two threads. Results are put
-// together by their position in the tree and not by their time, and nothing that a thread keeps
-// between cells decides anything; so the tree is the same for any number of threads.
+// Cells are independent, so the two sides of a splitting plane may be solved by two threads.
+// Results are put together by their position in the tree and not by their time, and nothing that a
+// thread keeps between cells decides anything; so the tree is the same for any number of threads.
 
 #include <trisect/bsp/evaluate/evaluator.h>
 
@@ -62,7 +61,7 @@ namespace trisect::detail {
 namespace {
 
 // Cells with fewer polygons are not worth a task of their own.
-constexpr std::uint64_t parallel_size = 4096;
+constexpr std::uint64_t parallel_polygons = 4096;
 // A leaf that outnumbers all others in its cell so many times is refined for good.
 constexpr std::uint64_t outnumbering = 4;
 
@@ -169,7 +168,7 @@ void Worker::prune(CellTask& task) {
         any = true;
     }
     if (any) drop(task);
-    // What is left may cover itself.
+    // What is left may overlap itself.
     if (task.operands.size() > 2 && find_covered(task, values_, findings_.incomplete)) drop(task);
 }
 
@@ -479,7 +478,7 @@ std::optional<CellRef> unchanged(const CellTask& task, const std::array<CellRef,
     return std::nullopt;
 }
 
-// What a cell is, when the two sides of its wall are known.
+// What a cell is, when the two sides of its splitting plane are known.
 CellRef merged(const CellTask& task, const Wall& wall, std::array<CellRef, 2> results) {
     if (auto node = unchanged(task, results)) return *std::move(node);
     if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&
@@ -498,7 +497,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
             if (o.is_list) listed += o.count;
     const auto held = shared_.memory.hold(listed * sizeof(PackedBox));
     std::array<CellRef, 2> results;
-    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_polygons) {
         SharedFailure& failure = shared_.failure;
         fork_join([&] { failure.guard([&] { results[1] = shared_.worker().solve(children[1]); }); },
                   [&] { failure.guard([&] { results[0] = deep_solve(children[0]); }); });
@@ -572,7 +571,7 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
     for (const auto& s : solids) polygons += s->root().node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
     shared.parallel =
-        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_size;
+        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_polygons;
     Evaluation result;
     if (shared.parallel) {
         tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic

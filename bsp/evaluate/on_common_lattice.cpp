@@ -30,8 +30,8 @@ namespace trisect::detail {
 
 namespace {
 
-// Rebuilds one tree as a single unrefined leaf on a finer lattice. Walls of the old tree survive as
-// edges of fragments only: on the finer lattice they would no longer be off the lattice.
+// Rebuilds one tree as a single unrefined leaf on a finer lattice. Splitting planes of the old tree
+// survive as edges of fragments only: on the finer lattice they would no longer be off the lattice.
 class Refiner {
 public:
     Refiner(int from, int to) : shift_(from - to), exponent_(to) {}
@@ -165,7 +165,8 @@ std::unordered_set<const Source*> sources_of(const SolidState& state) {
     return out;
 }
 
-// A few units are added for reference points and walls, which lie just beyond the corners.
+// A few units are added for reference points and splitting planes, which lie just beyond the
+// corners.
 std::int64_t largest_coordinate(const std::unordered_set<const Source*>& sources) {
     std::int64_t largest = 0;
     for (const Source* s : sources) {

@@ -13,7 +13,7 @@
 
 namespace trisect::detail {
 
-/// Replaces every state that lies on another lattice than the common one, and tells that lattice
+/// Replaces every state that lies on another lattice than the common one, and returns that lattice
 /// and what was rounded on the way to it. The common lattice is the finest lattice of an operand,
 /// or the finest that is coarser and on which every operand fits. Solids on it already keep their
 /// trees. Those that become finer are equal sets, unrefined, under the same names. Those that

@@ -18,7 +18,7 @@ namespace trisect::detail {
 namespace {
 
 // Of an operand that is all facets of one mesh: the mesh, else null.
-const Source* mesh_of(const SolidState& solid) {
+const Source* only_mesh_of(const SolidState& solid) {
     const CellNode& root = *solid.root().node;
     if (!solid.embedded || !root.is_leaf() || root.deferred() != nullptr || root.size() == 0)
         return nullptr;
@@ -48,7 +48,7 @@ bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
     if (total_size(solids) <= std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
         return false;
     return std::ranges::all_of(solids, [](const auto& s) {
-        const Source* const mesh = mesh_of(*s);
+        const Source* const mesh = only_mesh_of(*s);
         return mesh != nullptr && lies_outside(s->root().node->reference(), mesh->box()) &&
                PrismFacets::may_be_of_prism({mesh, nullptr, 0, false, false});
     });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The root's reference point. For imported meshes it is a corner outside of everything, where all
-// winding numbers are known for nothing; a solid with a tree already knows the numbers at points of
-// its own, and from there a straight segment is traced. A segment that meets an edge or a vertex
-// is given up for one to another point, farther out.
+// winding numbers are free; a solid with a tree already has the numbers at points of its own, and
+// from there a straight segment is traced. A segment that meets an edge or a vertex is given up for
+// one to another point, farther out.
 
 #include <trisect/bsp/evaluate/root_task.h>
 
@@ -21,7 +21,7 @@ namespace trisect::detail {
 namespace {
 
 // A point outside the boxes of all leaves, three units beyond their common corner; or, when there
-// is a tree, any point that it knows.
+// is a tree, any of its points.
 FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> solids) {
     Box all;
     for (const auto& s : solids) {

@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint32_t least_facets = 64;
 
 // The mesh that a solid was imported from, if the solid is still that; else null.
-const Source* mesh_of(const SolidState& solid) {
+const Source* imported_mesh_of(const SolidState& solid) {
     const auto* const tree = std::get_if<CellTree>(&solid.form);
     if (tree == nullptr) return nullptr;
     const CellNode& root = *tree->root.node;
@@ -35,8 +35,8 @@ const Source* mesh_of(const SolidState& solid) {
 
 // The same points and triangles in the same order, and the same side of them.
 bool are_equal_meshes(const SolidState& a, const SolidState& b) {
-    const LatticeMesh& m = mesh_of(a)->mesh();
-    const LatticeMesh& n = mesh_of(b)->mesh();
+    const LatticeMesh& m = imported_mesh_of(a)->mesh();
+    const LatticeMesh& n = imported_mesh_of(b)->mesh();
     return a.lattice == b.lattice && a.embedded == b.embedded && a.far_out == b.far_out &&
            a.root().complemented == b.root().complemented &&
            a.root().node->polygons().flipped() == b.root().node->polygons().flipped() &&
@@ -53,8 +53,8 @@ std::uint64_t key_of(const Source& mesh) {
 
 // Iterative, and nested operators of one kind are joined as they are met: a chain of a hundred
 // thousand differences is one conjunction, made in linear time. Nodes with several parents are
-// translated once and stay nodes with several parents; to find them, only those that somebody else
-// holds as well have to be counted.
+// translated once and stay nodes with several parents; to find them, only those with other owners
+// have to be counted.
 class Translator {
 public:
     Translation translate(const Expression& expression) {
@@ -159,7 +159,7 @@ private:
     // A file that was read twice is one operand: nothing has to be compared then, where all would
     // coincide.
     std::int32_t slot_of_equal_mesh(const SolidState& solid, std::int32_t next) {
-        const Source* const mesh = mesh_of(solid);
+        const Source* const mesh = imported_mesh_of(solid);
         if (mesh == nullptr) return next;
         const std::uint64_t key = key_of(*mesh);
         const auto [begin, end] = meshes_.equal_range(key);

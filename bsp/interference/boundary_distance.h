@@ -31,7 +31,7 @@ struct BoundaryDistance {
 };
 
 /// Nothing when one of the models is empty. Of a solid inside of another it is the clearance to its
-/// walls; whether it is inside, interfere() tells.
+/// boundary; interfere() decides whether it is inside.
 ///
 /// Cost: best-first search over pairs of boxes, typically a few hundred of them.
 [[nodiscard]] std::optional<BoundaryDistance> boundary_distance(const InterferenceModel& a,

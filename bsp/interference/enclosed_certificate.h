@@ -56,7 +56,7 @@ struct EnclosedCertificate {
 
 /// Asks for the first contact and looks for a certificate of the answer. It may stay incomplete
 /// where the deepest point found is not deep enough, where solids graze each other and a free span
-/// ends nearer to the contact than doubles can tell, or after `max_nodes` a span. Costs some
+/// ends nearer to the contact than doubles can decide, or after `max_nodes` a span. Costs some
 /// hundred times the answer. \throw what enclosed_first_contact throws.
 [[nodiscard]] EnclosedCertificate certify_enclosed_contact(
     const InterferenceModel& a, const EnclosedMotion& motion_a, const InterferenceModel& b,

@@ -38,7 +38,7 @@ struct EnclosedContact {
     double free_until = 0;
     /// Proved: at this time the solids have a point in common.
     std::optional<double> contact_by;
-    /// Whether contact_by - free_until is at most the width asked for. When it is not, the solids
+    /// Whether contact_by - free_until is at most the width requested. When it is not, the solids
     /// come so near each other at free_until, without certainly meeting, that nothing is decided.
     bool is_narrow = false;
     /// The times before contact_by, or before the end, at which it could neither be proved that the

@@ -33,7 +33,7 @@ public:
     virtual ~MotionLaw() = default;
     /// \pre 0 <= from <= to <= duration, and no break strictly between them. Bounds may be infinite
     /// where the range is long; they must tend to zero with it, up to rounding, or questions stay
-    /// undecided. Called from the thread that asks.
+    /// undecided. Called from the querying thread.
     [[nodiscard]] virtual MotionEnclosure enclose(double from, double to) const = 0;
 };
 
@@ -101,7 +101,7 @@ public:
     [[nodiscard]] std::span<const double> breaks() const {
         return law_ != nullptr ? std::span<const double>(breaks_) : still_breaks;
     }
-    /// Whether the pose certainly never changes; then any range of time may be asked about.
+    /// Whether the pose certainly never changes; then any range of time may be queried.
     [[nodiscard]] bool is_still() const { return is_still_ || law_ == nullptr; }
     /// \pre as MotionLaw::enclose.
     [[nodiscard]] MotionEnclosure enclose(double from, double to) const {

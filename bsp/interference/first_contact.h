@@ -46,7 +46,7 @@ struct FirstContactOptions {
 struct FirstContactStats {
     std::uint64_t intervals = 0;       ///< parts of the range of the parameter looked at
     std::uint64_t box_tests = 0;       ///< one swept box against four
-    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were asked for
+    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were computed
     std::uint64_t parting_pairs = 0;   ///< pairs of boxes left out since they move apart
 };
 

@@ -25,6 +25,11 @@ enum class Relation : std::uint8_t {
     Equal         ///< the same set
 };
 
+/// Whether the intersection of two solids in this relation has a volume.
+[[nodiscard]] constexpr bool interiors_meet(Relation r) {
+    return r != Relation::Disjoint && r != Relation::Touching;
+}
+
 /// "disjoint", "touching", "overlapping", "inside", "contains", "equal".
 [[nodiscard]] const char* to_string(Relation relation);
 
@@ -106,13 +111,13 @@ struct InterferenceOptions {
 
 struct InterferenceResult {
     Relation relation = Relation::Disjoint;
-    /// In ascending order, if asked for.
+    /// In ascending order, if requested.
     std::vector<Contact> contacts;
-    /// By falling dimension, then by entities, if asked for.
+    /// By falling dimension, then by entities, if requested.
     std::vector<ContactRegion> regions;
 };
 
-/// Relation of A under its pose to B under its pose, and what `options` ask for.
+/// Relation of A under its pose to B under its pose, and what `options` request.
 ///
 /// Exact for the poses as given. The empty set is Disjoint from everything. Deterministic. Cost:
 /// the pairs of triangles whose boxes meet; where solids touch, a few microseconds for each vertex

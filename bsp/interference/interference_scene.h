@@ -23,7 +23,7 @@ struct BodyId {
     friend auto operator<=>(const BodyId&, const BodyId&) = default;
 };
 
-/// Two bodies are asked about only if each is in a group that the other one looks at.
+/// Two bodies are compared only if each is in a group of the other one's mask.
 struct CollisionFilter {
     std::uint32_t groups = 1;  ///< one bit a group
     std::uint32_t looks_at = ~std::uint32_t{0};
@@ -34,8 +34,8 @@ struct LinkOptions {
     /// Where the frame of the joint is in the coordinates of the body that carries the link.
     Pose mount;
     CollisionFilter filter;
-    /// Whether to ask about the link and the body that carries it. Parts that share a pin or a
-    /// groove touch all the time.
+    /// Whether to compare the link and the body that carries it. Parts that share a pin or a groove
+    /// touch all the time.
     bool meets_carrier = false;
 };
 
@@ -66,7 +66,7 @@ struct ScenePair {
     BodyId a;
     BodyId b;                                ///< its index is greater
     Relation relation = Relation::Disjoint;  ///< of a to b: Inside means that a is inside b
-    std::vector<Contact> contacts;           ///< where asked for; `a` is the first solid
+    std::vector<Contact> contacts;           ///< where requested; `a` is the first solid
 };
 
 /// What the last query did.
@@ -83,7 +83,7 @@ struct SceneStats {
 
 /// Bodies, each a model under a pose. A pose is exact (Pose); so every relation returned is that of
 /// the solids as they are placed, for flush parts too. Boxes around the bodies, rounded outwards,
-/// decide only which pairs are not asked about.
+/// only exclude pairs.
 ///
 /// A link is a body that another one carries through a joint: its pose is the product of the
 /// carrier's pose, the mount and the motion of the joint, exactly. So along a chain bits add up:
@@ -123,7 +123,7 @@ public:
     void set_joints(std::span<const JointValue> values);
 
     void set_filter(BodyId body, const CollisionFilter& filter);
-    /// Never asks about these two again, or does so again.
+    /// Excludes these two from now on, or includes them again.
     void ignore(BodyId a, BodyId b, bool ignored = true);
 
     [[nodiscard]] bool contains(BodyId body) const;

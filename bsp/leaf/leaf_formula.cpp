@@ -15,7 +15,7 @@
 
 namespace trisect::detail {
 
-using Kind = Residual::Kind;
+using FormulaKind = Residual::Kind;
 
 namespace {
 
@@ -29,7 +29,7 @@ void LeafFormula::start(const LeafProblem& problem) {
     rule_ = problem.options->winding;
     constant_ = -1;
     table_.clear();
-    if (problem.formula->kind == Kind::Constant) {
+    if (problem.formula->kind == FormulaKind::Constant) {
         constant_ = problem.formula->value ? 1 : 0;
     } else if (operands_ <= tabulated && !problem.formula->is_large()) {
         tabulate(problem);
@@ -73,7 +73,7 @@ void LeafFormula::add_parent(std::int32_t& first, std::int32_t node) {
 
 // The number of a node, or that of an operand as its complement.
 std::int32_t LeafFormula::compile(const Residual& formula) {
-    if (formula.kind == Kind::Slot)
+    if (formula.kind == FormulaKind::Slot)
         return ~operand_of_slot_[static_cast<std::size_t>(formula.slot)];
     if (remembers_)
         if (const auto known = known_.find(&formula); known != known_.end()) return known->second;
@@ -83,7 +83,7 @@ std::int32_t LeafFormula::compile(const Residual& formula) {
     std::vector<std::int32_t> terms;
     terms.reserve(formula.children.size());
     for (const Residual::Ref& c : formula.children) {
-        if (c->kind == Kind::Constant) {
+        if (c->kind == FormulaKind::Constant) {
             node.inside += c->value ? 1 : 0;
             continue;
         }
@@ -105,16 +105,16 @@ std::int32_t LeafFormula::compile(const Residual& formula) {
 
 int LeafFormula::value_of(const Node& node, int inside, int unknown) {
     switch (node.kind) {
-        case Kind::And:
+        case FormulaKind::And:
             return inside + unknown < node.terms ? 0 : (unknown > 0 ? -1 : 1);
-        case Kind::Or:
+        case FormulaKind::Or:
             return inside > 0 ? 1 : (unknown > 0 ? -1 : 0);
-        case Kind::Xor:
+        case FormulaKind::Xor:
             return unknown > 0 ? -1 : inside % 2;
-        case Kind::Not:
+        case FormulaKind::Not:
             return unknown > 0 ? -1 : 1 - inside;
-        case Kind::Slot:
-        case Kind::Constant:
+        case FormulaKind::Slot:
+        case FormulaKind::Constant:
             break;
     }
     return -1;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 void LeafWork::start(const LeafProblem& leaf, EvaluateStats& counters) {
@@ -22,7 +24,7 @@ void LeafWork::start(const LeafProblem& leaf, EvaluateStats& counters) {
 }
 
 void LeafWork::add_operand(LeafIndex operand) {
-    const LeafOperand& o = problem->operands[u(operand)];
+    const LeafOperand& o = problem->operands[as_index(operand)];
     const Box cell = problem->cell.lattice_box();
     const Source* source = nullptr;
     LeafIndex sheet = -1;
@@ -61,7 +63,7 @@ LeafIndex LeafWork::sheet_of(const Source* source, LeafIndex operand) {
 void LeafWork::set_contacts(std::span<const std::pair<LeafIndex, LeafContact>> pairs) {
     // Counting sort by item: `first_contact_[i + 1]` runs from the start of item i to its end.
     std::fill(first_contact_.begin(), first_contact_.end(), 0);
-    for (const auto& p : pairs) ++first_contact_[u(p.first) + 1];
+    for (const auto& p : pairs) ++first_contact_[as_index(p.first) + 1];
     std::size_t before = 0;
     for (std::size_t i = 1; i < first_contact_.size(); ++i) {
         const std::size_t count = first_contact_[i];
@@ -69,7 +71,8 @@ void LeafWork::set_contacts(std::span<const std::pair<LeafIndex, LeafContact>> p
         before += count;
     }
     contacts_.resize(pairs.size());
-    for (const auto& [item, contact] : pairs) contacts_[first_contact_[u(item) + 1]++] = contact;
+    for (const auto& [item, contact] : pairs)
+        contacts_[first_contact_[as_index(item) + 1]++] = contact;
     for (std::size_t i = 0; i + 1 < first_contact_.size(); ++i) {
         const auto at = [&](std::size_t k) {
             return contacts_.begin() + static_cast<std::ptrdiff_t>(first_contact_[k]);

@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -25,7 +26,7 @@ struct LeafItem {
     bool contained = false;         ///< lies in the cell
     bool cut = false;               ///< another one runs through its interior
     bool covered = false;           ///< another one in its plane shares interior with it
-    WorkPolygon shape;              ///< unclipped; made when asked for
+    WorkPolygon shape;              ///< unclipped; made on demand
 
     [[nodiscard]] bool is_whole() const { return !cut && !covered; }
 };
@@ -44,7 +45,7 @@ struct LeafPiece {
     /// How winding numbers change across, as an index into `steps`; -1 when only the item's own
     /// operand changes.
     LeafIndex step = -1;
-    bool dropped = false;  ///< a coincident piece speaks for it
+    bool dropped = false;  ///< a coincident piece represents it
     WorkPolygon shape;
 };
 
@@ -59,13 +60,11 @@ struct LeafWork {
 
     /// Forgets the last leaf and lists the polygons of this one.
     void start(const LeafProblem& leaf, EvaluateStats& counters);
-
-    [[nodiscard]] static std::size_t u(LeafIndex i) { return static_cast<std::size_t>(i); }
     [[nodiscard]] LeafIndex item_count() const { return static_cast<LeafIndex>(items.size()); }
-    [[nodiscard]] LeafItem& item(LeafIndex i) { return items[u(i)]; }
-    [[nodiscard]] const LeafItem& item(LeafIndex i) const { return items[u(i)]; }
+    [[nodiscard]] LeafItem& item(LeafIndex i) { return items[as_index(i)]; }
+    [[nodiscard]] const LeafItem& item(LeafIndex i) const { return items[as_index(i)]; }
     [[nodiscard]] const LeafOperand& operand_of(const LeafItem& i) const {
-        return problem->operands[u(i.operand)];
+        return problem->operands[as_index(i.operand)];
     }
     /// The polygon with its corners. Most facets of a leaf meet nothing and never need them.
     const WorkPolygon& shape(LeafIndex i) {
@@ -81,8 +80,8 @@ struct LeafWork {
     }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const LeafContact> contacts(LeafIndex i) const {
-        return {contacts_.data() + first_contact_[u(i)],
-                contacts_.data() + first_contact_[u(i) + 1]};
+        return {contacts_.data() + first_contact_[as_index(i)],
+                contacts_.data() + first_contact_[as_index(i) + 1]};
     }
     /// Takes (item, contact) pairs in any order.
     void set_contacts(std::span<const std::pair<LeafIndex, LeafContact>> pairs);

@@ -9,10 +9,10 @@
 // polygons that touch it.
 //
 // What keeps that consistent is one rule: regions are open. What lies on a cut belongs to the on
-// side and to nobody else. A part of a cut polygon still has an edge on the cut, and so has a
-// polygon that merely touches it; if that edge were seen again below, it would be found on the
-// border of another cut and indexed a second time, where no point can ever be located. So corners
-// and edges die when a cut runs through them, and the dead are never handed on.
+// side and to no other. A part of a cut polygon still has an edge on the cut, and so has a polygon
+// that merely touches it; if that edge were seen again below, it would be found on the border of
+// another cut and indexed a second time, where no point can ever be located. So corners and edges
+// die when a cut runs through them, and the dead are never handed on.
 //
 // Only planes of polygons with area in the cell cut it. Then an empty side needs no test (see
 // bsp_build.cpp for the argument): below is inside, above outside. And every plane and line cuts
@@ -284,7 +284,7 @@ namespace {
 
 using detail::msp::NodeList;
 
-/// What remains when nodes that tell nothing apart are left out, and planes that no node names.
+/// What remains when redundant nodes are left out, and planes that no node names.
 class Compaction {
 public:
     Compaction(const NodeList& list, const std::vector<Plane>& planes)

@@ -52,7 +52,7 @@ template <class Items>
     return splits * weight + (below > above ? below - above : above - below);
 }
 
-/// The item whose plane is to cut. `Items` knows for each item its cutting plane (`cut_of`), its
+/// The item whose plane is to cut. `Items` has for each item its cutting plane (`cut_of`), its
 /// parts (`parts`), points and size (`size`), and for a number its plane (`plane`).
 /// \pre the list is not empty, options.candidates >= 1
 template <class Items>

@@ -4,8 +4,8 @@
 // diagonal would need the corners' coordinates, hundreds of bits each. But it can be cut by what is
 // known already, the lines of its own edges. That is a BSP tree in the plane (an autopartition):
 // start with a rectangle around the face, cut it by the line of an edge, go on in both parts with
-// the edges that lie there. A part without edges is all face or all outside; which one is told by
-// the edge that cut it off, since the face lies to the left of its edges.
+// the edges that lie there. A part without edges is all face or all outside; which one is decided
+// by the edge that cut it off, since the face lies to the left of its edges.
 //
 // The new side of a part may be an edge of the face here, and run within the face there. It is
 // divided at the ends of the edges on it, so parts have straight corners.

@@ -2,9 +2,9 @@
 //
 // Polygons are cut as in kernel/convex_polygon.cpp (Bernstein and Fussell 2009): the cutting plane
 // is inserted into the cyclic list of edges, and no coordinate is constructed. Two things differ.
-// Edges and corners carry what they are on the boundary, so that a piece still knows which of its
-// edges are real; and corners may be straight, as the corners of faces are where a neighbour ends.
-// A plane that runs through the interior still meets the border in exactly two places.
+// Edges and corners carry what they are on the boundary, so that a piece still identifies which of
+// its edges are real; and corners may be straight, as the corners of faces are where a neighbour
+// ends. A plane that runs through the interior still meets the border in exactly two places.
 //
 // A point is numbered once and named by three planes. The symbolic stage compares numbers; so the
 // commonest degenerate question, a cut by a plane that made the point, costs three comparisons.

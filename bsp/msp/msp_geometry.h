@@ -20,7 +20,7 @@ using PlaneIndex = std::uint32_t;
 using PointIndex = std::uint32_t;
 using Label = MspTree::Ref;  ///< a leaf: what a point, an open edge or a face is
 
-/// Of two entities that contain a point, the one that speaks: the lower dimension, then the smaller
+/// Of two entities that contain a point, the representative: the lower dimension, then the smaller
 /// handle.
 [[nodiscard]] inline Label more_specific(Label a, Label b) {
     if (a.kind() != b.kind()) return a.kind() > b.kind() ? a : b;

@@ -42,7 +42,7 @@ public:
         for (std::size_t k = 0; k < 3; ++k) sum += (hi_[k] - lo_[k]) * (hi_[k] - lo_[k]);
         return sum;
     }
-    /// The strict side on which all of the box lies, or On when doubles cannot tell.
+    /// The strict side on which all of the box lies, or On when doubles cannot decide.
     [[nodiscard]] Side side(const Plane& plane) const {
         double s = plane.approx_offset();
         double reach = 0;
@@ -73,7 +73,7 @@ struct Group {
     static constexpr std::size_t capacity = 64;
 
     Extent extent;
-    std::optional<OrientedBox> oriented;  ///< when somebody needed it
+    std::optional<OrientedBox> oriented;  ///< made on demand
     std::uint32_t first_key = ~std::uint32_t{0};
     ItemIndex first_item = 0;  ///< that has the smallest key
     std::vector<ItemIndex> items;

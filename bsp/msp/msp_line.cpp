@@ -5,15 +5,15 @@
 // A region of a plane is cut by a line that carries some segment: an edge in the plane, or the
 // trace of a face that crosses it. Leaves have to be labelled that no segment reaches: the rest of
 // the line, and the parts of the region on which nothing is left. The naive way takes a sample
-// point of each and asks somebody who knows. But a point inside an arbitrary cell has no name that
-// is as short as the planes', and somebody who knows costs as much as the tree that is being built.
+// point of each and queries an oracle. But a point inside an arbitrary cell has no name that is as
+// short as the planes', and an oracle costs as much as the tree that is being built.
 //
 // Everything can be seen from the line itself instead.
 //
 //   Beside a segment. Perpendicular to the line, the polygons that touch it are rays, and any
 //   direction lies in a wedge between two of them, or on one. On one: the plane continues as that
 //   face. In a wedge: the next ray counter-clockwise bounds it, and whether the wedge is inside is
-//   told by the side of that face which looks into it. That needs signs of cross and dot products
+//   decided by the side of that face which looks into it. It needs signs of cross and dot products
 //   of normals only (as in brep/radial_order.cpp).
 //
 //   Beyond a segment's end, where the line goes on and nothing lies on it. Around the end, within
@@ -32,15 +32,15 @@
 // the plane or crosses it (no face of the plane goes on behind it), and an odd number that touch
 // from above. Others change nothing: what is on one side is on the other. Lines are chosen by
 // polygons that lie in the plane or cross it, as long as there are any; if there are none, no face
-// in the plane ends in the region, so it covers all of it or nothing, and it is known which.
+// in the plane ends in the region, so it contains all of it or nothing, as decided before.
 //
 // A part of the region on which no segment is left is all alike, and what it is was seen from the
 // line that cut it off. This is the rule of Thibault and Naylor (1987) for the empty side of a
 // plane, one dimension lower; as there, it holds because the line was chosen by a segment in this
 // very region.
 //
-// Source of the structure: Vanecek (1991). How he labels is not told in what we could read; the
-// above is ours.
+// Source of the structure: Vanecek (1991). His labelling is not described in what we could read;
+// the above is ours.
 
 #include <trisect/bsp/msp/msp_line.h>
 
@@ -174,7 +174,7 @@ std::size_t MspLine::place_of(PointIndex p) const {
     return static_cast<std::size_t>(at - places_.begin());
 }
 
-// Segment by segment; intervals that several of them cover are looked at with all.
+// Segment by segment; intervals that several of them share are looked at with all.
 void MspLine::cover(const LineContents& contents) {
     struct Event {
         std::size_t place;
@@ -192,7 +192,7 @@ void MspLine::cover(const LineContents& contents) {
     std::vector<Contact> contacts;
     std::size_t e = 0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        // What runs on through the place tells what the place is, beside its own labels.
+        // What runs on through the place determines what the place is, beside its own labels.
         const auto pass = [&](std::size_t segment) {
             const Label own = contents.along[segment].contact.own;
             Place& p = places_[i];

@@ -15,7 +15,7 @@ namespace trisect::detail::msp {
 
 /// A line as the common points of two planes, of which the first is the plane of the region that
 /// the line cuts. Directed: from lexicographically smaller to larger points. Left is the left-hand
-/// side of someone who stands on top of the plane and looks along.
+/// side as seen from above the plane, looking along the line.
 struct LineFrame {
     PlaneIndex plane = 0;  ///< of the region
     PlaneIndex cut = 0;    ///< meets it in the line
@@ -54,7 +54,7 @@ struct Ray {
     Contact contact;
 };
 
-/// What an MspLine collects before it can tell.
+/// Data that an MspLine collects before it decides.
 struct LineContents {
     std::vector<Segment> along;       ///< on the line
     std::vector<Ray> rays;            ///< leave it to the left
@@ -76,7 +76,7 @@ public:
 
     /// Whom to believe about what lies beside the line; see the .cpp.
     enum class Evidence : std::uint8_t {
-        Around,   ///< nobody; `around` is known to be on both sides
+        Around,   ///< no one; `around` is on both sides
         Settled,  ///< contacts that settle it; there is one
         All       ///< all contacts; there is one
     };
@@ -93,7 +93,7 @@ public:
 
 private:
     struct Interval {
-        bool is_covered = false;  // by a contact, which knows the label
+        bool is_covered = false;  // by a contact, which has the label
         bool is_told = false;     // by contacts, what is to the left and right
         Label label;
         Label left;

@@ -9,19 +9,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail::msp {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector without(const Vector& v, const Vector& axis) {
+Vector3 without(const Vector3& v, const Vector3& axis) {
     const double along = dot(v, axis);
     return {v[0] - along * axis[0], v[1] - along * axis[1], v[2] - along * axis[2]};
 }
-Vector unit(const Vector& v, const Vector& otherwise) {
+Vector3 unit(const Vector3& v, const Vector3& otherwise) {
     const double length = std::sqrt(dot(v, v));
     if (!(length > 0)) return otherwise;
     return {v[0] / length, v[1] / length, v[2] / length};
@@ -37,17 +35,19 @@ const Approximation& farthest(std::span<const Approximation> points, Measure&& m
 }  // namespace
 
 OrientedBox::OrientedBox(std::span<const Approximation> points) {
-    const Vector start = points.front().c;
-    const auto distance_from = [](const Vector& o) {
-        return [o](const Vector& p) { return dot(minus(p, o), minus(p, o)); };
+    const Vector3 start = points.front().c;
+    const auto distance_from = [](const Vector3& o) {
+        return [o](const Vector3& p) { return dot(minus(p, o), minus(p, o)); };
     };
-    const Vector one_end = farthest(points, distance_from(start)).c;
-    const Vector other_end = farthest(points, distance_from(one_end)).c;
-    std::array<Vector, 3> direction{};
+    const Vector3 one_end = farthest(points, distance_from(start)).c;
+    const Vector3 other_end = farthest(points, distance_from(one_end)).c;
+    std::array<Vector3, 3> direction{};
     direction[0] = unit(minus(other_end, one_end), {1, 0, 0});
-    const auto off_line = [&](const Vector& p) { return without(minus(p, one_end), direction[0]); };
-    const Vector aside = off_line(
-        farthest(points, [&](const Vector& p) { return dot(off_line(p), off_line(p)); }).c);
+    const auto off_line = [&](const Vector3& p) {
+        return without(minus(p, one_end), direction[0]);
+    };
+    const Vector3 aside = off_line(
+        farthest(points, [&](const Vector3& p) { return dot(off_line(p), off_line(p)); }).c);
     direction[1] = unit(aside, {0, 0, 0});
     direction[2] = {direction[0][1] * direction[1][2] - direction[0][2] * direction[1][1],
                     direction[0][2] * direction[1][0] - direction[0][0] * direction[1][2],
@@ -56,8 +56,8 @@ OrientedBox::OrientedBox(std::span<const Approximation> points) {
     std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL};
     std::array<double, 3> hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (const Approximation& p : points) {
-        const Vector v = minus(p.c, one_end);
-        Vector rest = v;
+        const Vector3 v = minus(p.c, one_end);
+        Vector3 rest = v;
         for (std::size_t i = 0; i < 3; ++i) {
             const double along = dot(rest, direction[i]);
             lo[i] = std::min(lo[i], along);
@@ -81,7 +81,7 @@ OrientedBox::OrientedBox(std::span<const Approximation> points) {
 }
 
 Side OrientedBox::side(const Plane& plane) const {
-    const Vector n{plane.approx_normal(0), plane.approx_normal(1), plane.approx_normal(2)};
+    const Vector3 n{plane.approx_normal(0), plane.approx_normal(1), plane.approx_normal(2)};
     double s = plane.approx_offset();
     double terms = std::fabs(s);
     double reach = 0;
@@ -90,7 +90,7 @@ Side OrientedBox::side(const Plane& plane) const {
         terms += std::fabs(n[k] * centre_[k]);
         reach += std::fabs(n[k]) * slack_;
     }
-    for (const Vector& a : axis_) {
+    for (const Vector3& a : axis_) {
         reach += std::fabs(dot(n, a));
         // The dot product's own rounding.
         terms += std::fabs(n[0] * a[0]) + std::fabs(n[1] * a[1]) + std::fabs(n[2] * a[2]);

@@ -17,7 +17,7 @@ class OrientedBox {
 public:
     /// \pre there are points
     explicit OrientedBox(std::span<const Approximation> points);
-    /// The strict side on which all of the box lies, or On when doubles cannot tell.
+    /// The strict side on which all of the box lies, or On when doubles cannot decide.
     [[nodiscard]] Side side(const Plane& plane) const;
 
 private:

@@ -9,7 +9,7 @@
 // touches from one side is a lone point.
 //
 // Lines are chosen among the segments' lines until no segment is left in a part. A lone point needs
-// a line too, but a line through it bounds nothing, so it would tell nothing about its sides. So
+// a line too, but a line through it bounds nothing, so it would decide nothing about its sides. So
 // lone points wait until their part has no segment any more; then what is around them is known.
 // Segments where polygons only touch the plane wait too: a face of the plane may go on behind them
 // (msp_line.cpp).

@@ -27,6 +27,7 @@
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/msp/msp_face_parts.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail::msp {
 
@@ -82,9 +83,9 @@ private:
             h = brep_.twin(brep_.prev(h));
         } while (count < 3 && h != brep_.outgoing(v));
         for (int axis = 0; count < 3 && axis < 3; ++axis) {
-            const PlaneIndex p = at.is_lattice()
-                                     ? plane_of_coordinate(axis, at.lattice()[axis])
-                                     : geometry().add_plane(at.plane_point()->planes[u(axis)]);
+            const PlaneIndex p =
+                at.is_lattice() ? plane_of_coordinate(axis, at.lattice()[axis])
+                                : geometry().add_plane(at.plane_point()->planes[as_index(axis)]);
             take(p);
         }
         TRISECT_EXPECTS(count == 3, "MSP tree: a vertex without three planes");
@@ -92,7 +93,7 @@ private:
     }
 
     PlaneIndex plane_of_coordinate(int axis, std::int64_t position) {
-        const auto [at, is_new] = by_coordinate_[u(axis)].try_emplace(position, 0U);
+        const auto [at, is_new] = by_coordinate_[as_index(axis)].try_emplace(position, 0U);
         if (is_new) at->second = geometry().add_plane(Plane::axis_aligned(axis, 1, position));
         return at->second;
     }
@@ -246,11 +247,9 @@ private:
         convex_parts(geometry(), f.index, label, std::move(edges), soup_.fragments);
     }
 
-    static std::size_t u(int i) { return static_cast<std::size_t>(i); }
-
     const Brep& brep_;
     MspSoup soup_;
-    std::vector<PlaneIndex> edge_planes_;  // of edges between coplanar faces, when asked for
+    std::vector<PlaneIndex> edge_planes_;  // of edges between coplanar faces, on demand
     std::array<std::unordered_map<std::int64_t, PlaneIndex>, 3> by_coordinate_;
 };
 

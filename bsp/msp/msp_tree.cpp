@@ -60,7 +60,8 @@ public:
                             static_cast<std::int64_t>(near_.c[2])};
     }
     [[nodiscard]] Side side(const Plane& plane) const {
-        // Out of range a coordinate is infinite and the filter, comparing with NaN, does not know.
+        // Out of range a coordinate is infinite and the filter, comparing with NaN, does not
+        // decide.
         if (const auto s = filtered_side(near_, plane)) {
             if (std::isfinite(near_.c[0] + near_.c[1] + near_.c[2])) {
                 ++predicate_counters().filtered;

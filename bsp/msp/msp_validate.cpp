@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Checks of an MspTree, by means that the construction does not use: regions are made explicit as
-// polygons, points are found on entities, and inside is told by counting faces above a point.
+// polygons, points are found on entities, and inside is decided by counting faces above a point.
 
 #include <trisect/bsp/msp_tree.h>
 
@@ -271,7 +271,7 @@ private:
         return true;
     }
 
-    /// A plane across an axis, within 2^-bits (or less, far out) of a coordinate.
+    /// An axis-perpendicular plane, within 2^-bits (or less, far out) of a coordinate.
     static Plane plane_near(int axis, double coordinate, int bits) {
         const int room = 61 - std::max(0, std::ilogb(std::fabs(coordinate) + 1));
         const int used = std::min(bits, room);

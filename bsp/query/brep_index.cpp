@@ -115,7 +115,7 @@ BrepIndex::BrepIndex(const Solid& solid) {
 }
 
 const IndexCore& BrepIndex::empty_core() {
-    // Never destroyed: it may be asked for after main().
+    // Never destroyed: it may be used after main().
     static const auto& empty = *new BrepIndex(Solid());
     return *empty.core_;
 }

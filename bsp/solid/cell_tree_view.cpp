@@ -77,8 +77,8 @@ void count_fragments(std::vector<const Fragment*>& fragments, CellTreeStats& sta
 
 // --- boxes -------------------------------------------------------------------------------------
 
-/// A closed interval of wall positions.
-struct Interval {
+/// A closed interval of splitting plane positions.
+struct PositionInterval {
     std::int64_t lower = 0;
     std::int64_t upper = 0;
 };
@@ -93,16 +93,16 @@ std::int64_t clamped(double position) {
     return static_cast<std::int64_t>(std::clamp(position, -limit, limit));
 }
 
-Interval interval_of(double lower, double upper, Lattice lattice) {
+PositionInterval interval_of(double lower, double upper, Lattice lattice) {
     if (!(lower <= upper)) throw UsageError("a box of cells needs lower <= upper");
     return {clamped(std::ceil(fine_position(lower, lattice))),
             clamped(std::floor(fine_position(upper, lattice)))};
 }
 
 /// A slice may lie between two positions; then `lower` is above `upper` by one and both comparisons
-/// still tell the side on which it is.
-bool meets_below(const Interval& box, std::int64_t wall) { return box.lower <= wall; }
-bool meets_above(const Interval& box, std::int64_t wall) { return box.upper >= wall; }
+/// still show the side on which it is.
+bool meets_below(const PositionInterval& box, std::int64_t wall) { return box.lower <= wall; }
+bool meets_above(const PositionInterval& box, std::int64_t wall) { return box.upper >= wall; }
 
 double user_position(std::int64_t position, Lattice lattice) {
     if (std::abs(position) == detail::universe_limit) {
@@ -150,7 +150,7 @@ CellTreeStats cell_tree_stats(const Solid& solid) {
 std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const std::array<double, 3>& lower,
                                        const std::array<double, 3>& upper) {
     const Lattice lattice = solid.lattice();
-    std::array<Interval, 3> box;
+    std::array<PositionInterval, 3> box;
     for (std::size_t k = 0; k < 3; ++k) box[k] = interval_of(lower[k], upper[k], lattice);
     std::vector<CellLeaf> leaves;
     std::vector<Visit> stack{root_of(solid)};
@@ -161,7 +161,7 @@ std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const std::array<doub
             leaves.push_back(leaf_of(visit, lattice));
             continue;
         }
-        const Interval& side = box[static_cast<std::size_t>(visit.node->axis())];
+        const PositionInterval& side = box[static_cast<std::size_t>(visit.node->axis())];
         const std::int64_t wall = visit.node->wall();
         if (meets_above(side, wall)) stack.push_back(child_of(visit, 1));
         if (meets_below(side, wall)) stack.push_back(child_of(visit, 0));

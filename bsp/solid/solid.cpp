@@ -41,8 +41,8 @@ bool is_constant(const SolidState& s, bool inside) {
     return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != tree->root.complemented) == inside;
 }
 
-// Only sets made of half-spaces alone do not know it; the boundary tells. What it leaves to whole
-// space and the empty set their trees know.
+// Only sets made of half-spaces alone do not store it; the boundary decides. What it leaves to
+// whole space and the empty set their trees decide.
 bool is_unbounded(const Solid& solid) {
     if (solid.state()->far_out >= 0) return solid.state()->far_out != 0;
     const Brep brep = solid.to_brep();

@@ -24,7 +24,7 @@ namespace trisect::detail {
 
 /// All of space in up to 64 slabs along each axis: equal ones over a box, one before and one behind
 /// that, without end. A position's slab is a function of it that never decreases, so whatever lies
-/// between two positions is in the slabs from the one's to the other's; nothing else is asked of
+/// between two positions is in the slabs from the one's to the other's; nothing else is needed of
 /// it, and its roundings do not matter.
 class CubeGrid {
 public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cubes without facets of the other mesh that lie side by side are on the same side of it, and so
-// is whatever facets lie in them: nine of ten facets know their side from that. What hangs together
-// by facets that nothing crosses is on one side as well, so the others know theirs from their
+// is whatever facets lie in them: that gives nine of ten facets their side. What hangs together by
+// facets that nothing crosses is on one side as well, so the others get theirs from their
 // neighbours, or from a corner in such a cube. Sides themselves come from the crossings: an edge
 // that pierces one facet, and no other, has its ends on the two sides of it. And what reaches out
 // of the grid is far outside.

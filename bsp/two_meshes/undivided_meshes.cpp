@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Most facets of two large meshes do not come near the other mesh. To send them all down a tree
-// takes half of an evaluation, and only who asks about points, or goes on with the result, needs
-// that tree. For a mesh of the result it is enough to know which facets cross, and on which side of
-// the other mesh the others are.
+// takes half of an evaluation, and only queries of points, or later operations, need that tree. For
+// a mesh of the result it is enough to find which facets cross, and on which side of the other mesh
+// the others are.
 //
-// 1. A grid of a few thousand cubes tells which facets share a cube with the other mesh
+// 1. A grid of a few thousand cubes shows which facets share a cube with the other mesh
 //    (cube_grid.h): some of ten.
-// 2. These alone are divided, down to cells with few of them, and compared there. Nobody asks for
-//    winding numbers, so what does not meet the box of the other mesh's facets is left out.
+// 2. These alone are divided, down to cells with few of them, and compared there. Winding numbers
+//    are not needed, so what does not meet the box of the other mesh's facets is left out.
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
 // Any doubt ends the attempt: then the whole is evaluated as all else.
@@ -49,17 +49,17 @@ namespace {
 using TwoLists = std::array<std::vector<std::uint32_t>, 2>;
 
 // Cells with fewer facets are not worth a task of their own.
-constexpr std::uint64_t parallel_size = 4096;
+constexpr std::uint64_t parallel_facets = 4096;
 
 class PairFinder;
 
 // What the threads of one search share.
-struct Search {
+struct SharedSearch {
     const EvaluateOptions& options;
     const Crossings& operands;  // without pairs
     MemoryBudget& memory;
     bool parallel = false;
-    std::atomic<bool> in_doubt{false};  // nobody needs to go on
+    std::atomic<bool> in_doubt{false};  // all may stop
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
@@ -68,11 +68,11 @@ struct Search {
 // Compares facets of two meshes, some of each.
 class PairFinder {
 public:
-    explicit PairFinder(Search& search) : search_(search) {
+    explicit PairFinder(SharedSearch& search) : search_(search) {
         crossings_.operands = search.operands.operands;
     }
 
-    /// False when doubles cannot tell about some pair.
+    /// False when doubles cannot decide some pair.
     [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
         CellTask task;
         Box all;
@@ -108,7 +108,7 @@ private:
 
     [[nodiscard]] bool solve_both(std::array<CellTask, 2>& children);
 
-    Search& search_;
+    SharedSearch& search_;
     EvaluateStats stats_;
     Crossings crossings_;
     StackArena arena_;
@@ -117,7 +117,7 @@ private:
     std::vector<PolygonRef> polygons_;
 };
 
-PairFinder& Search::finder() {
+PairFinder& SharedSearch::finder() {
     return finders.local([&] { return std::make_unique<PairFinder>(*this); });
 }
 
@@ -197,7 +197,7 @@ bool PairFinder::divide(const CellTask& task, const Wall& wall) {
 // The lists of both lie in the arena of this thread, which waits for the other one.
 bool PairFinder::solve_both(std::array<CellTask, 2>& children) {
     std::array<bool, 2> known{};
-    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_size) {
+    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_facets) {
         both_at_once([&] { known[1] = search_.finder().solve(children[1]); },
                      [&] { known[0] = with_enough_stack([&] { return solve(children[0]); }); });
     } else {
@@ -293,10 +293,10 @@ struct TwoMeshes {
     }
 };
 
-// All pairs of facets that cross, arranged; false when doubles cannot tell about one.
+// All pairs of facets that cross, arranged; false when doubles cannot decide one.
 bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
                 MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
-    Search search{options, crossings, memory, parallel};
+    SharedSearch search{options, crossings, memory, parallel};
     if (!search.finder().run(two.nodes, near)) return false;
     search.finders.for_each([&](const PairFinder& f) {
         crossings.append(f.crossings());
@@ -365,7 +365,8 @@ std::optional<SolidForm> evaluate_undivided(const Residual::Ref& formula, const 
                                             std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     const TwoMeshes two(solids);
-    const bool parallel = options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_size;
+    const bool parallel =
+        options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_facets;
     EvaluateStats made;
     auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
         return find_uncrossed(two, solids, options, parallel, *crossings, made);

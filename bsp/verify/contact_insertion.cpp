@@ -10,21 +10,15 @@
 #include <cmath>
 #include <optional>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 namespace {
 
-Point3d minus(const Point3d& a, const Point3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Point3d& a, const Point3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point3d cross(const Point3d& a, const Point3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Point3d along(const Point3d& a, const Point3d& d, double t) {
     return {a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2]};
 }
-double length(const Point3d& v) { return std::sqrt(dot(v, v)); }
 
 // Of a point and the open segment that it is beside.
 std::optional<double> distance_beside(const Point3d& p, const Point3d& a, const Point3d& b) {

@@ -15,12 +15,12 @@
 
 namespace trisect::detail {
 
-/// Where a solid touches itself, an edge may lie in a face that does not know it; exactly so before
-/// rounding, about so after. Such corners and edges are inserted into the triangles that they
-/// touch: a corner next to an edge divides the edge, in all triangles at it, a corner next to the
-/// inside of a triangle divides the triangle, and edges next to each other divide each other. What
-/// was closed stays closed. One point for each edge and triangle at a time, so it takes a few
-/// passes.
+/// Where a solid touches itself, an edge may lie in a face that does not contain it as an edge;
+/// exactly so before rounding, about so after. Such corners and edges are inserted into the
+/// triangles that they touch: a corner next to an edge divides the edge, in all triangles at it, a
+/// corner next to the inside of a triangle divides the triangle, and edges next to each other
+/// divide each other. What was closed stays closed. One point for each edge and triangle at a time,
+/// so it takes a few passes.
 class ContactInsertion {
 public:
     using Rounding = std::function<Point3d(const Point3d&)>;

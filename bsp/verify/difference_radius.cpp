@@ -19,13 +19,14 @@
 
 #include <trisect/brep/measure.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/infinity.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// How much larger than the lower bound the upper bound may be.
 constexpr double looseness = 1.5;
 /// And by how much beyond that: cuts are planes through lattice points, which miss an edge between
@@ -34,26 +35,19 @@ constexpr double cut_error = 3;
 /// Triangles tried for one piece.
 constexpr std::size_t candidate_limit = 48;
 
-using Vector = std::array<double, 3>;
-
-Vector to_vector(const GridPoint& p) {
-    Vector out{};
+Vector3 to_vector(const GridPoint& p) {
+    Vector3 out{};
     for (std::size_t k = 0; k < 3; ++k)
         out[k] = std::ldexp(WideInt<2>(p[k]).to_double(), -grid_bits);
     return out;
 }
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector scaled_to(const Vector& a, double length) {
+Vector3 scaled_to(const Vector3& a, double length) {
     const double l = std::sqrt(dot(a, a));
     if (l == 0) return a;
     return {a[0] * length / l, a[1] * length / l, a[2] * length / l};
 }
 
-std::optional<LatticePoint> nearest_lattice_point(const Vector& v) {
+std::optional<LatticePoint> nearest_lattice_point(const Vector3& v) {
     std::array<std::int64_t, 3> c{};
     for (std::size_t k = 0; k < 3; ++k) {
         if (!(std::fabs(v[k]) < static_cast<double>(coordinate_limit) - 1)) return std::nullopt;
@@ -83,9 +77,9 @@ struct Closeness {
     std::size_t worst = 0;  ///< which of the component's vertices is farthest from it
 };
 
-class Piece {
+class DifferencePiece {
 public:
-    explicit Piece(Solid solid)
+    explicit DifferencePiece(Solid solid)
         : solid_(std::move(solid)), brep_(std::make_shared<Brep>(solid_.to_brep())) {
         grid_.reserve(brep_->counts().vertices);
         for (const VertexId v : brep_->vertices()) grid_.push_back(to_grid(brep_->point(v)));
@@ -150,13 +144,13 @@ Closeness closest(const GridTriangles& surface, const Component& c, double targe
 /// Planes that may part a component, the most promising first.
 class CuttingPlanes {
 public:
-    CuttingPlanes(const Component& component, const Piece& piece)
+    CuttingPlanes(const Component& component, const DifferencePiece& piece)
         : component_(component), piece_(piece) {}
 
     /// Along an edge of the surface: the one beyond which the component goes on if it is known, or
     /// of all edges between two triangles that vertices of the component are nearest to, the one
-    /// that parts it best; or else beside the triangle that the component is nearest to. Nothing
-    /// when no such plane leaves more than `margin` on both sides.
+    /// that separates it best; or else beside the triangle that the component is nearest to.
+    /// Nothing when no such plane leaves more than `margin` on both sides.
     [[nodiscard]] std::optional<Plane> along(const GridTriangles& surface, const Closeness& close,
                                              double margin) const {
         const std::vector<std::uint32_t> triangles = triangles_at(surface, close);
@@ -189,7 +183,8 @@ public:
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-        // Multiples of 1/128: the position fits 64 bits, and walls are at odd multiples of 1/256.
+        // Multiples of 1/128: the position fits 64 bits, and splitting planes are at odd multiples
+        // of 1/256.
         constexpr int fine_bits = 7;
         const Int128 middle = (low[axis] + high[axis]) / 2;
         const auto position = static_cast<std::int64_t>(middle >> (grid_bits - fine_bits));
@@ -234,8 +229,8 @@ private:
     }
 
     /// \pre the point is on the plane
-    [[nodiscard]] double depth(const Plane& plane, const Vector& on) const {
-        const Vector n =
+    [[nodiscard]] double depth(const Plane& plane, const Vector3& on) const {
+        const Vector3 n =
             scaled_to({plane.approx_normal(0), plane.approx_normal(1), plane.approx_normal(2)}, 1);
         double above = 0;
         double below = 0;
@@ -250,20 +245,20 @@ private:
     static bool has_corner(const GridTriangle& t, const GridPoint& p) {
         return std::find(t.corners().begin(), t.corners().end(), p) != t.corners().end();
     }
-    static Vector normal_of(const GridTriangle& t) {
-        const Vector a = to_vector(t.corners()[0]);
+    static Vector3 normal_of(const GridTriangle& t) {
+        const Vector3 a = to_vector(t.corners()[0]);
         return cross(minus(to_vector(t.corners()[1]), a), minus(to_vector(t.corners()[2]), a));
     }
 
     /// Through the common edge, between the two triangles.
     static std::optional<Plane> halving(const GridTriangle& s, const GridTriangle& t,
                                         const GridPoint& a, const GridPoint& b) {
-        const Vector from = to_vector(a);
-        const Vector edge = minus(to_vector(b), from);
+        const Vector3 from = to_vector(a);
+        const Vector3 edge = minus(to_vector(b), from);
         const double length = std::sqrt(dot(edge, edge));
-        const Vector n = scaled_to(normal_of(s), 1);
-        const Vector m = scaled_to(normal_of(t), 1);
-        const Vector up = scaled_to({n[0] + m[0], n[1] + m[1], n[2] + m[2]}, length);
+        const Vector3 n = scaled_to(normal_of(s), 1);
+        const Vector3 m = scaled_to(normal_of(t), 1);
+        const Vector3 up = scaled_to({n[0] + m[0], n[1] + m[1], n[2] + m[2]}, length);
         const auto p = nearest_lattice_point(from);
         const auto q = nearest_lattice_point(to_vector(b));
         const auto r = nearest_lattice_point({from[0] + up[0], from[1] + up[1], from[2] + up[2]});
@@ -274,8 +269,8 @@ private:
     /// Through the edge beyond which the point is farthest, steep to the triangle.
     [[nodiscard]] std::optional<Plane> beside(const GridTriangle& t, const GridPoint& point,
                                               double margin) const {
-        const Vector n = normal_of(t);
-        const Vector at = to_vector(point);
+        const Vector3 n = normal_of(t);
+        const Vector3 at = to_vector(point);
         int axis = 0;
         for (int k = 1; k < 3; ++k)
             if (std::fabs(n[static_cast<std::size_t>(k)]) >
@@ -284,9 +279,9 @@ private:
         std::optional<Plane> best;
         double most = -infinity;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vector a = to_vector(t.corners()[i]);
-            const Vector b = to_vector(t.corners()[(i + 1) % 3]);
-            const Vector outward = cross(minus(b, a), n);
+            const Vector3 a = to_vector(t.corners()[i]);
+            const Vector3 b = to_vector(t.corners()[(i + 1) % 3]);
+            const Vector3 outward = cross(minus(b, a), n);
             const double beyond = dot(minus(at, a), scaled_to(outward, 1));
             const auto p = nearest_lattice_point(a);
             const auto q = nearest_lattice_point(b);
@@ -315,7 +310,7 @@ private:
     }
 
     const Component& component_;
-    const Piece& piece_;
+    const DifferencePiece& piece_;
 };
 
 class RadiusSearch {
@@ -325,7 +320,7 @@ public:
         : first_(first), second_(second), options_(options) {}
 
     DifferenceRadius run(const Solid& difference) {
-        const Piece whole(difference);
+        const DifferencePiece whole(difference);
         look_at_vertices(whole);
         const std::vector<Component> components = whole.components();
         out_.components = components.size();
@@ -334,7 +329,7 @@ public:
             if (!settle(c) && !push({box_around(difference, c)})) accept(c);
         }
         while (!stack_.empty() && !is_refuted()) {
-            const Piece piece = std::move(stack_.back());
+            const DifferencePiece piece = std::move(stack_.back());
             stack_.pop_back();
             divide(piece);
         }
@@ -350,7 +345,7 @@ private:
         return options_.within ? *options_.within : looseness * reach_ + cut_error;
     }
 
-    void look_at_vertices(const Piece& piece) {
+    void look_at_vertices(const DifferencePiece& piece) {
         for (const VertexId v : piece.brep()->vertices()) {
             for (const GridTriangles* surface : {&first_, &second_}) {
                 const GridTriangles::Nearest n = surface->nearest(piece.grid(v));
@@ -401,7 +396,7 @@ private:
     /// Notes the parts as pieces, all of them or none: where the boundary of a part could not be
     /// assembled, what they are parts of has to be judged as a whole.
     bool push(std::vector<Solid> parts) {
-        std::vector<Piece> pieces;
+        std::vector<DifferencePiece> pieces;
         try {
             for (Solid& part : parts)
                 if (!part.is_empty()) pieces.emplace_back(std::move(part));
@@ -410,7 +405,7 @@ private:
             ++out_.failed_cuts;
             return false;
         }
-        for (Piece& p : pieces) {
+        for (DifferencePiece& p : pieces) {
             look_at_vertices(p);
             stack_.push_back(std::move(p));
         }
@@ -425,7 +420,7 @@ private:
     }
 
     /// Ends with the first component that has to be cut: what follows is in the parts.
-    void divide(const Piece& piece) {
+    void divide(const DifferencePiece& piece) {
         for (const Component& c : piece.components()) {
             if (settle(c)) continue;
             if (out_.pieces < options_.piece_limit) {
@@ -442,7 +437,7 @@ private:
     const GridTriangles& first_;
     const GridTriangles& second_;
     const RadiusOptions& options_;
-    std::vector<Piece> stack_;
+    std::vector<DifferencePiece> stack_;
     double reach_ = 0;  ///< upper bound of what `lower` is a lower bound of
     Closeness a_, b_;   ///< of the component that settle() saw last
     DifferenceRadius out_;

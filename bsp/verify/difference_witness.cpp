@@ -15,12 +15,12 @@
 
 #include <trisect/brep/measure/interior_point.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t blamed_limit = 32;
 
 class WitnessSearch {

@@ -24,9 +24,9 @@ struct WitnessQuestion {
     std::span<const double> moved;         ///< of each mesh, in the user's units
 };
 
-/// Near the farthest vertex that was found. Nothing when no point could be told from the boundary,
-/// or none is farther than options.within. \throw Error (Internal) when the point is in both sets
-/// or in neither.
+/// Near the farthest vertex that was found. Nothing when no point could be separated from the
+/// boundary, or none is farther than options.within. \throw Error (Internal) when the point is in
+/// both sets or in neither.
 [[nodiscard]] std::optional<Witness> find_witness(const WitnessQuestion& question,
                                                   const DifferenceRadius& radius);
 

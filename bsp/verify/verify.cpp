@@ -20,6 +20,7 @@
 #include <trisect/bsp/verify/difference_radius.h>
 #include <trisect/bsp/verify/difference_witness.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect {
 
@@ -27,8 +28,7 @@ namespace {
 
 using detail::GridTriangle;
 using detail::GridTriangles;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 /// The finest that holds the largest coordinate: without loss wherever some lattice is, and cuts
 /// through its points come close to every edge.
@@ -53,7 +53,7 @@ ImportedMesh placed(const PolygonMesh& mesh, Lattice lattice) {
     return import_mesh(mesh, options);
 }
 
-GridTriangles triangles_of(const LatticeMesh& mesh) {
+GridTriangles grid_triangles_of(const LatticeMesh& mesh) {
     std::vector<GridTriangle> out;
     out.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles)
@@ -62,7 +62,7 @@ GridTriangles triangles_of(const LatticeMesh& mesh) {
     return GridTriangles(std::move(out));
 }
 
-GridTriangles triangles_of(const Brep& brep) {
+GridTriangles grid_triangles_of(const Brep& brep) {
     std::vector<detail::GridPoint> points;
     for (const Point& p : brep.points()) points.push_back(detail::to_grid(p));
     std::vector<GridTriangle> out;
@@ -100,8 +100,8 @@ public:
         const Solid difference = evaluate(exact ^ solids_.back(), options_.evaluate);
         if (difference.is_empty()) return std::move(report_);
         const Solid exact_set = evaluate(exact, options_.evaluate);
-        exact_ = triangles_of(exact_set.to_brep());
-        result_ = triangles_of(imports_.back().mesh);
+        exact_ = grid_triangles_of(exact_set.to_brep());
+        result_ = grid_triangles_of(imports_.back().mesh);
         judge(difference);
         return std::move(report_);
     }

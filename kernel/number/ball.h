@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 /// All numbers within `error` of `value`. Sums and products contain every sum and product of
@@ -47,19 +49,18 @@ struct Ball {
     [[nodiscard]] double upper() const { return (value + error) + std::abs(value) * 0x1p-52; }
 };
 
-using BallVector = std::array<Ball, 3>;
+using BallVector = VectorOf<Ball>;
+
+/// A vector of which each component of v is a nearest double, or off by one unit in the last place.
+inline BallVector rounded(const Vector3& v) {
+    return {Ball::rounded(v[0]), Ball::rounded(v[1]), Ball::rounded(v[2])};
+}
 
 inline BallVector operator-(const BallVector& a, const BallVector& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 inline BallVector operator+(const BallVector& a, const BallVector& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline BallVector cross(const BallVector& a, const BallVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline Ball dot(const BallVector& a, const BallVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// The sign that a polynomial certainly has all over [0, 1], or 0. Coefficients in the Bernstein

@@ -3,11 +3,9 @@
 // BoundedDouble: a double with an error bound, for filters of feature tracking.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
 
-namespace trisect::hierarchies::detail {
+namespace trisect::detail {
 
 /// The exact value is within `e` of `v`. Rounding to nearest assumed: a sum or product is off by at
 /// most 2^-53 of itself (and 2^-1075 where it underflows); the factor 1 + 2^-50 pays for the
@@ -45,30 +43,4 @@ private:
     static double magnitude(double x) { return x < 0 ? -x : x; }
 };
 
-/// Vectors over any number type with +, - and *.
-template <class N>
-using Vector = std::array<N, 3>;
-
-template <class N>
-[[nodiscard]] Vector<N> minus(const Vector<N>& a, const Vector<N>& b) {
-    return {N(a[0] - b[0]), N(a[1] - b[1]), N(a[2] - b[2])};
-}
-template <class N>
-[[nodiscard]] N dot(const Vector<N>& a, const Vector<N>& b) {
-    return N(N(N(a[0] * b[0]) + N(a[1] * b[1])) + N(a[2] * b[2]));
-}
-template <class N>
-[[nodiscard]] Vector<N> cross(const Vector<N>& a, const Vector<N>& b) {
-    return {N(N(a[1] * b[2]) - N(a[2] * b[1])), N(N(a[2] * b[0]) - N(a[0] * b[2])),
-            N(N(a[0] * b[1]) - N(a[1] * b[0]))};
-}
-template <class N>
-[[nodiscard]] Vector<N> scaled(const N& s, const Vector<N>& a) {
-    return {N(s * a[0]), N(s * a[1]), N(s * a[2])};
-}
-template <class N>
-[[nodiscard]] Vector<N> plus(const Vector<N>& a, const Vector<N>& b) {
-    return {N(a[0] + b[0]), N(a[1] + b[1]), N(a[2] + b[2])};
-}
-
-}  // namespace trisect::hierarchies::detail
+}  // namespace trisect::detail

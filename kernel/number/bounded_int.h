@@ -6,7 +6,7 @@
 // The widths of numbers that belong to two posed solids differ by a factor of twenty: a corner on a
 // lattice of 20 bits under a quarter turn, or the common point of three wide planes under a pose of
 // 400 bits. One register for all would be slow for nearly all of them, a register for each case
-// would be a hundred instances of every formula. So a number knows its length and formulas are
+// would be a hundred instances of every formula. So a number stores its length and formulas are
 // written once.
 #pragma once
 
@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -272,9 +273,6 @@ private:
 
 using IntVector = std::array<BoundedInt, 3>;
 
-[[nodiscard]] inline BoundedInt dot(const IntVector& a, const IntVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 [[nodiscard]] inline BoundedInt cross(const IntVector& a, const IntVector& b, std::size_t axis) {
     const std::size_t j = (axis + 1) % 3;
     const std::size_t k = (axis + 2) % 3;

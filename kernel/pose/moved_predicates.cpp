@@ -28,6 +28,7 @@
 #include <optional>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -64,12 +65,6 @@ int bits(Int128 v) {
 int bits(const ShortVector& v) { return std::max({bits(v[0]), bits(v[1]), bits(v[2])}); }
 
 ShortVector to_short(const LatticePoint& p) { return {p.x, p.y, p.z}; }
-ShortVector minus(const ShortVector& a, const ShortVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Int128 dot(const ShortVector& a, const ShortVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 // The way from p to the moved point r, times the pose's denominator; below 2^88.
 ShortVector way(const LatticePoint& p, const MovedPoint& r) {
     ShortVector v = r.short_numbers();
@@ -90,8 +85,7 @@ std::optional<int> short_orientation(const LatticePoint& p, const LatticePoint& 
     const ShortVector v = minus(s.short_numbers(), r.short_numbers());
     const ShortVector w = way(p, r);
     if (bits(u) + bits(v) + bits(w) + 3 > short_bits) return std::nullopt;
-    return counted_short(
-        dot(u, {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]}));
+    return counted_short(dot(u, cross(v, w)));
 }
 
 std::optional<int> short_planar_orientation(const LatticePoint& p, const LatticePoint& q,
@@ -110,14 +104,14 @@ IntVector difference(const IntPoint& from, const IntPoint& to) {
 }
 
 // Largest entry and largest error of a difference of two approximations.
-struct Vector {
+struct SizedVector {
     std::array<double, 3> c{};
     double size = 0;   // of the largest component, error included
     double error = 0;  // of each component
 };
 
-Vector difference(const Approximation& from, const Approximation& to) {
-    Vector v;
+SizedVector difference(const Approximation& from, const Approximation& to) {
+    SizedVector v;
     for (std::size_t i = 0; i < 3; ++i) {
         v.c[i] = to.c[i] - from.c[i];
         if (mag(v.c[i]) > v.size) v.size = mag(v.c[i]);
@@ -129,8 +123,8 @@ Vector difference(const Approximation& from, const Approximation& to) {
 }
 
 // A sign that doubles prove, or 0.
-int filtered_orientation(const Vector& u, const Vector& v, const Vector& w) {
-    const auto minor = [](const Vector& a, const Vector& b, std::size_t i) {
+int filtered_orientation(const SizedVector& u, const SizedVector& v, const SizedVector& w) {
+    const auto minor = [](const SizedVector& a, const SizedVector& b, std::size_t i) {
         const std::size_t j = (i + 1) % 3;
         const std::size_t k = (i + 2) % 3;
         return a.c[j] * b.c[k] - a.c[k] * b.c[j];
@@ -416,8 +410,8 @@ int planar_orientation(const Point& p, const Point& q, const MovedPoint& r, int 
     const auto i = static_cast<std::size_t>((axis + 1) % 3);
     const auto j = static_cast<std::size_t>((axis + 2) % 3);
     if (r.pose().has_doubles()) {
-        const Vector u = difference(p.approximation(), q.approximation());
-        const Vector v = difference(p.approximation(), r.approximation());
+        const SizedVector u = difference(p.approximation(), q.approximation());
+        const SizedVector v = difference(p.approximation(), r.approximation());
         const double value = u.c[i] * v.c[j] - u.c[j] * v.c[i];
         const double bound =
             2.1 * (u.error * v.size + u.size * v.error) + 0x1p-49 * (u.size * v.size) + 0x1p-900;

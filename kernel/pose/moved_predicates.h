@@ -104,7 +104,7 @@ private:
 };
 
 /// A point of the other solid brought into the frame: doubles with an error bound for filters, and
-/// exactly, as (M x + t w) / (S w), when asked for.
+/// exactly, as (M x + t w) / (S w), on demand.
 class MovedPoint {
 public:
     MovedPoint(const Point& p, const RelativePose& pose) : point_(&p), pose_(&pose) {}

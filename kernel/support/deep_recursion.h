@@ -3,9 +3,9 @@
 // Recursion that continues on a new stack when one is exhausted.
 //
 // Trees are as deep as a chain of cuts made them, and formulas as their writer nested them; the
-// stack of a thread is eight megabytes, or 256 KiB in a pool of somebody else. Depth alone says
-// little about bytes. So recursive functions ask how much stack is left, one comparison, and when
-// it runs out they go on in a thread of their own, with a new stack, while this one waits.
+// stack of a thread is eight megabytes, or 256 KiB in a pool of another library. Depth alone does
+// not determine bytes. So recursive functions check how much stack is left, one comparison, and
+// when it runs out they go on in a thread of their own, with a new stack, while this one waits.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace trisect::detail {
 /// The address below which the stack of this thread counts as used up; null: not known yet.
 inline constinit thread_local const std::byte* stack_reserve_of_thread = nullptr;
 
-/// Finds it. Where the system does not tell, no address is below it.
+/// Finds it. Where the system does not report it, no address is below it.
 [[nodiscard]] const std::byte* find_stack_reserve() noexcept;
 
 /// Less than 128 KiB are left: enough for all that does not recurse.

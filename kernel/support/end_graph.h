@@ -15,8 +15,8 @@
 
 namespace trisect::detail {
 
-/// Clears `children`. Nodes that nobody else owns end; Node has a member `children` of the same
-/// type. \pre nobody changes the nodes at the same time.
+/// Clears `children`. Nodes without other owners are destroyed; Node has a member `children` of the
+/// same type. \pre the nodes do not change at the same time.
 template <class Node>
 void end_children(std::vector<std::shared_ptr<const Node>>& children) noexcept {
     const auto is_inner = [](const std::shared_ptr<const Node>& n) {

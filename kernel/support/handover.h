@@ -23,7 +23,7 @@
 namespace trisect::detail {
 
 /// What happened before give() in one thread happened before take() returns in another. Does
-/// nothing outside the sanitizer: the order itself is that of tasks and those who wait for them.
+/// nothing outside the sanitizer: the order itself is that of tasks and their waiters.
 class Handover {
 public:
 #if defined(TRISECT_THREAD_SANITIZER)

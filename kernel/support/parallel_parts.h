@@ -28,7 +28,7 @@ namespace trisect::detail {
 }
 
 /// Returns work(n), n being 1 if `threads` is 1 and 0 otherwise: that many threads, or as many as
-/// there are where work() runs, which are at most `threads` unless that is 0. For callers who
+/// there are where work() runs, which are at most `threads` unless that is 0. For callers that
 /// start several parts one after the other.
 template <class Work>
 auto on_threads(std::uint32_t threads, const Work& work) {

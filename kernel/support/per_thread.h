@@ -28,7 +28,7 @@ public:
         return *values_.emplace_back(id, make()).second;
     }
 
-    /// Calls each(T&) for all, in the order in which they were made. Not while threads ask.
+    /// Calls each(T&) for all, in the order in which they were made. Not while threads use it.
     template <class Each>
     void for_each(const Each& each) {
         for (const auto& [owner, value] : values_) each(*value);

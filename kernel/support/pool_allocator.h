@@ -36,7 +36,7 @@ public:
             std::allocator<T>().deallocate(p, n);
             return;
         }
-        // The block may be larger than what was asked for, and says so in front.
+        // The block may be larger than requested, and stores its size in front.
         const auto* const front = reinterpret_cast<const std::byte*>(p) - header;
         BlockPool::give_back(*std::launder(reinterpret_cast<const MemoryBlock*>(front)));
     }

@@ -12,7 +12,7 @@
 
 namespace trisect::detail {
 
-/// Sorts by 64-bit keys, stable, `key(item)` being asked a few times of every item. Goes through
+/// Sorts by 64-bit keys, stable, `key(item)` being called a few times for every item. Goes through
 /// the items once for each eleven bits in which keys differ; takes as much memory again.
 template <class Item, class Key>
 void radix_sort(std::vector<Item>& items, const Key& key) {

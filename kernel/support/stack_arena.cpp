@@ -36,7 +36,7 @@ public:
         return out;
     }
 
-    /// False when it keeps enough already, or has never seen one as large: whoever evaluates once
+    /// False when it keeps enough already, or has never seen one as large: a single evaluation
     /// wants the memory back.
     bool keep(const MemoryBlock& block) noexcept {
         const std::lock_guard lock(mutex_);
@@ -93,7 +93,7 @@ MemoryBlock BlockPool::take(std::size_t bytes) {
 
 void BlockPool::give_back(const MemoryBlock& block) noexcept {
 #if defined(__linux__) && defined(MADV_FREE)
-    // Before anybody else may have it.
+    // Before others may have it.
     if (block.size >= huge_page) (void)madvise(block.memory, block.size, MADV_FREE);
 #endif
     if (!pool().keep(block)) std::free(block.memory);

@@ -19,8 +19,8 @@ struct MemoryBlock {
 
 /// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
 /// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes`, no block that
-/// is larger than all before, and tells the system that it may have them when it needs memory. Of
-/// small blocks it keeps no more than a small result needs. Safe to use from many threads.
+/// is larger than all before, and allows the system to take them when it needs memory. Of small
+/// blocks it keeps no more than a small result needs. Safe to use from many threads.
 class BlockPool {
 public:
     static constexpr std::size_t kept_bytes = std::size_t{1} << 28;

@@ -13,6 +13,7 @@ HEADER = '// SPDX\n//\n// {}\n// Fuchs 1980.\n'
 CLEAN = {'kernel/plane.h': HEADER.format('Plane: an oriented plane.'), 'docs/references.md': REFERENCES,
          'bench/results/a.md': RESULT}
 FAULTS = [
+    ('comments', 'kernel/plane.cpp', 'int a;  ///< once somebody needs it\n'),
     ('headers', 'kernel/plane.h', '// SPDX\n#pragma once\n'),
     ('headers', 'kernel/plane.h', HEADER.format('Plane: an oriented plane with')),
     ('headers', 'kernel/plane.h', HEADER.format('One two three four five six seven eight nine ten eleven twelve more.')),
@@ -40,7 +41,7 @@ def passes(check, files):
 
 def main():
     failures = 0
-    for check in ('headers', 'references', 'results'):
+    for check in ('comments', 'headers', 'references', 'results'):
         if not passes(check, CLEAN):
             print(f'refused without a fault: {check}', file=sys.stderr)
             failures += 1

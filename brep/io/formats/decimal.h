@@ -23,8 +23,8 @@ inline std::int64_t decimal_exponent(std::string_view text) noexcept {
     return std::min(std::max(value, -huge), huge);
 }
 
-/// Whether a number beyond the range of doubles is large, and not near zero: the two are told apart
-/// by the decimal position of the first digit that is not 0.
+/// Whether a number beyond the range of doubles is large, and not near zero: the two are
+/// distinguished by the decimal position of the first digit that is not 0.
 inline bool is_large_decimal(std::string_view text) noexcept {
     const std::size_t e = std::min(text.find_first_of("eE"), text.size());
     const std::string_view mantissa = text.substr(0, e);

@@ -19,7 +19,7 @@ class InputText {
 public:
     InputText(std::string_view bytes, std::string name, const ReadLimits& limits, bool binary)
         : bytes_(bytes), name_(std::move(name)), limits_(limits), binary_(binary) {
-        // The first line end tells the convention: a CR that no LF follows means bare CR.
+        // The first line end decides the convention: a CR that no LF follows means bare CR.
         const std::size_t eol = bytes.find_first_of("\r\n");
         if (eol != std::string_view::npos && bytes[eol] == '\r' &&
             (eol + 1 == bytes.size() || bytes[eol + 1] != '\n')) {
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] std::string_view bytes() const noexcept { return bytes_; }
     [[nodiscard]] const ReadLimits& limits() const noexcept { return limits_; }
     [[nodiscard]] char line_end() const noexcept { return line_end_; }
-    /// Whether readers may take their quick ways. The result is the same; tests compare.
+    /// Whether readers may take their fast paths. The result is the same; tests compare.
     [[nodiscard]] bool allows_quick() const noexcept { return quick_; }
     [[nodiscard]] InputText carefully() const {
         InputText copy = *this;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writing PLY: doubles, so nothing is lost, and the types of lists that most readers know: a count
-// of one byte while every face has at most 255 corners, signed indices while they suffice.
+// Writing PLY: doubles, so nothing is lost, and the types of lists that most readers accept: a
+// count of one byte while every face has at most 255 corners, signed indices while they suffice.
 #include <trisect/brep/io/formats/binary.h>
 #include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/formats/number_text.h>

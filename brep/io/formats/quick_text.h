@@ -5,9 +5,9 @@
 // up nearly all of a file. They are read eight characters at a time. Everything else is refused
 // without an error, and TextCursor reads the line again with all checks.
 //
-// DigitRun: eight bytes minus '0' with a carry test tell how many leading ones are digits; shifting
-// the others out leaves zeros in front, and three multiplications add the digits up in pairs
-// (D. Lemire, Number Parsing at a Gigabyte per Second, 2021, section 4).
+// DigitRun: eight bytes minus '0' with a carry test show how many leading ones are digits; shifting
+// the others out leaves zeros in front, and three multiplications add the digits up in pairs (D.
+// Lemire, Number Parsing at a Gigabyte per Second, 2021, section 4).
 //
 // Value: w · 10^e with both exact in doubles is one correctly rounded operation (W. Clinger, How to
 // Read Floating Point Numbers Accurately, 1990). Longer numbers, such as the shortest digits of a

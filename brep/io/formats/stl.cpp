@@ -137,7 +137,7 @@ private:
         soup_.end_face(at);
     }
 
-    /// Skips `normal` and up to three words, which nobody reads, and the word `outer`.
+    /// Skips `normal` and up to three words, which are not used, and the word `outer`.
     void normal() {
         std::string_view word = next("'outer loop'");
         for (int i = 0; i < 4 && !is(word, "outer"); ++i) word = next("'outer loop'");

@@ -9,6 +9,7 @@
 #include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/formats/number_text.h>
 #include <trisect/brep/io/formats/vertex_welder.h>
+#include <trisect/kernel/number/vector3.h>
 
 #include <algorithm>
 #include <array>
@@ -19,26 +20,18 @@
 namespace trisect::detail {
 namespace {
 
-Point3d difference(const Point3d& a, const Point3d& b) noexcept {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double largest(const Point3d& v) noexcept {
-    return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-}
-
-/// `v` scaled so that its largest component has magnitude 1; zero when that is impossible.
-Point3d scaled(const Point3d& v) noexcept {
-    const double m = largest(v);
+/// `v` largest_made_1 so that its largest component has magnitude 1; zero when that is impossible.
+Point3d largest_made_1(const Point3d& v) noexcept {
+    const double m = largest_component(v);
     if (!std::isfinite(m) || m == 0) return {0, 0, 0};
     return {v[0] / m, v[1] / m, v[2] / m};
 }
 
 std::array<float, 3> unit_normal(const Point3d& a, const Point3d& b, const Point3d& c) noexcept {
-    const Point3d u = scaled(difference(b, a));
-    const Point3d v = scaled(difference(c, a));
-    const Point3d n =
-        scaled({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+    const Point3d u = largest_made_1(minus(b, a));
+    const Point3d v = largest_made_1(minus(c, a));
+    const Point3d n = largest_made_1(
+        {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 0)) return {0, 0, 0};
     return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),

@@ -4,8 +4,8 @@
 //
 // Lines end with LF, CR LF, or (in a file whose first line does) a bare CR. Words are separated by
 // blanks, tabs, CR, vertical tabs and form feeds. A number must fill its whole word: `1.5x` is an
-// error, not 1.5. Numbers are read by nearest_double (decimal.h), which rounds correctly and knows
-// no locale; a leading `+`, which it refuses, is skipped here.
+// error, not 1.5. Numbers are read by nearest_double (decimal.h), which rounds correctly and has no
+// locale; a leading `+`, which it refuses, is skipped here.
 #pragma once
 
 #include <trisect/brep/io/formats/decimal.h>

@@ -5,7 +5,7 @@
 //
 // Open addressing with linear probing over 32-bit numbers into the vector of points: one cache line
 // for a probe, no node allocations. The lines are spread over the whole table, so points that come
-// in blocks are hashed first and their lines asked for before the first is needed. The hash is
+// in blocks are hashed first and their lines prefetched before the first is needed. The hash is
 // salted at random once a process, so that a file cannot be made whose points all collide; the
 // numbers given out do not depend on it.
 //

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A plate with ten thousand pockets is a few planes. What its leaves list are convex parts of its
-// triangles, cut along walls of cells, along the lines of all tools, and by the diagonals of the
-// triangles. To give every corner of every part a name, to find the vertices that lie inside their
-// sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is about
-// places where in the end nothing is.
+// triangles, cut along bounding planes of cells, along the lines of all tools, and by the diagonals
+// of the triangles. To give every corner of every part a name, to find the vertices that lie inside
+// their sides, and to cancel what runs both ways costs microseconds a part; and nearly all of it is
+// about places where in the end nothing is.
 //
-// Where all polygons of a cell are across an axis the slanted sides of those in one plane cancel:
-// nothing else that bounds the solid there has a slanted side. The other sides lie at integers. So
-// the outline of all that a plane has is a sum of integers (axis_outline.h), over all cells
-// together, and walls vanish with the rest.
+// Where all polygons of a cell are axis-perpendicular the slanted sides of those in one plane
+// cancel: nothing else that bounds the solid there has a slanted side. The other sides lie at
+// integers. So the outline of all that a plane has is a sum of integers (axis_outline.h), over all
+// cells together, and splitting planes vanish with the rest.
 //
 // Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
 // vertex lies inside it, then the faces around change there, and so does one of those two outlines:
-// of the four quadrants around the line those that are inside can be told from the two outlines,
-// and if they are the same before and behind, no third plane has a boundary in between. So the ends
-// of all stretches on one line are all vertices on it, but for those of facets that are not taken.
+// of the four quadrants around the line the two outlines determine those that are inside, and if
+// they are the same before and behind, no third plane has a boundary in between. So the ends of all
+// intervals on one line are all vertices on it, but for those of facets that are not taken.
 //
 // Those are facets that may come out as they went in: to_mesh copies them with their corners.
 // Whether a facet has changed shows in its area, or in an outline that turns inside one of its
-// edges. In doubt its plane is left to the general way.
+// edges. In doubt its plane is left to the general path.
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
 
@@ -32,6 +32,7 @@
 #include <trisect/bsp/leaf/grid/axis_clip.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -85,7 +86,7 @@ bool reaches_out(const PolygonRef& r, const Cell& cell) {
 }
 
 // Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
-// tell.
+// decide.
 template <class Add>
 bool with_part_in(const PolygonRef& polygon, const Cell& cell, std::size_t across, const Add& add) {
     if (!reaches_out(polygon, cell)) {
@@ -158,7 +159,7 @@ AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& n
         sheets_.back().plane = plane;
         sheets_.back().name = name;
     }
-    return sheets_[u(id)];
+    return sheets_[as_index(id)];
 }
 
 void AxisFaces::read_leaf(const Leaf& leaf) {
@@ -192,11 +193,11 @@ void AxisFaces::pass(const PolygonRef& facet) {
     sheet.has_passing = sheet.is_general = true;
 }
 
-// Its parts are in the picture's units. One that is not cut has all its area in the cell.
+// Its parts are in the occupancy grid's units. One that is not cut has all its area in the cell.
 void AxisFaces::read_facet(const PolygonRef& facet, std::int32_t number,
                            const AxisPicture::Part& part, const Cell& cell) {
     Sheet& sheet = sheet_of(facet, number);
-    Facet& f = facets_[u(number)];
+    Facet& f = facets_[as_index(number)];
     (void)count_part(sheet, number);
     f.is_cut = f.is_cut || part.is_cut;
     f.corners |= part.corners;
@@ -220,12 +221,13 @@ void AxisFaces::read_units(const AxisPicture& picture, bool complemented) {
             const Key128 key{k, static_cast<std::uint64_t>(picture.planes[k][p])};
             const std::int32_t sheet = sheet_ids_.find(key);
             TRISECT_EXPECTS(sheet >= 0, "no facet bounds a set where it ends");
-            if (sheets_[u(sheet)].is_general) continue;
+            if (sheets_[as_index(sheet)].is_general) continue;
             for (const bool inside_low : {true, false}) {
                 std::uint64_t any = 0;
                 for (std::size_t r = 0; r < units.rows.size(); ++r)
                     any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
-                if (any != 0) sheets_[u(sheet)].outline.add(units, inside_low != complemented);
+                if (any != 0)
+                    sheets_[as_index(sheet)].outline.add(units, inside_low != complemented);
             }
         }
     }
@@ -236,24 +238,25 @@ void AxisFaces::block_leaf(const Leaf& leaf) {
         const FacetMarks& marks = marks_of(r.source);
         const bool flipped = r.flipped != leaf.complemented;
         if (marks.takes_part(r.facet, flipped))
-            facets_[u(marks.number_of_worked(r.facet, flipped))].is_blocked = true;
+            facets_[as_index(marks.number_of_worked(r.facet, flipped))].is_blocked = true;
     }
 }
 
 AxisFaces::Sheet& AxisFaces::sheet_of(const PolygonRef& polygon, std::int32_t number) {
-    Facet& f = facets_[u(number)];
+    Facet& f = facets_[as_index(number)];
     if (f.sheet < 0) {
         const PlaneName name = PlaneName::support(polygon.source, polygon.facet);
         const AxisPlane plane = *axis_plane(name);
         f.sheet = static_cast<std::int32_t>(&sheet_at(plane, name) - sheets_.data());
         f.normal_is_up = plane.sign > 0;
     }
-    return sheets_[u(f.sheet)];
+    return sheets_[as_index(f.sheet)];
 }
 
 // Whether it faces up.
 bool AxisFaces::count_part(Sheet& sheet, std::int32_t number) {
-    const bool faces_up = facets_[u(number)].normal_is_up != parts_.facets[u(number)].flipped;
+    const bool faces_up =
+        facets_[as_index(number)].normal_is_up != parts_.facets[as_index(number)].flipped;
     auto& first = sheet.first[faces_up ? 1 : 0];
     if (first < 0 || number < first) first = number;
     ++sheet.parts;
@@ -262,7 +265,7 @@ bool AxisFaces::count_part(Sheet& sheet, std::int32_t number) {
 
 void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
     Sheet& sheet = sheet_of(polygon, number);
-    Facet& f = facets_[u(number)];
+    Facet& f = facets_[as_index(number)];
     if (sheet.is_general) return;
     const auto add = [&](const PolygonRef& part) {
         if (!read_axis_sides(part, sheet.plane.axis, sides_)) {
@@ -301,7 +304,8 @@ void AxisFaces::add_area(const PolygonRef& part, Facet& facet, const AxisPlane& 
     };
     if (part.fragment != nullptr) return add(part.fragment->vertices());
     std::array<Approximation, 3> corners;
-    for (int i = 0; i < 3; ++i) corners[u(i)] = approximate(part.source->corner(part.facet, i));
+    for (int i = 0; i < 3; ++i)
+        corners[as_index(i)] = approximate(part.source->corner(part.facet, i));
     add(corners);
 }
 
@@ -309,8 +313,8 @@ void AxisFaces::add_area(const PolygonRef& part, Facet& facet, const AxisPlane& 
 void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const {
     std::array<bool, 3> near{};
     for (int c = 0; c < 3; ++c)
-        near[u(c)] = (facet.corners >> c & 1) == 0 &&
-                     part.box().overlaps(Box::of(part.source->corner(part.facet, c)));
+        near[as_index(c)] = (facet.corners >> c & 1) == 0 &&
+                            part.box().overlaps(Box::of(part.source->corner(part.facet, c)));
     if (!near[0] && !near[1] && !near[2]) return;
     if (part.fragment == nullptr) {
         facet.corners = 7;
@@ -331,7 +335,7 @@ void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t a
             at[1 - straight.axis] = end_of_side(straight, side.is_slanted ? side : before);
         }
         for (int c = 0; c < 3; ++c) {
-            if (!near[u(c)]) continue;
+            if (!near[as_index(c)]) continue;
             const LatticePoint& corner = part.source->corner(part.facet, c);
             if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * wall_scale &&
                 at[1] == corner[static_cast<int>((axis + 2) % 3)] * wall_scale)
@@ -345,13 +349,13 @@ void AxisFaces::judge() {
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         const Facet& f = facets_[i];
         if (f.sheet < 0) continue;
-        Sheet& s = sheets_[u(f.sheet)];
+        Sheet& s = sheets_[as_index(f.sheet)];
         s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
     }
     for (const Sheet& s : sheets_) part_count_ += s.is_general ? 0 : s.parts;
     taken_.assign(facets_.size(), false);
     for (std::size_t i = 0; i < facets_.size(); ++i) {
-        taken_[i] = facets_[i].sheet >= 0 && !sheets_[u(facets_[i].sheet)].is_general;
+        taken_[i] = facets_[i].sheet >= 0 && !sheets_[as_index(facets_[i].sheet)].is_general;
         taken_count_ += taken_[i] ? 1 : 0;
     }
     takes_all_ = taken_count_ == facets_.size();
@@ -360,9 +364,9 @@ void AxisFaces::judge() {
 
 // Surely: a part of it is missing, or an edge of it has a vertex inside.
 bool AxisFaces::has_changed(std::int32_t number) const {
-    const Facet& f = facets_[u(number)];
-    const BoundaryFacet& facet = parts_.facets[u(number)];
-    const Sheet& sheet = sheets_[u(f.sheet)];
+    const Facet& f = facets_[as_index(number)];
+    const BoundaryFacet& facet = parts_.facets[as_index(number)];
+    const Sheet& sheet = sheets_[as_index(f.sheet)];
     if (f.is_cut) return true;
     Facet all;
     const PolygonRef whole{facet.source, nullptr, facet.facet, false, false};
@@ -578,7 +582,7 @@ std::span<const AxisFaces::Other> AxisFaces::others_on(std::size_t along, const 
 AxisFaces::Sheet& AxisFaces::sheet_at_rank(std::size_t axis, std::uint32_t rank) {
     const std::int32_t sheet = sheet_of_[axis][rank];
     TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane is");
-    return sheets_[u(sheet)];
+    return sheets_[as_index(sheet)];
 }
 
 PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
@@ -595,7 +599,7 @@ PointId AxisFaces::point_at(const Ranks& ranks) {
 
 PointId AxisFaces::make_point(const Ranks& ranks) {
     if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
-        const CornerName& name = corners_[u(c)];
+        const CornerName& name = corners_[as_index(c)];
         return parts_.bench.corner(name.source, name.facet, name.corner);
     }
     Approximation at;
@@ -636,7 +640,7 @@ std::size_t AxisFaces::count_edges() const {
 
 void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges) {
     const std::int32_t first = sheet.first[faces_up ? 1 : 0];
-    BoundaryFacet& f = parts_.facets[u(first)];
+    BoundaryFacet& f = parts_.facets[as_index(first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
     f.parts = 1;
     for (const std::uint32_t n : sheet.outline.loops(faces_up)) {
@@ -659,10 +663,10 @@ void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryE
     }
 }
 
-// An edge ends at walls too, of which doubles know enough: whoever asks checks what comes.
+// An edge ends at splitting planes too, for which doubles suffice: the caller checks the result.
 void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) {
     const Workbench& bench = parts_.bench;
-    const auto support = axis_plane(bench.name(parts_.facets[u(edge.facet)].support));
+    const auto support = axis_plane(bench.name(parts_.facets[as_index(edge.facet)].support));
     const auto beside = axis_plane(bench.name(edge.line.plane));
     if (!support || !beside) return;
     Ranks at{};
@@ -689,7 +693,7 @@ void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& 
         out.push_back(point_at(at));
     };
     if (const std::int32_t line = lines_[along].find({line_at(along, at), 0}); line >= 0) {
-        const Stops& on_line = all_lines_[u(line)];
+        const Stops& on_line = all_lines_[as_index(line)];
         for (std::uint32_t i = on_line.first; i < on_line.end; ++i) add(stops_[i].place);
     } else {
         for (const Other& o : others_on(along, at)) add(o.place);

@@ -13,12 +13,13 @@
 #include <trisect/bsp/assembly/axis/axis_outline.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 /// For an assembly that joins all facets of a plane. Takes the facets of those planes in which the
 /// sum of all parts is sure to be all that is written: each of their facets has changed, and in
-/// every cell that they reach into all polygons are across an axis.
+/// every cell that they reach into all polygons are axis-perpendicular.
 class AxisFaces {
 public:
     /// What one leaf lists.
@@ -36,7 +37,7 @@ public:
     void choose(std::span<const Leaf> leaves);
     /// Whether make_edges() makes the edges of a facet: nothing else may.
     [[nodiscard]] bool takes(std::int32_t facet) const {
-        return !taken_.empty() && taken_[u(facet)];
+        return !taken_.empty() && taken_[as_index(facet)];
     }
     /// How many facets are taken, and how many parts of facets.
     [[nodiscard]] std::size_t taken_count() const { return taken_count_; }
@@ -47,13 +48,13 @@ public:
     /// through.
     [[nodiscard]] bool takes_all() const { return takes_all_; }
     [[nodiscard]] std::size_t part_count() const { return part_count_; }
-    /// Whether a leaf lists nothing but polygons across an axis, and facets are taken.
+    /// Whether a leaf lists nothing but axis-perpendicular polygons, and facets are taken.
     [[nodiscard]] bool is_across_axes(std::size_t leaf) const {
         return taken_count_ != 0 && across_[leaf];
     }
 
-    /// The edges that a leaf across axes has of facets that are not taken: vertices of theirs may
-    /// lie in the edges to be made.
+    /// The edges that an axis-perpendicular leaf has of facets that are not taken: vertices of
+    /// theirs may lie in the edges to be made.
     void note_vertices(std::span<const BoundaryEdge> edges);
     /// Appends the edges of all faces of the planes taken, named after the first facet of each
     /// plane and facing, with all vertices that lie inside them.
@@ -62,12 +63,10 @@ public:
     void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out);
 
 private:
-    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
     // A vertex on a line.
     struct Stop {
         std::uint32_t place = 0;  // its rank along the line
-        PointId point = -1;       // once it was asked for
+        PointId point = -1;       // once it was requested
     };
     // The stops of one line, or of a stretch with its ends.
     struct Stops {
@@ -82,7 +81,7 @@ private:
         bool is_general = false;   // not taken
         bool has_passing = false;  // a facet passes through
         std::size_t parts = 0;
-        PlaneId id = -1;  // once it was asked for
+        PlaneId id = -1;  // once it was requested
         std::uint32_t rank = 0;
         AxisOutline outline;
         std::vector<Stops> stops;  // of each stretch
@@ -190,7 +189,7 @@ private:
     bool takes_all_ = false;
     bool keeps_lines_ = false;  // for add_vertices_in()
     // Corners that are vertices of parts of facets taken, then those of facets that pass through,
-    // in leaves across axes.
+    // in axis-perpendicular leaves.
     std::vector<CornerName> corners_;
     std::vector<PolygonName> passing_;  // until their corners are listed
     std::size_t first_passing_ = 0;     // of corners_, once they are there too
@@ -203,7 +202,7 @@ private:
     std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
     std::array<std::vector<Other>, 3> other_stops_;         // sorted
     std::vector<Stop> stops_;                               // line by line
-    std::vector<Stops> all_lines_;     // where somebody may ask, and their keys
+    std::vector<Stops> all_lines_;     // where queries are possible, and their keys
     std::array<FlatMap, 3> lines_;     // by axis
     std::vector<std::uint32_t> line_;  // the places on the line in the making
     FlatMap corner_ids_;

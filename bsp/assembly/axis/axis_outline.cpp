@@ -13,13 +13,12 @@
 #include <utility>
 
 #include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
 
 // Edge i of the facet itself.
 AxisSide own_side(const Source& source, std::uint32_t facet, int i, std::size_t axis) {
@@ -29,16 +28,16 @@ AxisSide own_side(const Source& source, std::uint32_t facet, int i, std::size_t 
     AxisSide side;
     for (std::uint8_t k = 0; k < 2; ++k) {
         const std::size_t across = (axis + 1 + k) % 3;
-        if (at(from, across) != at(to, across)) continue;
+        if (coordinate(from, across) != coordinate(to, across)) continue;
         side.axis = k;
-        side.at = at(from, across) * wall_scale;
-        side.is_low = at(third, across) > at(from, across);
+        side.at = coordinate(from, across) * wall_scale;
+        side.is_low = coordinate(third, across) > coordinate(from, across);
         return side;
     }
     side.is_slanted = true;
     for (std::size_t k = 0; k < 2; ++k) {
-        side.line.from[k] = at(from, (axis + 1 + k) % 3);
-        side.line.to[k] = at(to, (axis + 1 + k) % 3);
+        side.line.from[k] = coordinate(from, (axis + 1 + k) % 3);
+        side.line.to[k] = coordinate(to, (axis + 1 + k) % 3);
     }
     return side;
 }

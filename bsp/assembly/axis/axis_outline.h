@@ -17,8 +17,8 @@
 
 namespace trisect::detail {
 
-/// A side of a polygon across an axis. The two other axes come cyclically after that one: they are
-/// numbered 0 and 1.
+/// A side of an axis-perpendicular polygon. The two other axes come cyclically after that one: they
+/// are numbered 0 and 1.
 struct AxisSide {
     bool is_slanted = false;
     bool is_low = false;    ///< the polygon is on the higher side of it; not of slanted ones
@@ -52,15 +52,15 @@ struct AxisStretch {
 };
 
 /// Adds up the sides of polygons. What two of them have in common runs both ways and vanishes, be
-/// it on a wall of a cell or on a line that cut both. Slanted sides are left out: the caller knows
-/// that they cancel. O(n log n).
+/// it on a bounding plane of a cell or on a line that cut both. Slanted sides are left out: the
+/// caller has shown that they cancel. O(n log n).
 class AxisOutline {
 public:
     /// A polygon of which the outside is above the plane, or below. `turns_left`: its sides come
     /// counter-clockwise seen from above.
     void add(std::span<const AxisSide> sides, bool turns_left, bool faces_up);
 
-    /// What the bits of a layer of units cover.
+    /// Area of the bits of a layer of units.
     struct Units {
         UnitRows rows{};
         std::uint8_t row_axis = 0;  ///< 0 or 1: rows lie along the other one
@@ -70,7 +70,7 @@ public:
     void add(const Units& units, bool faces_up);
 
     /// What is left, as maximal stretches, sorted by facing, axis, place and ends. False when
-    /// something covers a place twice, or an end is not on the lattice.
+    /// polygons overlap, or an end is not on the lattice.
     [[nodiscard]] bool finish();
     [[nodiscard]] std::span<const AxisStretch> stretches() const { return stretches_; }
     /// The stretches [first, end) are all that lie on one line with one facing, in their order.

@@ -3,8 +3,8 @@
 // A region is a 2-chain, its boundary a 1-chain: the boundary of a union of parts with disjoint
 // interiors is the sum of their directed edges, where opposite ones cancel. So joining needs no
 // geometry but the order of points on a line. A vertex matters only if some region turns there or
-// touches itself; walls of cells, lines of local cuts and the operands' own triangulation leave
-// vertices that no region turns at, and those go.
+// touches itself; bounding planes of cells, lines of local cuts and the operands' own triangulation
+// leave vertices that no region turns at, and those go.
 //
 // Most regions have a handful of edges: everything works on runs of one flat array.
 
@@ -24,12 +24,11 @@
 #include <trisect/bsp/cells/axis_polygon.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // The same for both directions.
 std::uint64_t ends_of(const BoundaryEdge& e) {
@@ -86,8 +85,8 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
     return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
 }
 
-// Where coincident facets of two operands meet at a wall because one of them dropped out of the
-// formula beyond it, each side knows only its own vertices on the wall.
+// Where coincident facets of two operands meet at a splitting plane because one of them dropped out
+// of the formula beyond it, each side has only its own vertices on the splitting plane.
 void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     const auto on_wall = [&](const BoundaryEdge& e) {
         return parts.bench.name(e.line.plane).is_wall();
@@ -111,10 +110,10 @@ void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
     const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
     if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
     std::vector<std::size_t> fill(parts.facets.size() + 1, 0);
-    for (const BoundaryEdge& e : edges) ++fill[u(e.facet) + 1];
+    for (const BoundaryEdge& e : edges) ++fill[as_index(e.facet) + 1];
     std::partial_sum(fill.begin(), fill.end(), fill.begin());
     std::vector<BoundaryEdge> sorted(edges.size());
-    for (const BoundaryEdge& e : edges) sorted[fill[u(e.facet)]++] = e;
+    for (const BoundaryEdge& e : edges) sorted[fill[as_index(e.facet)]++] = e;
     edges.swap(sorted);
 }
 
@@ -130,8 +129,8 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         i = j;
         check_stop(group.size());
         const std::size_t first = out.size();
-        const bool conforms = !parts.facets[u(group[0].facet)].in_several_cells;
-        if (parts.facets[u(group[0].facet)].parts == 1) {  // nothing to join
+        const bool conforms = !parts.facets[as_index(group[0].facet)].in_several_cells;
+        if (parts.facets[as_index(group[0].facet)].parts == 1) {  // nothing to join
             out.insert(out.end(), group.begin(), group.end());
         } else if (const auto left = group.first(cancel_opposites(group)); conforms) {
             out.insert(out.end(), left.begin(), left.end());
@@ -158,7 +157,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
 
 void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
     for (std::size_t i = 0; i < edges.size();) {
-        BoundaryFacet& f = parts.facets[u(edges[i].facet)];
+        BoundaryFacet& f = parts.facets[as_index(edges[i].facet)];
         std::size_t j = i;
         bool own = !f.source->is_half_space();
         for (; j < edges.size() && edges[j].facet == edges[i].facet; ++j) {
@@ -192,7 +191,7 @@ public:
     template <class Join>
     void run(Join&& join) {
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            if (parts_.facets[u(edges_[e].facet)].unchanged) continue;
+            if (parts_.facets[as_index(edges_[e].facet)].unchanged) continue;
             std::size_t slot = mix64(ends_of(edges_[e])) & (table_.size() - 1);
             for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
                 if (are_pair(edges_[table_[slot]], edges_[e]) && !gone_[table_[slot]]) break;
@@ -211,8 +210,8 @@ private:
         return e.from == f.to && e.to == f.from && belong_together(e, f);
     }
     [[nodiscard]] bool belong_together(const BoundaryEdge& e, const BoundaryEdge& f) const {
-        const BoundaryFacet& a = parts_.facets[u(e.facet)];
-        const BoundaryFacet& b = parts_.facets[u(f.facet)];
+        const BoundaryFacet& a = parts_.facets[as_index(e.facet)];
+        const BoundaryFacet& b = parts_.facets[as_index(f.facet)];
         // Where one's support cuts out the other's edge they cross.
         if (e.line.plane == b.support || f.line.plane == a.support) return false;
         if (!may_join(a, b, within_faces_)) return false;
@@ -247,7 +246,8 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
     std::vector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
     const auto root = [&](std::int32_t f) {
-        while (cluster[u(f)] != f) f = cluster[u(f)] = cluster[u(cluster[u(f)])];
+        while (cluster[as_index(f)] != f)
+            f = cluster[as_index(f)] = cluster[as_index(cluster[as_index(f)])];
         return f;
     };
     std::size_t joined = 0;
@@ -256,7 +256,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         const std::int32_t x = root(f);
         const std::int32_t y = root(g);
         if (x != y) ++joined;
-        cluster[u(std::max(x, y))] = std::min(x, y);
+        cluster[as_index(std::max(x, y))] = std::min(x, y);
     });
     if (joined != 0) {
         std::size_t left = 0;
@@ -281,7 +281,7 @@ void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdg
     bool joined = false;
     for (std::size_t i = 0; i < edges.size();) {
         const std::int32_t number = edges[i].facet;
-        const BoundaryFacet& f = parts.facets[u(number)];
+        const BoundaryFacet& f = parts.facets[as_index(number)];
         const auto plane = axis_plane(parts.bench.name(f.support));
         std::int32_t first = number;
         if (plane && !f.unchanged) {
@@ -312,19 +312,19 @@ public:
           keep_corners_(keep_corners),
           edges_(edges),
           keep_(bench_.point_count(), 0) {
-        for (const PointId p : keep) keep_[u(p)] = 1;
+        for (const PointId p : keep) keep_[as_index(p)] = 1;
     }
 
     void look_at(std::size_t first, std::size_t end) {
         const auto region = std::span(edges_).subspan(first, end - first);
         if (!chains_.are_simple(region)) return look_at_any(first, end);
-        const PlaneId support = parts_.facets[u(region[0].facet)].support;
+        const PlaneId support = parts_.facets[as_index(region[0].facet)].support;
         for_each_turn(region, [&](std::size_t in, std::size_t out) {
             const PointId p = region[out].from;
-            if (keep_[u(p)] != 0) return;
+            if (keep_[as_index(p)] != 0) return;
             if ((keep_corners_ && bench_.is_corner(p)) ||
                 name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
-                keep_[u(p)] = 1;
+                keep_[as_index(p)] = 1;
             } else {
                 doubtful_.push_back({first + in, first + out});
             }
@@ -335,7 +335,7 @@ public:
     [[nodiscard]] bool find() {
         bool found = false;
         for (const Passage& d : doubtful_) {
-            char& keep = keep_[u(edges_[d.out].from)];
+            char& keep = keep_[as_index(edges_[d.out].from)];
             if (keep != 0) continue;
             if (!runs_straight(edges_[d.in], edges_[d.out])) {
                 keep = 1;
@@ -344,7 +344,8 @@ public:
             if (next_.empty()) next_.assign(edges_.size(), none);
             next_[d.in] = d.out;
         }
-        for (const Passage& d : doubtful_) found = found || keep_[u(edges_[d.out].from)] == 0;
+        for (const Passage& d : doubtful_)
+            found = found || keep_[as_index(edges_[d.out].from)] == 0;
         return found;
     }
 
@@ -353,9 +354,9 @@ public:
         std::vector<BoundaryEdge> out;
         out.reserve(edges_.size());
         for (std::size_t i = 0; i < edges_.size(); ++i) {
-            if (keep_[u(edges_[i].from)] == 0) continue;
+            if (keep_[as_index(edges_[i].from)] == 0) continue;
             BoundaryEdge run = edges_[i];
-            for (std::size_t at = i; keep_[u(run.to)] == 0;) {
+            for (std::size_t at = i; keep_[as_index(run.to)] == 0;) {
                 at = next_[at];
                 run.to = edges_[at].to;
             }
@@ -390,15 +391,15 @@ private:
             const bool single = (k == 0 || by_from_[k - 1].first != p) &&
                                 (k + 1 == n || by_from_[k + 1].first != p);
             if (!single || (keep_corners_ && bench_.is_corner(p))) {
-                keep_[u(p)] = 1;
-            } else if (keep_[u(p)] == 0) {
+                keep_[as_index(p)] = 1;
+            } else if (keep_[as_index(p)] == 0) {
                 doubtful_.push_back({in, out});
             }
         }
     }
 
     [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
-        const BoundaryFacet& f = parts_.facets[u(in.facet)];
+        const BoundaryFacet& f = parts_.facets[as_index(in.facet)];
         return turn_at_vertex(bench_, f.support, f.flipped, in.line, out.line) == 0;
     }
 

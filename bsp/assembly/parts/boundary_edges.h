@@ -31,9 +31,9 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
                                  std::vector<BoundaryEdge>& edges);
 
-/// Renumbers `facet` of the edges in planes across an axis to the first facet of their plane and
-/// facing, so that a plane is one region whichever way its outline was found (axis_faces.h). Facets
-/// marked as unchanged stay. \pre sorted by facet; so they come out.
+/// Renumbers `facet` of the edges in axis-perpendicular planes to the first facet of their plane
+/// and facing, so that a plane is one region whichever way its outline was found (axis_faces.h).
+/// Facets marked as unchanged stay. \pre sorted by facet; so they come out.
 void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`

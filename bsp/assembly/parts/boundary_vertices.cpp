@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 std::uint64_t hash_of(const LatticePoint& p) {
     return mix64(static_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15ULL ^
@@ -60,8 +59,8 @@ BoundaryVertices::Index BoundaryVertices::find_or_add(const LatticePoint& p) {
 }
 
 BoundaryVertices::Index BoundaryVertices::of_point(PointId p) {
-    if (u(p) >= of_point_.size()) of_point_.resize(parts_.bench.point_count(), none);
-    Index& at = of_point_[u(p)];
+    if (as_index(p) >= of_point_.size()) of_point_.resize(parts_.bench.point_count(), none);
+    Index& at = of_point_[as_index(p)];
     if (at != none) return at;
     if (parts_.bench.is_corner(p)) {
         at = find_or_add(parts_.bench.lattice(p));

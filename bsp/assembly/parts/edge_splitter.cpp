@@ -10,12 +10,11 @@
 #include <cmath>
 
 #include <trisect/bsp/cells/point_order.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // The axis along which the ends of an edge are farthest apart.
 std::size_t longest_axis(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -25,7 +24,7 @@ std::size_t longest_axis(const std::array<double, 3>& a, const std::array<double
     return best;
 }
 
-// The certified doubles of an edge's ends, to tell points that are clearly not on it.
+// The certified doubles of an edge's ends, to reject points that are clearly not on it.
 class EdgeFilter {
 public:
     /// `error`: of the ends and of a point together.
@@ -64,7 +63,7 @@ private:
 };
 
 // An axis along which the ends of an edge differ. Ends that are nearer to each other than doubles
-// can tell may be equal along the axis that looks longest: then an edge would never be split.
+// can decide may be equal along the axis that looks longest: then an edge would never be split.
 int separating_axis(const Workbench& bench, PointId from, PointId to) {
     const auto axis =
         static_cast<int>(longest_axis(bench.approximation(from).c, bench.approximation(to).c));
@@ -86,14 +85,14 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
 }  // namespace
 
 void EdgeSplitter::clear() {
-    for (const Candidate& c : candidates_) rank_[u(c.point)] = -1;
+    for (const Candidate& c : candidates_) rank_[as_index(c.point)] = -1;
     candidates_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
-    if (rank_.size() <= u(p)) rank_.resize(bench_.point_count(), -1);
-    if (rank_[u(p)] >= 0) return;
-    rank_[u(p)] = 0;
+    if (rank_.size() <= as_index(p)) rank_.resize(bench_.point_count(), -1);
+    if (rank_[as_index(p)] >= 0) return;
+    rank_[as_index(p)] = 0;
     candidates_.push_back({bench_.approximation(p).c, p});
 }
 
@@ -120,7 +119,7 @@ void EdgeSplitter::sort_candidates() {
         return a.c[axis] != b.c[axis] ? a.c[axis] < b.c[axis] : a.point < b.point;
     });
     for (std::size_t i = 0; i < candidates_.size(); ++i)
-        rank_[u(candidates_[i].point)] = static_cast<std::int32_t>(i);
+        rank_[as_index(candidates_[i].point)] = static_cast<std::int32_t>(i);
 }
 
 // What is between the ends along axis_ comes between them; what is farther out by no more than the
@@ -129,8 +128,8 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     inside_.clear();
     const Candidate* const first = candidates_.data();
     const Candidate* const end = first + candidates_.size();
-    const Candidate* const from = first + rank_[u(e.from)];
-    const Candidate* const to = first + rank_[u(e.to)];
+    const Candidate* const from = first + rank_[as_index(e.from)];
+    const Candidate* const to = first + rank_[as_index(e.to)];
     const Candidate* low = std::min(from, to);
     const Candidate* high = std::max(from, to) + 1;
     const double reach = 1.0000001 * (3 * widest_);
@@ -143,7 +142,7 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     for (const Candidate* it = low; it != high; ++it) {
         if (it == from || it == to || !filter.may_contain(it->c)) continue;
         const int axis = separating_axis(bench_, e.from, e.to);
-        if (lies_inside(bench_, it->point, e, facets_[u(e.facet)].support, axis))
+        if (lies_inside(bench_, it->point, e, facets_[as_index(e.facet)].support, axis))
             inside_.push_back(it->point);
     }
     if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));

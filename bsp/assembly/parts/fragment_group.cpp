@@ -26,7 +26,7 @@ std::uint8_t FragmentGroup::vertex(std::uint8_t p, std::uint8_t q, const Approxi
     return static_cast<std::uint8_t>(vertex_count_++);
 }
 
-// False when doubles cannot tell their order.
+// False when doubles cannot decide their order.
 bool FragmentGroup::sort_vertices_on(std::uint8_t line) {
     on_line_.clear();
     for (std::size_t i = 0; i < vertex_count_; ++i)

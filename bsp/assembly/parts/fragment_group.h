@@ -16,7 +16,7 @@ namespace trisect::detail {
 /// The boundary of what a leaf lists of one facet: what two of its fragments have in common runs
 /// both ways along one line and cancels. A vertex is known by the two lines that meet there, so all
 /// of this is about small numbers, and only what is left has to be looked up. Where doubles cannot
-/// tell the order of vertices on a line its edges stay as they are. Keeps its memory.
+/// decide the order of vertices on a line its edges stay as they are. Keeps its memory.
 class FragmentGroup {
 public:
     static constexpr std::size_t max_parts = 64;

@@ -3,7 +3,7 @@
 // Where two edges cross, each with two facets, four triples of planes name the point: one edge and
 // either facet of the other one. Equal tools at equal steps meet like that in their plane of
 // symmetry, all along it. Names say that three planes of such a point P are two that share an edge
-// e, and one more, q; and that the plane asked about shares an edge f with q. If the ends of e and
+// e, and one more, q; and that the plane in question shares an edge f with q. If the ends of e and
 // f are coplanar, then e and f are parallel or meet. Parallel to f, e would be parallel to q, which
 // it meets in P alone; so the lines meet, and as f lies in q they meet in P. So the plane passes
 // through P, whatever else it is.

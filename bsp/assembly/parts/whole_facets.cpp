@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A B-rep with maximal faces has to ask of every pair of neighbours whether they are coplanar. For
-// facets that passed through, which are nearly all, that question needs no planes and no
-// workbench: the corner opposite to the common edge is off the plane of the other three, and
-// doubles can tell. Only facets that do join with a neighbour are turned into edges.
+// A B-rep with maximal faces has to test every pair of neighbours for coplanarity. For facets that
+// passed through, which are nearly all, that question needs no planes and no workbench: the corner
+// opposite to the common edge is off the plane of the other three, and doubles can decide. Only
+// facets that do join with a neighbour are turned into edges.
 
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 
@@ -12,17 +12,17 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 namespace {
 
 using Index = BoundaryVertices::Index;
 
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-
 std::uint32_t face_of(const Source& source, std::uint32_t facet) { return source.face_of(facet); }
 
-// Whether doubles can tell that d is not on the plane of a, b, c. Differences, products and sums
+// Whether doubles can decide that d is not on the plane of a, b, c. Differences, products and sums
 // are each rounded once: below 10 · 2^-53 of the sum of all products.
 bool is_clearly_off(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                     const LatticePoint& d) {
@@ -121,7 +121,7 @@ private:
             f.joins = g.joins = true;
             return;
         }
-        const BoundaryFacet& cut = parts_.facets[u(edges_[std::min(a, b)].facet)];
+        const BoundaryFacet& cut = parts_.facets[as_index(edges_[std::min(a, b)].facet)];
         WholeFacet& f = whole_[(std::max(a, b) - n) / 3];
         if (f.joins || !may_join(cut, named(f), within_faces_)) return;
         if (is_same_oriented_plane(parts_.bench.plane_at(cut.support), cut.flipped, plane(f),
@@ -217,7 +217,7 @@ void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& ver
     std::vector<std::int32_t> order(parts.facets.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](std::int32_t i) {
-        const BoundaryFacet& f = parts.facets[u(i)];
+        const BoundaryFacet& f = parts.facets[as_index(i)];
         return std::tuple(f.source->serial(), f.facet, f.flipped, i);
     };
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
@@ -225,11 +225,11 @@ void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& ver
     std::vector<BoundaryFacet> sorted;
     sorted.reserve(order.size());
     for (const std::int32_t i : order) {
-        place[u(i)] = static_cast<std::int32_t>(sorted.size());
-        sorted.push_back(parts.facets[u(i)]);
+        place[as_index(i)] = static_cast<std::int32_t>(sorted.size());
+        sorted.push_back(parts.facets[as_index(i)]);
     }
     parts.facets.swap(sorted);
-    for (BoundaryEdge& e : edges) e.facet = place[u(e.facet)];
+    for (BoundaryEdge& e : edges) e.facet = place[as_index(e.facet)];
 }
 
 }  // namespace trisect::detail

@@ -28,7 +28,7 @@ struct WholeFacet {
 
 /// All facets that pass through, in the order of facets. `edges` are those of the facets that do
 /// not. O(n log n): one counting sort of directed edges; planes are compared exactly only where
-/// doubles cannot tell them apart.
+/// doubles cannot distinguish them.
 [[nodiscard]] std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
                                                         std::span<const BoundaryEdge> edges,
                                                         bool within_faces,

@@ -6,21 +6,22 @@
 // the facet; those of two operands meet inside of both where each has its ends on both sides of the
 // other one's plane.
 //
-// So one walk around the facet's outline knows at every point which cutters cover it: a cutter of
-// which a segment ends there has covered one side and leaves the other one open, whatever it does
+// So one walk around the facet's outline has at every point the cutters that contain it: a cutter
+// of which a segment ends there contains one side and leaves the other one open, whatever it does
 // elsewhere. From the outline it goes on along the paths, where a cutter changes at its meetings.
-// What is covered by none bounds the open part. No winding number is ever traced, and no point is
-// made that is not a vertex, but for meetings under a third cutter.
+// What none contains bounds the open part. No winding number is ever traced, and no point is made
+// that is not a vertex, but for meetings under a third cutter.
 //
-// Closed paths know what covers them from a path that they meet, or else by a straight way from a
-// corner. Whether a cutter with nothing but closed paths covers the facet around them is told by
-// the sign of the area that they enclose, since outermost paths enclose all others.
+// The cutters that contain a closed path come from a path that it meets, or else from a straight
+// segment from a corner. Whether a cutter with nothing but closed paths contains the facet around
+// them is decided by the sign of the area that they enclose, since outermost paths enclose all
+// others.
 //
-// Everything is asked in doubles with a bound. What has no sure answer ends the attempt.
+// Everything is computed in doubles with a bound. What has no sure answer ends the attempt.
 //
 // Meetings are found pair by pair (outline_meetings.cpp). QuickCSG (Douze, Franco, Raffin 2017)
-// starts from the same vertices, but asks for each of them where it lies; walking from one to the
-// next asks nothing.
+// starts from the same vertices, but locates each of them; walking from one to the next needs no
+// query.
 
 #include <trisect/bsp/assembly/traced/facet_outline.h>
 
@@ -30,14 +31,11 @@
 #include <utility>
 
 #include <trisect/brep/planar_loops.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
-namespace {
-
-constexpr double slack = 1.0001;
-
-}  // namespace
+namespace {}  // namespace
 
 bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
                          std::span<const OutlineSegment> segments) {
@@ -129,7 +127,8 @@ bool FacetOutline::sort_stops_on(std::size_t edge) {
     }
     std::ranges::sort(stops, {}, &Stop::along);
     for (std::size_t i = 1; i < stops.size(); ++i)
-        if (!(stops[i].along - stops[i - 1].along > slack * (stops[i - 1].error + stops[i].error)))
+        if (!(stops[i].along - stops[i - 1].along >
+              bound_slack * (stops[i - 1].error + stops[i].error)))
             return false;
     return true;
 }
@@ -179,7 +178,7 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
     return std::fabs(area) > error;
 }
 
-// Where no cutter covers it, the outline bounds the open part.
+// Where no cutter contains it, the outline bounds the open part.
 bool FacetOutline::walk_outline() {
     at_stop_.assign(segments_.size(), 0);
     Covers covers = at_corner_;
@@ -311,7 +310,7 @@ bool FacetOutline::set_projection() {
     return true;
 }
 
-// 1: to the left; 0 when doubles cannot tell.
+// 1: to the left; 0 when doubles cannot decide.
 int FacetOutline::turn(const Approximation& a, const Approximation& b,
                        const Approximation& c) const {
     return PlaneProjection::filtered_orientation(

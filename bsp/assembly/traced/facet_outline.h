@@ -41,7 +41,7 @@ class FacetOutline {
 public:
     static constexpr std::size_t max_cutters = 64;
 
-    /// False when doubles cannot tell, more than max_cutters operands cross the facet, or the
+    /// False when doubles cannot decide, more than max_cutters operands cross the facet, or the
     /// segments are not what closed boundaries leave. O(n^2) for n segments.
     [[nodiscard]] bool trace(const std::array<const LatticePoint*, 3>& corners,
                              std::span<const OutlineSegment> segments);
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// A bit for each cutter that covers a point.
+    /// A bit for each cutter that contains a point.
     using Covers = std::uint64_t;
     /// Where a segment ends in the facet's outline.
     struct Stop {

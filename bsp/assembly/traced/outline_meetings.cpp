@@ -7,12 +7,12 @@
 //
 // Those that are left cross where each has its ends on both sides of the other one's line. These
 // signs come from doubles with a bound, and what has no sure answer ends the attempt. The point is
-// then taken on the one of the two segments that tells it better.
+// then taken on the one of the two segments that determines it better.
 //
 // The bound, with u = 2^-53 and E the largest error of the four ends. The value of a point is
 // du y - dv x, with (du, dv) the way along the line and (x, y) the way from its start. Each of
-// these differences is off by 2E for its ends, and by a factor of 1 + u. So the error of a product,
-// say du y, is
+// these differences is off by 2E for its ends, and by a factor of 1 + u. So a product, say
+// du y, has an error of
 //     2E (|du| + |y|) + 4E^2 + 3.1u |du y|
 // besides products of E and u, and the difference of both by another u of it. That makes
 //     2E (|du| + |dv| + |x| + |y| + 4E) + 4.1u (|du y| + |dv x|);
@@ -27,13 +27,12 @@
 #include <utility>
 
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/double2.h>
 
 namespace trisect::detail {
 
 namespace {
-
-constexpr double slack = 1.0001;
 
 // The axis along which a segment is longest, and the way along it with its sign.
 std::pair<std::size_t, double> longest_way(const OutlineSegment& s) {
@@ -86,7 +85,7 @@ bool OutlineMeetings::find(const OutlinePlane& facet, std::span<const OutlineSeg
     return points_.empty() || sort_meetings();
 }
 
-// False when doubles cannot tell how the facet lies.
+// False when doubles cannot decide how the facet lies.
 bool OutlineMeetings::set_axes(const OutlinePlane& facet) {
     const std::size_t k = facet.dominant_axis();
     axes_ = {(k + 1) % 3, (k + 2) % 3};
@@ -219,7 +218,8 @@ bool OutlineMeetings::sort_along(const OutlineSegment& segment, std::span<Meetin
     std::ranges::sort(run, {}, &Meeting::along);
     const auto error = [&](std::size_t i) { return points_[run[i].point].at.error; };
     for (std::size_t i = 1; i < run.size(); ++i)
-        if (!(run[i].along - run[i - 1].along > slack * (error(i - 1) + error(i)))) return false;
+        if (!(run[i].along - run[i - 1].along > bound_slack * (error(i - 1) + error(i))))
+            return false;
     return true;
 }
 

@@ -34,7 +34,7 @@ struct OutlinePlane {
 
     OutlinePlane() = default;
     explicit OutlinePlane(const std::array<const LatticePoint*, 3>& corners);
-    /// The axis along which the normal is longest, as far as doubles tell.
+    /// The axis along which the normal is longest, as far as doubles decide.
     [[nodiscard]] std::size_t dominant_axis() const;
 };
 
@@ -45,7 +45,7 @@ public:
     struct Meeting {
         std::uint32_t other = 0;   ///< that segment
         std::uint32_t point = 0;   ///< the number of the common point
-        bool opens = false;        ///< from there on the other cutter leaves open, or covers
+        bool opens = false;        ///< from there on the other cutter leaves open, or contains
         std::uint64_t before = 0;  ///< for the caller
         double along = 0;          ///< of several, the way along one axis
     };
@@ -55,8 +55,8 @@ public:
         Approximation at;
     };
 
-    /// False when doubles cannot tell which segments of different cutters cross, or in what order.
-    /// O(n^2), four pairs at a time.
+    /// False when doubles cannot decide which segments of different cutters cross, or in what
+    /// order. O(n^2), four pairs at a time.
     [[nodiscard]] bool find(const OutlinePlane& facet, std::span<const OutlineSegment> segments,
                             std::size_t cutters);
     /// In their order along the segment.

@@ -4,12 +4,12 @@
 // segments, and these are where the result's part of the facet ends (facet_outline.cpp). So the
 // outline of that part is known without any cutting, however many operands cross the facet.
 //
-// What leaves have made of the same facet is convex pieces, cut by the walls of cells and by the
-// lines of segments far beyond their ends. To join those takes several times as long, and comes to
-// the same: every vertex of either is where an edge pierces a facet, where three facets meet, or a
-// corner.
+// What leaves have made of the same facet is convex pieces, cut by the bounding planes of cells and
+// by the lines of segments far beyond their ends. To join those takes several times as long, and
+// comes to the same: every vertex of either is where an edge pierces a facet, where three facets
+// meet, or a corner.
 //
-// A facet of which doubles cannot tell the outline is left to the pieces.
+// A facet of which doubles cannot decide the outline is left to the pieces.
 
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 
@@ -21,12 +21,11 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/traced/facet_outline.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
-
-std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
 
 // Which operand a facet belongs to, of many: by a table of about twice as many equal ranges of
 // facets as there are operands, most of which are in one or two.
@@ -188,7 +187,7 @@ private:
             const auto n = static_cast<std::ptrdiff_t>(outline_.edges().size());
             std::reverse(edges_.end() - n, edges_.end());
         }
-        BoundaryFacet& f = parts_.facets[u(number)];
+        BoundaryFacet& f = parts_.facets[as_index(number)];
         f.support = parts_.bench.support_of(own_);
         f.parts = 1;
     }
@@ -206,7 +205,7 @@ private:
                 return point;
             }
             case OutlinePoint::Kind::End:
-                return end_of(p.place, u(p.which));
+                return end_of(p.place, as_index(p.which));
             case OutlinePoint::Kind::Meeting:
                 break;
         }
@@ -268,7 +267,7 @@ private:
         const std::uint32_t facet = number - o.first;
         PlaneId none = -1;
         PlaneId& known = marks.takes_part(facet, o.inside_above)
-                             ? planes_[u(marks.number_of_worked(facet, o.inside_above))]
+                             ? planes_[as_index(marks.number_of_worked(facet, o.inside_above))]
                              : none;
         if (known < 0) known = parts_.bench.plane(PlaneName::edge(marks.source(), facet, 0));
         return plane = known;
@@ -279,14 +278,14 @@ private:
     BoundaryParts& parts_;
     std::vector<BoundaryEdge>& edges_;
     std::vector<FacetMarks*> marks_;                // by operand
-    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were asked for
+    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
     std::vector<PlaneId> planes_;                   // the same by number of the facet
     // Of one facet:
     std::vector<Side> sides_;
     std::vector<OutlineSegment> segments_;
     FacetOutline outline_;
-    std::array<PointId, 3> corners_{};  // where they were asked for
+    std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
     PlaneId own_ = -1;

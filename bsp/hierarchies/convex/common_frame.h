@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CommonFrame: two posed lattices in one coordinate system.
-// Distances in it are those that a query asks for.
+// Distances in it are Euclidean.
 #pragma once
 
 #include <array>
@@ -13,13 +13,14 @@
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
 #include <trisect/kernel/number/bounded_double.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::hierarchies {
 
 /// Maps of the lattices of A and of B into one space, where both stand as their poses put them up
 /// to one translation and one scale. Points come in doubles with certified errors, and as integers
-/// of any size when asked for exactly. Poses may be any affine maps.
+/// of any size for exact answers. Poses may be any affine maps.
 ///
 /// Cheap to make; the integers are made when first needed. Move-only, for one thread.
 class CommonFrame {
@@ -27,7 +28,7 @@ public:
     /// Both at the origin.
     CommonFrame();
     /// Distances are those of the world, in the user's units. `reach_a`, `reach_b`: no coordinate
-    /// of a point that will be asked for is larger in magnitude (ConvexPolytope::largest).
+    /// of a point that will be used is larger in magnitude (ConvexPolytope::largest).
     CommonFrame(const Pose& pose_a, Lattice lattice_a, double reach_a, const Pose& pose_b,
                 Lattice lattice_b, double reach_b);
     /// Distances are those in the lattice of A, in its units.
@@ -44,12 +45,12 @@ public:
     enum class Body : std::uint8_t { A, B };
 
     /// Up to a factor `unit()`; all coordinates are at most about 1.
-    [[nodiscard]] detail::Vector<detail::BoundedDouble> approximate(Body body,
-                                                                    const LatticePoint& p) const {
+    [[nodiscard]] detail::VectorOf<detail::BoundedDouble> approximate(Body body,
+                                                                      const LatticePoint& p) const {
         const Map& m = body == Body::A ? a_ : b_;
         const std::array<double, 3> x{static_cast<double>(p.x), static_cast<double>(p.y),
                                       static_cast<double>(p.z)};
-        detail::Vector<detail::BoundedDouble> r;
+        detail::VectorOf<detail::BoundedDouble> r;
         for (std::size_t i = 0; i < 3; ++i)
             r[i] = {((m.m[i][0] * x[0] + m.m[i][1] * x[1]) + m.m[i][2] * x[2]) + m.t[i], m.error};
         return r;

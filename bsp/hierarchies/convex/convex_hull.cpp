@@ -36,11 +36,12 @@ namespace trisect::hierarchies {
 namespace {
 
 using Index = std::uint32_t;
-constexpr Index none = ConvexPolytope::none;
+constexpr Index no_facet = ConvexPolytope::none;
 
 struct Facet {
     std::array<Index, 3> vertex{};
-    std::array<Index, 3> beyond{none, none, none};  // behind the side from vertex i to i + 1
+    std::array<Index, 3> beyond{no_facet, no_facet,
+                                no_facet};  // behind the side from vertex i to i + 1
     Plane plane;
     std::vector<Index> above;
     bool gone = false;
@@ -148,7 +149,7 @@ private:
     // Removes the facets that the point is strictly above; returns the sides of kept facets around
     // them. Their points become orphans.
     std::vector<Side3> remove_seen(Index first, Index apex) {
-        cone_at_.resize(points_.size(), none);
+        cone_at_.resize(points_.size(), no_facet);
         orphans_.clear();
         ++visit_;
         std::vector<Side3> horizon;
@@ -179,16 +180,16 @@ private:
 
     // Numbers the classes of coplanar neighbours.
     void find_faces() {
-        face_of_.assign(facets_.size(), none);
+        face_of_.assign(facets_.size(), no_facet);
         for (Index f = 0; f < facets_.size(); ++f) {
-            if (facets_[f].gone || face_of_[f] != none) continue;
+            if (facets_[f].gone || face_of_[f] != no_facet) continue;
             std::vector<Index> stack{f};
             face_of_[f] = face_count_;
             while (!stack.empty()) {
                 const Index g = stack.back();
                 stack.pop_back();
                 for (const Index h : facets_[g].beyond)
-                    if (face_of_[h] == none && is_coplanar(f, h)) {
+                    if (face_of_[h] == no_facet && is_coplanar(f, h)) {
                         face_of_[h] = face_count_;
                         stack.push_back(h);
                     }
@@ -221,7 +222,7 @@ private:
             }
         }
         std::vector<LatticePoint> vertices;
-        std::vector<Index> name(points_.size(), none);
+        std::vector<Index> name(points_.size(), no_facet);
         std::vector<std::vector<Index>> loops;
         for (auto& steps : outline) {
             std::sort(steps.begin(), steps.end(),
@@ -236,7 +237,7 @@ private:
                                 "the outline of a hull's face is open");
                 if (next->face != steps[at].face) {
                     Index& v = name[next->from];
-                    if (v == none) {
+                    if (v == no_facet) {
                         v = static_cast<Index>(vertices.size());
                         vertices.push_back(points_[next->from]);
                     }

@@ -25,7 +25,7 @@ namespace {
 using trisect::detail::InterferenceModelData;
 using trisect::detail::ModelTriangle;
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_part = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t most_triangles_for_a_tree = 20'000;
 constexpr std::size_t most_planes = 512;
 
@@ -70,15 +70,15 @@ public:
     explicit Grower(const InterferenceModelData& m)
         : m_(m),
           cell_(cells_below(m)),
-          part_of_(m.triangles.size(), none),
-          vertex_mark_(m.positions.size(), none),
-          plane_mark_(m.brep.counts().faces, none) {
+          part_of_(m.triangles.size(), no_part),
+          vertex_mark_(m.positions.size(), no_part),
+          plane_mark_(m.brep.counts().faces, no_part) {
         find_neighbours();
     }
 
     std::vector<ConvexPart> run() {
         for (std::uint32_t t = 0; t < m_.triangles.size(); ++t)
-            if (part_of_[t] == none) grow_from(t);
+            if (part_of_[t] == no_part) grow_from(t);
         return std::move(parts_);
     }
 
@@ -94,7 +94,7 @@ private:
             for (std::size_t i = 0; i < 3; ++i) {
                 const ModelTriangle& x = m_.triangles[t];
                 const auto [lo, hi] = std::minmax(x.vertex[i].index, x.vertex[(i + 1) % 3].index);
-                sides.push_back({x.edge[i].is_valid() ? std::array{none, x.edge[i].index, 0U}
+                sides.push_back({x.edge[i].is_valid() ? std::array{no_part, x.edge[i].index, 0U}
                                                       : std::array{x.face.index, lo, hi},
                                  t});
             }
@@ -117,10 +117,10 @@ private:
         while (!front.empty()) {
             const std::uint32_t t = front.front();
             front.pop_front();
-            if (part_of_[t] != none || !fits(m_.triangles[t])) continue;
+            if (part_of_[t] != no_part || !fits(m_.triangles[t])) continue;
             take(t);
             for (const std::uint32_t n : neighbours_[t]) {
-                if (part_of_[n] != none) continue;
+                if (part_of_[n] != no_part) continue;
                 // The cell first.
                 if (cell_[n] == cell_[seed])
                     front.push_front(n);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A walk over features needs, from each of them, the next larger ones: from a vertex its edges,
-// from an edge its two faces. Whether a larger feature comes nearer to a point is asked by one
+// from an edge its two faces. Whether a larger feature comes nearer to a point is decided by one
 // vertex of it off the smaller one (`Spoke::vertex`, `Edge::across`); so these are kept with the
 // adjacency, and no edge direction or normal is ever stored, which a pose would have to turn.
 

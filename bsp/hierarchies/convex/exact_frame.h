@@ -9,11 +9,12 @@
 
 #include <trisect/bsp/hierarchies/convex/common_frame.h>
 #include <trisect/kernel/number/bounded_double.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
 /// Places of both bodies are integers here: x -> M x + t. A distance in this space is `scale` times
-/// the one that was asked for.
+/// the requested one.
 struct CommonFrame::Exact {
     struct Map {
         std::array<std::array<mpz_class, 3>, 3> m;
@@ -23,10 +24,10 @@ struct CommonFrame::Exact {
     Map b;
     mpq_class scale;
 
-    [[nodiscard]] detail::Vector<mpz_class> place(Body body, const LatticePoint& p) const {
+    [[nodiscard]] detail::VectorOf<mpz_class> place(Body body, const LatticePoint& p) const {
         static_assert(sizeof(long) == sizeof(p.x), "GMP takes long");
         const Map& map = body == Body::A ? a : b;
-        detail::Vector<mpz_class> r;
+        detail::VectorOf<mpz_class> r;
         for (std::size_t i = 0; i < 3; ++i) {
             r[i] = map.t[i];
             r[i] += map.m[i][0] * static_cast<long>(p.x);

@@ -53,14 +53,14 @@ using detail::cross;
 using detail::dot;
 using detail::minus;
 using detail::scaled;
-using detail::Vector;
+using detail::VectorOf;
 using Kind = PolytopeFeature::Kind;
 
 struct FeatureWalk::Doubles {
     using Number = BoundedDouble;
     const FeatureWalk* walk;
     static Number one() { return {1, 0}; }
-    Vector<Number> operator()(const Place& p) const {
+    VectorOf<Number> operator()(const Place& p) const {
         return walk->frame_->approximate(p.body, walk->polytope(p.body).vertices()[p.vertex]);
     }
 };
@@ -69,7 +69,7 @@ struct FeatureWalk::Integers {
     using Number = mpz_class;
     const FeatureWalk* walk;
     static Number one() { return 1; }
-    Vector<Number> operator()(const Place& p) const {
+    VectorOf<Number> operator()(const Place& p) const {
         return walk->frame_->exact().place(p.body, walk->polytope(p.body).vertices()[p.vertex]);
     }
 };
@@ -77,11 +77,11 @@ struct FeatureWalk::Integers {
 namespace {
 
 template <class N>
-Vector<N> negated(const Vector<N>& v) {
+VectorOf<N> negated(const VectorOf<N>& v) {
     return {N(-v[0]), N(-v[1]), N(-v[2])};
 }
 template <class N>
-Vector<N> turned(const Vector<N>& v, int sense) {
+VectorOf<N> turned(const VectorOf<N>& v, int sense) {
     return sense < 0 ? negated(v) : v;
 }
 
@@ -107,7 +107,7 @@ std::array<FeatureWalk::Place, 2> FeatureWalk::ends(const Part& edge) const {
     return {Place{edge.body, e.vertex[0]}, Place{edge.body, e.vertex[1]}};
 }
 
-// The sign of a formula over any numbers: in doubles if they can tell.
+// The sign of a formula over any numbers: in doubles if they can decide.
 template <class F>
 int FeatureWalk::sign(const F& f) const {
     if (counts_ != nullptr) ++counts_->signs;
@@ -143,7 +143,7 @@ auto FeatureWalk::way(const State& s, const At& at) const {
         const auto [e0, e1] = ends(edge);
         const auto r = minus(at(e0), at(p));
         const auto d = minus(at(e1), at(e0));
-        return minus(scaled(dot(d, d), r), scaled(dot(r, d), d));
+        return minus(scaled(r, dot(d, d)), scaled(d, dot(r, d)));
     };
     if (s.a.kind == Kind::Face) return turned(normal_of(x, at), s.sense);
     if (s.b.kind == Kind::Face) return turned(normal_of(y, at), -s.sense);
@@ -164,7 +164,7 @@ auto FeatureWalk::squared(const State& s, const At& at) const {
     using N = typename At::Number;
     const Part x{Body::A, s.a};
     const Part y{Body::B, s.b};
-    const auto across = [&](const Vector<N>& n, const Vector<N>& r) {
+    const auto across = [&](const VectorOf<N>& n, const VectorOf<N>& r) {
         const N h = dot(n, r);
         return Fraction<N>{N(h * h), dot(n, n)};
     };
@@ -253,12 +253,12 @@ auto FeatureWalk::lines(const Part& e, const Part& f, const At& at) const {
     using N = typename At::Number;
     const auto [p, p1] = ends(e);
     const auto [q, q1] = ends(f);
-    const Vector<N> o = at(p);
-    const Vector<N> o2 = at(q);
-    const Vector<N> u = minus(at(p1), o);
-    const Vector<N> v = minus(at(q1), o2);
-    const Vector<N> r = minus(o2, o);
-    const Vector<N> n = cross(u, v);
+    const VectorOf<N> o = at(p);
+    const VectorOf<N> o2 = at(q);
+    const VectorOf<N> u = minus(at(p1), o);
+    const VectorOf<N> v = minus(at(q1), o2);
+    const VectorOf<N> r = minus(o2, o);
+    const VectorOf<N> n = cross(u, v);
     return LinePair<N>{dot(cross(r, v), n), dot(cross(r, u), n), dot(n, n), dot(n, r)};
 }
 
@@ -293,14 +293,14 @@ void FeatureWalk::of_vertex_and_face(const Place& p, const Part& given) {
     const auto loop = body.corners(face.feature.index);
     const auto sides = body.sides(face.feature.index);
     const Doubles at{this};
-    const Vector<BoundedDouble> n = normal_of(face, at);
-    const Vector<BoundedDouble> x = at(p);
+    const VectorOf<BoundedDouble> n = normal_of(face, at);
+    const VectorOf<BoundedDouble> x = at(p);
     bool inside = true;
-    Vector<BoundedDouble> from = at(Place{face.body, loop[0]});
+    VectorOf<BoundedDouble> from = at(Place{face.body, loop[0]});
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Place c{face.body, loop[i]};
         const Place d{face.body, loop[(i + 1) % loop.size()]};
-        const Vector<BoundedDouble> to = at(d);
+        const VectorOf<BoundedDouble> to = at(d);
         const int s =
             decide(dot(n, cross(minus(to, from), minus(x, from))), [&](const Integers& exact) {
                 return dot(normal_of(face, exact),
@@ -421,14 +421,14 @@ FeatureWalk::Rise FeatureWalk::rise_from_vertex(const Part& x) {
     const Doubles at{this};
     const Place p{x.body, x.feature.index};
     const Part y{x.body == Body::A ? Body::B : Body::A, x.body == Body::A ? state_.b : state_.a};
-    const Vector<BoundedDouble> w = turned(way(state_, at), x.body == Body::A ? 1 : -1);
-    const Vector<BoundedDouble> o = at(p);
+    const VectorOf<BoundedDouble> w = turned(way(state_, at), x.body == Body::A ? 1 : -1);
+    const VectorOf<BoundedDouble> o = at(p);
     const auto spokes = polytope(x.body).spokes(p.vertex);
     std::uint32_t best = ConvexPolytope::none;
     double steepest = 0;
     bool unsure = false;
     for (const auto& spoke : spokes) {
-        const Vector<BoundedDouble> d = minus(at(Place{x.body, spoke.vertex}), o);
+        const VectorOf<BoundedDouble> d = minus(at(Place{x.body, spoke.vertex}), o);
         const BoundedDouble rise = dot(w, d);
         const auto s = rise.sign();
         if (counts_ != nullptr && s) ++counts_->signs;

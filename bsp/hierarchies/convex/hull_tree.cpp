@@ -9,7 +9,7 @@
 // overlap, so it is enough to add up areas: twice those seen along an axis are integers.
 //
 // Sources: Ponamgi, Manocha, Lin, Incremental algorithms for collision detection between polygonal
-// models (TVCG 3(1), 1997): hull features that cover concavities; Ehmann and Lin (2001), sec. 4.
+// models (TVCG 3(1), 1997): hull features that bridge concavities; Ehmann and Lin (2001), sec. 4.
 
 #include <trisect/bsp/hierarchies/convex/hull_tree.h>
 

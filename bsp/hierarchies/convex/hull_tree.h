@@ -37,7 +37,7 @@ public:
         std::uint32_t triangle_count = 0;
         /// The node's triangles are (part of) one convex part.
         bool within_part = false;
-        /// Which faces of the hull are boundary of the solid; the others cover concavities. Found
+        /// Which faces of the hull are boundary of the solid; the others bridge concavities. Found
         /// for lattice models, otherwise none is.
         std::vector<bool> real_face;
         /// Likewise for edges: in faces that are boundary, or sides of triangles.

@@ -2,7 +2,7 @@
 //
 // Best first: the pair of hulls with the least distance so far is opened next. What makes it
 // sensitive to the output is the acceptance of hulls whose closest features are real: two gears
-// beside each other are told from a few features of a few hulls, without looking into one gap
+// beside each other are decided by a few features of a few hulls, without looking into one gap
 // between teeth that does not face the other gear.
 
 #include <trisect/bsp/hierarchies/convex/sub_part_tracker.h>

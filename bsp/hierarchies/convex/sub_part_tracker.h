@@ -27,7 +27,7 @@ struct SubPartCounts {
 /// Over two trees of hulls with one triangle a leaf. Hulls that are apart and whose closest
 /// features are boundary are as far apart as the boundaries in them, so they are not opened; hulls
 /// that meet in features that are boundary meet there. Otherwise that hull is opened whose feature
-/// covers a concavity.
+/// bridges a concavity.
 ///
 /// Exact. For one thread; trees must outlive it. Starts from the features of the last pose.
 /// Source: Ponamgi, Manocha, Lin (TVCG 3(1), 1997); the tree is that of Ehmann and Lin (2001).
@@ -55,7 +55,7 @@ private:
         double least;
         std::uint32_t a;
         std::uint32_t b;
-        bool open_a;  // the feature of A covers a concavity
+        bool open_a;  // the feature of A bridges a concavity
         bool open_b;
     };
     void visit(std::uint32_t a, std::uint32_t b, double parent);

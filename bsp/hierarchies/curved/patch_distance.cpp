@@ -18,22 +18,21 @@
 #include <vector>
 
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
+
+using detail::dot;
+using detail::minus;
 
 namespace {
 
 using Part = PatchTree::Part;
 
-Point3d minus(const Point3d& a, const Point3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Point3d& a, const Point3d& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 // The doubles of a pose; each is within 2^-50 of itself of the exact number.
-class Placement {
+class PatchPlacement {
 public:
-    explicit Placement(const Pose& pose) : map_(pose.approximate()) {
+    explicit PatchPlacement(const Pose& pose) : map_(pose.approximate()) {
         for (std::size_t i = 0; i < 3; ++i) {
             double row = 0;
             for (std::size_t k = 0; k < 3; ++k) row += std::abs(map_[4 * i + k]);
@@ -66,7 +65,7 @@ struct MovedHull {
     double radius = 0;
     double largest = 0;
 
-    void assign(const PatchTree::Hull& hull, const Placement& place) {
+    void assign(const PatchTree::Hull& hull, const PatchPlacement& place) {
         points.clear();
         radius = largest = 0;
         for (const Point3d& p : hull.points) {
@@ -198,8 +197,8 @@ private:
 
     PatchTree& a_;
     PatchTree& b_;
-    Placement place_a_;
-    Placement place_b_;
+    PatchPlacement place_a_;
+    PatchPlacement place_b_;
     PatchDistanceOptions options_;
     MovedHull hull_a_;
     MovedHull hull_b_;

@@ -30,13 +30,13 @@ struct PatchDistance {
 /// The distance of surfaces, not of solids: of a solid inside another one it is the clearance.
 ///
 /// Best-first search over pairs of parts, halving the larger one. Where `max_tests` or doubles end
-/// the search early the interval is wider than asked for, and `reached` says so; it still holds.
+/// the search early the interval is wider than requested, and `reached` is false; it still holds.
 /// \throw UsageError unless the tolerance is positive.
 [[nodiscard]] PatchDistance patch_distance(PatchTree& a, const Pose& pose_a, PatchTree& b,
                                            const Pose& pose_b,
                                            const PatchDistanceOptions& options = {});
 
-/// What is known of two surfaces that are asked whether they interfere.
+/// Outcome of an interference test of two surfaces.
 enum class PatchInterference : std::uint8_t {
     Apart,     ///< proved: they have no common point
     Near,      ///< proved: there are points of both within the tolerance of each other

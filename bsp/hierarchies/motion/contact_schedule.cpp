@@ -14,12 +14,13 @@
 #include <limits>
 
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::hierarchies {
 
-namespace {
+using detail::infinity;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+namespace {
 
 double up(double v) { return std::nextafter(v, infinity); }
 double down(double v) { return std::nextafter(v, -infinity); }

@@ -31,7 +31,7 @@ namespace trisect::hierarchies {
 /// Pairs of bodies in a heap by the earliest time at which they can meet.
 ///
 /// Promise: if a body's points never move farther in a time than its speed times that time, and
-/// distances told by tests are lower bounds, then whenever two bodies have a common point at a time
+/// distances from tests are lower bounds, then whenever two bodies have a common point at a time
 /// for which due() is called, that call tests them. Proof: after a test at time s with distance d
 /// at least, a common point at time t needs (u + v)(t - s) >= d for the speeds u and v; the pair is
 /// due at a time rounded down from s + d / (u + v), the sum rounded up. Speeds that change keep

@@ -26,6 +26,7 @@
 #include <trisect/bsp/hierarchies/motion/space_time_boxes.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::hierarchies {
 
@@ -33,6 +34,7 @@ namespace {
 
 using detail::BodyBounds;
 using detail::BodyBox;
+using detail::infinity;
 using detail::IntegerPolynomial;
 using detail::MotionPiece;
 
@@ -81,7 +83,6 @@ struct Bounded {
 };
 
 Bounded bounds_over(const MotionPiece& piece, const BodyBounds& body, double from, double to) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const int n = std::max(piece.degree(), 1);
     const auto weight = bernstein(piece.weight, n, from, to);
     Bounded r;
@@ -131,11 +132,11 @@ void append_boxes(const MotionPiece& piece, const BodyBounds& body, double start
 
 namespace bg = boost::geometry;
 namespace bgi = boost::geometry::index;
-using TreePoint = bg::model::point<double, 4, bg::cs::cartesian>;
-using TreeBox = bg::model::box<TreePoint>;
+using TreePoint4 = bg::model::point<double, 4, bg::cs::cartesian>;
+using TreeBox4 = bg::model::box<TreePoint4>;
 
-TreePoint tree_point(const std::array<double, 3>& p, double time) {
-    TreePoint r;
+TreePoint4 tree_point(const std::array<double, 3>& p, double time) {
+    TreePoint4 r;
     r.set<0>(p[0]);
     r.set<1>(p[1]);
     r.set<2>(p[2]);
@@ -182,7 +183,7 @@ std::vector<SpaceTimePair> SpaceTimeBoxes::pairs(double from, double to) const {
         std::uint32_t body;
         std::uint32_t box;
     };
-    std::vector<std::pair<TreeBox, Entry>> entries;
+    std::vector<std::pair<TreeBox4, Entry>> entries;
     for (std::uint32_t body = 0; body < bodies_.size(); ++body)
         for (std::uint32_t i = 0; i < bodies_[body].size(); ++i) {
             const SpaceTimeBox& b = bodies_[body][i];
@@ -193,16 +194,16 @@ std::vector<SpaceTimePair> SpaceTimeBoxes::pairs(double from, double to) const {
                     {{tree_point(b.space.lo, first), tree_point(b.space.hi, last)}, {body, i}});
         }
     struct Indexable {
-        using result_type = const TreeBox&;
-        result_type operator()(const std::pair<TreeBox, Entry>& e) const { return e.first; }
+        using result_type = const TreeBox4&;
+        result_type operator()(const std::pair<TreeBox4, Entry>& e) const { return e.first; }
     };
     struct Same {
-        bool operator()(const std::pair<TreeBox, Entry>& a,
-                        const std::pair<TreeBox, Entry>& b) const {
+        bool operator()(const std::pair<TreeBox4, Entry>& a,
+                        const std::pair<TreeBox4, Entry>& b) const {
             return a.second.body == b.second.body && a.second.box == b.second.box;
         }
     };
-    const bgi::rtree<std::pair<TreeBox, Entry>, bgi::rstar<8>, Indexable, Same> tree(entries);
+    const bgi::rtree<std::pair<TreeBox4, Entry>, bgi::rstar<8>, Indexable, Same> tree(entries);
     std::vector<SpaceTimePair> found;
     for (const auto& [box, mine] : entries)
         for (auto it = tree.qbegin(bgi::intersects(box)); it != tree.qend(); ++it)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The placement is worked out once for all structures, in doubles with certified errors. Where the
-// poses are beyond doubles, nothing but exact tests can tell anything, and every pair is visited.
+// poses are beyond doubles, nothing but exact tests decides, and every pair is visited.
 
 #include <trisect/bsp/hierarchies/pairs/pair_structure.h>
 

@@ -36,7 +36,7 @@ struct Placement {
 
 /// A structure over two models, which it keeps. For one thread.
 ///
-/// Lifetime: built once, then placed and asked any number of times. What is asked before the first
+/// Lifetime: built once, then placed and queried any number of times. Queries before the first
 /// place() is answered for identical poses.
 class PairStructure {
 public:
@@ -62,25 +62,25 @@ public:
     bool deform_b(const InterferenceModel& b, CostCounters& counters);
 
     /// Visits every pair of triangles that has a common point, each pair at most once, and others
-    /// that the structure cannot tell apart. Says whether it was stopped. Counts `volume_tests`;
-    /// what the pairs cost, the caller counts.
+    /// that the structure cannot decide apart. Returns whether it was stopped. Counts
+    /// `volume_tests`; what the pairs cost, the caller counts.
     bool candidates(PairVisit visit, CostCounters& counters);
 
     /// Visits every pair of triangles whose distance, in lattice units of A, is not above the limit
     /// that is current when it comes up. In any order; nearest first is best. A negative limit ends
-    /// it. May be told an infinite one.
+    /// it. May be infinite.
     void near(double limit, NearVisit visit, CostCounters& counters);
 
     /// The relation, where the structure can prove it without comparing any triangles: partitions
-    /// that know inside from outside may. Costs a little where it cannot.
+    /// that distinguish inside from outside may. Costs a little where it cannot.
     [[nodiscard]] std::optional<Relation> early_relation(CostCounters& counters);
 
     [[nodiscard]] const InterferenceModel& model_a() const { return a_; }
     [[nodiscard]] const InterferenceModel& model_b() const { return b_; }
     [[nodiscard]] const Pose& pose_a() const { return pose_a_; }
     [[nodiscard]] const Pose& pose_b() const { return pose_b_; }
-    /// Whether doubles can tell anything about these poses. Otherwise all pairs are visited and the
-    /// structure is not asked.
+    /// Whether doubles suffice for these poses. Otherwise all pairs are visited and the structure
+    /// is not used.
     [[nodiscard]] bool has_doubles() const { return placement_.to_a.is_usable(); }
     [[nodiscard]] const Placement& placement() const { return placement_; }
 

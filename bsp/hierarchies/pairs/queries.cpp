@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One leaf test for all structures. Doubles with error bounds sort candidate pairs into apart,
-// crossing and unknown (triangle_filter.cpp), and decide nearly all; what they leave is asked in
+// crossing and unknown (triangle_filter.cpp), and decide nearly all; what they leave is decided in
 // exact arithmetic, under an exact relative pose that is made when it is first needed. So a
 // structure can only be slow, or wrong by leaving out a pair; it cannot be inexact.
 
@@ -101,7 +101,7 @@ private:
     detail::BoundaryPairs pairs_;
 };
 
-// The relation from pairs where doubles could not tell it.
+// The relation from pairs where doubles could not decide it.
 Relation relation_of_unknown(const PairStructure& s, const std::vector<TrianglePair>& unknown,
                              CostCounters& counters) {
     const detail::PosedModels models{
@@ -118,16 +118,16 @@ Relation relation_of_unknown(const PairStructure& s, const std::vector<TriangleP
 }
 
 // All pairs that may be the closest, and bounds on the distance.
-struct Nearest {
+struct NearestPairs {
     DistanceInterval interval;
     std::vector<DistanceCandidate> pairs;
 };
 
-Nearest nearest(PairStructure& s, CostCounters& counters) {
+NearestPairs nearest(PairStructure& s, CostCounters& counters) {
     const detail::PairDistance pairs(s.model_a().data(), s.pose_a(), s.model_b().data(),
                                      s.pose_b());
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    Nearest r;
+    NearestPairs r;
     double upper = infinite;
     double limit = infinite;
     s.near(
@@ -158,7 +158,7 @@ Nearest nearest(PairStructure& s, CostCounters& counters) {
 }  // namespace
 
 bool boundaries_meet(PairStructure& structure, CostCounters& counters) {
-    // What doubles cannot tell waits: a crossing may make it superfluous.
+    // What doubles cannot decide waits: a crossing may make it superfluous.
     std::vector<TrianglePair> unknown;
     const bool crossing = compare_candidates(
         structure, counters, [&](std::uint32_t a, std::uint32_t b, PairVerdict verdict) {
@@ -225,7 +225,7 @@ DistanceInterval distance(PairStructure& structure, CostCounters& counters) {
 ClosestFeatures closest(PairStructure& structure, CostCounters& counters) {
     const InterferenceModelData& a = structure.model_a().data();
     const InterferenceModelData& b = structure.model_b().data();
-    const Nearest found = nearest(structure, counters);
+    const NearestPairs found = nearest(structure, counters);
     if (std::ranges::any_of(found.pairs, &DistanceCandidate::crossing)) return {};
     std::optional<ClosestFeatures> best;
     for (const DistanceCandidate& c : found.pairs) {

@@ -31,7 +31,7 @@ using FacePair = std::pair<FaceId, FaceId>;
 /// What interfere() says.
 [[nodiscard]] Relation relation(PairStructure& structure, CostCounters& counters);
 
-/// Which triangles are the closest, as far as doubles with error bounds can tell: what
+/// Which triangles are the closest, as far as doubles with error bounds can decide: what
 /// boundary_distance() says, before any exact arithmetic. In the user's units.
 struct DistanceInterval {
     double lower = 0;
@@ -46,7 +46,7 @@ struct ClosestFeatures {
     /// Of all pairs of closest points that are corners of the set of such pairs (as good as any:
     /// they are all of them unless features are parallel), the entities that they are on; the first
     /// in the order of BoundaryEntity, first of A's and then of B's. Nothing where boundaries meet:
-    /// meeting_faces() tells where.
+    /// meeting_faces() has the places.
     std::optional<std::pair<BoundaryEntity, BoundaryEntity>> features;
     friend bool operator==(const ClosestFeatures&, const ClosestFeatures&) = default;
 };

@@ -221,7 +221,7 @@ std::uint32_t DelaunayMesh::face_towards(std::uint32_t t, std::uint32_t neighbou
 }
 
 void DelaunayMesh::fill_cavity(std::uint32_t corner) {
-    // One tetrahedron for each wall, in the places of the old ones first.
+    // One tetrahedron for each face, in the places of the old ones first.
     std::vector<Tetrahedron> added;
     added.reserve(surface_.size());
     for (const Wall& w : surface_) {
@@ -255,7 +255,7 @@ void DelaunayMesh::fill_cavity(std::uint32_t corner) {
             tetrahedra_[w.outside.tetrahedron].neighbour[w.outside.face] = cavity_[n];
         for (std::uint32_t i = 0; i < 4; ++i) {
             if (i == w.inside.face) continue;
-            // The face opposite corner i has the new point and an edge of the wall.
+            // The face opposite corner i has the new point and an edge of the face.
             std::array<std::uint32_t, 2> ends{};
             std::size_t k = 0;
             for (std::uint32_t j = 0; j < 4; ++j)
@@ -263,7 +263,7 @@ void DelaunayMesh::fill_cavity(std::uint32_t corner) {
             edges_.push_back({edge_key(ends[0], ends[1]), {cavity_[n], i}});
         }
     }
-    // Each edge of the surface has a wall on both sides.
+    // Each edge of the surface has a face on both sides.
     std::sort(edges_.begin(), edges_.end(),
               [](const Edge& a, const Edge& b) { return a.key < b.key; });
     for (std::size_t e = 0; e + 1 < edges_.size(); e += 2) {

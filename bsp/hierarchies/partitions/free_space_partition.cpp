@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // For a small body that flies through a field of obstacles, most of the time nothing is near. Held,
-// Klosowski and Mitchell fill space with tetrahedra that know the obstacles in them, and walk: from
+// Klosowski and Mitchell fill space with tetrahedra that list the obstacles in them, and walk: from
 // frame to frame the body enters a few new tetrahedra and leaves a few. What is tested is what the
 // tetrahedra that it is in have to do with; where that is nothing, the body's own triangles are not
 // even moved.
@@ -22,12 +22,13 @@
 #include <trisect/bsp/hierarchies/partitions/obstacle_mesh.h>
 #include <trisect/bsp/hierarchies/partitions/partitions.h>
 #include <trisect/bsp/interference/boxes/box_gap.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
-namespace {
+using detail::Vector3;
 
-using Double3 = std::array<double, 3>;
+namespace {
 
 class FreeSpacePartition final : public PairStructure {
 public:
@@ -52,9 +53,9 @@ protected:
     void update(CostCounters& counters) override {
         const auto& b = data_b();
         double far = 0;
-        std::array<Double3, 8> corners{};
+        std::array<Vector3, 8> corners{};
         for (std::size_t c = 0; c < 8; ++c) {
-            Double3 p = b.lo;
+            Vector3 p = b.lo;
             for (std::size_t k = 0; k < 3; ++k) {
                 if ((c >> k & 1U) != 0) p[k] = b.hi[k];
                 far = std::max(far, std::abs(p[k]));
@@ -128,9 +129,9 @@ private:
     template <class Passes>
     void start_walk(CostCounters& counters, Passes&& passes) {
         open_.clear();
-        Double3 centre{};
+        Vector3 centre{};
         double far = 0;
-        for (const Double3& p : body_.point)
+        for (const Vector3& p : body_.point)
             for (std::size_t k = 0; k < 3; ++k) {
                 centre[k] += p[k] / 8;
                 far = std::max(far, std::abs(p[k]));

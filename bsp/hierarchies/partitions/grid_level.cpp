@@ -12,10 +12,10 @@ namespace trisect::hierarchies {
 
 namespace {
 
-constexpr std::int64_t most = std::int64_t{1} << 31;
+constexpr std::int64_t farthest_cell = std::int64_t{1} << 31;
 
 std::int32_t clamped(std::int64_t v) {
-    return static_cast<std::int32_t>(std::clamp(v, -most + 2, most - 2));
+    return static_cast<std::int32_t>(std::clamp(v, -farthest_cell + 2, farthest_cell - 2));
 }
 
 }  // namespace

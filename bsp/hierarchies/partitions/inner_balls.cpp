@@ -12,19 +12,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::hierarchies {
+
+using detail::length;
+using detail::Vector3;
 
 namespace {
 
-using Double3 = std::array<double, 3>;
-
 constexpr double inward = 1 - 0x1p-40;
-
-double length(const Double3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 }  // namespace
 
-double depth_below(const Double3& p, const RoughPlane& plane) {
+double depth_below(const Vector3& p, const RoughPlane& plane) {
     double at = 0;
     double terms = std::abs(plane.offset);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -49,7 +50,7 @@ std::optional<InnerBall> part_below(const InnerBall& ball, const RoughPlane& pla
         r.center[k] = ball.center[k] - by * (plane.normal[k] / norm);
         far = std::max({far, std::abs(r.center[k]), std::abs(ball.center[k])});
     }
-    const Double3 moved{r.center[0] - ball.center[0], r.center[1] - ball.center[1],
+    const Vector3 moved{r.center[0] - ball.center[0], r.center[1] - ball.center[1],
                         r.center[2] - ball.center[2]};
     const double within = ball.radius - length(moved) / inward;
     r.radius = std::min(within, depth_below(r.center, plane)) * inward;

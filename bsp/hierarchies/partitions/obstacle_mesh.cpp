@@ -14,22 +14,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::hierarchies {
+
+using detail::minus;
+using detail::Vector3;
 
 namespace {
 
-using Double3 = std::array<double, 3>;
-
-Double3 minus(const Double3& a, const Double3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 /// A plane through three points and how far doubles can be trusted with it.
-class RoughPlane {
+class ObstaclePlane {
 public:
-    RoughPlane(const Double3& a, const Double3& b, const Double3& c) : origin_(a) {
-        const Double3 u = minus(b, a);
-        const Double3 v = minus(c, a);
+    ObstaclePlane(const Vector3& a, const Vector3& b, const Vector3& c) : origin_(a) {
+        const Vector3 u = minus(b, a);
+        const Vector3 v = minus(c, a);
         for (std::size_t k = 0; k < 3; ++k) {
             const double p = u[(k + 1) % 3] * v[(k + 2) % 3];
             const double q = u[(k + 2) % 3] * v[(k + 1) % 3];
@@ -38,7 +37,7 @@ public:
         }
     }
     /// 1 or -1 when the point is certainly on that side; `error` of the coordinates' difference.
-    [[nodiscard]] int side(const Double3& p, double error) const {
+    [[nodiscard]] int side(const Vector3& p, double error) const {
         double value = 0;
         double bound = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -50,13 +49,13 @@ public:
     }
 
 private:
-    Double3 origin_;
-    Double3 normal_{};
-    Double3 size_{};
+    Vector3 origin_;
+    Vector3 normal_{};
+    Vector3 size_{};
 };
 
-std::array<Double3, 4> corners_of(const DelaunayMesh& mesh, std::uint32_t t) {
-    std::array<Double3, 4> r{};
+std::array<Vector3, 4> corners_of(const DelaunayMesh& mesh, std::uint32_t t) {
+    std::array<Vector3, 4> r{};
     for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t k = 0; k < 3; ++k)
             r[i][k] = static_cast<double>(mesh.point(mesh.tetrahedra()[t].corner[i])[k]);
@@ -69,16 +68,16 @@ constexpr std::array<std::array<std::size_t, 3>, 4> faces{
 
 }  // namespace
 
-IntegerPoint rounded(const Double3& p) {
+IntegerPoint rounded(const Vector3& p) {
     return {std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
 }
 
-PointHull::PointHull(std::span<const Double3> points, double e) : count(points.size()), error(e) {
+PointHull::PointHull(std::span<const Vector3> points, double e) : count(points.size()), error(e) {
     std::copy(points.begin(), points.end(), point.begin());
     for (std::size_t k = 0; k < 3; ++k) {
         double lo = HUGE_VAL;
         double hi = -HUGE_VAL;
-        for (const Double3& p : points) {
+        for (const Vector3& p : points) {
             lo = std::min(lo, p[k]);
             hi = std::max(hi, p[k]);
         }
@@ -89,7 +88,7 @@ PointHull::PointHull(std::span<const Double3> points, double e) : count(points.s
 
 ObstacleMesh::ObstacleMesh(const detail::InterferenceModelData& model) {
     std::vector<IntegerPoint> points;
-    for (const Double3& p : model.positions) points.push_back(rounded(p));
+    for (const Vector3& p : model.positions) points.push_back(rounded(p));
     while (true) {
         mesh_ = DelaunayMesh(points);
         make_boxes();
@@ -122,11 +121,11 @@ bool ObstacleMesh::may_meet(std::uint32_t tetrahedron, const PointHull& hull) co
     if (!boxes_[tetrahedron].meets(hull.box)) return false;
     const auto corner = corners_of(mesh_, tetrahedron);
     double far = 0;
-    for (const Double3& c : corner)
+    for (const Vector3& c : corner)
         for (const double v : c) far = std::max(far, std::abs(v));
     const double error = hull.error + 0x1p-50 * far;
     for (const auto& f : faces) {
-        const RoughPlane plane(corner[f[0]], corner[f[1]], corner[f[2]]);
+        const ObstaclePlane plane(corner[f[0]], corner[f[1]], corner[f[2]]);
         bool beyond = true;
         for (std::size_t i = 0; beyond && i < hull.count; ++i)
             beyond = plane.side(hull.point[i], error) < 0;
@@ -135,10 +134,10 @@ bool ObstacleMesh::may_meet(std::uint32_t tetrahedron, const PointHull& hull) co
     if (hull.count != 3) return true;
     // The points of a triangle are off as well: its plane is tried for exact ones only.
     if (hull.error != 0) return true;
-    const RoughPlane plane(hull.point[0], hull.point[1], hull.point[2]);
+    const ObstaclePlane plane(hull.point[0], hull.point[1], hull.point[2]);
     int below = 0;
     int above = 0;
-    for (const Double3& c : corner) {
+    for (const Vector3& c : corner) {
         const int side = plane.side(c, error);
         below += side < 0 ? 1 : 0;
         above += side > 0 ? 1 : 0;
@@ -159,7 +158,7 @@ bool ObstacleMesh::make_lists(const detail::InterferenceModelData& model) {
     std::uint32_t start = 0;
     for (std::uint32_t i = 0; i < model.triangles.size(); ++i) {
         const auto& v = model.triangles[i].vertex;
-        const std::array<Double3, 3> corners{model.position(v[0]), model.position(v[1]),
+        const std::array<Vector3, 3> corners{model.position(v[0]), model.position(v[1]),
                                              model.position(v[2])};
         const PointHull triangle(corners, error);
         start = mesh_.locate(rounded(corners[0]), start, steps);

@@ -14,8 +14,8 @@ namespace trisect::hierarchies {
 
 /// What all partitions share: the cells are A's and in A's lattice units, whatever the poses; an
 /// update brings every triangle of B into them (one `update` each), and each of those that are not
-/// beyond A's bounds asks for the triangles of A in the cells that its box meets. A triangle of A
-/// that is in several of them comes up once: it is stamped.
+/// beyond A's bounds gets the triangles of A in the cells that its box meets. A triangle of A that
+/// is in several of them comes up once: it is stamped.
 ///
 /// Nothing recurses.
 class Partition : public PairStructure {

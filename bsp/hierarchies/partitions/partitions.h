@@ -16,7 +16,7 @@ namespace trisect::hierarchies {
 /// Boxes cut by the surface-area heuristic.
 [[nodiscard]] std::unique_ptr<PairStructure> make_kd_tree_partition(const InterferenceModel& a,
                                                                     const InterferenceModel& b);
-/// Boost.Geometry's R-tree, packed. It does not tell how many boxes of inner nodes it compares;
+/// Boost.Geometry's R-tree, packed. It does not decide how many boxes of inner nodes it compares;
 /// counted are the boxes of triangles in the leaves that it opens.
 [[nodiscard]] std::unique_ptr<PairStructure> make_r_tree_partition(const InterferenceModel& a,
                                                                    const InterferenceModel& b);

@@ -4,9 +4,9 @@
 // a point y inside of t, near x and on no plane but its own. Inside and outside meet at y, so the
 // way of y through the tree ends on a node's plane, that of t; x is in the closure of every region
 // on that way. At each node x is on the side of y or on the plane, and where it is on the plane, or
-// so near that doubles cannot tell, both sides are visited. So the polygon, cut on the safe side,
-// comes to that node and touches its plane, where t is listed. Walls above change nothing: y is on
-// none of them.
+// so near that doubles cannot decide, both sides are visited. So the polygon, cut on the safe side,
+// comes to that node and touches its plane, where t is listed. Splitting planes above change
+// nothing: y is on none of them.
 //
 // Cuts. A corner's value n·x + d has an error below 2^-49 of the sum of magnitudes, and what the
 // corner's own error makes of it; `bound` is the largest of both. A polygon is cut at twice the
@@ -23,13 +23,14 @@
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/interference/boxes/box_gap.h>
 #include <trisect/kernel/convex_polygon.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::hierarchies {
 
-namespace {
+using detail::Vector3;
 
-using Double3 = std::array<double, 3>;
+namespace {
 
 constexpr std::uint32_t most_cuts = 64;
 /// Where planes meet at small angles, what is within the errors of both is this much longer.
@@ -40,7 +41,7 @@ struct Value {
     double bound = 0;
 };
 
-Value value_of(const Double3& n, double d, const Double3& p, double error) {
+Value value_of(const Vector3& n, double d, const Vector3& p, double error) {
     double terms = std::abs(d);
     double normals = 0;
     double at = 0;
@@ -69,7 +70,7 @@ MspPolygon msp_polygon(const detail::InterferenceModelData& model,
 
 }  // namespace
 
-RoughPolygon RoughPolygon::triangle(const Double3& a, const Double3& b, const Double3& c,
+RoughPolygon RoughPolygon::triangle(const Vector3& a, const Vector3& b, const Vector3& c,
                                     double error) {
     RoughPolygon r;
     r.count = 3;
@@ -181,7 +182,7 @@ bool PlaneTree::push(const RoughPolygon& polygon, const Box& box,
 }
 
 // A region beyond a plane is at least as far as the plane; what is on a plane likewise. Beyond a
-// wall it is as far as the box around the boundary there.
+// splitting plane it is as far as the box around the boundary there.
 void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
                           CostCounters& counters) {
     for (const std::uint32_t i : strays_) limit = offer(i);
@@ -208,7 +209,7 @@ void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::
                                               : NearTask{above, node.above});
             continue;
         }
-        Double3 middle{};
+        Vector3 middle{};
         double reach = 0;
         double square = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -228,7 +229,7 @@ void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::
     }
 }
 
-std::optional<bool> PlaneTree::is_inside(const Double3& p, double error,
+std::optional<bool> PlaneTree::is_inside(const Vector3& p, double error,
                                          CostCounters& counters) const {
     Ref at = root_;
     while (at >= 0) {
@@ -246,7 +247,7 @@ std::optional<bool> PlaneTree::is_inside(const Double3& p, double error,
 InnerBall PlaneTree::ball_below(std::span<const Step> steps, std::uint32_t last,
                                 const InnerBall& start) {
     InnerBall best;
-    Double3 p = start.center;
+    Vector3 p = start.center;
     double step = start.radius;
     for (int round = 0; round < 64; ++round, step *= 0.9) {
         double depth = HUGE_VAL;
@@ -259,7 +260,7 @@ InnerBall PlaneTree::ball_below(std::span<const Step> steps, std::uint32_t last,
             }
         }
         if (depth > best.radius) best = {p, depth * (1 - 0x1p-40)};
-        const Double3& n = steps[nearest].plane.normal;
+        const Vector3& n = steps[nearest].plane.normal;
         const double norm = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (std::size_t k = 0; k < 3; ++k) p[k] -= step * (n[k] / norm);
     }

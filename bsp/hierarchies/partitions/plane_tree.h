@@ -43,12 +43,13 @@ struct RoughPolygon {
 /// What is on a node's plane is a list of triangles (from a BspTree), or a tree in the plane whose
 /// leaves name faces (from an MspTree). Lists and faces are offered as triangles.
 ///
-/// Signs are those of doubles with error bounds: where they cannot tell, both sides are visited; so
-/// every triangle with a point in common with the one that is pushed down is offered.
+/// Signs are those of doubles with error bounds: where they cannot decide, both sides are visited;
+/// so every triangle with a point in common with the one that is pushed down is offered.
 ///
-/// Axis-parallel walls above divide the boundary into cells of few triangles, and each of these has
-/// a tree of its own (WallCells): without them the tree of a convex solid would be a list. A model
-/// with vertices that are not lattice points has no walls. Nothing recurses.
+/// Axis-perpendicular splitting planes above divide the boundary into cells of few triangles, and
+/// each of these has a tree of its own (WallCells): without them the tree of a convex solid would
+/// be a list. A model with vertices that are not lattice points has no splitting planes. Nothing
+/// recurses.
 ///
 /// A tree is that of a solid only if its boundary is embedded. Of boundaries that are not, it may
 /// have lost parts of faces; triangles of which a part has no place are strays, offered always.
@@ -96,7 +97,7 @@ private:
     static constexpr Ref in = -2;
     static constexpr Ref first_list = -3;
     static constexpr Ref nowhere = std::numeric_limits<Ref>::min();
-    /// Cells with more polygons are divided by walls.
+    /// Cells with more polygons are divided by splitting planes.
     static constexpr std::size_t most_in_cell = 32;
 
     struct Node {
@@ -106,7 +107,7 @@ private:
         Ref on = out;
         Ref above = out;
     };
-    // Of the boundary below and above a wall. Walls are the first nodes.
+    // Of the boundary below and above a splitting plane. Splitting planes are the first nodes.
     struct WallBoxes {
         Box below;
         Box above;
@@ -144,7 +145,7 @@ private:
     /// refer to the list of its number.
     Ref graft(const BspTree& tree, std::vector<Plane>& planes);
     Ref graft(const MspTree& tree, std::vector<Plane>& planes);
-    /// Walls, and a tree of its own for each cell below them. \pre there are no nodes.
+    /// Splitting planes, and a tree of its own for each cell below them. \pre there are no nodes.
     void build_under_walls(const detail::InterferenceModelData& model, std::vector<Plane>& planes,
                            FunctionRef<Ref(const WallCells::Cell& cell)> graft_cell);
     [[nodiscard]] static Values values_of(const Node& node, const RoughPolygon& polygon);

@@ -5,8 +5,8 @@
 // of Thibault and Naylor a plane has a list of them; in Vanecek's tree, the Brep-Index, a tree in
 // the plane says which face is there.
 //
-// What no other structure here knows is where inside and outside are. So deep penetration is seen
-// without one pair of triangles, the early accept of the Brep-Index, in two ways.
+// No other structure here has inside and outside. So deep penetration is seen without one pair of
+// triangles, the early accept of the Brep-Index, in two ways.
 //  - Tree against tree, as trees are merged (Naylor, Amanatides and Thibault 1990): a leaf of B
 //    that is inside goes down A's tree, cut by its planes, until a part of it is in a leaf of A
 //    that is inside too. A leaf is a ball in it, so that B's tree need not be moved. With a vertex
@@ -15,8 +15,8 @@
 //    outside. Some vertices from all over B are tried, not all: where these say nothing, pairs of
 //    triangles do.
 //
-// The distance is a side line: walls have boxes of what is beyond them, but of the regions below
-// only the planes on the way bound how near they can be.
+// The distance is a side line: splitting planes have boxes of what is beyond them, but of the
+// regions below only the planes on the way bound how near they can be.
 //
 // Source: W. Thibault and B. Naylor, Set operations on polyhedra using binary space partitioning
 // trees (SIGGRAPH 1987); B. Naylor, J. Amanatides and W. Thibault, Merging BSP trees yields
@@ -36,19 +36,20 @@
 #include <trisect/bsp/hierarchies/partitions/partition.h>
 #include <trisect/bsp/hierarchies/partitions/partitions.h>
 #include <trisect/bsp/hierarchies/partitions/plane_tree.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
+using detail::Vector3;
+
 namespace {
 
-using Double3 = std::array<double, 3>;
-
 // The vertices that are farthest along the axes and diagonals.
-std::vector<Double3> extremes_of(const detail::InterferenceModelData& model) {
-    std::vector<Double3> r;
+std::vector<Vector3> extremes_of(const detail::InterferenceModelData& model) {
+    std::vector<Vector3> r;
     for (int code = 0; code < 27; ++code) {
-        const Double3 along{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
-        const auto reach = [&along](const Double3& p) {
+        const Vector3 along{code % 3 - 1.0, code / 3 % 3 - 1.0, code / 9 - 1.0};
+        const auto reach = [&along](const Vector3& p) {
             return along[0] * p[0] + along[1] * p[1] + along[2] * p[2];
         };
         r.push_back(*std::ranges::max_element(model.positions, {}, reach));
@@ -62,7 +63,7 @@ std::vector<Double3> extremes_of(const detail::InterferenceModelData& model) {
 struct SolidTree {
     PlaneTree tree;
     std::vector<InnerBall> balls;  // of leaves inside
-    std::vector<Double3> extremes;
+    std::vector<Vector3> extremes;
     Box bounds;
 
     SolidTree(PlaneTree made, const detail::InterferenceModelData& model)
@@ -142,9 +143,9 @@ private:
         const detail::ApproximateMap& to_a = placement().to_a;
         const double error =
             to_a.error_below(data_b().largest, data_b().position_error) + data_a().position_error;
-        Double3 middle{};
+        Vector3 middle{};
         for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * data_b().lo[k] + 0.5 * data_b().hi[k];
-        const Double3 center = to_a(middle);
+        const Vector3 center = to_a(middle);
         bool meets = true;
         for (std::size_t i = 0; i < 3; ++i) {
             double reach = 2 * error;
@@ -192,7 +193,7 @@ private:
                             const detail::ApproximateMap& map, const PlaneTree& other,
                             CostCounters& counters) {
         const double error = map.error_below(model.largest, model.position_error);
-        return std::ranges::any_of(side.extremes, [&](const Double3& p) {
+        return std::ranges::any_of(side.extremes, [&](const Vector3& p) {
             return !other.is_inside(map(p), error, counters).value_or(true);
         });
     }

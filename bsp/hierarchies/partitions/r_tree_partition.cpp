@@ -2,10 +2,10 @@
 //
 // An R-tree is a B-tree of boxes: wide nodes, all leaves on one level, made for discs and for
 // insertion. Packed at once by sort-tile-recursive its nodes are full and overlap little. It is a
-// hierarchy of volumes, but used as the partitions are: B's boxes ask one by one.
+// hierarchy of volumes, but used as the partitions are: B's boxes are queries, one by one.
 //
 // Boost does not say which inner boxes it looks at. What it does say is which entries of leaves: a
-// `satisfies` before `intersects` is asked for each of them.
+// `satisfies` before `intersects` is evaluated for each of them.
 //
 // Source: A. Guttman, R-trees: a dynamic index structure for spatial searching (SIGMOD 1984); S.
 // Leutenegger, M. Lopez and J. Edgington, STR: a simple and efficient algorithm for R-tree packing
@@ -53,7 +53,7 @@ public:
     }
 
     std::string_view name() const override { return "r-tree"; }
-    /// Volumes and levels as of full nodes; Boost does not tell.
+    /// Volumes and levels as of full nodes; Boost has no access to them.
     BuildReport build_report() const override {
         BuildReport r;
         r.seconds = seconds_;
@@ -82,7 +82,7 @@ protected:
     void find_near_cells(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
                          CostCounters& counters) override {
         // The few nearest for a limit, then all that are within it. Boost keeps an ordered list of
-        // as many as it is asked for, so asking for all in the order of distances is slow.
+        // as many as requested, so requesting all in the order of distances is slow.
         constexpr unsigned few = 8;
         for (auto it = tree_.qbegin(bgi::nearest(tree_box(box), few)); it != tree_.qend(); ++it) {
             ++counters.volume_tests;

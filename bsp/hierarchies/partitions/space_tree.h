@@ -15,10 +15,10 @@
 
 namespace trisect::hierarchies {
 
-/// Cells are closed: what lies on a wall is in the cells on both sides. A triangle is in every leaf
-/// that it may meet. The lists of all leaves together have at most `most_entries` entries a
-/// triangle, and no way is longer than `most_levels`: the cell with the longest list is divided
-/// first, and where the budget ends lists stay long.
+/// Cells are closed: what lies on a splitting plane is in the cells on both sides. A triangle is in
+/// every leaf that it may meet. The lists of all leaves together have at most `most_entries`
+/// entries a triangle, and no way is longer than `most_levels`: the cell with the longest list is
+/// divided first, and where the budget ends lists stay long.
 ///
 /// Value type; its queries are for one thread.
 class SpaceTree {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Walls cut faces that no face plane would have cut, which is why a tree of walls alone is no tree
-// of a solid. They pay where they halve a long list: at the median of what is left, along the axis
-// where the longer of both lists is shortest. Where to put them, boxes in doubles say; what is on
-// which side, exact cuts.
+// Splitting planes cut faces that no face plane would have cut, which is why a tree of splitting
+// planes alone is no tree of a solid. They pay where they halve a long list: at the median of what
+// is left, along the axis where the longer of both lists is shortest. Where to put them, boxes in
+// doubles say; what is on which side, exact cuts.
 //
-// Source: the walls of the modeller's own tree (bsp/divide/choose_wall.h); B. Naylor, Constructing
-// good partitioning trees (Graphics Interface 1993), on why balance has to come from elsewhere than
-// from the faces.
+// Source: the splitting planes of the modeller's own tree (bsp/divide/choose_wall.h); B. Naylor,
+// Constructing good partitioning trees (Graphics Interface 1993), on why balance has to come from
+// elsewhere than from the faces.
 
 #include <trisect/bsp/hierarchies/partitions/wall_cells.h>
 
@@ -159,7 +159,7 @@ private:
         return a;
     }
 
-    // A wall comes after the one that it is below or above of.
+    // A splitting plane comes after the one that it is below or above of.
     void fit_boxes() {
         const auto box_of = [this](Ref ref) {
             if (ref < 0) return result_.cells[static_cast<std::size_t>(~ref)].box;

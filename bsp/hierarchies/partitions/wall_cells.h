@@ -15,14 +15,15 @@
 
 namespace trisect::hierarchies {
 
-/// A tree of walls over a boundary. A wall is at an odd multiple of half a lattice unit, so no
-/// vertex and no polygon lies on it. There is area of the boundary on both sides of every wall; so
-/// every cell holds a part of it, and face planes alone tell inside from outside within a cell.
+/// A tree of splitting planes over a boundary. A splitting plane is at an odd multiple of half a
+/// lattice unit, so no vertex and no polygon lies on it. There is area of the boundary on both
+/// sides of every splitting plane; so every cell holds a part of it, and face planes alone
+/// distinguish inside from outside within a cell.
 ///
-/// A tree of face planes is as deep as the solid makes it: a convex one's is a list. Under walls it
-/// is the depth of a balanced tree and the few planes of a cell.
+/// A tree of face planes is as deep as the solid makes it: a convex one's is a list. Under
+/// splitting planes it is the depth of a balanced tree and the few planes of a cell.
 struct WallCells {
-    /// A wall by its number, or a cell.
+    /// A splitting plane by its number, or a cell.
     using Ref = std::int32_t;
     [[nodiscard]] static constexpr Ref cell_ref(std::size_t cell) {
         return ~static_cast<Ref>(cell);
@@ -47,9 +48,9 @@ struct WallCells {
 
     [[nodiscard]] Ref root() const { return walls.empty() ? cell_ref(0) : 0; }
 
-    /// Cells of more than `most` polygons are divided, unless every wall leaves nearly all of them
-    /// on one side. O(n log n) exact cuts and signs. \pre all vertices of the model are lattice
-    /// points, and it is not empty.
+    /// Cells of more than `most` polygons are divided, unless every splitting plane leaves nearly
+    /// all of them on one side. O(n log n) exact cuts and signs. \pre all vertices of the model are
+    /// lattice points, and it is not empty.
     [[nodiscard]] static WallCells over(const detail::InterferenceModelData& model,
                                         std::size_t most);
 };

@@ -31,13 +31,13 @@ namespace trisect::hierarchies {
 
 namespace {
 
-using detail::Double3;
+using detail::Vector3;
 using Integer3 = std::array<std::int64_t, 3>;
 
 template <std::size_t K>
 class ClimbedHull {
 public:
-    ClimbedHull(std::span<const Double3> corners, double error)
+    ClimbedHull(std::span<const Vector3> corners, double error)
         : error_(0.5 * frame_hull_unit + error) {
         const ConvexPolytope hull = frame_hull(corners);
         for (const LatticePoint& v : hull.vertices())
@@ -117,7 +117,7 @@ struct ClimbedKind {
         static Direction direction(std::size_t i, const FrameMap& map) {
             const std::array<int, 3>& axis = KDop<K>::directions[i % (K / 2)];
             const double sign = i < K / 2 ? 1 : -1;
-            Double3 pulled{};
+            Vector3 pulled{};
             Direction r;
             double translation = 0;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -147,7 +147,7 @@ struct ClimbedKind {
     };
 
     static constexpr bool has_unite = false;
-    static Volume fit(std::span<const Double3> corners, double error) {
+    static Volume fit(std::span<const Vector3> corners, double error) {
         Volume r;
         r.slabs.add(corners, error);
         r.hull = std::make_unique<ClimbedHull<K>>(corners, error);

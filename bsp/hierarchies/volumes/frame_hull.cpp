@@ -10,13 +10,13 @@
 
 namespace trisect::hierarchies {
 
-ConvexPolytope frame_hull(std::span<const detail::Double3> points) {
+ConvexPolytope frame_hull(std::span<const detail::Vector3> points) {
     std::vector<LatticePoint> rounded;
     rounded.reserve(points.size());
     const auto r = [](double v) {
         return static_cast<std::int64_t>(std::nearbyint(v / frame_hull_unit));
     };
-    for (const detail::Double3& p : points) rounded.push_back({r(p[0]), r(p[1]), r(p[2])});
+    for (const detail::Vector3& p : points) rounded.push_back({r(p[0]), r(p[1]), r(p[2])});
     // A corner of a mesh comes with every triangle at it.
     std::ranges::sort(rounded);
     rounded.erase(std::unique(rounded.begin(), rounded.end()), rounded.end());
@@ -26,7 +26,7 @@ ConvexPolytope frame_hull(std::span<const detail::Double3> points) {
 detail::AreaMoments surface_moments(const ConvexPolytope& hull) {
     const auto position = [&hull](std::uint32_t i) {
         const LatticePoint& v = hull.vertices()[i];
-        return detail::Double3{static_cast<double>(v[0]) * frame_hull_unit,
+        return detail::Vector3{static_cast<double>(v[0]) * frame_hull_unit,
                                static_cast<double>(v[1]) * frame_hull_unit,
                                static_cast<double>(v[2]) * frame_hull_unit};
     };

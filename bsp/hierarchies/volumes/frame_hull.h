@@ -16,7 +16,7 @@ inline constexpr double frame_hull_unit = 0x1p-24;
 
 /// The hull of the points, each coordinate rounded to the nearest multiple of frame_hull_unit.
 /// \pre |x_k| <= 4
-[[nodiscard]] ConvexPolytope frame_hull(std::span<const detail::Double3> points);
+[[nodiscard]] ConvexPolytope frame_hull(std::span<const detail::Vector3> points);
 
 /// Moments of the hull's surface.
 [[nodiscard]] detail::AreaMoments surface_moments(const ConvexPolytope& hull);

@@ -4,7 +4,7 @@
 // corners (small_hull.h). The tightest convex volume and the dearest test; `convex-parts` has the
 // hulls of all vertices and tracked features instead, over parts that are convex themselves.
 //
-// A volume of B remembers the direction that parted it last: the next volume of A that it is
+// A volume of B remembers the direction that separated it last: the next volume of A that it is
 // compared with is the brother of that one, as a rule, and parted by nearly the same direction.
 
 #include <trisect/bsp/hierarchies/volumes/small_hull.h>
@@ -19,7 +19,7 @@ struct HullKind {
     using Volume = SmallHull;
     struct Moved {
         SmallHull hull;
-        mutable detail::Double3 direction{};  ///< from the last volume of A; 0 at first
+        mutable detail::Vector3 direction{};  ///< from the last volume of A; 0 at first
     };
     class Pose {
     public:
@@ -36,7 +36,7 @@ struct HullKind {
         FrameMap map_;
     };
     static constexpr bool has_unite = false;
-    static Volume fit(std::span<const detail::Double3> corners, double error) {
+    static Volume fit(std::span<const detail::Vector3> corners, double error) {
         return SmallHull::around(corners, error);
     }
     static float size(const Volume& v) { return v.size(); }

@@ -27,38 +27,37 @@ namespace {
 
 using detail::cross;
 using detail::dot;
-using detail::Double3;
 using detail::minus;
+using detail::scaled;
+using detail::Vector3;
 
 // Three directions that span a face of the hull of all, and the inverse of their matrix.
 struct Cone {
     std::array<std::uint8_t, 3> from{};
-    std::array<Double3, 3> inverse{};  // weights are its rows times a vector
+    std::array<Vector3, 3> inverse{};  // weights are its rows times a vector
 };
 
-std::vector<Double3> signed_directions(std::span<const std::array<int, 3>> directions) {
-    std::vector<Double3> r;
+std::vector<Vector3> signed_directions(std::span<const std::array<int, 3>> directions) {
+    std::vector<Vector3> r;
     for (const double sign : {1.0, -1.0})
         for (const auto& d : directions) r.push_back({sign * d[0], sign * d[1], sign * d[2]});
     return r;
 }
 
-Double3 scaled(const Double3& v, double s) { return {v[0] * s, v[1] * s, v[2] * s}; }
-
 std::vector<Cone> cones_of(std::span<const std::array<int, 3>> directions) {
-    const std::vector<Double3> all = signed_directions(directions);
-    std::vector<Double3> unit;
-    for (const Double3& d : all) unit.push_back(scaled(d, 1 / std::sqrt(dot(d, d))));
+    const std::vector<Vector3> all = signed_directions(directions);
+    std::vector<Vector3> unit;
+    for (const Vector3& d : all) unit.push_back(scaled(d, 1 / std::sqrt(dot(d, d))));
     std::vector<Cone> cones;
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t j = i + 1; j < all.size(); ++j)
             for (std::size_t k = j + 1; k < all.size(); ++k) {
-                Double3 normal = cross(minus(unit[j], unit[i]), minus(unit[k], unit[i]));
+                Vector3 normal = cross(minus(unit[j], unit[i]), minus(unit[k], unit[i]));
                 const double height = dot(normal, unit[i]);
                 if (std::abs(height) < 1e-9) continue;
                 normal = scaled(normal, 1 / height);
                 const bool face = std::ranges::none_of(
-                    unit, [&normal](const Double3& u) { return dot(normal, u) > 1 + 1e-9; });
+                    unit, [&normal](const Vector3& u) { return dot(normal, u) > 1 + 1e-9; });
                 if (!face) continue;
                 const double det = dot(all[i], cross(all[j], all[k]));
                 cones.push_back({{static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j),
@@ -79,13 +78,13 @@ const std::vector<Cone>& cones(std::span<const std::array<int, 3>> directions) {
     return known.at(directions.size());
 }
 
-KDopTurn::Bound bound(const Double3& pulled, std::span<const Cone> all,
-                      std::span<const Double3> directions) {
+KDopTurn::Bound bound(const Vector3& pulled, std::span<const Cone> all,
+                      std::span<const Vector3> directions) {
     const Cone* best = nullptr;
-    Double3 best_weight{};
+    Vector3 best_weight{};
     double best_least = -std::numeric_limits<double>::infinity();
     for (const Cone& c : all) {
-        const Double3 w{dot(c.inverse[0], pulled), dot(c.inverse[1], pulled),
+        const Vector3 w{dot(c.inverse[0], pulled), dot(c.inverse[1], pulled),
                         dot(c.inverse[2], pulled)};
         const double least = std::min({w[0], w[1], w[2]});
         if (least > best_least) {
@@ -98,7 +97,7 @@ KDopTurn::Bound bound(const Double3& pulled, std::span<const Cone> all,
     TRISECT_EXPECTS(best != nullptr, "no cone of directions");
     KDopTurn::Bound r;
     r.from = best->from;
-    Double3 residual = pulled;
+    Vector3 residual = pulled;
     double size = std::abs(pulled[0]) + std::abs(pulled[1]) + std::abs(pulled[2]);
     for (std::size_t i = 0; i < 3; ++i) {
         r.weight[i] = std::max(0.0, best_weight[i]);
@@ -114,12 +113,12 @@ KDopTurn::Bound bound(const Double3& pulled, std::span<const Cone> all,
 }  // namespace
 
 KDopTurn::KDopTurn(std::span<const std::array<int, 3>> axes, const FrameMap& map) {
-    const std::vector<Double3> all = signed_directions(axes);
+    const std::vector<Vector3> all = signed_directions(axes);
     const std::vector<Cone>& faces = cones(axes);
     bounds.resize(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Double3& d = all[i];
-        Double3 pulled{};
+        const Vector3& d = all[i];
+        Vector3 pulled{};
         double along = 0;
         double size = 0;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -21,8 +21,8 @@ struct MedialBall {
 
 /// One for each of at most `most` vertices, spread over their numbers, by shrinking balls (Ma, Bae
 /// and Choi 2012): a large ball under the vertex shrinks until none of the sampled vertices is in
-/// it. In doubles, without promise; whoever uses the centres makes his own radii.
-/// Cost: O(most²), below a second for 2,000.
+/// it. In doubles, without promise; users of the centres make their own radii. Cost: O(most²),
+/// below a second for 2,000.
 [[nodiscard]] std::vector<MedialBall> medial_balls(const detail::InterferenceModelData& model,
                                                    const TreeFrame& frame, std::size_t most);
 

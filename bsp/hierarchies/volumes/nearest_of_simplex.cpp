@@ -14,32 +14,32 @@ namespace {
 
 using detail::cross;
 using detail::dot;
-using detail::Double3;
 using detail::minus;
+using detail::Vector3;
 
 // A point of a face of the simplex, and which corners the face has, as bits.
-struct Nearest {
-    Double3 point{};
+struct SimplexNearest {
+    Vector3 point{};
     unsigned used = 0;
     double square = std::numeric_limits<double>::infinity();
 
-    Nearest() = default;
-    Nearest(const Double3& p, unsigned u) : point(p), used(u), square(dot(p, p)) {}
-    void take(const Nearest& o) {
+    SimplexNearest() = default;
+    SimplexNearest(const Vector3& p, unsigned u) : point(p), used(u), square(dot(p, p)) {}
+    void take(const SimplexNearest& o) {
         if (o.square < square) *this = o;
     }
 };
 
-Double3 between(const Double3& a, const Double3& b, double t) {
-    Double3 r;
+Vector3 between(const Vector3& a, const Vector3& b, double t) {
+    Vector3 r;
     for (std::size_t k = 0; k < 3; ++k) r[k] = a[k] + t * (b[k] - a[k]);
     return r;
 }
 
-using Points = std::array<Double3, 4>;
+using Points = std::array<Vector3, 4>;
 
-Nearest of_segment(const Points& p, unsigned i, unsigned j) {
-    const Double3 way = minus(p[j], p[i]);
+SimplexNearest of_segment(const Points& p, unsigned i, unsigned j) {
+    const Vector3 way = minus(p[j], p[i]);
     const double along = -dot(p[i], way);
     const double length = dot(way, way);
     if (!(along > 0)) return {p[i], 1U << i};
@@ -47,10 +47,10 @@ Nearest of_segment(const Points& p, unsigned i, unsigned j) {
     return {between(p[i], p[j], along / length), 1U << i | 1U << j};
 }
 
-Nearest of_triangle(const Points& p, unsigned i, unsigned j, unsigned k) {
-    const Double3 u = minus(p[j], p[i]);
-    const Double3 v = minus(p[k], p[i]);
-    const Double3 n = cross(u, v);
+SimplexNearest of_triangle(const Points& p, unsigned i, unsigned j, unsigned k) {
+    const Vector3 u = minus(p[j], p[i]);
+    const Vector3 v = minus(p[k], p[i]);
+    const Vector3 n = cross(u, v);
     const double nn = dot(n, n);
     // Weights of j and k of the foot of the perpendicular.
     const double wj = -dot(cross(p[i], v), n);
@@ -58,35 +58,35 @@ Nearest of_triangle(const Points& p, unsigned i, unsigned j, unsigned k) {
     if (wj > 0 && wk > 0 && wj + wk < nn) {
         const double s = wj / nn;
         const double t = wk / nn;
-        Double3 foot;
+        Vector3 foot;
         for (std::size_t c = 0; c < 3; ++c) foot[c] = p[i][c] + s * u[c] + t * v[c];
         return {foot, 1U << i | 1U << j | 1U << k};
     }
-    Nearest r = of_segment(p, i, j);
+    SimplexNearest r = of_segment(p, i, j);
     r.take(of_segment(p, j, k));
     r.take(of_segment(p, i, k));
     return r;
 }
 
-Nearest of_tetrahedron(const Points& p) {
+SimplexNearest of_tetrahedron(const Points& p) {
     const double volume = dot(minus(p[3], p[0]), cross(minus(p[1], p[0]), minus(p[2], p[0])));
     constexpr unsigned face[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
-    Nearest r;
+    SimplexNearest r;
     for (const auto& [i, j, k, opposite] : face) {
-        const Double3 n = cross(minus(p[j], p[i]), minus(p[k], p[i]));
+        const Vector3 n = cross(minus(p[j], p[i]), minus(p[k], p[i]));
         const double inside = dot(n, minus(p[opposite], p[i]));
         const double origin = -dot(n, p[i]);
         // Where there is no volume every face is as good as outside.
         if (volume == 0 || (inside > 0) != (origin > 0)) r.take(of_triangle(p, i, j, k));
     }
-    if (r.used == 0) return {Double3{}, 15U};
+    if (r.used == 0) return {Vector3{}, 15U};
     return r;
 }
 
 }  // namespace
 
-Double3 Simplex::nearest() {
-    Nearest r;
+Vector3 Simplex::nearest() {
+    SimplexNearest r;
     if (count_ == 1) r = {point_[0], 1U};
     if (count_ == 2) r = of_segment(point_, 0, 1);
     if (count_ == 3) r = of_triangle(point_, 0, 1, 2);

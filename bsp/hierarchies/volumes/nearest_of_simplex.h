@@ -16,15 +16,15 @@ namespace trisect::hierarchies {
 /// of points that were added, up to rounding: weights are not negative and their sum is 1.
 class Simplex {
 public:
-    /// \pre fewer than four points are kept: nearest() has been asked for since the fourth.
-    void add(const detail::Double3& p) { point_[count_++] = p; }
+    /// \pre fewer than four points are kept: nearest() was called since the fourth.
+    void add(const detail::Vector3& p) { point_[count_++] = p; }
     /// The nearest point to the origin; keeps only the points that it is in the hull of, four if
     /// the origin is inside.
-    detail::Double3 nearest();
+    detail::Vector3 nearest();
     [[nodiscard]] std::size_t count() const { return count_; }
 
 private:
-    std::array<detail::Double3, 4> point_{};
+    std::array<detail::Vector3, 4> point_{};
     std::size_t count_ = 0;
 };
 

@@ -32,12 +32,12 @@ namespace trisect::hierarchies {
 namespace {
 
 using detail::dot;
-using detail::Double3;
+using detail::Vector3;
 
 struct Box {
-    std::array<Double3, 3> axis{};
-    Double3 center{};
-    Double3 half{};
+    std::array<Vector3, 3> axis{};
+    Vector3 center{};
+    Vector3 half{};
 };
 
 struct BoxKind {
@@ -71,10 +71,10 @@ struct BoxKind {
             return r;
         }
         [[nodiscard]] bool meet(const Volume& a, const Moved& b) const {
-            const Double3 way = detail::minus(b.center, a.center);
-            Double3 t;
-            std::array<Double3, 3> r;
-            std::array<Double3, 3> q;
+            const Vector3 way = detail::minus(b.center, a.center);
+            Vector3 t;
+            std::array<Vector3, 3> r;
+            std::array<Vector3, 3> q;
             for (std::size_t i = 0; i < 3; ++i) {
                 t[i] = dot(a.axis[i], way);
                 for (std::size_t j = 0; j < 3; ++j) {
@@ -106,9 +106,9 @@ struct BoxKind {
         }
         // Along the normals of both boxes and the line of centres.
         [[nodiscard]] double gap(const Volume& a, const Moved& b) const {
-            const Double3 way = detail::minus(b.center, a.center);
-            Double3 t;
-            std::array<Double3, 3> r;
+            const Vector3 way = detail::minus(b.center, a.center);
+            Vector3 t;
+            std::array<Vector3, 3> r;
             double best = 0;
             for (std::size_t i = 0; i < 3; ++i) {
                 t[i] = dot(a.axis[i], way);
@@ -140,7 +140,7 @@ struct BoxKind {
     };
 
     static constexpr bool has_unite = false;
-    static Volume fit(std::span<const Double3> corners, double error) {
+    static Volume fit(std::span<const Vector3> corners, double error) {
         if (corners.size() == 3) return fit_to_triangle(corners, error);
         detail::AreaMoments moments;
         for (std::size_t i = 0; i < corners.size(); i += 3)
@@ -150,19 +150,19 @@ struct BoxKind {
     static double size(const Box& b) { return b.half[0] + b.half[1] + b.half[2]; }
 
 protected:
-    static Volume fit_to_triangle(std::span<const Double3> corners, double error) {
+    static Volume fit_to_triangle(std::span<const Vector3> corners, double error) {
         return fit_along(detail::triangle_frame(corners[0], corners[1], corners[2]), corners,
                          error);
     }
-    static Volume fit_along(const detail::AreaFrame& frame, std::span<const Double3> corners,
+    static Volume fit_along(const detail::AreaFrame& frame, std::span<const Vector3> corners,
                             double error) {
         Box box;
         box.axis = frame.axis;
-        Double3 middle{};
+        Vector3 middle{};
         for (std::size_t i = 0; i < 3; ++i) {
             double lo = dot(box.axis[i], corners[0]);
             double hi = lo;
-            for (const Double3& c : corners) {
+            for (const Vector3& c : corners) {
                 const double v = dot(box.axis[i], c);
                 lo = std::min(lo, v);
                 hi = std::max(hi, v);
@@ -175,7 +175,7 @@ protected:
         // About the centre as it came out.
         for (std::size_t i = 0; i < 3; ++i) {
             double half = 0;
-            for (const Double3& c : corners)
+            for (const Vector3& c : corners)
                 half = std::max(half, std::abs(dot(box.axis[i], detail::minus(c, box.center))));
             box.half[i] = half + 1.8 * error + 0x1p-45;
         }
@@ -186,7 +186,7 @@ protected:
 // Along the principal axes of the hull's surface, as the paper has it: what is within the hull does
 // not turn the box, however much surface there is.
 struct HullBoxKind : BoxKind {
-    static Volume fit(std::span<const Double3> corners, double error) {
+    static Volume fit(std::span<const Vector3> corners, double error) {
         if (corners.size() == 3) return fit_to_triangle(corners, error);
         const detail::AreaMoments moments = surface_moments(frame_hull(corners));
         return fit_along(detail::principal_frame(moments), corners, error);

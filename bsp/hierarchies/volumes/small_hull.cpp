@@ -29,8 +29,8 @@
 namespace trisect::hierarchies {
 
 using detail::dot;
-using detail::Double3;
 using detail::minus;
+using detail::Vector3;
 
 namespace {
 
@@ -59,13 +59,13 @@ Extreme extreme_of(const SmallHull& h, const Float3& d) {
     return e;
 }
 
-Float3 unit_floats(const Double3& v) {
+Float3 unit_floats(const Vector3& v) {
     const double length = std::sqrt(dot(v, v));
     return {static_cast<float>(v[0] / length), static_cast<float>(v[1] / length),
             static_cast<float>(v[2] / length)};
 }
 
-Double3 doubles(const Float3& v) {
+Vector3 doubles(const Float3& v) {
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
@@ -75,7 +75,7 @@ constexpr int most_steps = 16;
 
 class SmallHullBuilder {
 public:
-    SmallHullBuilder(std::span<const Double3> points, double error)
+    SmallHullBuilder(std::span<const Vector3> points, double error)
         : points_(points.begin(), points.end()), error_(error) {
         std::ranges::sort(points_);
         points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
@@ -83,7 +83,7 @@ public:
 
     SmallHull run() {
         if (points_.size() <= SmallHull::most) {
-            for (const Double3& p : points_) add(p);
+            for (const Vector3& p : points_) add(p);
         } else {
             add_extremes();
             add_farthest();
@@ -93,30 +93,30 @@ public:
     }
 
 private:
-    void add(const Double3& p) {
+    void add(const Vector3& p) {
         for (std::size_t k = 0; k < 3; ++k) hull_.x[k][hull_.count] = static_cast<float>(p[k]);
         ++hull_.count;
         corners_.push_back(p);
     }
-    [[nodiscard]] const Double3& extreme(const Double3& d) const {
-        return *std::ranges::max_element(points_, {}, [&d](const Double3& p) { return dot(d, p); });
+    [[nodiscard]] const Vector3& extreme(const Vector3& d) const {
+        return *std::ranges::max_element(points_, {}, [&d](const Vector3& p) { return dot(d, p); });
     }
 
     void add_extremes() {
         const detail::AreaFrame frame = spread();
         std::array<double, 3> scale{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const Double3& u = frame.axis[i];
+            const Vector3& u = frame.axis[i];
             const double extent = dot(u, extreme(u)) - dot(u, extreme({-u[0], -u[1], -u[2]}));
             scale[i] = 1 / std::max(extent, 0x1p-30);
         }
         for (const auto& d : KDop<18>::directions)
             for (const double sign : {1.0, -1.0}) {
-                Double3 v{};
+                Vector3 v{};
                 for (std::size_t i = 0; i < 3; ++i)
                     for (std::size_t k = 0; k < 3; ++k)
                         v[k] += sign * d[i] * scale[i] * frame.axis[i][k];
-                const Double3& p = extreme(v);
+                const Vector3& p = extreme(v);
                 if (std::ranges::find(corners_, p) == corners_.end()) add(p);
             }
     }
@@ -125,7 +125,7 @@ private:
     [[nodiscard]] detail::AreaFrame spread() const {
         detail::AreaMoments m;
         m.area = static_cast<double>(points_.size());
-        for (const Double3& p : points_)
+        for (const Vector3& p : points_)
             for (std::size_t k = 0; k < 3; ++k) {
                 m.first[k] += p[k];
                 m.second[k] += p[k] * p[k];
@@ -142,7 +142,7 @@ private:
             const bool more = corners_.size() < SmallHull::most;
             std::size_t kept = 0;
             for (std::size_t i = 0; i < points_.size(); ++i) {
-                const Double3 p = points_[i];
+                const Vector3 p = points_[i];
                 const double d = distance(p, more ? 0 : out_);
                 if (!(d > small)) continue;
                 if (d > out_) {
@@ -160,13 +160,13 @@ private:
 
     // No less than the distance of the point from the hull of the corners; good enough when it is
     // not above `enough`.
-    [[nodiscard]] double distance(const Double3& p, double enough) const {
+    [[nodiscard]] double distance(const Vector3& p, double enough) const {
         Simplex simplex;
-        Double3 v = minus(corners_.front(), p);
+        Vector3 v = minus(corners_.front(), p);
         double least = std::sqrt(dot(v, v));
         for (int step = 0; step < most_steps && least > std::max(enough, small); ++step) {
-            const auto below = [&](const Double3& c) { return dot(c, v); };
-            const Double3 w = minus(*std::ranges::min_element(corners_, {}, below), p);
+            const auto below = [&](const Vector3& c) { return dot(c, v); };
+            const Vector3 w = minus(*std::ranges::min_element(corners_, {}, below), p);
             if (dot(v, v) - dot(v, w) < 1e-3 * dot(v, v)) break;
             simplex.add(w);
             v = simplex.nearest();
@@ -175,17 +175,17 @@ private:
         return least;
     }
 
-    // What a float cannot tell from nothing anyway.
+    // What a float cannot distinguish from nothing.
     static constexpr double small = 0x1p-24;
 
-    std::vector<Double3> points_;
-    std::vector<Double3> corners_;
+    std::vector<Vector3> points_;
+    std::vector<Vector3> corners_;
     double error_;
     double out_ = 0;
     SmallHull hull_;
 };
 
-SmallHull SmallHull::around(std::span<const Double3> points, double error) {
+SmallHull SmallHull::around(std::span<const Vector3> points, double error) {
     return SmallHullBuilder(points, error).run();
 }
 
@@ -203,7 +203,7 @@ SmallHull SmallHull::moved(const FrameMap& map) const {
     SmallHull r;
     r.count = count;
     for (std::size_t i = 0; i < count; ++i) {
-        const Double3 y = map(point(i));
+        const Vector3 y = map(point(i));
         for (std::size_t k = 0; k < 3; ++k) r.x[k][i] = static_cast<float>(y[k]);
     }
     double size = 0;
@@ -215,11 +215,11 @@ SmallHull SmallHull::moved(const FrameMap& map) const {
     return r;
 }
 
-double gap_of(const SmallHull& a, const SmallHull& b, GapEffort effort, Double3& direction) {
+double gap_of(const SmallHull& a, const SmallHull& b, GapEffort effort, Vector3& direction) {
     const double slack =
         static_cast<double>(a.radius) + static_cast<double>(b.radius) +
         7 * 0x1p-24 * (static_cast<double>(a.largest) + static_cast<double>(b.largest)) + 0x1p-40;
-    Double3 v = direction;
+    Vector3 v = direction;
     if (!(dot(v, v) > 0)) v = minus(b.point(0), a.point(0));
     if (!(dot(v, v) > 0)) v = {1, 0, 0};
     Simplex simplex;
@@ -229,7 +229,7 @@ double gap_of(const SmallHull& a, const SmallHull& b, GapEffort effort, Double3&
         const Float3 d = unit_floats(v);
         const Extreme ea = extreme_of(a, d);
         const Extreme eb = extreme_of(b, {-d[0], -d[1], -d[2]});
-        const Double3 along = doubles(d);
+        const Vector3 along = doubles(d);
         const double way = -static_cast<double>(eb.along) - static_cast<double>(ea.along);
         const double gap = way * (way > 0 ? 1 - 0x1p-22 : 1) - slack;
         if (gap > best) {

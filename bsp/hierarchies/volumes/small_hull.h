@@ -26,11 +26,11 @@ struct SmallHull {
     /// Around points that are known within `error` in each coordinate, |x_k| <= 2. Few points are
     /// corners themselves; of many, extreme ones are, and the radius says how far the others stand
     /// out. O(points). \pre not empty
-    [[nodiscard]] static SmallHull around(std::span<const detail::Double3> points, double error);
+    [[nodiscard]] static SmallHull around(std::span<const detail::Vector3> points, double error);
     /// Around the image under the map.
     [[nodiscard]] SmallHull moved(const FrameMap& map) const;
 
-    [[nodiscard]] detail::Double3 point(std::size_t i) const {
+    [[nodiscard]] detail::Vector3 point(std::size_t i) const {
         return {static_cast<double>(x[0][i]), static_cast<double>(x[1][i]),
                 static_cast<double>(x[2][i])};
     }
@@ -50,13 +50,13 @@ enum class GapEffort : std::uint8_t {
 };
 
 /// A lower bound of the distance of two hulls; 0 where they meet, or are so near that floats cannot
-/// tell. `direction` is where the search begins, from a to b, and becomes the direction of the
-/// bound; 0 where nothing is known. Some ten nanoseconds if the direction still parts them, up to a
-/// microsecond where they meet.
+/// decide. `direction` is where the search begins, from a to b, and becomes the direction of the
+/// bound; 0 where nothing is known. Some ten nanoseconds if the direction still separates them, up
+/// to a microsecond where they meet.
 ///
 /// Gilbert, Johnson and Keerthi's iteration (1988) proposes directions; every one of them gives a
 /// bound by the extreme points of both, rounded down, so the iteration itself need not be right.
 [[nodiscard]] double gap_of(const SmallHull& a, const SmallHull& b, GapEffort effort,
-                            detail::Double3& direction);
+                            detail::Vector3& direction);
 
 }  // namespace trisect::hierarchies

@@ -27,12 +27,12 @@ namespace trisect::hierarchies {
 
 namespace {
 
-using detail::Double3;
+using detail::Vector3;
 
-const Double3& farthest(std::span<const Double3> points, const Double3& from) {
-    const Double3* best = points.data();
+const Vector3& farthest(std::span<const Vector3> points, const Vector3& from) {
+    const Vector3* best = points.data();
     double most = -1;
-    for (const Double3& p : points) {
+    for (const Vector3& p : points) {
         const double d = squared_distance(p, from);
         if (d > most) {
             most = d;
@@ -43,15 +43,15 @@ const Double3& farthest(std::span<const Double3> points, const Double3& from) {
 }
 
 // Towards the farthest point by falling steps.
-Double3 center_of(std::span<const Double3> points) {
-    const Double3& p = farthest(points, points.front());
-    const Double3& q = farthest(points, p);
-    Double3 c;
+Vector3 center_of(std::span<const Vector3> points) {
+    const Vector3& p = farthest(points, points.front());
+    const Vector3& q = farthest(points, p);
+    Vector3 c;
     for (std::size_t k = 0; k < 3; ++k) c[k] = 0.5 * (p[k] + q[k]);
-    Double3 best = c;
+    Vector3 best = c;
     double least = squared_distance(farthest(points, c), c);
     for (int step = 2; step < 10; ++step) {
-        const Double3& f = farthest(points, c);
+        const Vector3& f = farthest(points, c);
         for (std::size_t k = 0; k < 3; ++k) c[k] += (f[k] - c[k]) / (2 * step);
         const double reach = squared_distance(farthest(points, c), c);
         if (reach < least) {
@@ -65,7 +65,7 @@ Double3 center_of(std::span<const Double3> points) {
 }  // namespace
 
 SphereKind::Moved SphereKind::Pose::moved(const Volume& v) const {
-    const Double3 c = map_(v.middle());
+    const Vector3 c = map_(v.middle());
     Moved r;
     double largest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -77,17 +77,17 @@ SphereKind::Moved SphereKind::Pose::moved(const Volume& v) const {
     return r;
 }
 
-SphereKind::Volume SphereKind::fit_about(const Double3& center, std::span<const Double3> corners,
+SphereKind::Volume SphereKind::fit_about(const Vector3& center, std::span<const Vector3> corners,
                                          double error) {
     Volume r;
     for (std::size_t k = 0; k < 3; ++k) r.center[k] = static_cast<float>(center[k]);
-    const Double3 m = r.middle();
+    const Vector3 m = r.middle();
     r.radius = float_above(std::sqrt(squared_distance(farthest(corners, m), m)) + 0x1p-48 +
                            1.7321 * error);
     return r;
 }
 
-SphereKind::Volume SphereKind::fit(std::span<const Double3> corners, double error) {
+SphereKind::Volume SphereKind::fit(std::span<const Vector3> corners, double error) {
     return fit_about(center_of(corners), corners, error);
 }
 

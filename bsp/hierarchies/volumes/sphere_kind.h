@@ -17,11 +17,11 @@ struct Sphere {
     std::array<float, 3> center{};
     float radius = 0;
 
-    [[nodiscard]] detail::Double3 middle() const { return {center[0], center[1], center[2]}; }
+    [[nodiscard]] detail::Vector3 middle() const { return {center[0], center[1], center[2]}; }
 };
 
-[[nodiscard]] inline double squared_distance(const detail::Double3& a, const detail::Double3& b) {
-    const detail::Double3 d = detail::minus(a, b);
+[[nodiscard]] inline double squared_distance(const detail::Vector3& a, const detail::Vector3& b) {
+    const detail::Vector3 d = detail::minus(a, b);
     return detail::dot(d, d);
 }
 
@@ -50,9 +50,9 @@ struct SphereKind {
     };
     static constexpr bool has_unite = false;
     /// Around points that are known within `error`, as small as is found.
-    static Volume fit(std::span<const detail::Double3> corners, double error);
+    static Volume fit(std::span<const detail::Vector3> corners, double error);
     /// The same about a given centre.
-    static Volume fit_about(const detail::Double3& center, std::span<const detail::Double3> corners,
+    static Volume fit_about(const detail::Vector3& center, std::span<const detail::Vector3> corners,
                             double error);
     static float size(const Volume& v) { return v.radius; }
 };

@@ -31,7 +31,7 @@ namespace trisect::hierarchies {
 
 namespace {
 
-using detail::Double3;
+using detail::Vector3;
 
 constexpr std::size_t arity = 8;
 constexpr std::size_t leaf_triangles = 4;
@@ -39,14 +39,14 @@ constexpr std::size_t leaf_triangles = 4;
 // A group of the triangles of a node, by the numbers that `assign` gives them.
 struct Division {
     std::vector<std::uint8_t> group;              // of each triangle, in the order of the node
-    std::vector<std::optional<Double3>> centers;  // of each group, where wanted
+    std::vector<std::optional<Vector3>> centers;  // of each group, where wanted
 };
 
-// What all rules know about the model, in units of the frame.
+// Data of the model for all rules, in units of the frame.
 struct Surface {
     const detail::InterferenceModelData& model;
     TreeFrame frame;
-    std::vector<std::array<Double3, 3>> corners;
+    std::vector<std::array<Vector3, 3>> corners;
 
     explicit Surface(const detail::InterferenceModelData& m) : model(m), frame(m) {
         corners.reserve(m.triangles.size());
@@ -54,16 +54,16 @@ struct Surface {
             corners.push_back({frame(m.position(t.vertex[0])), frame(m.position(t.vertex[1])),
                                frame(m.position(t.vertex[2]))});
     }
-    [[nodiscard]] Double3 middle(std::uint32_t t) const {
-        Double3 c{};
-        for (const Double3& p : corners[t])
+    [[nodiscard]] Vector3 middle(std::uint32_t t) const {
+        Vector3 c{};
+        for (const Vector3& p : corners[t])
             for (std::size_t k = 0; k < 3; ++k) c[k] += p[k] / 3;
         return c;
     }
     // How large a sphere about `center` must be for the triangle.
-    [[nodiscard]] double reach(const Double3& center, std::uint32_t t) const {
+    [[nodiscard]] double reach(const Vector3& center, std::uint32_t t) const {
         double most = 0;
-        for (const Double3& p : corners[t]) most = std::max(most, squared_distance(p, center));
+        for (const Vector3& p : corners[t]) most = std::max(most, squared_distance(p, center));
         return std::sqrt(most);
     }
 };
@@ -82,7 +82,7 @@ public:
             d.group.clear();
             unsigned used = 0;
             for (const std::uint32_t t : triangles) {
-                const Double3 m = surface_.middle(t);
+                const Vector3 m = surface_.middle(t);
                 unsigned octant = 0;
                 for (std::size_t k = 0; k < 3; ++k)
                     if (m[k] > cell.center[k]) octant |= 1U << k;
@@ -100,7 +100,7 @@ public:
 
 private:
     struct Cell {
-        Double3 center{};
+        Vector3 center{};
         double half = 1;
         [[nodiscard]] Cell eighth(std::size_t octant) const {
             Cell c{center, 0.5 * half};
@@ -140,9 +140,9 @@ public:
     // Each next vertex is the one that is farthest from those before it (Gonzalez 1985).
     Division divide(std::uint32_t /*node*/, std::span<const std::uint32_t> triangles) {
         Division d;
-        std::vector<Double3> points;
+        std::vector<Vector3> points;
         for (const std::uint32_t t : triangles)
-            for (const Double3& p : surface_.corners[t]) points.push_back(p);
+            for (const Vector3& p : surface_.corners[t]) points.push_back(p);
         std::vector<double> away(points.size(), std::numeric_limits<double>::infinity());
         std::size_t next = 0;
         while (d.centers.size() < arity && away[next] > 0) {
@@ -172,7 +172,7 @@ public:
 
     Division divide(std::uint32_t node, std::span<const std::uint32_t> triangles) {
         std::mt19937_64 random(node + 1);
-        const std::vector<Double3> candidates = candidates_of(triangles, random);
+        const std::vector<Vector3> candidates = candidates_of(triangles, random);
         std::vector<std::uint32_t> sample(triangles.begin(), triangles.end());
         if (sample.size() > max_sample) {
             std::ranges::shuffle(sample, random);
@@ -192,9 +192,9 @@ private:
     static constexpr int exchanges = 160;
 
     // Centres of balls of the vertices, and middles of triangles where there are too few.
-    [[nodiscard]] std::vector<Double3> candidates_of(std::span<const std::uint32_t> triangles,
+    [[nodiscard]] std::vector<Vector3> candidates_of(std::span<const std::uint32_t> triangles,
                                                      std::mt19937_64& random) const {
-        std::vector<Double3> c;
+        std::vector<Vector3> c;
         for (const std::uint32_t t : triangles)
             for (const VertexId v : surface_.model.triangles[t].vertex)
                 if (ball_of_vertex_[v.index]) c.push_back(*ball_of_vertex_[v.index]);
@@ -207,7 +207,7 @@ private:
     }
 
     // Numbers of the candidates chosen.
-    [[nodiscard]] std::vector<std::size_t> anneal(const std::vector<Double3>& candidates,
+    [[nodiscard]] std::vector<std::size_t> anneal(const std::vector<Vector3>& candidates,
                                                   const std::vector<std::uint32_t>& sample,
                                                   std::mt19937_64& random) const {
         std::vector<double> reach(candidates.size() * sample.size());
@@ -256,7 +256,7 @@ private:
     }
 
     const Surface& surface_;
-    std::vector<std::optional<Double3>> ball_of_vertex_;
+    std::vector<std::optional<Vector3>> ball_of_vertex_;
 };
 
 template <class Rule>
@@ -289,10 +289,10 @@ private:
         unsigned level;
     };
 
-    void add_node(const Part& part, const std::optional<Double3>& center) {
-        std::vector<Double3> corners;
+    void add_node(const Part& part, const std::optional<Vector3>& center) {
+        std::vector<Vector3> corners;
         for (std::size_t i = part.begin; i < part.end; ++i)
-            for (const Double3& p : surface_.corners[shape_.order[i]]) corners.push_back(p);
+            for (const Vector3& p : surface_.corners[shape_.order[i]]) corners.push_back(p);
         const double error = surface_.frame.error;
         Sphere sphere;
         if (center) sphere = SphereKind::fit_about(*center, corners, error);
@@ -328,7 +328,7 @@ private:
         }
         shape_.nodes[node] = {first, count, false};
     }
-    // Triangles that a rule cannot tell apart: by their order.
+    // Triangles that a rule cannot decide apart: by their order.
     static void deal_out(Division& d) {
         d.centers.assign(arity, std::nullopt);
         for (std::size_t i = 0; i < d.group.size(); ++i)
@@ -362,7 +362,7 @@ std::vector<SphereLevel> tightness(const InterferenceModel& model, const SphereT
     const double lattice_unit = std::ldexp(1.0, model.lattice().exponent);
     // A point of the sphere is at most its radius farther outside than the centre.
     const auto protrusion = [&](const Sphere& s) {
-        Double3 center;
+        Vector3 center;
         for (std::size_t k = 0; k < 3; ++k)
             center[k] = lattice_unit *
                         (tree.frame.origin[k] + tree.frame.unit * static_cast<double>(s.center[k]));
@@ -424,8 +424,8 @@ double farthest_points(const Sphere& a, const Sphere& b) {
 
 // B moved along d, |d| = 1, by this or more does not meet A. Rounded up: numbers are of the size of
 // the distance and the radii, and a root of what is off by 2^-48 of a square by 2^-24 of it.
-double last_contact(const Sphere& a, const Sphere& b, const Double3& d) {
-    const Double3 w = detail::minus(b.middle(), a.middle());
+double last_contact(const Sphere& a, const Sphere& b, const Vector3& d) {
+    const Vector3 w = detail::minus(b.middle(), a.middle());
     const double along = detail::dot(w, d);
     const double reach = reach_of(a, b);
     const double scale = detail::dot(w, w) + reach * reach;
@@ -483,7 +483,7 @@ AnytimeAnswer SphereTrees::answer_within(std::uint64_t tests, CostCounters& coun
         const Open o = open.front();
         const TreeNode& na = a_.shape.nodes[o.a];
         const TreeNode& nb = b_.shape.nodes[o.b];
-        if (na.leaf && nb.leaf) break;  // spheres cannot tell more
+        if (na.leaf && nb.leaf) break;  // spheres cannot decide more
         std::ranges::pop_heap(open, later);
         open.pop_back();
         open_larger(o.a, o.b, [&](std::uint32_t i, std::uint32_t j) { push(i, j, o.gap); });
@@ -506,7 +506,7 @@ AnytimeDepth SphereTrees::depth_within(std::uint64_t tests, CostCounters& counte
         std::uint32_t b;
     };
     struct Direction {
-        Double3 d{};
+        Vector3 d{};
         std::vector<Open> open;  // a heap, the pair that is left last in front
         bool done = false;
         [[nodiscard]] double bound() const { return open.front().exit; }

@@ -71,9 +71,9 @@ public:
     /// \pre has_doubles()
     [[nodiscard]] AnytimeAnswer answer_within(std::uint64_t tests, CostCounters& counters);
 
-    /// Likewise a bound on the depth of penetration, the least translation that parts the solids,
-    /// better with every test: of 26 directions the one that looks best is pursued, in it the pair
-    /// of spheres that is left last. 0 proves solids apart. \pre has_doubles()
+    /// Likewise a bound on the depth of penetration, the least translation that separates the
+    /// solids, better with every test: of 26 directions the one that looks best is pursued, in it
+    /// the pair of spheres that is left last. 0 proves solids apart. \pre has_doubles()
     [[nodiscard]] AnytimeDepth depth_within(std::uint64_t tests, CostCounters& counters);
 
 private:

@@ -23,22 +23,24 @@
 #include <cstdint>
 #include <limits>
 
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/power_of_two.h>
+
 namespace trisect::detail {
 
 namespace {
 
-constexpr double e = 0x1p-50;
-constexpr double u = 0x1p-53;
+// Of the numbers of a pose, relative.
+constexpr double pose_error = 0x1p-50;
 // Of an error bound computed in doubles.
 constexpr double more = 1.01;
 
 // What is not a number is no bound.
 double bound(double v) { return v >= 0 ? v : std::numeric_limits<double>::infinity(); }
 
-double power_of_two(int exponent) {
-    // Of normal numbers by their bits; a call of ldexp takes longer than the rest of a map's row.
-    if (exponent < -1022 || exponent > 1023) return std::ldexp(1.0, exponent);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
+// A call of ldexp takes longer than the rest of a map's row.
+double unit_of(int exponent) {
+    return is_normal_exponent(exponent) ? power_of_two(exponent) : std::ldexp(1.0, exponent);
 }
 
 struct Inverse {
@@ -65,7 +67,7 @@ Inverse inverse_of(const std::array<double, 12>& a) {
         det += at(0, j) * c[0][j];
         row += std::abs(at(0, j));
     }
-    const double det_error = more * 4 * e * row * size;
+    const double det_error = more * 4 * pose_error * row * size;
     const double least = std::abs(det) - det_error;
     Inverse r{};
     r.certain = least > 0.5 * std::abs(det);
@@ -76,7 +78,8 @@ Inverse inverse_of(const std::array<double, 12>& a) {
             r.m[i][j] = c[j][i] * per_det;
             r.largest = std::max(r.largest, std::abs(r.m[i][j]));
         }
-    r.error = more * ((2.5 * e * size + r.largest * det_error) / least + 3 * u * r.largest);
+    r.error = more * ((2.5 * pose_error * size + r.largest * det_error) / least +
+                      3 * unit_roundoff * r.largest);
     return r;
 }
 
@@ -94,11 +97,11 @@ ApproximateMap map_to_moved(const std::array<double, 12>& a, const std::array<do
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             r.m[i][j] = b[4 * i + j] * m_unit;
-            r.m_error = std::max(r.m_error, bound(more * e * std::abs(r.m[i][j])));
+            r.m_error = std::max(r.m_error, bound(more * pose_error * std::abs(r.m[i][j])));
         }
         const double way = b[4 * i + 3] - a[4 * i + 3];
-        const double error =
-            e * (std::abs(b[4 * i + 3]) + std::abs(a[4 * i + 3])) + u * std::abs(way);
+        const double error = pose_error * (std::abs(b[4 * i + 3]) + std::abs(a[4 * i + 3])) +
+                             unit_roundoff * std::abs(way);
         r.t[i] = way * t_unit;
         r.t_error = std::max(r.t_error, bound(more * error * t_unit));
     }
@@ -125,8 +128,8 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
                                Lattice from_lattice) {
     const std::array<double, 12> a = to.approximate();
     const std::array<double, 12> b = from.approximate();
-    const double m_unit = power_of_two(from_lattice.exponent - to_lattice.exponent);
-    const double t_unit = power_of_two(-to_lattice.exponent);
+    const double m_unit = unit_of(from_lattice.exponent - to_lattice.exponent);
+    const double t_unit = unit_of(-to_lattice.exponent);
     if (only_moves(to)) return map_to_moved(a, b, m_unit, t_unit);
     const Inverse inverse = inverse_of(a);
     ApproximateMap r;
@@ -141,7 +144,8 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
     for (std::size_t k = 0; k < 3; ++k) {
         way[k] = b[4 * k + 3] - a[4 * k + 3];
         way_sum += std::abs(way[k]);
-        way_error += e * (std::abs(b[4 * k + 3]) + std::abs(a[4 * k + 3])) + u * std::abs(way[k]);
+        way_error += pose_error * (std::abs(b[4 * k + 3]) + std::abs(a[4 * k + 3])) +
+                     unit_roundoff * std::abs(way[k]);
         column_sum = std::max(column_sum, std::abs(b[k]) + std::abs(b[4 + k]) + std::abs(b[8 + k]));
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -150,11 +154,13 @@ ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& f
             r.m[i][j] = (row[0] * b[j] + row[1] * b[4 + j] + row[2] * b[8 + j]) * m_unit;
         r.t[i] = (row[0] * way[0] + row[1] * way[1] + row[2] * way[2]) * t_unit;
     }
-    r.m_error = bound(more * (inverse.error + inverse.largest * (e + 3 * u)) * column_sum * m_unit);
-    r.t_error = bound(more *
-                      ((inverse.error + inverse.largest * 3 * u) * (way_sum + way_error) +
-                       inverse.largest * way_error) *
-                      t_unit);
+    r.m_error = bound(more * (inverse.error + inverse.largest * (pose_error + 3 * unit_roundoff)) *
+                      column_sum * m_unit);
+    r.t_error =
+        bound(more *
+              ((inverse.error + inverse.largest * 3 * unit_roundoff) * (way_sum + way_error) +
+               inverse.largest * way_error) *
+              t_unit);
     return r;
 }
 

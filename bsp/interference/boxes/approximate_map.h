@@ -49,7 +49,7 @@ struct ApproximateMap {
 };
 
 /// From the lattice of a solid posed by `from` into that of a solid posed by `to`, without exact
-/// arithmetic: a tenth of the cost of a RelativePose. Not usable when doubles cannot tell that the
+/// arithmetic: a tenth of the cost of a RelativePose. Not usable when doubles cannot prove that the
 /// matrix of `to` is regular, or overflow.
 [[nodiscard]] ApproximateMap approximate_map(const Pose& to, Lattice to_lattice, const Pose& from,
                                              Lattice from_lattice);

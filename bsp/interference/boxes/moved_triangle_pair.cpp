@@ -2,13 +2,13 @@
 //
 // The corners of the intersection of two triangles that do not lie in one plane are ends of what
 // each cuts out of the line that their planes share: a corner in the other's plane, or the point
-// where a side passes through it. Where such a point lies in the other triangle is told by
+// where a side passes through it. Where such a point lies in the other triangle is decided by
 // orientations alone: of a corner, in the plane; of a side's point, by the side's orientation to
 // the three sides of the other triangle (Guigue and Devillers 2003 decide by the same signs). No
 // point is ever computed. Signs are zero where features meet, and then name the feature.
 //
 // In one plane the corners of the intersection are corners in the other triangle and proper
-// crossings of sides. The numbers of points tell the dimension, since different pairs of features
+// crossings of sides. The numbers of points give the dimension, since different pairs of features
 // are different points.
 //
 // B may be mirrored. Then the images of its corners run clockwise about the image of its outward
@@ -39,7 +39,7 @@ bool all_of_one_side(const Signs& s) {
     return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
-// Everything about one pair; signs that several questions need are asked for once.
+// Everything about one pair; signs of several uses are computed once.
 class Pair {
 public:
     Pair(const PosedTriangle& a, const PosedTriangle& b, const PosedPair& poses)

@@ -14,10 +14,10 @@ namespace trisect::detail {
 
 namespace {
 
-using Matrix = std::array<Double3, 3>;
+using SymmetricMatrix = std::array<Vector3, 3>;
 
 // One rotation of Jacobi's method that makes a[p][q] zero.
-void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
+void rotate(SymmetricMatrix& a, SymmetricMatrix& v, std::size_t p, std::size_t q) {
     if (a[p][q] == 0) return;
     const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
     const double t = std::copysign(1 / (std::abs(theta) + std::sqrt(theta * theta + 1)), theta);
@@ -39,19 +39,17 @@ void rotate(Matrix& a, Matrix& v, std::size_t p, std::size_t q) {
     }
 }
 
-Double3 scaled(const Double3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-
 // Exactly orthogonal up to rounding, whatever came in. \pre x != 0
-AreaFrame frame_of(const Double3& x, const Double3& roughly_y) {
+AreaFrame frame_of(const Vector3& x, const Vector3& roughly_y) {
     AreaFrame f;
     f.axis[0] = scaled(x, 1 / std::sqrt(dot(x, x)));
-    Double3 y = minus(roughly_y, scaled(f.axis[0], dot(f.axis[0], roughly_y)));
+    Vector3 y = minus(roughly_y, scaled(f.axis[0], dot(f.axis[0], roughly_y)));
     double yy = dot(y, y);
     if (!(yy > 1e-12 * dot(roughly_y, roughly_y)) || !(yy > 0)) {
         std::size_t least = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (std::abs(f.axis[0][k]) < std::abs(f.axis[0][least])) least = k;
-        Double3 e{};
+        Vector3 e{};
         e[least] = 1;
         y = minus(e, scaled(f.axis[0], f.axis[0][least]));
         yy = dot(y, y);
@@ -65,10 +63,10 @@ AreaFrame frame_of(const Double3& x, const Double3& roughly_y) {
 
 }  // namespace
 
-void AreaMoments::add(const Double3& a, const Double3& b, const Double3& c) {
-    const Double3 n = cross(minus(b, a), minus(c, a));
+void AreaMoments::add(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 n = cross(minus(b, a), minus(c, a));
     const double w = 0.5 * std::sqrt(dot(n, n));
-    const Double3 sum{a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
+    const Vector3 sum{a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
     area += w;
     for (std::size_t k = 0; k < 3; ++k) first[k] += w / 3 * sum[k];
     constexpr std::array<std::array<std::size_t, 2>, 6> pairs{
@@ -81,9 +79,9 @@ void AreaMoments::add(const Double3& a, const Double3& b, const Double3& c) {
 
 AreaFrame principal_frame(const AreaMoments& m) {
     if (!(m.area > 0)) return {};
-    const Double3 c{m.first[0] / m.area, m.first[1] / m.area, m.first[2] / m.area};
-    Matrix a{};
-    Matrix v{Double3{1, 0, 0}, Double3{0, 1, 0}, Double3{0, 0, 1}};
+    const Vector3 c{m.first[0] / m.area, m.first[1] / m.area, m.first[2] / m.area};
+    SymmetricMatrix a{};
+    SymmetricMatrix v{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
     for (std::size_t i = 0; i < 3; ++i) a[i][i] = m.second[i] / m.area - c[i] * c[i];
     a[0][1] = a[1][0] = m.second[3] / m.area - c[0] * c[1];
     a[0][2] = a[2][0] = m.second[4] / m.area - c[0] * c[2];
@@ -99,12 +97,12 @@ AreaFrame principal_frame(const AreaMoments& m) {
     std::array<std::size_t, 3> order{0, 1, 2};
     std::sort(order.begin(), order.end(),
               [&a](std::size_t i, std::size_t j) { return a[i][i] > a[j][j]; });
-    const auto column = [&v](std::size_t j) { return Double3{v[0][j], v[1][j], v[2][j]}; };
+    const auto column = [&v](std::size_t j) { return Vector3{v[0][j], v[1][j], v[2][j]}; };
     return frame_of(column(order[0]), column(order[1]));
 }
 
-AreaFrame triangle_frame(const Double3& a, const Double3& b, const Double3& c) {
-    const std::array<Double3, 3> side{minus(b, a), minus(c, b), minus(a, c)};
+AreaFrame triangle_frame(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const std::array<Vector3, 3> side{minus(b, a), minus(c, b), minus(a, c)};
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (dot(side[i], side[i]) > dot(side[longest], side[longest])) longest = i;

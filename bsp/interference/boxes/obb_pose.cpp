@@ -81,8 +81,8 @@ namespace trisect::detail {
 
 ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, double sweep) {
     const double factor = b.unit / a.unit;
-    std::array<Double3, 3> m{};
-    Double3 t{};
+    std::array<Vector3, 3> m{};
+    Vector3 t{};
     double matrix_error = map.m_error * factor;
     double way_error = 0;
     double largest = 0;
@@ -109,7 +109,7 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     inexact_ = 2 * way_error + 3 * matrix_error * b.reach;
 
     // The squares of lengths of images, and how far they are from one number.
-    std::array<Double3, 3> gram{};
+    std::array<Vector3, 3> gram{};
     double rows = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         double row = 0;

@@ -24,7 +24,7 @@ public:
     using Directions = std::array<Float4, 3>;
 
     /// \pre both trees have boxes. `sweep`: every point of B may be that far, in lattice units of
-    /// A, from where the map takes it (a solid that moves while it is asked about).
+    /// A, from where the map takes it (a solid that moves between queries).
     ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& b_to_a, double sweep = 0);
 
     /// Certainly no box of one meets a box of the other.

@@ -6,7 +6,7 @@
 //
 // Why four: a walk tests one box against the four children of another, and four of them fit into
 // one register, so that fifteen axes cost for four boxes what they cost for one. Why oriented
-// boxes: where surfaces come close over an area, thin boxes along the surface part them after
+// boxes: where surfaces come close over an area, thin boxes along the surface separate them after
 // O(n^1/2) pairs, axis-parallel ones after O(n) (Gottschalk, Lin and Manocha 1996).
 //
 // Certified containment. In units of the tree a point is known within e = 2^-50 + error / unit: the
@@ -42,23 +42,23 @@ struct Item {
 };
 
 // A range of items with its frame.
-struct Part {
+struct FramedPart {
     std::size_t begin = 0;
     std::size_t end = 0;
     AreaFrame frame;
     [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-class Builder {
+class ObbTreeBuilder {
 public:
-    Builder(ObbTree& tree, std::span<const Double3> positions, double error,
-            std::span<const std::array<std::uint32_t, 3>> corners, ObbTreeOptions options)
+    ObbTreeBuilder(ObbTree& tree, std::span<const Vector3> positions, double error,
+                   std::span<const std::array<std::uint32_t, 3>> corners, ObbTreeOptions options)
         : tree_(tree), corners_(corners), leaf_(options.leaf_triangles) {
         set_unit(positions);
         slack_ = 0x1p-48 + 2 * (0x1p-50 + error / tree.unit);
         points_.reserve(positions.size());
-        for (const Double3& p : positions) {
-            Double3 q = minus(p, tree.origin);
+        for (const Vector3& p : positions) {
+            Vector3 q = minus(p, tree.origin);
             for (double& c : q) c /= tree.unit;
             points_.push_back(q);
             tree.radius = std::max(tree.radius, 1.0001 * std::sqrt(dot(q, q)) + slack_);
@@ -74,7 +74,7 @@ public:
 
     void run() {
         tree_.nodes.reserve(items_.size());
-        Part all = make_part(0, items_.size());
+        FramedPart all = make_part(0, items_.size());
         tree_.nodes.emplace_back();
         close_lanes(0, 1);
         put(0, 0, all);
@@ -94,14 +94,14 @@ public:
     }
 
 private:
-    [[nodiscard]] const Double3& corner(std::uint32_t t, std::size_t i) const {
+    [[nodiscard]] const Vector3& corner(std::uint32_t t, std::size_t i) const {
         return points_[corners_[t][i]];
     }
 
-    void set_unit(std::span<const Double3> positions) {
-        Double3 lo = positions.front();
-        Double3 hi = lo;
-        for (const Double3& p : positions)
+    void set_unit(std::span<const Vector3> positions) {
+        Vector3 lo = positions.front();
+        Vector3 hi = lo;
+        for (const Vector3& p : positions)
             for (std::size_t k = 0; k < 3; ++k) {
                 lo[k] = std::min(lo[k], p[k]);
                 hi[k] = std::max(hi[k], p[k]);
@@ -115,8 +115,8 @@ private:
         tree_.unit = extent > 0 ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
     }
 
-    [[nodiscard]] Part make_part(std::size_t begin, std::size_t end) const {
-        Part part{begin, end, {}};
+    [[nodiscard]] FramedPart make_part(std::size_t begin, std::size_t end) const {
+        FramedPart part{begin, end, {}};
         if (end - begin == 1) {
             const std::uint32_t t = items_[begin].triangle;
             part.frame = triangle_frame(corner(t, 0), corner(t, 1), corner(t, 2));
@@ -133,11 +133,11 @@ private:
 
     // Across the axis along which the centres reach farthest, at their mean; at the median where
     // the mean leaves hardly anything on one side.
-    [[nodiscard]] std::pair<Part, Part> divide(const Part& part) {
+    [[nodiscard]] std::pair<FramedPart, FramedPart> divide(const FramedPart& part) {
         std::array<float, 3> axis{};
         float reach = -1;
         double mean = 0;
-        for (const Double3& a : part.frame.axis) {
+        for (const Vector3& a : part.frame.axis) {
             const std::array<float, 3> u{static_cast<float>(a[0]), static_cast<float>(a[1]),
                                          static_cast<float>(a[2])};
             float lo = std::numeric_limits<float>::infinity();
@@ -172,13 +172,13 @@ private:
         return u[0] * i.center[0] + u[1] * i.center[1] + u[2] * i.center[2];
     }
 
-    [[nodiscard]] ObbChild below(const Part& part, std::size_t depth) {
+    [[nodiscard]] ObbChild below(const FramedPart& part, std::size_t depth) {
         check_stop(part.size());
         tree_.depth = std::max(tree_.depth, depth);
         if (part.size() <= leaf_)
             return ObbChild::leaf(static_cast<std::uint32_t>(part.begin),
                                   static_cast<std::uint32_t>(part.size()));
-        std::array<Part, 4> parts;
+        std::array<FramedPart, 4> parts;
         std::size_t count = 1;
         parts[0] = part;
         while (count < 4) {
@@ -207,8 +207,8 @@ private:
     }
 
     // The box of a part into a lane.
-    void put(std::uint32_t node, std::uint32_t lane, const Part& part) {
-        std::array<Double3, 3> u{};  // the floats' values
+    void put(std::uint32_t node, std::uint32_t lane, const FramedPart& part) {
+        std::array<Vector3, 3> u{};  // the floats' values
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k < 3; ++k)
                 u[i][k] = static_cast<double>(static_cast<float>(part.frame.axis[i][k]));
@@ -216,24 +216,24 @@ private:
             for (std::size_t j = 0; j < 3; ++j)
                 TRISECT_EXPECTS(std::abs(dot(u[i], u[j]) - (i == j ? 1 : 0)) < 0x1.6p-23,
                                 "box axes that are orthonormal up to rounding");
-        Double3 lo{};
-        Double3 hi{};
+        Vector3 lo{};
+        Vector3 hi{};
         lo.fill(std::numeric_limits<double>::infinity());
         hi.fill(-std::numeric_limits<double>::infinity());
         for (std::size_t i = part.begin; i < part.end; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
-                const Double3& p = corner(items_[i].triangle, j);
+                const Vector3& p = corner(items_[i].triangle, j);
                 for (std::size_t k = 0; k < 3; ++k) {
                     const double c = dot(u[k], p);
                     lo[k] = std::min(lo[k], c);
                     hi[k] = std::max(hi[k], c);
                 }
             }
-        Double3 center{};
+        Vector3 center{};
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < 3; ++i) center[k] += 0.5 * (lo[i] + hi[i]) * u[i][k];
         for (double& c : center) c = static_cast<double>(static_cast<float>(c));
-        Double3 half{};
+        Vector3 half{};
         for (std::size_t k = 0; k < 3; ++k) {
             const double c = dot(u[k], center);
             half[k] = std::max(hi[k] - c, c - lo[k]) + slack_;
@@ -260,7 +260,7 @@ private:
     std::span<const std::array<std::uint32_t, 3>> corners_;
     std::size_t leaf_;
     double slack_ = 0;
-    std::vector<Double3> points_;
+    std::vector<Vector3> points_;
     std::vector<Item> items_;
 };
 
@@ -272,7 +272,7 @@ ObbTree::ObbTree(std::span<const std::array<double, 3>> positions, double error,
                     "a leaf size that fits into a leaf");
     TRISECT_EXPECTS(triangles.size() < (std::size_t{1} << 28), "triangles that leaves can name");
     if (triangles.empty()) return;
-    Builder(*this, positions, error, triangles, options).run();
+    ObbTreeBuilder(*this, positions, error, triangles, options).run();
 }
 
 }  // namespace trisect::detail

@@ -58,7 +58,7 @@ public:
           stack_(stack) {}
 
     /// visit(triangle of a, triangle of b, verdict) for every pair that is not certainly apart;
-    /// stops when it returns true. Says whether it was stopped.
+    /// stops when it returns true. Returns whether it was stopped.
     template <class Visit>
     bool run(Visit&& visit) {
         stack_.clear();

@@ -16,19 +16,20 @@
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
+using detail::Vector3;
+
 namespace {
 
-using Point3 = std::array<double, 3>;
-
 struct Bounds {
-    Point3 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-    Point3 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-              -std::numeric_limits<double>::infinity()};
-    void add(const Point3& l, const Point3& h) {
+    Vector3 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+               std::numeric_limits<double>::infinity()};
+    Vector3 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               -std::numeric_limits<double>::infinity()};
+    void add(const Vector3& l, const Vector3& h) {
         for (std::size_t k = 0; k < 3; ++k) {
             lo[k] = std::min(lo[k], l[k]);
             hi[k] = std::max(hi[k], h[k]);
@@ -43,15 +44,15 @@ struct Bounds {
     }
 };
 
-struct Part {
+struct ItemPart {
     std::size_t begin = 0;
     std::size_t end = 0;
     [[nodiscard]] std::size_t size() const { return end - begin; }
 };
 
-class Builder {
+class ItemTreeBuilder {
 public:
-    Builder(std::span<const TreeItem> items, const TreeOptions& options)
+    ItemTreeBuilder(std::span<const TreeItem> items, const TreeOptions& options)
         : items_(items), options_(options), order_(items.size()) {
         std::iota(order_.begin(), order_.end(), 0U);
     }
@@ -60,12 +61,12 @@ public:
         TreeShape shape;
         struct Open {
             std::uint32_t node;
-            Part part;
+            ItemPart part;
             unsigned level;
         };
         std::vector<Open> open{{0, {0, items_.size()}, 1}};
         shape.nodes.emplace_back();
-        std::vector<Part> parts;
+        std::vector<ItemPart> parts;
         while (!open.empty()) {
             const Open o = open.back();
             open.pop_back();
@@ -89,15 +90,15 @@ public:
     }
 
 private:
-    [[nodiscard]] const Point3& center(std::size_t i) const { return items_[order_[i]].center; }
+    [[nodiscard]] const Vector3& center(std::size_t i) const { return items_[order_[i]].center; }
 
     // Into as many parts as a node has children, if there are that many.
-    void divide(const Part& whole, std::vector<Part>& parts) {
+    void divide(const ItemPart& whole, std::vector<ItemPart>& parts) {
         parts.assign(1, whole);
         while (parts.size() < options_.arity) {
-            const auto largest = std::ranges::max_element(parts, {}, &Part::size);
+            const auto largest = std::ranges::max_element(parts, {}, &ItemPart::size);
             if (largest->size() <= options_.leaf_things) break;
-            const Part part = *largest;
+            const ItemPart part = *largest;
             const std::size_t middle = cut(part);
             *largest = {part.begin, middle};
             parts.insert(largest + 1, {middle, part.end});
@@ -106,7 +107,7 @@ private:
 
     // Puts the part into an order of which the first elements, up to the place returned, are one
     // side.
-    std::size_t cut(const Part& part) {
+    std::size_t cut(const ItemPart& part) {
         std::size_t middle = part.begin;
         if (options_.split == SplitRule::Mean) middle = cut_at_mean(part);
         if (options_.split == SplitRule::Principal) middle = cut_across_principal_axis(part);
@@ -117,13 +118,13 @@ private:
     }
 
     template <class Below>
-    std::size_t separate(const Part& part, Below&& below) {
+    std::size_t separate(const ItemPart& part, Below&& below) {
         const auto first = order_.begin() + static_cast<std::ptrdiff_t>(part.begin);
         const auto last = order_.begin() + static_cast<std::ptrdiff_t>(part.end);
         return static_cast<std::size_t>(std::partition(first, last, below) - order_.begin());
     }
 
-    std::size_t cut_at_median(const Part& part) {
+    std::size_t cut_at_median(const ItemPart& part) {
         Bounds b;
         for (std::size_t i = part.begin; i < part.end; ++i) b.add(center(i), center(i));
         std::size_t axis = 0;
@@ -143,10 +144,10 @@ private:
         return middle;
     }
 
-    std::size_t cut_at_mean(const Part& part) {
-        Point3 sum{};
-        Point3 squares{};
-        const Point3 about = center(part.begin);
+    std::size_t cut_at_mean(const ItemPart& part) {
+        Vector3 sum{};
+        Vector3 squares{};
+        const Vector3 about = center(part.begin);
         for (std::size_t i = part.begin; i < part.end; ++i)
             for (std::size_t k = 0; k < 3; ++k) {
                 const double d = center(i)[k] - about[k];
@@ -155,7 +156,7 @@ private:
             }
         const double n = static_cast<double>(part.size());
         std::size_t axis = 0;
-        Point3 variance{};
+        Vector3 variance{};
         for (std::size_t k = 0; k < 3; ++k) {
             variance[k] = squares[k] - sum[k] * sum[k] / n;
             if (variance[k] > variance[axis]) axis = k;
@@ -165,32 +166,32 @@ private:
             part, [this, axis, mean](std::uint32_t i) { return items_[i].center[axis] < mean; });
     }
 
-    std::size_t cut_across_principal_axis(const Part& part) {
+    std::size_t cut_across_principal_axis(const ItemPart& part) {
         detail::AreaMoments m;
         m.area = static_cast<double>(part.size());
         for (std::size_t i = part.begin; i < part.end; ++i) {
-            const Point3& c = center(i);
+            const Vector3& c = center(i);
             for (std::size_t k = 0; k < 3; ++k) {
                 m.first[k] += c[k];
                 m.second[k] += c[k] * c[k];
                 m.second[3 + k] += c[k == 2 ? 1 : 0] * c[k == 0 ? 1 : 2];
             }
         }
-        const Point3 axis = detail::principal_frame(m).axis[0];
+        const Vector3 axis = detail::principal_frame(m).axis[0];
         const double mean = detail::dot(axis, m.first) / m.area;
         return separate(part, [this, &axis, mean](std::uint32_t i) {
             return detail::dot(axis, items_[i].center) < mean;
         });
     }
 
-    std::size_t cut_by_area(const Part& part) {
+    std::size_t cut_by_area(const ItemPart& part) {
         Bounds centers;
         for (std::size_t i = part.begin; i < part.end; ++i) centers.add(center(i), center(i));
         constexpr std::size_t bins = 16;
         double best = std::numeric_limits<double>::infinity();
         std::size_t best_axis = 0;
         std::size_t best_bin = 0;
-        const auto bin_of = [&centers](const Point3& c, std::size_t axis) {
+        const auto bin_of = [&centers](const Vector3& c, std::size_t axis) {
             const double from = centers.lo[axis];
             const double width = centers.hi[axis] - from;
             const auto b = static_cast<std::size_t>((c[axis] - from) / width * bins);
@@ -243,7 +244,7 @@ TreeShape build_tree(std::span<const TreeItem> items, const TreeOptions& options
     TRISECT_EXPECTS(!items.empty() && options.arity >= 2 && options.arity <= 8 &&
                         options.leaf_things >= 1 && options.leaf_things <= 255,
                     "options of a tree are out of range");
-    return Builder(items, options).run();
+    return ItemTreeBuilder(items, options).run();
 }
 
 }  // namespace trisect::hierarchies

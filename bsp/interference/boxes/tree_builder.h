@@ -15,7 +15,7 @@ namespace trisect::hierarchies {
 /// How a part is divided.
 enum class SplitRule : std::uint8_t {
     Median,     ///< as many things on both sides, across the longest extent of their centres
-    Mean,       ///< at the mean of the centres, across the axis of their largest variance
+    Mean,       ///< at the mean of the centres, perpendicular to the axis of their largest variance
     Principal,  ///< at the mean of the centres, across their principal axis, whatever way it points
     SurfaceArea  ///< where areas of boxes times numbers are least, of 16 places on each axis
 };

@@ -26,15 +26,15 @@ namespace {
 
 double clamp01(double v) { return v > 0 ? (v < 1 ? v : 1) : 0; }
 
-Double3 combined(const TriangleCorners& t, const std::array<double, 3>& w) {
-    Double3 r{};
+Vector3 combined(const TriangleCorners& t, const std::array<double, 3>& w) {
+    Vector3 r{};
     for (std::size_t k = 0; k < 3; ++k) r[k] = (w[0] * t[0][k] + w[1] * t[1][k]) + w[2] * t[2][k];
     return r;
 }
 
-class Search {
+class ClosestSearch {
 public:
-    Search(const TriangleCorners& p, const TriangleCorners& q) : p_(p), q_(q) {
+    ClosestSearch(const TriangleCorners& p, const TriangleCorners& q) : p_(p), q_(q) {
         best_.squared = std::numeric_limits<double>::infinity();
     }
     ClosestPoints run() {
@@ -51,9 +51,9 @@ private:
     void sides(std::size_t i, std::size_t j) {
         const std::size_t i1 = (i + 1) % 3;
         const std::size_t j1 = (j + 1) % 3;
-        const Double3 d1 = minus(p_[i1], p_[i]);
-        const Double3 d2 = minus(q_[j1], q_[j]);
-        const Double3 r = minus(p_[i], q_[j]);
+        const Vector3 d1 = minus(p_[i1], p_[i]);
+        const Vector3 d2 = minus(q_[j1], q_[j]);
+        const Vector3 r = minus(p_[i], q_[j]);
         const double a = dot(d1, d1);
         const double e = dot(d2, d2);
         const double b = dot(d1, d2);
@@ -66,7 +66,7 @@ private:
             t = clamp01(t);
             s = a > 0 ? clamp01((b * t - c) / a) : 0;
         }
-        Double3 way{};
+        Vector3 way{};
         for (std::size_t k = 0; k < 3; ++k) way[k] = (r[k] + s * d1[k]) - t * d2[k];
         const double square = dot(way, way);
         if (!(square < best_.squared)) return;
@@ -79,11 +79,11 @@ private:
     }
 
     // A corner above the inside of a triangle; beyond its sides the pairs of sides do it.
-    void corner(const Double3& x, const TriangleCorners& t, std::size_t i, bool of_p) {
-        const Double3 u = minus(t[1], t[0]);
-        const Double3 v = minus(t[2], t[0]);
-        const Double3 w = minus(x, t[0]);
-        const Double3 n = cross(u, v);
+    void corner(const Vector3& x, const TriangleCorners& t, std::size_t i, bool of_p) {
+        const Vector3 u = minus(t[1], t[0]);
+        const Vector3 v = minus(t[2], t[0]);
+        const Vector3 w = minus(x, t[0]);
+        const Vector3 n = cross(u, v);
         const double nn = dot(n, n);
         if (!(nn > 0)) return;
         const double height = dot(n, w);
@@ -110,13 +110,13 @@ bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, d
                            double error) {
     double g = 0;
     for (const auto* t : {&p, &q})
-        for (const Double3& c : *t)
+        for (const Vector3& c : *t)
             for (const double v : c) g = std::max(g, std::abs(v));
     const double wanted = (limit + 4 * error + 0x1p-48 * g) * (1 + 0x1p-40);
-    Double3 centres{};
+    Vector3 centres{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) centres[k] += q[i][k] - p[i][k];
-    for (const Double3& n : {centres, cross(minus(p[1], p[0]), minus(p[2], p[0])),
+    for (const Vector3& n : {centres, cross(minus(p[1], p[0]), minus(p[2], p[0])),
                              cross(minus(q[1], q[0]), minus(q[2], q[0]))}) {
         const std::array<double, 3> a{dot(n, p[0]), dot(n, p[1]), dot(n, p[2])};
         const std::array<double, 3> b{dot(n, q[0]), dot(n, q[1]), dot(n, q[2])};
@@ -129,17 +129,17 @@ bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, d
 }
 
 ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q) {
-    return Search(p, q).run();
+    return ClosestSearch(p, q).run();
 }
 
 DistanceBounds certify(const TriangleCorners& p, const TriangleCorners& q,
                        const ClosestPoints& closest, double error) {
     double g = 0;
     for (const auto* t : {&p, &q})
-        for (const Double3& c : *t)
+        for (const Vector3& c : *t)
             for (const double v : c) g = std::max(g, std::abs(v));
     const double slack = 4 * error + 0x1p-48 * g;
-    const Double3 way = minus(combined(q, closest.on_q), combined(p, closest.on_p));
+    const Vector3 way = minus(combined(q, closest.on_q), combined(p, closest.on_p));
     const double length = std::sqrt(dot(way, way));
     DistanceBounds r;
     r.upper = length * (1 + 0x1p-50) + slack;

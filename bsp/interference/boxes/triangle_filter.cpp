@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two triangles have a common point exactly if a side of one meets the other. Whether a side pq
-// meets the triangle abc is told by the sides of abc's plane on which p and q lie and by the three
-// orientations of pq with the sides of abc (Guigue and Devillers 2003 order such signs cleverly;
-// here all that matter are computed, since nearly every pair that comes this far is close).
+// meets the triangle abc is decided by the sides of abc's plane on which p and q lie and by the
+// three orientations of pq with the sides of abc (Guigue and Devillers 2003 order such signs
+// cleverly; here all that matter are computed, since nearly every pair that comes this far is
+// close).
 //
 // Every value is the determinant of three differences of points. Let g bound the components of all
 // differences, e the error of a difference's exact components (of the two points) and u = 2^-53;
@@ -19,17 +20,12 @@
 #include <cstddef>
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
-
-double largest(const Double3& v) {
-    return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
-}
-
-// 1 or -1 when certain, otherwise 0.
-int certain_sign(double v, double bound) { return (v > bound ? 1 : 0) - (v < -bound ? 1 : 0); }
 
 enum class SideVerdict : std::uint8_t { Misses, Crosses, Unknown };
 
@@ -59,7 +55,7 @@ bool has_separating_side(const TriangleCorners& p, const TriangleCorners& q, std
         const auto& to = p[(k + 1) % 3];
         const double u = to[i] - from[i];
         const double v = to[j] - from[j];
-        const auto side = [&](const Double3& x) {
+        const auto side = [&](const Vector3& x) {
             return certain_sign(u * (x[j] - from[j]) - v * (x[i] - from[i]), bound);
         };
         const int own = side(p[(k + 2) % 3]);
@@ -72,35 +68,37 @@ bool has_separating_side(const TriangleCorners& p, const TriangleCorners& q, std
 
 PairVerdict compare_triangles(const TriangleCorners& p, const TriangleCorners& q, double error) {
     // All differences from corner 0 of p, and the sides.
-    const Double3 p1 = minus(p[1], p[0]);
-    const Double3 p2 = minus(p[2], p[0]);
-    const std::array<Double3, 3> w{minus(q[0], p[0]), minus(q[1], p[0]), minus(q[2], p[0])};
-    const Double3 q1 = minus(q[1], q[0]);
-    const Double3 q2 = minus(q[2], q[0]);
+    const Vector3 p1 = minus(p[1], p[0]);
+    const Vector3 p2 = minus(p[2], p[0]);
+    const std::array<Vector3, 3> w{minus(q[0], p[0]), minus(q[1], p[0]), minus(q[2], p[0])};
+    const Vector3 q1 = minus(q[1], q[0]);
+    const Vector3 q2 = minus(q[2], q[0]);
     // Components of other differences below are sums of two of these.
-    double g = std::max(std::max(largest(p1), largest(p2)), std::max(largest(q1), largest(q2)));
-    g = 2 * std::max(g, std::max(largest(w[0]), std::max(largest(w[1]), largest(w[2]))));
+    double g = std::max(std::max(largest_component(p1), largest_component(p2)),
+                        std::max(largest_component(q1), largest_component(q2)));
+    g = 2 * std::max(g, std::max(largest_component(w[0]),
+                                 std::max(largest_component(w[1]), largest_component(w[2]))));
     const double bound = g * g * (20 * error + 0x1p-47 * g);
 
-    const Double3 n = cross(p1, p2);
+    const Vector3 n = cross(p1, p2);
     std::array<int, 3> q_side{};
     for (std::size_t i = 0; i < 3; ++i) q_side[i] = certain_sign(dot(n, w[i]), bound);
     if (q_side[0] != 0 && q_side[0] == q_side[1] && q_side[1] == q_side[2])
         return PairVerdict::Apart;
-    const Double3 m = cross(q1, q2);
-    const std::array<Double3, 3> v{minus(p[0], q[0]), minus(p[1], q[0]), minus(p[2], q[0])};
+    const Vector3 m = cross(q1, q2);
+    const std::array<Vector3, 3> v{minus(p[0], q[0]), minus(p[1], q[0]), minus(p[2], q[0])};
     std::array<int, 3> p_side{};
     for (std::size_t i = 0; i < 3; ++i) p_side[i] = certain_sign(dot(m, v[i]), bound);
     if (p_side[0] != 0 && p_side[0] == p_side[1] && p_side[1] == p_side[2])
         return PairVerdict::Apart;
 
     // turn[i][j]: the orientation of side i of p and side j of q.
-    const std::array<Double3, 3> p_side_vector{p1, minus(p[2], p[1]), minus(p[0], p[2])};
-    const std::array<Double3, 3> q_side_vector{q1, minus(q[2], q[1]), minus(q[0], q[2])};
+    const std::array<Vector3, 3> p_side_vector{p1, minus(p[2], p[1]), minus(p[0], p[2])};
+    const std::array<Vector3, 3> q_side_vector{q1, minus(q[2], q[1]), minus(q[0], q[2])};
     std::array<std::array<int, 3>, 3> turn{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
-            const Double3 way = i == 0 ? w[j] : minus(q[j], p[i]);
+            const Vector3 way = i == 0 ? w[j] : minus(q[j], p[i]);
             turn[i][j] = certain_sign(dot(cross(p_side_vector[i], q_side_vector[j]), way), bound);
         }
     bool unknown = false;

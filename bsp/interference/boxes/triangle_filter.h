@@ -11,7 +11,7 @@ namespace trisect::detail {
 enum class PairVerdict : std::uint8_t {
     Apart,     ///< certainly no common point
     Crossing,  ///< certainly a side of one passes strictly through the inside of the other
-    Unknown    ///< doubles cannot tell, or the triangles merely touch
+    Unknown    ///< doubles cannot decide, or the triangles merely touch
 };
 
 using TriangleCorners = std::array<std::array<double, 3>, 3>;

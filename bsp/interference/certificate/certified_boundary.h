@@ -44,7 +44,7 @@ public:
     /// Whether triangles fill all faces: in each face their sides, cancelled, are its halfedges.
     /// Two bounded chains in a plane with one boundary are the same.
     [[nodiscard]] bool is_filled_by(const std::vector<CertifiedTriangle>& triangles) const;
-    /// The segments of every face's loops, without direction: they tell the face, and all faces
+    /// The segments of every face's loops, without direction: they identify the face, and all faces
     /// together a bounded solid.
     [[nodiscard]] std::vector<std::set<std::pair<IntegerPoint, IntegerPoint>>> outlines() const;
 

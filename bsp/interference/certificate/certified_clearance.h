@@ -21,7 +21,7 @@
 
 namespace trisect::detail::certified {
 
-/// What a node of `OverlapCertificate::clearance` speaks about.
+/// Subject of a node of `OverlapCertificate::clearance`.
 struct ClearanceRange {
     std::shared_ptr<const Part> part;
     std::size_t b0 = 0;

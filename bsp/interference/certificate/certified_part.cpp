@@ -17,7 +17,7 @@ namespace trisect::detail::certified {
 
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -92,13 +92,13 @@ public:
             ends[edge.second] += count;
         }
         std::vector<Triangle> r;
-        std::uint32_t apex = none;
+        std::uint32_t apex = no_index;
         for (const auto& [line, ends] : lines) {
-            std::uint32_t last = none;
+            std::uint32_t last = no_index;
             int count = 0;
             for (const std::uint32_t v : along(line, ends)) {
                 if (count != 0) {
-                    if (apex == none) apex = last;
+                    if (apex == no_index) apex = last;
                     add_triangles(apex, last, v, count, r);
                 }
                 count -= ends.at(v);
@@ -142,7 +142,7 @@ class Part::Divider {
 public:
     // `values`: heights of the part's points, above 0 in what is kept.
     Divider(const Part& whole, const std::vector<mpz_class>& values)
-        : whole_(whole), values_(values), copy_(whole.points_.size(), none) {}
+        : whole_(whole), values_(values), copy_(whole.points_.size(), no_index) {}
 
     Part run() {
         for (const auto& t : whole_.triangles_) clip(t);
@@ -161,7 +161,7 @@ private:
         return static_cast<std::uint32_t>(half_.points_.size() - 1);
     }
     std::uint32_t copy_of(std::uint32_t v) {
-        if (copy_[v] == none) copy_[v] = add(whole_.points_[v]);
+        if (copy_[v] == no_index) copy_[v] = add(whole_.points_[v]);
         return copy_[v];
     }
     // Where an edge crosses the plane: with heights f / u.w and -g / v.w of its ends.
@@ -201,9 +201,9 @@ private:
         }
     }
     void close() {
-        std::uint32_t apex = none;
+        std::uint32_t apex = no_index;
         for (const auto& [edge, count] : open_) {
-            if (count != 0 && apex == none) apex = edge.first;
+            if (count != 0 && apex == no_index) apex = edge.first;
             const auto& [u, v] = count > 0 ? Edge(edge.second, edge.first) : edge;
             if (u == apex || v == apex) continue;
             for (int k = 0; k < std::abs(count); ++k) half_.triangles_.push_back({apex, u, v});
@@ -249,10 +249,10 @@ void Part::simplify() {
         triangles_.insert(triangles_.end(), fan.begin(), fan.end());
     }
     points_.clear();
-    std::vector<std::uint32_t> left(points.size(), none);
+    std::vector<std::uint32_t> left(points.size(), no_index);
     for (Triangle& t : triangles_)
         for (std::uint32_t& v : t) {
-            if (left[v] == none) {
+            if (left[v] == no_index) {
                 left[v] = static_cast<std::uint32_t>(points_.size());
                 points_.push_back(points[v]);
             }

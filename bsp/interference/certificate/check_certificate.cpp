@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The checker shares nothing with what decides: it has the vertices, loops and shells of the two
-// boundaries, the numbers of the poses, and fractions. What a boundary can be asked is in
+// boundaries, the numbers of the poses, and fractions. Operations on a boundary are in
 // certified_boundary.h, partitions of space are in certified_cells.h.
 
 #include <algorithm>
@@ -15,22 +15,14 @@
 #include <trisect/bsp/interference/certificate/certified_walk.h>
 #include <trisect/bsp/interference/interference_certificate.h>
 
-namespace trisect {
+namespace trisect::detail::certified {
 
 namespace {
 
-using detail::certified::Boundary;
-using detail::certified::IntegerPlane;
-using detail::certified::IntegerPoint;
-using detail::certified::is_zero;
-using detail::certified::NoTime;
-using detail::certified::WalkRange;
-using detail::certified::Where;
-
-class Checker {
+class RelationChecker {
 public:
-    Checker(const InterferenceCertificate& c, const Brep& a, const Pose& pose_a, const Brep& b,
-            const Pose& pose_b)
+    RelationChecker(const InterferenceCertificate& c, const Brep& a, const Pose& pose_a,
+                    const Brep& b, const Pose& pose_b)
         : c_(c), a_(a, pose_a), b_(b, pose_b) {}
 
     std::string run() {
@@ -162,9 +154,13 @@ private:
 
 }  // namespace
 
+}  // namespace trisect::detail::certified
+
+namespace trisect {
+
 std::string check_certificate(const InterferenceCertificate& certificate, const Brep& a,
                               const Pose& pose_a, const Brep& b, const Pose& pose_b) {
-    return Checker(certificate, a, pose_a, b, pose_b).run();
+    return detail::certified::RelationChecker(certificate, a, pose_a, b, pose_b).run();
 }
 
 }  // namespace trisect

@@ -20,29 +20,16 @@
 #include <trisect/bsp/interference/certificate/certified_walk.h>
 #include <trisect/bsp/interference/contact_certificate.h>
 
-namespace trisect {
+namespace trisect::detail::certified {
 
 namespace {
 
-using detail::certified::Boundary;
-using detail::certified::constant;
-using detail::certified::ControlMaps;
-using detail::certified::cross;
-using detail::certified::IntegerPlane;
-using detail::certified::is_zero;
-using detail::certified::minus;
-using detail::certified::Piece;
-using detail::certified::piece_of;
-using detail::certified::Polynomial;
-using detail::certified::PolynomialVector;
-using detail::certified::RootTime;
-using Vector = RationalPoint;
-using Range = detail::certified::WalkRange<ExactRational>;
+using ExactWalkRange = WalkRange<ExactRational>;
 
-class Checker {
+class ContactChecker {
 public:
-    Checker(const ContactCertificate& c, const Brep& a, const Motion& motion_a, const Brep& b,
-            const Motion& motion_b)
+    ContactChecker(const ContactCertificate& c, const Brep& a, const Motion& motion_a,
+                   const Brep& b, const Motion& motion_b)
         : c_(c), motion_a_(motion_a), motion_b_(motion_b), a_(a), b_(b) {}
 
     std::string run() {
@@ -87,8 +74,9 @@ private:
         if (is_last_ && !meet()) return "the triangles do not meet at the time of contact";
         return detail::certified::wrong_tree(
             c_.freedom[i],
-            Range{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), 0, is_last_ ? c_.lower : end},
-            [this](const FreedomNode& node, const Range& r) {
+            ExactWalkRange{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), 0,
+                           is_last_ ? c_.lower : end},
+            [this](const FreedomNode& node, const ExactWalkRange& r) {
                 return are_apart(r, node.separator) ? "" : "a plane does not separate";
             });
     }
@@ -130,24 +118,24 @@ private:
     // Whether x / w is on the triangle.
     [[nodiscard]] bool is_on(const PolynomialVector& x, const Polynomial& w,
                              const CertifiedTriangle& t, const Boundary& boundary) const {
-        std::array<Vector, 3> c;
+        std::array<RationalPoint, 3> c;
         for (std::size_t i = 0; i < 3; ++i) c[i] = boundary.at(t.vertex[i]);
-        const Vector n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+        const RationalPoint n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
         if (is_zero(n)) return false;
         const auto from = [&](std::size_t i) { return x - w * constant(c[i]); };
         if (!time_.is_root_of(dot(constant(n), from(0)))) return false;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Vector inward = cross(n, minus(c[(i + 1) % 3], c[i]));
+            const RationalPoint inward = cross(n, minus(c[(i + 1) % 3], c[i]));
             const int s = time_.sign_of(dot(constant(inward), from(i)));
             if (s != 0 && s != 1) return false;
         }
         return true;
     }
     [[nodiscard]] bool edges_cross(const CommonPoint& p) const {
-        const Vector a0 = a_.at(p.edge_a[0]);
-        const Vector a1 = a_.at(p.edge_a[1]);
-        const Vector b0 = b_.at(p.edge_b[0]);
-        const Vector b1 = b_.at(p.edge_b[1]);
+        const RationalPoint a0 = a_.at(p.edge_a[0]);
+        const RationalPoint a1 = a_.at(p.edge_a[1]);
+        const RationalPoint b0 = b_.at(p.edge_b[0]);
+        const RationalPoint b1 = b_.at(p.edge_b[1]);
         const PolynomialVector u = constant(minus(a1, a0));
         const PolynomialVector v = to_a_.direction(minus(b1, b0));
         const PolynomialVector n = cross(u, v);
@@ -170,14 +158,14 @@ private:
     // ------------------------------------------------------------ freedom
 
     // The last ranges of the last piece go on from the bracket to the contact, itself excluded.
-    [[nodiscard]] bool goes_to_the_contact(const Range& r) const {
+    [[nodiscard]] bool goes_to_the_contact(const ExactWalkRange& r) const {
         return is_last_ && r.to == c_.lower;
     }
-    [[nodiscard]] bool is_positive_in(const Polynomial& p, const Range& r) const {
+    [[nodiscard]] bool is_positive_in(const Polynomial& p, const ExactWalkRange& r) const {
         return goes_to_the_contact(r) ? time_.is_positive_before(p, r.from)
                                       : is_positive(p, r.from, r.to);
     }
-    [[nodiscard]] bool are_apart(const Range& r, const MovingSeparator& s) {
+    [[nodiscard]] bool are_apart(const ExactWalkRange& r, const MovingSeparator& s) {
         const auto of_a = corners_of_a(c_.triangles_a, r);
         const auto of_b = corners_of_b(c_.triangles_b, r);
         if (s.kind == MovingSeparator::Kind::Edges) return are_apart_by_edges(r, s, of_a, of_b);
@@ -196,8 +184,8 @@ private:
     }
     // Bernstein coefficients first; polynomials of corners for which these say nothing.
     [[nodiscard]] bool stays_above(const Piece& map, const Boundary& boundary,
-                                   const std::vector<std::uint32_t>& corners, const Range& r,
-                                   const SeparatingPlane& plane) {
+                                   const std::vector<std::uint32_t>& corners,
+                                   const ExactWalkRange& r, const SeparatingPlane& plane) {
         const std::vector<IntegerPlane> planes = controls(map, r).planes(plane);
         return std::ranges::all_of(corners, [&](std::uint32_t v) {
             if (std::ranges::all_of(planes, [&](const IntegerPlane& p) {
@@ -210,23 +198,23 @@ private:
             return is_positive_in(height, r);
         });
     }
-    const ControlMaps& controls(const Piece& map, const Range& r) {
+    const ControlMaps& controls(const Piece& map, const ExactWalkRange& r) {
         const ExactRational& to = goes_to_the_contact(r) ? c_.upper : r.to;
         const auto key = std::make_tuple(&map == &to_a_, r.from, to);
         auto at = controls_.find(key);
         if (at == controls_.end()) at = controls_.emplace(key, ControlMaps(map, r.from, to)).first;
         return at->second;
     }
-    [[nodiscard]] bool are_apart_by_edges(const Range& r, const MovingSeparator& s,
+    [[nodiscard]] bool are_apart_by_edges(const ExactWalkRange& r, const MovingSeparator& s,
                                           const std::vector<std::uint32_t>& of_a,
                                           const std::vector<std::uint32_t>& of_b) const {
         for (const VertexId v : s.edge_a)
             if (v.index >= a_.points().size()) return false;
         for (const VertexId v : s.edge_b)
             if (v.index >= b_.points().size()) return false;
-        const Vector a0 = a_.at(s.edge_a[0]);
-        const Vector u = minus(a_.at(s.edge_a[1]), a0);
-        const Vector v = minus(b_.at(s.edge_b[1]), b_.at(s.edge_b[0]));
+        const RationalPoint a0 = a_.at(s.edge_a[0]);
+        const RationalPoint u = minus(a_.at(s.edge_a[1]), a0);
+        const RationalPoint v = minus(b_.at(s.edge_b[1]), b_.at(s.edge_b[0]));
         PolynomialVector n = cross(constant(u), to_a_.direction(v));
         if (s.flipped) n = PolynomialVector{} - n;
         return std::ranges::all_of(of_a,
@@ -255,10 +243,14 @@ private:
 
 }  // namespace
 
+}  // namespace trisect::detail::certified
+
+namespace trisect {
+
 std::string check_contact_certificate(const ContactCertificate& certificate, const Brep& a,
                                       const Motion& motion_a, const Brep& b,
                                       const Motion& motion_b) {
-    return Checker(certificate, a, motion_a, b, motion_b).run();
+    return detail::certified::ContactChecker(certificate, a, motion_a, b, motion_b).run();
 }
 
 }  // namespace trisect

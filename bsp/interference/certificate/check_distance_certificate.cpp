@@ -11,20 +11,14 @@
 #include <trisect/bsp/interference/certificate/certified_walk.h>
 #include <trisect/bsp/interference/distance_certificate.h>
 
-namespace trisect {
+namespace trisect::detail::certified {
 
 namespace {
 
-using detail::certified::Boundary;
-using detail::certified::dot;
-using detail::certified::IntegerPlane;
-using detail::certified::NoTime;
-using detail::certified::WalkRange;
-
-class Checker {
+class DistanceChecker {
 public:
-    Checker(const DistanceCertificate& c, const Brep& a, const Pose& pose_a, const Brep& b,
-            const Pose& pose_b)
+    DistanceChecker(const DistanceCertificate& c, const Brep& a, const Pose& pose_a, const Brep& b,
+                    const Pose& pose_b)
         : c_(c), a_(a, pose_a), b_(b, pose_b) {}
 
     std::string run() const {
@@ -74,9 +68,13 @@ private:
 
 }  // namespace
 
+}  // namespace trisect::detail::certified
+
+namespace trisect {
+
 std::string check_distance_certificate(const DistanceCertificate& certificate, const Brep& a,
                                        const Pose& pose_a, const Brep& b, const Pose& pose_b) {
-    return Checker(certificate, a, pose_a, b, pose_b).run();
+    return detail::certified::DistanceChecker(certificate, a, pose_a, b, pose_b).run();
 }
 
 }  // namespace trisect

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The checker asks the motions for enclosures and has corners, polynomials and fractions. A corner
+// The checker gets enclosures from the motions and has corners, polynomials and fractions. A corner
 // x is at X(s) / w(s) up to a distance of by_length |x| + constant, so its height n·X / w is off by
 // |n| times that at most; both lengths are bounded by sums of magnitudes, which need no roots.
 
@@ -19,22 +19,12 @@
 #include <trisect/bsp/interference/certificate/certified_walk.h>
 #include <trisect/bsp/interference/enclosed_certificate.h>
 
-namespace trisect {
+namespace trisect::detail::certified {
 
 namespace {
 
-using detail::certified::Boundary;
-using detail::certified::constant;
-using detail::certified::ControlMaps;
-using detail::certified::IntegerPlane;
-using detail::certified::IntegerPoint;
-using detail::certified::is_positive_on_unit;
-using detail::certified::Piece;
-using detail::certified::piece_of;
-using detail::certified::Polynomial;
-using detail::certified::sum_of_magnitudes;
 using Node = EnclosedFreedomNode;
-using Range = detail::certified::WalkRange<double>;
+using DoubleWalkRange = WalkRange<double>;
 
 // A motion over a range of time, which is the unit interval of its enclosure.
 struct Enclosed {
@@ -72,10 +62,10 @@ RationalPoint signs_in(std::size_t octant) {
     return r;
 }
 
-class Checker {
+class EnclosedChecker {
 public:
-    Checker(const EnclosedCertificate& c, const Brep& a, const EnclosedMotion& motion_a,
-            const Brep& b, const EnclosedMotion& motion_b)
+    EnclosedChecker(const EnclosedCertificate& c, const Brep& a, const EnclosedMotion& motion_a,
+                    const Brep& b, const EnclosedMotion& motion_b)
         : c_(c),
           answer_(c.answer),
           motion_a_(motion_a),
@@ -170,18 +160,19 @@ private:
     }
     std::string wrong_tree(const std::vector<Node>& nodes, const TimeSpan& time) {
         return detail::certified::wrong_tree(
-            nodes, Range{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), time.from, time.to},
-            [this](const Node& node, const Range& r) {
+            nodes,
+            DoubleWalkRange{0, c_.triangles_a.size(), 0, c_.triangles_b.size(), time.from, time.to},
+            [this](const Node& node, const DoubleWalkRange& r) {
                 if (has_break_within(r)) return "a motion has a kink in a range";
                 return are_apart(r, node.plane) ? "" : "a plane does not separate";
             });
     }
-    [[nodiscard]] bool has_break_within(const Range& r) const {
+    [[nodiscard]] bool has_break_within(const DoubleWalkRange& r) const {
         const auto within = [&r](double x) { return r.from < x && x < r.to; };
         return (!motion_a_.is_still() && std::ranges::any_of(motion_a_.breaks(), within)) ||
                (!motion_b_.is_still() && std::ranges::any_of(motion_b_.breaks(), within));
     }
-    const std::pair<Enclosed, Enclosed>& enclosed(const Range& r) {
+    const std::pair<Enclosed, Enclosed>& enclosed(const DoubleWalkRange& r) {
         auto at = enclosed_.find({r.from, r.to});
         if (at == enclosed_.end())
             at = enclosed_
@@ -190,7 +181,7 @@ private:
                      .first;
         return at->second;
     }
-    bool are_apart(const Range& r, const SeparatingPlane& plane) {
+    bool are_apart(const DoubleWalkRange& r, const SeparatingPlane& plane) {
         const auto& [of_a, of_b] = enclosed(r);
         SeparatingPlane turned;
         for (std::size_t k = 0; k < 3; ++k) turned.normal[k] = -plane.normal[k];
@@ -237,10 +228,14 @@ private:
 
 }  // namespace
 
+}  // namespace trisect::detail::certified
+
+namespace trisect {
+
 std::string check_enclosed_certificate(const EnclosedCertificate& certificate, const Brep& a,
                                        const EnclosedMotion& motion_a, const Brep& b,
                                        const EnclosedMotion& motion_b) {
-    return Checker(certificate, a, motion_a, b, motion_b).run();
+    return detail::certified::EnclosedChecker(certificate, a, motion_a, b, motion_b).run();
 }
 
 }  // namespace trisect

@@ -17,25 +17,14 @@
 #include <trisect/bsp/interference/certificate/certified_tetrahedron.h>
 #include <trisect/bsp/interference/certificate/certified_walk.h>
 
-namespace trisect {
+namespace trisect::detail::certified {
 
 namespace {
 
-using detail::certified::Boundary;
-using detail::certified::Clearance;
-using detail::certified::ClearanceRange;
-using detail::certified::corners_of;
-using detail::certified::Part;
-using detail::certified::piece_of;
-using detail::certified::Polynomial;
-using detail::certified::RootTime;
-
-bool interiors_meet(Relation r) { return r != Relation::Disjoint && r != Relation::Touching; }
-
-class Checker {
+class OverlapChecker {
 public:
-    Checker(const OverlapCertificate& c, const Brep& a, const Motion& motion_a, const Brep& b,
-            const Motion& motion_b)
+    OverlapChecker(const OverlapCertificate& c, const Brep& a, const Motion& motion_a,
+                   const Brep& b, const Motion& motion_b)
         : c_(c), motion_a_(motion_a), motion_b_(motion_b), a_(a), b_(b) {}
 
     std::string run() {
@@ -113,10 +102,14 @@ private:
 
 }  // namespace
 
+}  // namespace trisect::detail::certified
+
+namespace trisect {
+
 std::string check_overlap_certificate(const OverlapCertificate& certificate, const Brep& a,
                                       const Motion& motion_a, const Brep& b,
                                       const Motion& motion_b) {
-    return Checker(certificate, a, motion_a, b, motion_b).run();
+    return detail::certified::OverlapChecker(certificate, a, motion_a, b, motion_b).run();
 }
 
 }  // namespace trisect

@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A front that is tested anew from end to end for each pose saves little: three quarters of all
-// pairs of a walk are its front. So each pair of the front knows how far apart it was, and an
-// odometer adds up bounds on how far any point has moved between poses. While it has moved by less
-// than the gap the pair is still apart, whatever else happened. A question looks at the pairs that
-// are due, which are the few where the bodies are close. (A pair's lower bound on distance against
-// a bound on velocity is Mirtich's schedule, 1996, for pairs of bodies; here it is kept for pairs
-// of boxes.)
+// pairs of a walk are its front. So each pair of the front stores its gap, and an odometer adds up
+// bounds on how far any point has moved between poses. While it has moved by less than the gap the
+// pair is still apart, whatever else happened. A question looks at the pairs that are due, which
+// are the few where the bodies are close. (A pair's lower bound on distance against a bound on
+// velocity is Mirtich's schedule, 1996, for pairs of bodies; here it is kept for pairs of boxes.)
 //
-// What is due is asked first whether the planes still part the boxes that parted them when they
-// were last tested in full: one direction for each lane instead of sixteen (a witness kept between
-// frames, as Baraff 1990 does for convex polyhedra). Where the centre of a box is along such a
-// direction is linear in the pose, and no box is loaded for it; how much the rest of the box may
-// add follows from how far B has turned (parting_planes.h). Most of what is due is done by that, in
-// a sixth of the time of a box. It is also sharper than the odometer, which knows the body as a
-// whole: a plane feels the motion of its own box, along its own normal.
+// What is due is tested first with the planes: do they still separate the boxes that they separated
+// when they were last tested in full: one direction for each lane instead of sixteen (a witness
+// kept between frames, as Baraff 1990 does for convex polyhedra). Where the centre of a box is
+// along such a direction is linear in the pose, and no box is loaded for it; how much the rest of
+// the box may add follows from how far B has turned (parting_planes.h). Most of what is due is done
+// by that, in a sixth of the time of a box. It is also sharper than the odometer, which treats the
+// body as a whole: a plane feels the motion of its own box, along its own normal.
 //
 // The front is the leaves of the tree of all pairs that a walk opens, and the whole tree is kept.
 // Where a pair closes in it is divided further. Where everything below a pair is far apart by now,
-// the pair itself is asked again, and when its boxes are apart what is below is forgotten. So the
+// the pair itself is tested again, and when its boxes are apart what is below is forgotten. So the
 // front is as coarse as the distances allow, and bodies that have parted cost a test now and then.
 //
 // Where boundaries cross, balls inside both solids are tried first, then the pair of triangles that
 // showed the crossing. Balls give a reserve: until something has moved by as much as they reach
-// into each other nothing need be asked at all (pose_reserve.h), and the same holds for the least
-// gap of a front. A crossing pair of a fine mesh is lost with every step; so balls are tried that
-// touch the boundaries from inside near where it was found. Models keep one for each region; the
-// deepest pair of some next to each other is taken, and again when the last one has parted.
+// into each other no test is needed at all (pose_reserve.h), and the same holds for the least gap
+// of a front. A crossing pair of a fine mesh is lost with every step; so balls are tried that touch
+// the boundaries from inside near where it was found. Models keep one for each region; the deepest
+// pair of some next to each other is taken, and again when the last one has parted.
 //
 // When nothing of this helps the search climbs from the lost pair: at each pair on the way from the
 // roots to it the other lanes are searched, the nearest first. At the root this has been a whole
@@ -43,12 +42,12 @@
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr float infinite_float = std::numeric_limits<float>::infinity();
 
 float size(const ObbTree& t, ObbId id) {
@@ -82,7 +81,7 @@ void CoherentWalk::move_corners(std::uint32_t i, std::uint32_t j, TriangleCorner
     }
 }
 
-// Crossing ones that are not clear tell nothing.
+// Crossing ones that are not clear decide nothing.
 PairVerdict CoherentWalk::compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
                                   TriangleCorners& q) {
     move_corners(i, j, p, q);
@@ -123,7 +122,7 @@ bool CoherentWalk::leaves_cross(ObbId a, ObbId b) {
 }
 
 // Pairs below that may meet, for the search; without one that has been searched. Which of them
-// is anybody's guess, so all four are written, one over the other where they are apart.
+// cannot be predicted, so all four are written, one over the other where they are apart.
 void CoherentWalk::push_lanes(const ObbWalk::Pair& p, Opens side, ObbWalk::Pair searched) {
     const ObbTree& ta = a_->boxes;
     const ObbTree& tb = b_->boxes;

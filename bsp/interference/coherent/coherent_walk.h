@@ -31,7 +31,7 @@ public:
     enum class Answer : std::uint8_t {
         Crossing,  ///< certainly an edge passes through a clear face, or balls prove Overlapping
         Apart,     ///< certainly no common point
-        Unknown    ///< doubles cannot tell
+        Unknown    ///< doubles cannot decide
     };
     [[nodiscard]] Answer ask(const ApproximateMap& b_to_a);
     /// Of the last answer, Apart: whether the boundaries were apart before it, too, and all the way
@@ -60,7 +60,7 @@ private:
         ObbId a;
         ObbId b;
         std::uint32_t parent = none;
-        float tried = 0;  // the gap with which the parent was last asked in vain
+        float tried = 0;  // the gap with which the parent was last tested in vain
         std::uint8_t open = 0;
         Opens opens = Opens::Neither;
         bool in_use = true;
@@ -127,8 +127,8 @@ private:
     std::vector<ObbId> up_in_b_;
 
     std::vector<Visit> visits_;
-    // Of visits: planes that part the lanes that are not open, which stay where they are while B
-    // moves. Of a pair of triangles the first direction alone, asked in doubles.
+    // Of visits: planes that separate the lanes that are not open, which stay where they are while
+    // B moves. Of a pair of triangles the first direction alone, in doubles.
     std::vector<PartingPlanes> planes_;
     std::vector<std::uint32_t> unused_;
     DueList due_;                        // of visits

@@ -25,7 +25,7 @@ namespace trisect::detail {
     return (Mask4{b, b, b, b} & Mask4{1, 2, 4, 8}) != Mask4{0, 0, 0, 0};
 }
 
-/// What of a pose the planes are asked with, side by side in all lanes.
+/// Data of a pose for the planes, side by side in all lanes.
 ///
 /// A point c of B is at n·(M c + T) along a direction n of A: a linear function of the pose. A box
 /// about c adds at most its half diagonal times the change of M. So of a box that was parted from A
@@ -86,7 +86,7 @@ struct alignas(64) PartingPlanes {
         }
         set(pose, gaps, center, half);
     }
-    /// Of other lanes nothing is asked from now on.
+    /// Other lanes are not used from now on.
     void ask_only(Mask4 lanes) {
         base = lanes ? base : all_lanes(std::numeric_limits<float>::infinity());
     }

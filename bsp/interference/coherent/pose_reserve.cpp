@@ -23,7 +23,7 @@ namespace trisect::detail {
 
 namespace {
 
-double length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+double length_of(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
 // A bound on the norm of the matrix, up to rounding.
 double norm(const std::array<double, 12>& m) {
@@ -56,7 +56,7 @@ double stretch_of_inverse(const std::array<double, 12>& m) {
     for (std::size_t i = 0; i < 9; ++i)
         off = std::max(off, std::abs(gram[i] - (i % 4 == 0 ? square : 0)));
     if (square > 0 && off <= 0x1p-25 * square) return (1 + 0x1p-20) / std::sqrt(square);
-    // Of a determinant much smaller than its terms doubles know nothing.
+    // Doubles decide nothing about a determinant much smaller than its terms.
     if (!(std::abs(det) > 0x1p-20 * square * std::sqrt(square))) return HUGE_VAL;
     return (1 + 0x1p-20) * std::sqrt(squares) / std::abs(det);
 }
@@ -73,7 +73,7 @@ struct PoseReserve::Difference {
             return (rows[4 * i] * c[0] + rows[4 * i + 1] * c[1]) + rows[4 * i + 2] * c[2] +
                    rows[4 * i + 3];
         };
-        return length(row(0), row(1), row(2)) + norm * body.radius;
+        return length_of(row(0), row(1), row(2)) + norm * body.radius;
     }
 };
 

@@ -15,9 +15,9 @@ namespace trisect::detail {
 namespace {
 
 // Intervals stay multiples of 2^-36, and their halves in PairEvents exact doubles.
-constexpr int max_depth = 36;
+constexpr int most_halvings = 36;
 // So few pairs of triangles are solved at once, however long the interval is.
-constexpr std::size_t few_pairs = 6;
+constexpr std::size_t pairs_solved_at_once = 6;
 
 }  // namespace
 
@@ -43,14 +43,14 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
     if (leaves.empty() && coarse.empty()) return;
 
     // Triangles that sweep farther than they are large had better wait for a shorter interval.
-    const bool worth_halving =
-        !coarse.empty() || (leaves.size() > few_pairs && walk_.are_long(pose, swept.sweep, leaves));
-    if (!worth_halving || depth == max_depth) {
+    const bool worth_halving = !coarse.empty() || (leaves.size() > pairs_solved_at_once &&
+                                                   walk_.are_long(pose, swept.sweep, leaves));
+    if (!worth_halving || depth == most_halvings) {
         solve(over, leaves, events);
         if (coarse.empty()) return;
     }
-    if (depth == max_depth) {
-        // Boxes smaller than the sweep of an interval this short: too small to be told apart.
+    if (depth == most_halvings) {
+        // Boxes smaller than the sweep of an interval this short: too small to be distinguished.
         leaves.clear();
         walk_.refine(pose, 0, coarse, leaves, coarse);
         solve(over, leaves, events);

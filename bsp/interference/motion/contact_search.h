@@ -19,7 +19,7 @@ namespace trisect::detail {
 struct SearchCounters {
     std::uint64_t intervals = 0;       ///< parts of the parameter's interval looked at
     std::uint64_t box_tests = 0;       ///< one box against four, over an interval
-    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were asked for
+    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were computed
 };
 
 class ContactSearch {

@@ -11,7 +11,7 @@
 // the true ones. And a point of B that the enclosure takes into A, deeper than the margin, is in A
 // in truth.
 //
-// The search goes down the earlier half first. See Query::visit for when it stops.
+// The search goes down the earlier half first. See EnclosedQuery::visit for when it stops.
 
 #include <trisect/bsp/interference/enclosed_contact.h>
 
@@ -51,7 +51,7 @@ constexpr double smallest_part = 0x1p-40;
 // and this one where an earlier time is undecided anyway.
 constexpr double smallest_later_part = 0x1p-10;
 // So few pairs of triangles are compared at once, however far they sweep.
-constexpr std::size_t few_pairs = 6;
+constexpr std::size_t pairs_compared_at_once = 6;
 
 // A bound on how far a solid reaches from the origin, in the user's units.
 double reach_of(const InterferenceModelData& data) {
@@ -64,16 +64,16 @@ double reach_of(const InterferenceModelData& data) {
 }
 
 // What A sees of B during a range of time.
-struct View {
+struct SweptView {
     BallMotion motion;
     SweptMap swept;     // B's sweep, without the margin
     double margin = 0;  // in A's lattice units; infinite when nothing is known
 };
 
-class Query {
+class EnclosedQuery {
 public:
-    Query(const InterferenceModel& a, const EnclosedMotion& motion_a, const InterferenceModel& b,
-          const EnclosedMotion& motion_b, double width)
+    EnclosedQuery(const InterferenceModel& a, const EnclosedMotion& motion_a,
+                  const InterferenceModel& b, const EnclosedMotion& motion_b, double width)
         : a_(a),
           motion_a_(motion_a),
           b_(b),
@@ -98,7 +98,7 @@ public:
 private:
     using Undecided = std::vector<TimeSpan>;
 
-    [[nodiscard]] View view(double from, double to) const {
+    [[nodiscard]] SweptView view(double from, double to) const {
         const MotionEnclosure ea = motion_a_.enclose(from, to);
         const MotionEnclosure eb = motion_b_.enclose(from, to);
         const MotionPiece points = detail::relative_points(ea.motion.piece(0), a_.lattice(),
@@ -106,7 +106,7 @@ private:
         if (!BallMotion::fits(points) || !BallMotion::fits(ea.motion.piece(0)))
             throw UnsupportedError("the relative motion of two enclosures has a degree above " +
                                    std::to_string(detail::BallPolynomial::max_degree));
-        View r{BallMotion::of_points(points), {}, 0};
+        SweptView r{BallMotion::of_points(points), {}, 0};
         r.swept = detail::swept_map(r.motion, b_.data().lo, b_.data().hi);
         const double deviation =
             ea.by_length * reach_a_ + ea.constant + eb.by_length * reach_b_ + eb.constant;
@@ -122,7 +122,7 @@ private:
     }
 
     // Whether the boundaries are certainly apart during a range; if not, what is left of `front`.
-    bool is_free(const View& view, const Pairs& front, bool is_last, Pairs& rest) {
+    bool is_free(const SweptView& view, const Pairs& front, bool is_last, Pairs& rest) {
         ++result_.stats.intervals;
         if (view.margin == HUGE_VAL) {
             rest = front;
@@ -133,14 +133,15 @@ private:
         if (pose.is_apart()) return true;
         Pairs leaves;
         walk_.refine(pose, sweep, front, leaves, rest);
-        if (!is_last && leaves.size() > few_pairs && walk_.are_long(pose, sweep, leaves))
+        if (!is_last && leaves.size() > pairs_compared_at_once &&
+            walk_.are_long(pose, sweep, leaves))
             rest.insert(rest.end(), leaves.begin(), leaves.end());
         else
             keep_what_may_meet(view, leaves, rest);
         return rest.empty();
     }
 
-    void keep_what_may_meet(const View& view, Pairs& leaves, Pairs& rest) {
+    void keep_what_may_meet(const SweptView& view, Pairs& leaves, Pairs& rest) {
         const detail::ObbTree& ta = a_.data().boxes;
         const detail::ObbTree& tb = b_.data().boxes;
         std::sort(leaves.begin(), leaves.end(), [](const auto& p, const auto& q) {
@@ -162,7 +163,7 @@ private:
     }
 
     // Ends at the first contact that is proved. Until a range is given up as undecided, ranges are
-    // halved down to the floor and the end of a short one is asked for a contact at once. The
+    // halved down to the floor and the end of a short one is tested for a contact at once. The
     // ranges after an undecided one, each twice as long as the one before it, end there.
     void visit(double from, double to, const Pairs& front) {
         const double middle = from + (to - from) / 2;
@@ -198,7 +199,7 @@ private:
 
     // The boundaries are apart from this time on: is one solid within the other?
     void settle_inside(double time) {
-        const View now = view(time, time);
+        const SweptView now = view(time, time);
         Pairs rest;
         if (!is_free(now, {SweptWalk::Pair{}}, true, rest)) {
             give_up(time, time);
@@ -212,7 +213,7 @@ private:
 
     // Whether the solids certainly meet at a time. Notes the faces that do.
     bool is_contact(double time) {
-        const View now = view(time, time);
+        const SweptView now = view(time, time);
         if (now.margin == HUGE_VAL) return false;
         detail::ApproximateMap map = now.swept.map;
         map.t_error = (now.swept.sweep + now.margin) * (1 + 0x1p-40);
@@ -299,7 +300,7 @@ private:
                 det(column(0), column(1), v) / whole};
     }
 
-    // \pre is_contact(to), and asked last
+    // \pre is_contact(to), called last
     double narrowed(double from, double to) {
         double proved = to;
         std::vector<ContactWitness> witnesses = result_.witnesses;
@@ -382,7 +383,7 @@ EnclosedContact enclosed_first_contact(const InterferenceModel& a, const Enclose
         none.free_until = breaks.back();
         return none;
     }
-    return Query(a, motion_a, b, motion_b, options.width).run(breaks);
+    return EnclosedQuery(a, motion_a, b, motion_b, options.width).run(breaks);
 }
 
 }  // namespace trisect

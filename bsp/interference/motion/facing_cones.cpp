@@ -34,12 +34,12 @@
 #include <cmath>
 
 #include <trisect/kernel/number/inverse_matrix.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 // More triangles than this bend too much.
@@ -47,9 +47,7 @@ constexpr std::uint32_t most_triangles = 96;
 // All roundings here: each number is a sum of a few dozen products, relative to what bounds them.
 constexpr double rounding = 0x1p-40;
 
-double dot(const Vector& p, const Vector& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-double length(const Vector& p) { return std::sqrt(dot(p, p)); }
-Vector product(const Matrix& m, const Vector& v) {
+Vector3 product(const Matrix& m, const Vector3& v) {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
 double norm(const Matrix& m) {
@@ -79,7 +77,7 @@ std::vector<std::uint32_t> triangles_below(const ObbTree& tree, ObbId box) {
 
 // A ball around B.
 struct PartingFaces::Extent {
-    Vector center{};
+    Vector3 center{};
     double radius = 0;
 };
 
@@ -87,7 +85,7 @@ struct PartingFaces::Extent {
 // added up for it.
 struct PartingFaces::Step {
     Matrix turn{};
-    Vector way{};
+    Vector3 way{};
     double size = 0;
 };
 
@@ -237,7 +235,7 @@ void PartingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
 // Of all points of B.
 double PartingFaces::deviation_of(const Step& step, const Extent& extent) const {
     Matrix turn = step.turn;
-    Vector way = step.way;
+    Vector3 way = step.way;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) turn[i][j] -= turn_[i][j];
         way[i] = way[i] - way_[i] + dot(turn[i], extent.center);
@@ -271,19 +269,19 @@ bool PartingFaces::operator()(ObbId a, ObbId b) {
     if (!(error_ < HUGE_VAL)) return false;
     const ObbTree& tree = b_.data().boxes;
     const ObbNode& node = tree.nodes[b.node()];
-    Vector p{};
-    Vector half{};
+    Vector3 p{};
+    Vector3 half{};
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = tree.origin[k] + tree.unit * static_cast<double>(node.center[k][b.lane()]);
         half[k] = tree.unit * static_cast<double>(node.half[k][b.lane()]);
     }
-    Vector v = product(turn_, p);
+    Vector3 v = product(turn_, p);
     for (std::size_t k = 0; k < 3; ++k) v[k] += way_[k];
     const double slack = error_ + 1.0001 * turn_norm_ * length(half);
     const auto is_parting = [&] {
         if (cones_a_.of(a).is_all_along(v, slack)) return true;
         if (!(inverse_error_ < HUGE_VAL)) return false;
-        Vector back = product(inverse_, v);
+        Vector3 back = product(inverse_, v);
         for (double& c : back) c = -c;
         return cones_b_.of(b).is_all_along(
             back, inverse_norm_ * slack + inverse_error_ * (length(v) + slack));

@@ -17,7 +17,7 @@ namespace trisect::detail {
 
 /// For a box of a model's tree a cone that contains the outward normals of all faces around the
 /// triangles below it: their own, and those at the vertices and edges that events look at with
-/// them. Found when asked for, of boxes with few triangles; the cones of large ones hold every
+/// them. Computed on demand, of boxes with few triangles; the cones of large ones hold every
 /// direction.
 class FacingCones {
 public:

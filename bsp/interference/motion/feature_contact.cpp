@@ -26,13 +26,11 @@ namespace {
 
 constexpr std::array<std::size_t, 3> axes{0, 1, 2};
 
-std::size_t after(std::size_t i) { return (i + 1) % 3; }
-
 // One component of a × b.
 IntegerPolynomial cross_component(const PolynomialVector& a, const PolynomialVector& b,
                                   std::size_t axis) {
-    const std::size_t i = after(axis);
-    const std::size_t j = after(i);
+    const std::size_t i = next_of_three(axis);
+    const std::size_t j = next_of_three(i);
     return a[i] * b[j] - a[j] * b[i];
 }
 
@@ -70,7 +68,7 @@ std::array<int, 2> separations_at(RealRoot& s, const MovingEdge& a, const Moving
 }
 
 MovingEdge side(const MovingTriangle& t, std::size_t i) {
-    return {{t.corners[i], t.corners[after(i)]}, t.directions[i]};
+    return {{t.corners[i], t.corners[next_of_three(i)]}, t.directions[i]};
 }
 
 // The distinct roots of several polynomials in an interval.

@@ -17,6 +17,9 @@ namespace trisect::detail {
 using PolynomialVector = std::array<IntegerPolynomial, 3>;
 
 [[nodiscard]] PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b);
+/// Of a corner or side of a triangle, or an axis.
+[[nodiscard]] constexpr std::size_t next_of_three(std::size_t i) { return (i + 1) % 3; }
+
 [[nodiscard]] PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b);
 [[nodiscard]] IntegerPolynomial dot(const PolynomialVector& a, const PolynomialVector& b);
 

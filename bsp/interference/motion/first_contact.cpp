@@ -48,8 +48,6 @@ Pose pose_in_piece(const Motion& m, std::size_t i, const mpq_class& s) {
     return m.pose_at(detail::from_gmp(s + static_cast<unsigned long>(index_of(m, i))));
 }
 
-bool interiors_meet(Relation r) { return r != Relation::Disjoint && r != Relation::Touching; }
-
 BoundaryEntity entity_of(const detail::ContactFeature& f, const detail::InterferenceModelData& d) {
     if (f.vertex.is_valid()) return d.place[f.vertex.index];
     if (!f.edge.is_valid()) return f.face;
@@ -78,10 +76,10 @@ mpq_class time_between(RealRoot low, RealRoot high) {
     return simplest_between(low.upper(), high.lower());
 }
 
-class Query {
+class ContactQuery {
 public:
-    Query(const InterferenceModel& a, const Motion& motion_a, const InterferenceModel& b,
-          const Motion& motion_b)
+    ContactQuery(const InterferenceModel& a, const Motion& motion_a, const InterferenceModel& b,
+                 const Motion& motion_b)
         : a_(a),
           motion_a_(motion_a),
           b_(b),
@@ -239,7 +237,7 @@ private:
 FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,
                            const InterferenceModel& b, const Motion& motion_b,
                            const FirstContactOptions& options) {
-    return Query(a, motion_a, b, motion_b).run(options);
+    return ContactQuery(a, motion_a, b, motion_b).run(options);
 }
 
 }  // namespace trisect

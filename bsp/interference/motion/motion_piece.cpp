@@ -62,7 +62,7 @@ PolynomialMatrix cross_matrix(const PolynomialVector& t, const PolynomialMatrix&
     return r;
 }
 
-mpz_class power_of_two(int exponent) { return mpz_class(1) << static_cast<unsigned>(exponent); }
+mpz_class two_to_the(int exponent) { return mpz_class(1) << static_cast<unsigned>(exponent); }
 
 // p(from + (to - from) u) times the n-th power of a number that is the same for all polynomials.
 IntegerPolynomial on_part(const IntegerPolynomial& p, int n, const mpq_class& from,
@@ -197,7 +197,7 @@ MotionPiece relative_points(const MotionPiece& a, Lattice lattice_a, const Motio
     MotionPiece point = inverse(a) * b;
     // From user's units to lattice units: x' = (M 2^eb x + t) / (w 2^ea).
     const int least = std::min({lattice_a.exponent, lattice_b.exponent, 0});
-    const auto scaled = [&](int exponent) { return power_of_two(exponent - least); };
+    const auto scaled = [&](int exponent) { return two_to_the(exponent - least); };
     point.matrix = point.matrix * IntegerPolynomial(scaled(lattice_b.exponent));
     point.shift = point.shift * IntegerPolynomial(scaled(0));
     point.weight *= scaled(lattice_a.exponent);

@@ -34,7 +34,7 @@ using detail::RealRoot;
 
 // Start and end of a difference of two paths.
 using Difference = std::array<BallVector, 2>;
-using Corners = std::array<const LinearPath*, 4>;
+using FourPaths = std::array<const LinearPath*, 4>;
 
 std::array<BallVector, 2> approximate(const LinearPath& path) {
     std::array<BallVector, 2> r;
@@ -63,7 +63,7 @@ Difference between(const std::array<BallVector, 2>& a, const std::array<BallVect
     return {b[0] - a[0], b[1] - a[1]};
 }
 
-std::array<PolynomialVector, 4> exact_paths(const Corners& corners) {
+std::array<PolynomialVector, 4> exact_paths(const FourPaths& corners) {
     std::vector<mpq_class> values;
     values.reserve(24);
     for (const LinearPath* c : corners) {

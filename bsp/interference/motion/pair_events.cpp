@@ -19,6 +19,7 @@
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/moving_points.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -26,8 +27,6 @@ namespace {
 
 // How often an interval is halved before exact numbers decide.
 constexpr int max_halvings = 10;
-
-std::size_t after(std::size_t i) { return (i + 1) % 3; }
 
 BallVector normal_ball(const Plane& p) {
     return {Ball::rounded(p.approx_normal(0)), Ball::rounded(p.approx_normal(1)),
@@ -51,15 +50,15 @@ Ball height_over(const BallMotion::Maps& m, const BallPlane& plane, const BallVe
            (m.plane_offset * plane.offset - dot(m.plane_shift, plane.normal));
 }
 
-using Corners = std::array<BallVector, 3>;
+using BallCorners = std::array<BallVector, 3>;
 
-Corners corners_of(const EventModel& model, const ModelTriangle& t) {
+BallCorners corners_of(const EventModel& model, const ModelTriangle& t) {
     return {model.position(t.vertex[0]), model.position(t.vertex[1]), model.position(t.vertex[2])};
 }
 
 // The plane through side i and the normal; inside is above.
-BallPlane side_plane(const Corners& c, const BallVector& normal, std::size_t i) {
-    const BallVector n = cross(normal, c[after(i)] - c[i]);
+BallPlane side_plane(const BallCorners& c, const BallVector& normal, std::size_t i) {
+    const BallVector n = cross(normal, c[next_of_three(i)] - c[i]);
     return {n, -dot(n, c[i])};
 }
 
@@ -91,34 +90,30 @@ struct ExactPoints {
     }
 };
 
-using ExactVector = std::array<mpz_class, 3>;
+using MpzVector = std::array<mpz_class, 3>;
 
-ExactVector difference(const ExactVector& a, const ExactVector& b) {
+MpzVector difference(const MpzVector& a, const MpzVector& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-ExactVector cross(const ExactVector& a, const ExactVector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-PolynomialVector constant(const ExactVector& v) {
+PolynomialVector constant(const MpzVector& v) {
     return {IntegerPolynomial(v[0]), IntegerPolynomial(v[1]), IntegerPolynomial(v[2])};
 }
 
-PolynomialVector times(const PolynomialMatrix& m, const ExactVector& v) {
+PolynomialVector times(const PolynomialMatrix& m, const MpzVector& v) {
     PolynomialVector r;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) r[i].add_multiple(m[i][j], v[j]);
     return r;
 }
 
-IntegerPolynomial dot(const PolynomialVector& a, const ExactVector& b) {
+IntegerPolynomial combined(const PolynomialVector& a, const MpzVector& b) {
     IntegerPolynomial r;
     for (std::size_t i = 0; i < 3; ++i) r.add_multiple(a[i], b[i]);
     return r;
 }
 
-ExactVector exact_normal(const Plane& p) {
+MpzVector exact_normal(const Plane& p) {
     return {to_gmp(p.normal(0)), to_gmp(p.normal(1)), to_gmp(p.normal(2))};
 }
 
@@ -150,7 +145,7 @@ MovingVertexAndTriangle vertex_and_triangle(const RelativeMotion& motion, const 
     for (std::size_t i = 0; i < 3; ++i) {
         r.triangle.corners[i] = triangle_moves ? moving_path(motion, points, i + 1)
                                                : resting_path(motion, points, i + 1);
-        const ExactVector d = difference(points.xyz[after(i) + 1], points.xyz[i + 1]);
+        const MpzVector d = difference(points.xyz[next_of_three(i) + 1], points.xyz[i + 1]);
         r.triangle.directions[i] = triangle_moves ? times(motion.point.matrix, d) : constant(d);
     }
     return r;
@@ -161,11 +156,11 @@ ContactFeature feature_on(const ModelTriangle& t, const std::array<int, 3>& side
     f.face = t.face;
     for (std::size_t i = 0; i < 3; ++i) {
         if (sides[i] != 0) continue;
-        if (sides[after(i)] == 0) {
-            f.vertex = t.vertex[after(i)];
+        if (sides[next_of_three(i)] == 0) {
+            f.vertex = t.vertex[next_of_three(i)];
             return f;
         }
-        if (sides[after(after(i))] != 0) f.edge = t.edge[i];
+        if (sides[next_of_three(next_of_three(i))] != 0) f.edge = t.edge[i];
     }
     return f;
 }
@@ -226,7 +221,7 @@ struct PairEvents::Moved {
     std::uint32_t triangle = EntityId<void>::none;
     double from = 0;
     double to = 0;
-    Corners at_rest;
+    BallCorners at_rest;
     BallVector normal_at_rest;
     std::array<Path, 3> corner;
     Path normal;
@@ -238,7 +233,7 @@ struct PairEvents::Moved {
 
 // A triangle of A, which is the one at rest.
 struct PairEvents::Resting {
-    Corners corner;
+    BallCorners corner;
     BallVector normal;
     Ball offset;
 
@@ -271,8 +266,8 @@ const PairEvents::Moved& PairEvents::moved(std::uint32_t triangle_b, const BallM
         r.offset[k] = m.plane_offset * offset - detail::dot(m.plane_shift, r.normal_at_rest);
     }
     for (std::size_t i = 0; i < 3; ++i) {
-        const BallVector u = r.at_rest[after(i)] - r.at_rest[i];
-        const BallVector moment = detail::cross(r.at_rest[i], r.at_rest[after(i)]);
+        const BallVector u = r.at_rest[next_of_three(i)] - r.at_rest[i];
+        const BallVector moment = detail::cross(r.at_rest[i], r.at_rest[next_of_three(i)]);
         for (std::size_t k = 0; k <= over.degree; ++k) {
             const BallMotion::Maps& m = over.maps[k];
             r.corner[i][k] = moved_point(m, r.at_rest[i]);
@@ -380,7 +375,7 @@ void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& ov
     ++motion_counters().questions;
     const Moved& b = *moved_;
     const BallVector& a0 = a.corner[f.i];
-    const BallVector& a1 = a.corner[after(f.i)];
+    const BallVector& a1 = a.corner[next_of_three(f.i)];
     const BallVector ua = a1 - a0;
     const BallVector ma = detail::cross(a0, a1);
     const Moved::Path& direction = b.direction[f.j];
@@ -399,7 +394,8 @@ void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& ov
         scalars.conditions[1].b[k] = detail::cross(a1, direction[k])[axis] - moment[k][axis];
         const Ball lift = ma[axis] * over.maps[k].weight;
         scalars.conditions[2].b[k] = detail::cross(b.corner[f.j][k], ua)[axis] - lift;
-        scalars.conditions[3].b[k] = detail::cross(b.corner[after(f.j)][k], ua)[axis] - lift;
+        scalars.conditions[3].b[k] =
+            detail::cross(b.corner[next_of_three(f.j)][k], ua)[axis] - lift;
     }
     narrow(f, over, scalars, events);
 }
@@ -465,38 +461,38 @@ IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
     if (f.kind == Kind::VertexFace) {
         points.add(brep_b.point(tb.vertex[f.j]));
         const Plane& plane = brep_a.plane(ta.face);
-        IntegerPolynomial r = dot(moving_path(motion_, points, 0), exact_normal(plane));
+        IntegerPolynomial r = combined(moving_path(motion_, points, 0), exact_normal(plane));
         r.add_multiple(motion_.point.weight, to_gmp(plane.offset()) * points.weight);
         return r;
     }
     if (f.kind == Kind::FaceVertex) {
         points.add(brep_a.point(ta.vertex[f.i]));
         const Plane& plane = brep_b.plane(tb.face);
-        const ExactVector normal = exact_normal(plane);
-        IntegerPolynomial r = dot(times(motion_.plane_normal, normal), points.xyz[0]);
+        const MpzVector normal = exact_normal(plane);
+        IntegerPolynomial r = combined(times(motion_.plane_normal, normal), points.xyz[0]);
         IntegerPolynomial offset = motion_.plane_offset * to_gmp(plane.offset());
-        offset -= dot(motion_.plane_shift, normal);
+        offset -= combined(motion_.plane_shift, normal);
         r.add_multiple(offset, points.weight);
         return r;
     }
     points.add(brep_a.point(ta.vertex[f.i]));
-    points.add(brep_a.point(ta.vertex[after(f.i)]));
+    points.add(brep_a.point(ta.vertex[next_of_three(f.i)]));
     ExactPoints of_b;
     of_b.add(brep_b.point(tb.vertex[f.j]));
-    of_b.add(brep_b.point(tb.vertex[after(f.j)]));
+    of_b.add(brep_b.point(tb.vertex[next_of_three(f.j)]));
     // The line through x / w and y / w: direction w (y - x), moment x × y, both times 1 / w^2.
     const auto direction = [](const ExactPoints& p) {
-        ExactVector u = difference(p.xyz[1], p.xyz[0]);
+        MpzVector u = difference(p.xyz[1], p.xyz[0]);
         for (mpz_class& c : u) c *= p.weight;
         return u;
     };
-    const ExactVector ub = direction(of_b);
-    const ExactVector mb = cross(of_b.xyz[0], of_b.xyz[1]);
+    const MpzVector ub = direction(of_b);
+    const MpzVector mb = cross(of_b.xyz[0], of_b.xyz[1]);
     PolynomialVector moment = times(motion_.line_moment, mb);
     const PolynomialVector lever = times(motion_.line_lever, ub);
     for (std::size_t i = 0; i < 3; ++i) moment[i] += lever[i];
-    return dot(moment, direction(points)) +
-           dot(times(motion_.line_direction, ub), cross(points.xyz[0], points.xyz[1]));
+    return combined(moment, direction(points)) +
+           combined(times(motion_.line_direction, ub), cross(points.xyz[0], points.xyz[1]));
 }
 
 void PairEvents::decide(const Features& f, const TimeInterval& interval, EarliestEvents& events) {
@@ -523,9 +519,9 @@ void PairEvents::add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents
         const Brep& brep_a = a_.data().brep;
         const Brep& brep_b = b_.data().brep;
         points.add(brep_a.point(ta.vertex[f.i]));
-        points.add(brep_a.point(ta.vertex[after(f.i)]));
+        points.add(brep_a.point(ta.vertex[next_of_three(f.i)]));
         points.add(brep_b.point(tb.vertex[f.j]));
-        points.add(brep_b.point(tb.vertex[after(f.j)]));
+        points.add(brep_b.point(tb.vertex[next_of_three(f.j)]));
         const MovingEdge a{{resting_path(motion_, points, 0), resting_path(motion_, points, 1)},
                            constant(difference(points.xyz[1], points.xyz[0]))};
         const MovingEdge b{{moving_path(motion_, points, 2), moving_path(motion_, points, 3)},

@@ -52,9 +52,9 @@ public:
     PairEvents(const PairEvents&) = delete;
     PairEvents& operator=(const PairEvents&) = delete;
 
-    /// The events of two triangles in the closed interval of `over`, at least those up to the
-    /// first one known. `over` is a part of the motion. Best asked with the same triangle of B
-    /// many times in a row.
+    /// The events of two triangles in the closed interval of `over`, at least those up to the first
+    /// one known. `over` is a part of the motion. Best called with the same triangle of B many
+    /// times in a row.
     void find(std::uint32_t triangle_a, std::uint32_t triangle_b, const BallMotion& over,
               EarliestEvents& events);
     /// The same without the doubles.

@@ -12,30 +12,25 @@
 #include <cmath>
 
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector operator-(const Vector& a, const Vector& b) {
+Vector3 operator-(const Vector3& a, const Vector3& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector weighted(const TriangleCorners& p, const std::array<double, 3>& w) {
-    Vector r{};
+Vector3 weighted(const TriangleCorners& p, const std::array<double, 3>& w) {
+    Vector3 r{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) r[k] += w[i] * p[i][k];
     return r;
 }
-Vector normal(const TriangleCorners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
+Vector3 normal(const TriangleCorners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
 
 // Scaled to about 1, or 0 where that fails.
-Vector scaled(const Vector& v) {
+Vector3 unit_or_zero(const Vector3& v) {
     const double length = std::sqrt(dot(v, v));
     if (!(length > 0x1p-500) || !std::isfinite(length)) return {};
     return {v[0] / length, v[1] / length, v[2] / length};
@@ -53,13 +48,13 @@ bool SweptSeparation::are_apart(std::uint32_t triangle_a, std::uint32_t triangle
     }
     const TriangleCorners& q = in_the_middle_;
     const ClosestPoints closest = closest_points(p, q);
-    const Vector way = weighted(q, closest.on_q) - weighted(p, closest.on_p);
-    if (is_separated_along(scaled(way), corners)) return true;
+    const Vector3 way = weighted(q, closest.on_q) - weighted(p, closest.on_p);
+    if (is_separated_along(unit_or_zero(way), corners)) return true;
     const std::array<double, 3> third{1. / 3, 1. / 3, 1. / 3};
-    const Vector centres = weighted(q, third) - weighted(p, third);
-    for (Vector n : {normal(p), normal(q)}) {
-        if (dot(n, centres) < 0) n = Vector{} - n;
-        if (is_separated_along(scaled(n), corners)) return true;
+    const Vector3 centres = weighted(q, third) - weighted(p, third);
+    for (Vector3 n : {normal(p), normal(q)}) {
+        if (dot(n, centres) < 0) n = Vector3{} - n;
+        if (is_separated_along(unit_or_zero(n), corners)) return true;
     }
     return false;
 }
@@ -67,7 +62,7 @@ bool SweptSeparation::are_apart(std::uint32_t triangle_a, std::uint32_t triangle
 void SweptSeparation::move(std::uint32_t triangle_b) {
     moved_ = triangle_b;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector& x = b_.position(b_.triangles[triangle_b].vertex[i]);
+        const Vector3& x = b_.position(b_.triangles[triangle_b].vertex[i]);
         in_the_middle_[i] = middle_.map(x);
         const double e = b_.position_error;
         const BallVector ball{Ball(x[0], e), Ball(x[1], e), Ball(x[2], e)};
@@ -76,7 +71,7 @@ void SweptSeparation::move(std::uint32_t triangle_b) {
     }
 }
 
-bool SweptSeparation::is_separated_along(const Vector& d,
+bool SweptSeparation::is_separated_along(const Vector3& d,
                                          const std::array<BallVector, 3>& corners) const {
     const BallVector direction{Ball(d[0]), Ball(d[1]), Ball(d[2])};
     double highest = -HUGE_VAL;

@@ -21,7 +21,7 @@ public:
         : a_(a), b_(b), over_(over), middle_(middle), margin_(margin) {}
 
     /// Whether the triangles are certainly farther than the margin from each other all the time, in
-    /// A's lattice units. Best asked with the same triangle of B many times in a row.
+    /// A's lattice units. Best called with the same triangle of B many times in a row.
     [[nodiscard]] bool are_apart(std::uint32_t triangle_a, std::uint32_t triangle_b);
 
 private:

@@ -44,12 +44,12 @@ Quaternion product(const Quaternion& p, const Quaternion& q) {
             p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
 }
 
-std::size_t bits_of(const mpz_class& v) { return mpz_sizeinbase(v.get_mpz_t(), 2); }
+std::size_t bit_length_of(const mpz_class& v) { return mpz_sizeinbase(v.get_mpz_t(), 2); }
 
 // The same direction up to 2^-61, with components of about 64 bits.
 Quaternion shortened(const Quaternion& q) {
     std::size_t bits = 0;
-    for (const mpz_class& v : q) bits = std::max(bits, bits_of(v));
+    for (const mpz_class& v : q) bits = std::max(bits, bit_length_of(v));
     if (bits <= middle_bits) return q;
     Quaternion r;
     for (std::size_t i = 0; i < 4; ++i)

@@ -38,7 +38,7 @@ TriangleContact BoundaryPairs::exact(std::uint32_t a, std::uint32_t b) {
 
 std::optional<BoundaryPairs::Meeting> BoundaryPairs::any() {
     std::optional<Meeting> found;
-    // What doubles cannot tell waits a while: a crossing may make it superfluous.
+    // What doubles cannot decide waits a while: a crossing may make it superfluous.
     constexpr std::size_t patience = 32;
     std::vector<Meeting> unknown;
     const auto ask = [&] {

@@ -15,7 +15,7 @@
 
 namespace trisect::detail {
 
-/// Two models in two poses. The exact relative pose is made when doubles cannot tell something,
+/// Two models in two poses. The exact relative pose is made when doubles cannot decide something,
 /// which in general position never happens. For one thread; models and poses must outlive it.
 class BoundaryPairs {
 public:
@@ -32,7 +32,7 @@ public:
     /// Some pair of triangles that meet, if there is one; crossing ones are found by doubles alone.
     [[nodiscard]] std::optional<Meeting> any();
     /// visit(meeting) for all pairs that meet, each once, until it returns true. Those that doubles
-    /// find crossing are not looked at more closely. Says whether it was stopped.
+    /// find crossing are not looked at more closely. Returns whether it was stopped.
     template <class Visit>
     bool all(Visit&& visit) {
         ObbWalk walk(a_->boxed(), b_->boxed(), map_, *stack_);

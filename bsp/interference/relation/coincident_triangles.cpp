@@ -30,7 +30,7 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::uint32_t none = CoincidentTriangles::none;
+constexpr std::uint32_t no_partner = CoincidentTriangles::none;
 
 std::uint32_t place_of_corner(const InterferenceModelData& m, const ModelTriangle& t,
                               std::size_t corner) {
@@ -124,9 +124,10 @@ public:
           pose_(a_.boxes, b_.boxes, map_),
           error_(a_.position_error + map_.error_below(b_.largest, b_.position_error)),
           others_a_(nodes_with_others(
-              a_.boxes, [&](std::uint32_t t) { return coincident.partner_of_a(t) != none; })),
-          others_b_(nodes_with_others(
-              b_.boxes, [&](std::uint32_t t) { return coincident.partner_of_b(t) != none; })) {}
+              a_.boxes, [&](std::uint32_t t) { return coincident.partner_of_a(t) != no_partner; })),
+          others_b_(nodes_with_others(b_.boxes, [&](std::uint32_t t) {
+              return coincident.partner_of_b(t) != no_partner;
+          })) {}
 
     void run(MeetingCollector& visit) {
         if (!others_a_[0] || !others_b_[0] || pose_.is_apart()) return;
@@ -170,11 +171,11 @@ private:
     }
     bool compare_leaves(ObbChild ca, ObbChild cb, MeetingCollector& visit) const {
         for (std::uint32_t j = cb.first(); j < cb.first() + cb.count(); ++j) {
-            if (coincident_.partner_of_b(b_.boxes.order[j]) != none) continue;
+            if (coincident_.partner_of_b(b_.boxes.order[j]) != no_partner) continue;
             TriangleCorners q;
             for (std::size_t k = 0; k < 3; ++k) q[k] = map_(b_.positions[b_.boxes.corners[j][k]]);
             for (std::uint32_t i = ca.first(); i < ca.first() + ca.count(); ++i) {
-                if (coincident_.partner_of_a(a_.boxes.order[i]) != none) continue;
+                if (coincident_.partner_of_a(a_.boxes.order[i]) != no_partner) continue;
                 TriangleCorners p;
                 for (std::size_t k = 0; k < 3; ++k) p[k] = a_.positions[a_.boxes.corners[i][k]];
                 const PairVerdict verdict = compare_triangles(p, q, error_);
@@ -201,8 +202,8 @@ private:
 
 CoincidentTriangles::CoincidentTriangles(const PosedModels& models)
     : models_(&models),
-      partner_of_a_(models.a.triangles.size(), none),
-      partner_of_b_(models.b.triangles.size(), none) {
+      partner_of_a_(models.a.triangles.size(), no_partner),
+      partner_of_b_(models.b.triangles.size(), no_partner) {
     match_vertices();
     match_triangles();
     mark_partial_vertices();
@@ -211,8 +212,8 @@ CoincidentTriangles::CoincidentTriangles(const PosedModels& models)
 void CoincidentTriangles::match_vertices() {
     const InterferenceModelData& a = models_->a;
     const InterferenceModelData& b = models_->b;
-    vertex_of_b_.assign(a.positions.size(), none);
-    vertex_of_a_.assign(b.positions.size(), none);
+    vertex_of_b_.assign(a.positions.size(), no_partner);
+    vertex_of_a_.assign(b.positions.size(), no_partner);
     const ApproximateMap to_a = approximate_map(models_->poses.to_a);
     const double error = a.position_error + to_a.error_below(b.largest, b.position_error);
     const VertexGrid grid(a, error);
@@ -262,7 +263,7 @@ void CoincidentTriangles::match_triangles() {
         const std::array<std::uint32_t, 3> corner{partner_of_corner(a.triangles[i], 0),
                                                   partner_of_corner(a.triangles[i], 1),
                                                   partner_of_corner(a.triangles[i], 2)};
-        if (std::ranges::find(corner, none) != corner.end()) continue;
+        if (std::ranges::find(corner, no_partner) != corner.end()) continue;
         for (const std::uint32_t j : triangles_of_b_at(corner[0]))
             if (corner_of_b_at(j, corner[1]) < 3 && corner_of_b_at(j, corner[2]) < 3) {
                 partner_of_a_[i] = j;
@@ -276,11 +277,11 @@ void CoincidentTriangles::mark_partial_vertices() {
     const InterferenceModelData& b = models_->b;
     partial_.assign(a.positions.size(), false);
     for (std::uint32_t i = 0; i < a.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3 && partner_of_a_[i] == none; ++k)
+        for (std::size_t k = 0; k < 3 && partner_of_a_[i] == no_partner; ++k)
             partial_[place_of_corner(a, a.triangles[i], k)] = true;
     for (std::uint32_t j = 0; j < b.triangles.size(); ++j)
-        for (std::size_t k = 0; k < 3 && partner_of_b_[j] == none; ++k)
-            if (const auto v = vertex_of_a_[place_of_corner(b, b.triangles[j], k)]; v != none)
+        for (std::size_t k = 0; k < 3 && partner_of_b_[j] == no_partner; ++k)
+            if (const auto v = vertex_of_a_[place_of_corner(b, b.triangles[j], k)]; v != no_partner)
                 partial_[v] = true;
 }
 
@@ -307,7 +308,7 @@ MeetingPair CoincidentTriangles::coincident_pair(std::uint32_t i) const {
 
 void CoincidentTriangles::add_flags(BoundaryFlags& flags) const {
     for (std::uint32_t i = 0; i < partner_of_a_.size(); ++i) {
-        if (partner_of_a_[i] == none) continue;
+        if (partner_of_a_[i] == no_partner) continue;
         flags.meet = true;
         (coincident_pair(i).contact.opposite ? flags.opposite : flags.same) = true;
         if (flags.same && flags.opposite) return;
@@ -320,15 +321,16 @@ void CoincidentTriangles::add_pairs_at(std::uint32_t i, std::size_t corner,
                                        std::vector<MeetingPair>& pairs) const {
     const ModelTriangle& t = models_->a.triangles[i];
     const std::uint32_t vertex = partner_of_corner(t, corner);
-    if (vertex == none) return;
+    if (vertex == no_partner) return;
     for (const std::uint32_t j : triangles_of_b_at(vertex)) {
-        if (j == partner_of_a_[i] || (partner_of_a_[i] == none && partner_of_b_[j] == none))
+        if (j == partner_of_a_[i] ||
+            (partner_of_a_[i] == no_partner && partner_of_b_[j] == no_partner))
             continue;
         MeetingPair pair{i, j, {}};
         bool is_first = true;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t w = partner_of_corner(t, k);
-            if (w == none || !is_partial(t, k)) continue;
+            if (w == no_partner || !is_partial(t, k)) continue;
             const std::size_t of_b = corner_of_b_at(j, w);
             if (of_b == 3) continue;
             is_first = is_first && k >= corner;
@@ -351,7 +353,7 @@ void CoincidentTriangles::add_pairs(std::vector<MeetingPair>& pairs) const {
             add_pairs_at(i, k, pairs);
             is_needed = true;
         }
-        if (partner_of_a_[i] == none) continue;
+        if (partner_of_a_[i] == no_partner) continue;
         const std::uint32_t shell_a = a.shell_of(t).index;
         const std::uint32_t shell_b = b.shell_of(b.triangles[partner_of_a_[i]]).index;
         if (!is_needed && known_a[shell_a] && known_b[shell_b]) continue;

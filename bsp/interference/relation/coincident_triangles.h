@@ -35,7 +35,7 @@ public:
     }
     /// What they say by themselves.
     void add_flags(BoundaryFlags& flags) const;
-    /// The pairs with one of them that are needed to compare cones at contact vertices and to know
+    /// The pairs with one of them that are needed to compare cones at contact vertices and to list
     /// which shells are touched.
     void add_pairs(std::vector<MeetingPair>& pairs) const;
     /// visit(i, j, verdict) for the pairs that may meet of triangles without partner, until it

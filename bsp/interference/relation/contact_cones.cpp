@@ -13,7 +13,7 @@
 //                   component that meets the other figure nowhere.
 //   at a direction  Each arc that ends there or passes through is one or two half-planes around it.
 //                   A half-plane of A coincides with one of B (the boundaries share area), or lies
-//                   between two of B's, and the nearest one tells by its orientation whether
+//                   between two of B's, and the nearest one decides by its orientation whether
 //                   that is inside B.
 //   components      Of one that meets nothing, one direction is located: a path on the sphere to
 //                   the middle of some arc of B crosses other arcs of B an even or odd number of
@@ -268,7 +268,7 @@ private:
         return false;
     }
     // Whether some direction is where two arcs cross. There another part of the same boundary
-    // begins, so that the crossing alone tells nothing.
+    // begins, so that the crossing alone decides nothing.
     [[nodiscard]] bool has_direction_at(const Arc& s, const Arc& t) {
         for (std::uint32_t z = 0; z < a_.direction_count(); ++z)
             if (sign(false, t.plane, z) == 0 && a_.side(s.plane, z) == 0 &&

@@ -9,7 +9,7 @@
 // A contact vertex is known by its entities: a vertex of A, else a vertex of B, else an edge of
 // each. No coordinates are needed to put together what belongs to one, unless a boundary touches
 // itself: then another part of it may be at the same point under another name, even in the middle
-// of its own contact with the other solid. Models know whether they do (rarely), and then points
+// of its own contact with the other solid. Models store whether they do (rarely), and then points
 // are compared as rationals and all triangles that contain them are collected.
 
 #include <algorithm>
@@ -159,14 +159,14 @@ void add_flags_by_name(const PosedModels& models, const std::vector<MeetingPair>
             parts.add_b(pair.b, p.b);
             if (are_angles_equal(pair.contact, p)) ++equal_angles;
         }
-        // Equal cones share area and nothing else, which the pairs have told.
+        // Equal cones share area and nothing else, which the pairs have shown.
         if (equal_angles == parts.count_a() && equal_angles == parts.count_b()) continue;
         flags |= parts.compare(false);
     }
 }
 
 // A contact vertex where a boundary may touch itself: a name, with its coordinates as doubles that
-// mostly tell different ones apart, and as rationals where they do not.
+// mostly distinguish different ones, and as rationals where they do not.
 struct ContactPlace {
     std::array<double, 3> at{};  // in A's lattice
     double error = 0;

@@ -8,12 +8,13 @@
 
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<ExactRational, 3>;
+using RationalVector = std::array<ExactRational, 3>;
 
 ExactRational rational(const BoundedInt& n, const BoundedInt& d) {
     const auto limbs = [](const BoundedInt& v) {
@@ -22,18 +23,6 @@ ExactRational rational(const BoundedInt& n, const BoundedInt& d) {
         return out;
     };
     return ExactRational::from_limbs((n.sign() < 0) != (d.sign() < 0), limbs(n), limbs(d));
-}
-
-Vector subtracted(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector crossed(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-ExactRational dotted(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // from + s (to - from)
@@ -106,10 +95,10 @@ ExactPlace place_of(const PosedModels& models, const MeetingPair& pair, const Me
         const ExactPlace p = corner_a(point.a.index());
         const ExactPlace q = corner_a(point.a.index() + 1);
         const ExactPlace r = corner_b_moved(point.b.index());
-        const Vector u = subtracted(q.c, p.c);
-        const Vector v = subtracted(corner_b_moved(point.b.index() + 1).c, r.c);
-        const Vector uv = crossed(u, v);
-        return along(p, q, dotted(crossed(subtracted(r.c, p.c), v), uv) / dotted(uv, uv));
+        const RationalVector u = minus(q.c, p.c);
+        const RationalVector v = minus(corner_b_moved(point.b.index() + 1).c, r.c);
+        const RationalVector uv = cross(u, v);
+        return along(p, q, dot(cross(minus(r.c, p.c), v), uv) / dot(uv, uv));
     }
     if (point.a.is_side()) {  // through B's face: found in B's lattice, where its plane is
         const ExactPlace p = moved(corner_a(point.a.index()), models.poses.to_b);

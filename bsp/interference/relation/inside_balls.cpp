@@ -27,14 +27,11 @@
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
-
-using Point = std::array<double, 3>;
-
-double length(const Point& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]); }
 
 struct BoundaryDistance {
     double lower = 0;  // in units of the tree
@@ -42,7 +39,7 @@ struct BoundaryDistance {
 };
 
 // Lower bounds of the distance of four boxes from a point, in the tree's units about its origin.
-Float4 distances_from_boxes(const ObbNode& n, const Point& p, float margin) {
+Float4 distances_from_boxes(const ObbNode& n, const Vector3& p, float margin) {
     std::array<Float4, 3> d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = all_lanes(static_cast<float>(p[k])) - n.center[k];
     Float4 squares = all_lanes(0);
@@ -55,12 +52,12 @@ Float4 distances_from_boxes(const ObbNode& n, const Point& p, float margin) {
     return square_root(squares) * all_lanes(1 - 0x1p-19F);
 }
 
-float margin_at(const ObbTree& tree, const Point& p) {
+float margin_at(const ObbTree& tree, const Vector3& p) {
     return static_cast<float>(0x1p-19 * (length(p) + tree.reach));
 }
 
 // How far every box at a leaf is at least from a point.
-BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
+BoundaryDistance distance_from_boundary(const ObbTree& tree, const Vector3& p) {
     const float margin = margin_at(tree, p);
     BoundaryDistance best{std::numeric_limits<double>::infinity(), {}};
     std::vector<std::pair<float, std::uint32_t>> stack{{0.0F, 0}};
@@ -85,7 +82,7 @@ BoundaryDistance distance_from_boundary(const ObbTree& tree, const Point& p) {
 
 // The same up to a limit and with few nodes: inside a tube all boxes around are equally far. The
 // nearest box first; where it ends the bound is that of a box which has not been opened.
-BoundaryDistance quick_distance_from_boundary(const ObbTree& tree, const Point& p, double limit) {
+BoundaryDistance quick_distance_from_boundary(const ObbTree& tree, const Vector3& p, double limit) {
     constexpr int most_nodes = 24;
     const float margin = margin_at(tree, p);
     struct Open {
@@ -121,7 +118,7 @@ BoundaryDistance quick_distance_from_boundary(const ObbTree& tree, const Point& 
 }
 
 struct Candidate {
-    Point p{};  // in the tree's units
+    Vector3 p{};  // in the tree's units
     double distance = 0;
 };
 
@@ -129,7 +126,7 @@ Candidate climbed(const ObbTree& tree, Candidate c) {
     for (double step = 0.5; step > 0.1; step *= 0.7) {
         const BoundaryDistance d = distance_from_boundary(tree, c.p);
         const OrientedBox box = tree.box(d.nearest);
-        Point away{};
+        Vector3 away{};
         for (std::size_t k = 0; k < 3; ++k) away[k] = c.p[k] - static_cast<double>(box.center[k]);
         const double size = length(away);
         if (!(size > 0)) break;
@@ -163,7 +160,7 @@ std::vector<Candidate> candidates_of(const InterferenceModelData& model) {
 
 // Whether M is a rotation times a number, up to 2^-25, and the number.
 std::optional<double> similarity(const ApproximateMap& map) {
-    std::array<Point, 3> gram{};
+    std::array<Vector3, 3> gram{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
             for (std::size_t k = 0; k < 3; ++k) gram[i][j] += map.m[k][i] * map.m[k][j];
@@ -179,7 +176,7 @@ std::optional<double> similarity(const ApproximateMap& map) {
 
 // Images of lengths are within this factor of the scale: 3 · 2^-25 of its square and 3 · 2^-28 of
 // itself.
-constexpr double slack = 0x1p-22;
+constexpr double ball_slack = 0x1p-22;
 
 // By how much at least a point of A is outside the box around the image of B's bounds; not positive
 // when none may be. A's bounds are exact or outward by twice the error of positions and two
@@ -207,17 +204,15 @@ double sticks_out(const InterferenceModelData& a, const InterferenceModelData& b
 double has_point_outside(const InsideBalls& b, const InterferenceModelData& a,
                          const ApproximateMap& to_a, double error) {
     double most = 0;
-    for (const Point& p : b.extremes()) {
-        const Point x = to_a(p);
+    for (const Vector3& p : b.extremes()) {
+        const Vector3 x = to_a(p);
         for (std::size_t k = 0; k < 3; ++k)
             most = std::max({most, (x[k] - error) - a.hi[k], a.lo[k] - (x[k] + error)});
     }
     return most;
 }
 
-double distance(const Point& p, const Point& q) {
-    return length({p[0] - q[0], p[1] - q[1], p[2] - q[2]});
-}
+double distance(const Vector3& p, const Vector3& q) { return length(minus(p, q)); }
 
 }  // namespace
 
@@ -244,24 +239,24 @@ std::optional<Relation> overlap_if_both_stick_out(const InterferenceModelData& a
     return Relation::Overlapping;
 }
 
-bool is_inside(const InterferenceModelData& model, Point p) {
+bool is_certainly_inside(const InterferenceModelData& model, Vector3 p) {
     for (double& c : p) c = std::ldexp(c, model.brep.lattice().exponent);
     return model.index().locate(p).location == Location::Inside;
 }
 
-Point in_tree(const ObbTree& tree, const Point& p) {
-    Point r{};
+Vector3 in_tree(const ObbTree& tree, const Vector3& p) {
+    Vector3 r{};
     for (std::size_t k = 0; k < 3; ++k) r[k] = (p[k] - tree.origin[k]) / tree.unit;
     return r;
 }
 
 // A ball around a point, given a bound on the distance of its rounded place in the tree from the
 // boundary; none when it is not inside.
-std::optional<InsideBall> certified_ball(const InterferenceModelData& model, const Point& center,
+std::optional<InsideBall> certified_ball(const InterferenceModelData& model, const Vector3& center,
                                          double distance_in_tree) {
     const ObbTree& tree = model.boxes;
     const double radius = distance_in_tree - 0x1p-50 * (model.largest / tree.unit + 1);
-    if (!(radius > 0) || !is_inside(model, center)) return std::nullopt;
+    if (!(radius > 0) || !is_certainly_inside(model, center)) return std::nullopt;
     return InsideBall{center, tree.unit * radius * (1 - 0x1p-50)};
 }
 
@@ -270,8 +265,8 @@ std::optional<InsideBall> certified_ball(const InterferenceModelData& model, con
 InsideBalls::InsideBalls(const InterferenceModelData& model) {
     quick_radius_.fill(all_lanes(-std::numeric_limits<float>::infinity()));
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto [lo, hi] =
-            std::ranges::minmax_element(model.positions, {}, [k](const Point& p) { return p[k]; });
+        const auto [lo, hi] = std::ranges::minmax_element(model.positions, {},
+                                                          [k](const Vector3& p) { return p[k]; });
         extremes_[2 * k] = *lo;
         extremes_[2 * k + 1] = *hi;
     }
@@ -282,19 +277,19 @@ InsideBalls::InsideBalls(const InterferenceModelData& model) {
 void InsideBalls::find_large_ones(const InterferenceModelData& model) {
     const ObbTree& tree = model.boxes;
     const auto place = [&tree](const Candidate& c) {
-        Point x{};
+        Vector3 x{};
         for (std::size_t k = 0; k < 3; ++k) x[k] = tree.origin[k] + tree.unit * c.p[k];
         return x;
     };
-    const auto is_held = [this](const Point& p, double part) {
+    const auto is_held = [this](const Vector3& p, double part) {
         for (std::size_t i = 0; i < size_; ++i)
             if (distance(p, center_[i]) < part * radius_[i]) return true;
         return false;
     };
     for (const Candidate& start : candidates_of(model)) {
         if (size_ == most || !(start.distance > 0)) break;
-        if (is_held(place(start), 0.8) || !is_inside(model, place(start))) continue;
-        const Point center = place(climbed(tree, start));
+        if (is_held(place(start), 0.8) || !is_certainly_inside(model, place(start))) continue;
+        const Vector3 center = place(climbed(tree, start));
         if (is_held(center, 0.5)) continue;
         const double far = distance_from_boundary(tree, in_tree(tree, center)).lower;
         if (const auto ball = certified_ball(model, center, far)) add(ball->center, ball->radius);
@@ -318,7 +313,7 @@ void InsideBalls::find_along_boundary(const InterferenceModelData& model) {
     }
 }
 
-void InsideBalls::add(const Point& center, double radius) {
+void InsideBalls::add(const Vector3& center, double radius) {
     center_[size_] = center;
     radius_[size_] = radius;
     const std::size_t group = size_ / 4;
@@ -342,8 +337,8 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
     const auto whole = [](const InterferenceModelData& m) {
         return 1.0001 * (m.boxes.radius * m.boxes.unit);
     };
-    const Point middle_of_b = to_a(b.boxes.origin);
-    const double radius_of_b = *scale * (1 + slack) * whole(b);
+    const Vector3 middle_of_b = to_a(b.boxes.origin);
+    const double radius_of_b = *scale * (1 + ball_slack) * whole(b);
     for (std::size_t i = 0; i < balls_a.size_; ++i) {
         if (!(radius_of_b < balls_a.radius_[i])) continue;
         const double left =
@@ -355,8 +350,8 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
     }
     double deepest = 0;
     for (std::size_t j = 0; j < balls_b.size_; ++j) {
-        const Point center = to_a(balls_b.center_[j]);
-        const double radius = *scale * (1 - slack) * balls_b.radius_[j];
+        const Vector3 center = to_a(balls_b.center_[j]);
+        const double radius = *scale * (1 - ball_slack) * balls_b.radius_[j];
         if (const double left =
                 radius - (1.0001 * (distance(center, a.boxes.origin) + whole(a)) + way_error);
             left > 0) {
@@ -400,7 +395,7 @@ std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
     if (!scale) return std::nullopt;
     const double error = to_a.error_below(b.largest, b.position_error);
     const double depth = depth_of(
-        *scale * (1 - slack) * in_b.radius, in_a.radius,
+        *scale * (1 - ball_slack) * in_b.radius, in_a.radius,
         1.0001 * distance(to_a(in_b.center), in_a.center) + 2 * error + 0x1p-48 * a.largest);
     if (!(depth > 0)) return std::nullopt;
     return overlap_if_both_stick_out(a, b, balls_b, to_a, depth, reserve);
@@ -429,7 +424,7 @@ struct BallQuad {
 std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(std::span<const InsideBall> of_a,
                                                                 std::span<const InsideBall> of_b,
                                                                 const ApproximateMap& to_a) {
-    const double scale = length({to_a.m[0][0], to_a.m[1][0], to_a.m[2][0]});
+    const double scale = length(Vector3{to_a.m[0][0], to_a.m[1][0], to_a.m[2][0]});
     std::vector<BallQuad> quads;
     quads.reserve((of_a.size() + 3) / 4);
     for (std::size_t i = 0; i < of_a.size(); i += 4)
@@ -438,7 +433,7 @@ std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(std::span<const 
     double depth = 0;
     for (std::size_t j = 0; j < of_b.size(); ++j) {
         if (!(of_b[j].radius > 0)) continue;
-        const Point center = to_a(of_b[j].center);
+        const Vector3 center = to_a(of_b[j].center);
         const double radius = scale * of_b[j].radius;
         const std::array<Float4, 3> c{all_lanes(static_cast<float>(center[0])),
                                       all_lanes(static_cast<float>(center[1])),
@@ -466,27 +461,27 @@ std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(std::span<const 
 std::optional<InsideBall> touching_ball(const InterferenceModelData& model,
                                         std::uint32_t triangle) {
     const ObbTree& tree = model.boxes;
-    std::array<Point, 3> corner{};
-    Point foot{};
+    std::array<Vector3, 3> corner{};
+    Vector3 foot{};
     for (std::size_t i = 0; i < 3; ++i) {
         corner[i] = in_tree(tree, model.position(model.triangles[triangle].vertex[i]));
         for (std::size_t k = 0; k < 3; ++k) foot[k] += corner[i][k] / 3;
     }
-    Point inward = cross(minus(corner[2], corner[0]), minus(corner[1], corner[0]));
+    Vector3 inward = cross(minus(corner[2], corner[0]), minus(corner[1], corner[0]));
     const double size = length(inward);
     if (!(size > 0)) return std::nullopt;
     for (double& c : inward) c /= size;
     // From a ball that is too large: through the nearest box each time, while that shrinks it.
     double radius = 0.15 * tree.radius;
     for (int round = 0; round < 6; ++round) {
-        Point center{};
+        Vector3 center{};
         for (std::size_t k = 0; k < 3; ++k)
             center[k] = tree.origin[k] + tree.unit * (foot[k] + radius * inward[k]);
         const BoundaryDistance d =
             quick_distance_from_boundary(tree, in_tree(tree, center), radius);
         if (d.lower > 0.93 * radius) return certified_ball(model, center, d.lower);
         const OrientedBox box = tree.box(d.nearest);
-        Point way{};
+        Vector3 way{};
         for (std::size_t k = 0; k < 3; ++k) way[k] = static_cast<double>(box.center[k]) - foot[k];
         const double along = dot(way, inward);
         const double through = along > 0 ? dot(way, way) / (2 * along) : 0;

@@ -35,7 +35,7 @@ public:
 
     InsideBalls() = default;
     /// A distance from the boundary for each of about a thousand points, the best ones located
-    /// exactly. Some milliseconds. \pre the model is not empty and its index may be asked for
+    /// exactly. Some milliseconds. \pre the model is not empty and its index may be used
     explicit InsideBalls(const InterferenceModelData& model);
 
     [[nodiscard]] std::size_t size() const { return size_; }
@@ -74,8 +74,7 @@ private:
 
 /// Overlapping, when a ball of each have common points and each solid has a point that is certainly
 /// not in the other; Contains or Inside, when one solid is within a ball of the other; else
-/// nothing. `to_a` is the map from B into A; of maps that are not similarities nothing is told. 0.2
-/// us.
+/// nothing. `to_a` is the map from B into A; maps that are not similarities give no answer. 0.2 us.
 ///
 /// `reserve`: the answer stays right while no point of B is moved by as much, in lattice units of
 /// A.
@@ -90,13 +89,13 @@ private:
     double* reserve);
 
 /// The two of some balls of A and of B that reach into each other farthest, if any do, as far as
-/// doubles know: worth asking about. Of balls of radius 0 none.
+/// doubles decide: worth a test. Of balls of radius 0 none.
 [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> deepest_pair(
     std::span<const InsideBall> of_a, std::span<const InsideBall> of_b, const ApproximateMap& to_a);
 
 /// A large ball inside that comes close to the boundary at the middle of a triangle (Ma, Bae and
 /// Choi, "3D medial axis point approximation using nearest neighbors and the normal field", 2012),
-/// if one is found. Some microseconds. \pre the index may be asked for
+/// if one is found. Some microseconds. \pre the index may be used
 [[nodiscard]] std::optional<InsideBall> touching_ball(const InterferenceModelData& model,
                                                       std::uint32_t triangle);
 

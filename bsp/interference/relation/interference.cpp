@@ -2,15 +2,15 @@
 //
 // Six flags decide the relation (boundary_flags.h). They come from three places:
 //   crossings   two faces that pass through each other set four flags at once, and the relation is
-//               Overlapping whatever else there is. The walk stops there unless contacts are asked
-//               for. This is how nearly all overlaps are found.
+//               Overlapping whatever else there is. The walk stops there unless contacts are
+//               requested. This is how nearly all overlaps are found.
 //   contacts    without a crossing the boundaries may still touch, lie in each other and pass
-//               through each other at edges. The cones at contact vertices tell
+//               through each other at edges. The cones at contact vertices decide
 //               (contact_places.cpp); coplanar faces that share area say by their normals what they
 //               are.
 //   shells      a shell that meets nothing lies wholly inside, outside or in a cavity of the other
 //               solid: one of its vertices is located there.
-// Where doubles see a crossing, or see the boundaries apart, none of that is asked
+// Where doubles see a crossing, or see the boundaries apart, none of that is needed
 // (quick_relation.cpp). Where meshes fall together, contacts follow from names
 // (coincident_triangles.cpp).
 //
@@ -146,7 +146,7 @@ bool is_same_in_place(const InterferenceModel& a, const Pose& pose_a, const Inte
            std::ranges::all_of(r.translation(), [](const auto& t) { return t.is_zero(); });
 }
 
-// Pairs for the relation, of which doubles know something or nothing.
+// Pairs for the relation, which doubles decide in part or not at all.
 void collect_pairs(const PosedModels& models, const detail::CandidatePairs& candidates,
                    detail::MeetingCollector& collect) {
     if (candidates.is_complete) {

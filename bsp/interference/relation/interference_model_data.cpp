@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles that know what their sides are.
+// Triangles with classified sides.
 //
 // Contacts are found between triangles and named by edges and faces, so each side of a triangle
-// must know whether it is an edge of the B-rep or a diagonal. A side is an edge if some halfedge of
+// needs to classify it as an edge of the B-rep or a diagonal. A side is an edge if some halfedge of
 // the face runs the same way between the same places: a face lies on the left of its halfedges, so
 // at most one of them does. Places, not vertex ids, because a triangulation may use any of several
 // corners of a face that touches itself at a vertex.
@@ -22,14 +22,11 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/seconds_since.h>
 
 namespace trisect::detail {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 VertexId place_of(const Brep& brep, VertexId v) {
     const auto copies = brep.copies(v);
@@ -63,7 +60,7 @@ private:
     std::vector<Side> sides_;
 };
 
-// Balls take about as long as some thousand questions; where so many are asked there may be more.
+// Balls take about as long as some thousand queries; after so many queries there may be more.
 constexpr std::uint32_t questions_before_balls = 1000;
 
 // The volume below the faces of an unbounded solid with a bounded boundary is negative.

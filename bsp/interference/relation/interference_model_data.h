@@ -34,11 +34,11 @@ struct ModelTriangle {
 /// a side.
 void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles);
 
-/// Immutable once built, except for the index, which is made when first asked for.
+/// Immutable once built, except for the index, which is made on first use.
 struct InterferenceModelData {
     explicit InterferenceModelData(const Solid& s);
     explicit InterferenceModelData(const BrepIndex& i);
-    /// Of a boundary alone. `index()` may not be asked for.
+    /// Of a boundary alone. `index()` may not be called.
     explicit InterferenceModelData(const Brep& b);
 
     Solid solid;
@@ -90,18 +90,18 @@ struct InterferenceModelData {
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
     /// Balls inside, made after some questions, since making them takes as long as many of these;
-    /// null before. Safe to call from several threads. \pre the index may be asked for
+    /// null before. Safe to call from several threads. \pre the index may be used
     [[nodiscard]] const InsideBalls* balls_in_time() const;
     /// The same, made at once.
     [[nodiscard]] const InsideBalls& balls() const;
     /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that
-    /// the B-rep knows: a corner in a face, say. Found out at the first call (pairs of near
+    /// the B-rep has: a corner in a face, say. Found out at the first call (pairs of near
     /// triangles). Safe to call from several threads. In self_contact.cpp.
     [[nodiscard]] bool touches_itself() const;
     /// Whether a triangle meets others in common corners and sides only. Where two clear triangles
     /// of two solids cross, the solids overlap. Where one is not clear they need not: an edge of
     /// the same boundary may lie in it just there, with the solid on both sides. Found out when
-    /// asked and kept; some microseconds. Safe to call from several threads. In self_contact.cpp.
+    /// used and kept; some microseconds. Safe to call from several threads. In self_contact.cpp.
     [[nodiscard]] bool is_clear(std::uint32_t triangle) const;
     [[nodiscard]] std::size_t bytes() const;
 

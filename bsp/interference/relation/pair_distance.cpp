@@ -25,7 +25,7 @@ namespace trisect::detail {
 namespace {
 
 // A lower bound of |L d| / |d|.
-double least_stretch_of(const std::array<Double3, 3>& l) {
+double least_stretch_of(const std::array<Vector3, 3>& l) {
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -76,12 +76,12 @@ DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double
         p[k] = a_->position(a_->triangles[i].vertex[k]);
         q[k] = map_(b_->position(b_->triangles[j].vertex[k]));
     }
-    const Double3 r = p[0];
+    const Vector3 r = p[0];
     double g = 0;
-    const auto placed = [&](const Double3& x) {
-        const Double3 d = minus(x, r);
+    const auto placed = [&](const Vector3& x) {
+        const Vector3 d = minus(x, r);
         for (const double c : d) g = std::max(g, std::abs(c));
-        return Double3{dot(stretch_[0], d), dot(stretch_[1], d), dot(stretch_[2], d)};
+        return Vector3{dot(stretch_[0], d), dot(stretch_[1], d), dot(stretch_[2], d)};
     };
     TriangleCorners in_world_p;
     TriangleCorners in_world_q;

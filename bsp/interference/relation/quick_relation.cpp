@@ -25,7 +25,7 @@ namespace trisect::detail {
 
 namespace {
 
-// Whether some box at a leaf is within the error of the point, as far as floats can tell.
+// Whether some box at a leaf is within the error of the point, as far as floats can decide.
 bool is_near_boundary(const ObbTree& tree, const std::array<double, 3>& p, double error) {
     std::array<float, 3> x{};
     double size = tree.reach;
@@ -106,7 +106,7 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
                 if (counters != nullptr) ++counters->by_balls;
                 return r;
             }
-    // Pairs that doubles cannot tell are passed over: flush solids have many of them, and a
+    // Pairs that doubles cannot decide are passed over: flush solids have many of them, and a
     // crossing elsewhere is Overlapping whatever they are.
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
     constexpr std::size_t many = 1024;

@@ -48,7 +48,7 @@ struct CandidatePairs {
                                                         const Pose& pose_b,
                                                         const ApproximateMap& to_a);
 
-/// Whether a vertex of a model is inside of another solid; nothing when doubles cannot tell.
+/// Whether a vertex of a model is inside of another solid; nothing when doubles cannot decide.
 /// \pre it is not on the boundary of the other solid.
 [[nodiscard]] std::optional<bool> is_certainly_inside(const InterferenceModelData& model,
                                                       VertexId v, const ApproximateMap& to_other,

@@ -25,6 +25,8 @@
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -67,13 +69,7 @@ TriangleCorners corners_of(const InterferenceModelData& model, std::uint32_t tri
     return c;
 }
 
-double largest(const Double3& v) {
-    return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
-}
-
-int certain_sign(double v, double bound) { return (v > bound ? 1 : 0) - (v < -bound ? 1 : 0); }
-
-Double3 unit(const Double3& v) {
+Vector3 unit(const Vector3& v) {
     const double length = std::sqrt(dot(v, v));
     return {v[0] / length, v[1] / length, v[2] / length};
 }
@@ -81,12 +77,12 @@ Double3 unit(const Double3& v) {
 // Two rays p and two rays q from one point, whose components are off by at most `error`: whether
 // the angles that they span certainly have nothing else in common. Bounds as in
 // triangle_filter.cpp.
-bool only_apex_in_common(const std::array<Double3, 2>& p, const std::array<Double3, 2>& q,
+bool only_apex_in_common(const std::array<Vector3, 2>& p, const std::array<Vector3, 2>& q,
                          double error) {
-    const double g =
-        std::max(std::max(largest(p[0]), largest(p[1])), std::max(largest(q[0]), largest(q[1])));
+    const double g = std::max(std::max(largest_component(p[0]), largest_component(p[1])),
+                              std::max(largest_component(q[0]), largest_component(q[1])));
     const double bound = g * g * (20 * error + 0x1p-47 * g);
-    const auto sides = [&](const Double3& normal, const Double3& v, const Double3& w) {
+    const auto sides = [&](const Vector3& normal, const Vector3& v, const Vector3& w) {
         return std::pair(certain_sign(dot(normal, v), bound), certain_sign(dot(normal, w), bound));
     };
     const auto [q0, q1] = sides(cross(p[0], p[1]), q[0], q[1]);
@@ -94,8 +90,8 @@ bool only_apex_in_common(const std::array<Double3, 2>& p, const std::array<Doubl
     const auto [p0, p1] = sides(cross(q[0], q[1]), p[0], p[1]);
     if (p0 * p1 > 0) return true;
     // Across the way between the middles.
-    Double3 way = minus(unit(p[0]), unit(q[0]));
-    const Double3 other_way = minus(unit(p[1]), unit(q[1]));
+    Vector3 way = minus(unit(p[0]), unit(q[0]));
+    const Vector3 other_way = minus(unit(p[1]), unit(q[1]));
     for (std::size_t k = 0; k < 3; ++k) way[k] += other_way[k];
     const double slack =
         (std::abs(way[0]) + std::abs(way[1]) + std::abs(way[2])) * (error + 0x1p-49 * g);

@@ -20,12 +20,12 @@
 #include <limits>
 
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
 namespace {
 
 constexpr std::size_t grid_side = 4;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tiny = 0x1p-1000;
 
 double next_up(double v) { return std::nextafter(v, infinity); }

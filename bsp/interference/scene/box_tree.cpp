@@ -3,7 +3,7 @@
 // The broad phase over an R-tree (Boost.Geometry's), as the other way beside sweep and prune. When
 // all bodies move, taking each out and putting it back costs a descent and a choice of where to
 // split each time; packing the whole tree anew (sort-tile-recursive) costs less than that and makes
-// a better tree. So the tree is packed when it is asked after something changed.
+// a better tree. So the tree is packed by the first query after a change.
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
@@ -63,7 +63,7 @@ public:
         }
     }
 
-    // The tree does not tell; its leaves have these entries, inner nodes an eighth as many.
+    // The tree does not expose these; its leaves have these entries, inner nodes an eighth as many.
     [[nodiscard]] std::size_t bytes() const override {
         return boxes_.size() * sizeof(boxes_[0]) + tree_.size() * sizeof(TreeEntry) * 8 / 7;
     }

@@ -6,7 +6,7 @@
 // s has its lower corner within [lo - s, hi]; on grids not finer than its own that are at most
 // three cells along an axis, 27 in all. A box looks for partners in its own grid and in coarser
 // ones. So each pair comes up once, at the smaller of the two; a giant is found by the dwarfs near
-// it and asks for none of them.
+// it and uses none of them.
 //
 // An update moves an entry from one list to another, if its cell has changed at all. The number of
 // grids in use is the logarithm of the ratio of sizes: a constant for similar ones.
@@ -27,7 +27,7 @@ namespace {
 using detail::BodyBox;
 using detail::BodyPair;
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t end_of_list = std::numeric_limits<std::uint32_t>::max();
 constexpr int unbounded = std::numeric_limits<int>::max();
 
 /// The cell of a box: its grid by the exponent of its size, and where in it.
@@ -101,7 +101,7 @@ public:
         counts_.cells = size_;
         moved_ = 0;
         for (std::uint32_t slot = 0; slot < entries_.size(); ++slot)
-            if (entries_[slot].head != none) partners_of(slot, out);
+            if (entries_[slot].head != end_of_list) partners_of(slot, out);
         std::sort(out.begin(), out.end());
     }
 
@@ -115,34 +115,34 @@ private:
     struct Entry {
         BodyBox box;
         GridCell cell;
-        std::uint32_t head = none;  // of its list
-        std::uint32_t next = none;
-        std::uint32_t previous = none;
+        std::uint32_t head = end_of_list;  // of its list
+        std::uint32_t next = end_of_list;
+        std::uint32_t previous = end_of_list;
     };
 
     void link(std::uint32_t slot, const GridCell& cell) {
         const auto [head, is_new] =
             numbers_.insert(key_of_cell(cell), static_cast<std::int32_t>(heads_.size()));
-        if (is_new) heads_.push_back(none);
+        if (is_new) heads_.push_back(end_of_list);
         std::uint32_t& first = heads_[static_cast<std::size_t>(head)];
         Entry& e = entries_[slot];
         e.cell = cell;
         e.head = static_cast<std::uint32_t>(head);
-        e.previous = none;
+        e.previous = end_of_list;
         e.next = first;
-        if (first != none) entries_[first].previous = slot;
+        if (first != end_of_list) entries_[first].previous = slot;
         first = slot;
         ++levels_[cell.level];
     }
 
     void unlink(std::uint32_t slot) {
         Entry& e = entries_[slot];
-        if (e.previous == none)
+        if (e.previous == end_of_list)
             heads_[e.head] = e.next;
         else
             entries_[e.previous].next = e.next;
-        if (e.next != none) entries_[e.next].previous = e.previous;
-        e.head = none;
+        if (e.next != end_of_list) entries_[e.next].previous = e.previous;
+        e.head = end_of_list;
         const auto level = levels_.find(e.cell.level);
         if (--level->second == 0) levels_.erase(level);
     }
@@ -153,7 +153,7 @@ private:
         heads_.clear();
         levels_.clear();
         for (std::uint32_t slot = 0; slot < entries_.size(); ++slot)
-            if (entries_[slot].head != none) link(slot, entries_[slot].cell);
+            if (entries_[slot].head != end_of_list) link(slot, entries_[slot].cell);
     }
 
     void partners_of(std::uint32_t slot, std::vector<BodyPair>& out) {
@@ -169,8 +169,8 @@ private:
                 ++counts_.lookups;
                 const std::int32_t head = numbers_.find(key_of_cell({level->first, place}));
                 if (head < 0) return;
-                for (std::uint32_t other = heads_[static_cast<std::size_t>(head)]; other != none;
-                     other = entries_[other].next) {
+                for (std::uint32_t other = heads_[static_cast<std::size_t>(head)];
+                     other != end_of_list; other = entries_[other].next) {
                     if (own && other <= slot) continue;
                     ++counts_.box_tests;
                     if (e.box.meets(entries_[other].box))

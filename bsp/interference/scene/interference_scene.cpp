@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A frame in three steps: boxes of the bodies that moved; pairs of boxes that meet; for each pair
-// its relation, exactly. The first two only decide which pairs are not asked about, so all that
-// their doubles must be is on the safe side.
+// its relation, exactly. The first two only exclude pairs, so all that their doubles must be is on
+// the safe side.
 //
 // What stays between frames (Cohen, Lin, Manocha and Ponamgi 1995 call it coherence): the order of
 // the boxes, and for each pair of boxes that meet its answer and, of large bodies, what its query
-// remembers. A pair of which neither body has moved keeps its answer. Answers are told apart by
+// remembers. A pair of which neither body has moved keeps its answer. Answers are distinguished by
 // placements, numbers that no two poses of a scene share, so that a body that came in the place of
 // a removed one is never mistaken for it.
 //
-// Pairs are independent of each other and of the order in which they are asked, and each writes to
-// a place of its own; so threads cannot change the outcome, not even which of two errors is thrown.
+// Pairs are independent of each other and of the order in which they are processed, and each writes
+// to a place of its own; so threads cannot change the outcome, not even which of two errors is
+// thrown.
 #include <trisect/bsp/interference/interference_scene.h>
 
 #include <algorithm>
@@ -27,6 +28,7 @@
 #include <trisect/bsp/interference/scene/scene_bodies.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/seconds_since.h>
 
 namespace trisect {
 namespace {
@@ -34,25 +36,7 @@ namespace {
 using detail::BodyPair;
 using detail::SceneBodies;
 using detail::SceneBody;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// What is known about a pair of bodies.
-struct Answer {
-    BodyPair pair;
-    std::uint64_t placement_a = 0;
-    std::uint64_t placement_b = 0;
-    bool has_contacts = false;
-    Relation relation = Relation::Disjoint;
-    std::vector<Contact> contacts;
-    /// Of large models only, and those for which it was made; it keeps them alive.
-    std::unique_ptr<InterferenceQuery> query;
-    const detail::InterferenceModelData* query_a = nullptr;
-    const detail::InterferenceModelData* query_b = nullptr;
-    std::exception_ptr error;
-};
+using detail::seconds_since;
 
 /// Of both models together. Below that a walk from the roots takes no longer than remembering.
 constexpr std::size_t worth_remembering = 4096;
@@ -112,7 +96,22 @@ public:
     }
 
 private:
-    /// Of a slot, what the broad phase knows.
+    /// State of a pair of bodies.
+    struct Answer {
+        BodyPair pair;
+        std::uint64_t placement_a = 0;
+        std::uint64_t placement_b = 0;
+        bool has_contacts = false;
+        Relation relation = Relation::Disjoint;
+        std::vector<Contact> contacts;
+        /// Of large models only, and those for which it was made; it keeps them alive.
+        std::unique_ptr<InterferenceQuery> query;
+        const detail::InterferenceModelData* query_a = nullptr;
+        const detail::InterferenceModelData* query_b = nullptr;
+        std::exception_ptr error;
+    };
+
+    /// State of a slot in the broad phase.
     struct Known {
         std::uint64_t placement = 0;  ///< 0: nothing
         detail::BodyBox box;

@@ -22,7 +22,7 @@ namespace {
 using detail::BodyBox;
 
 constexpr std::size_t leaf_size = 8;
-constexpr unsigned most_levels = 48;
+constexpr unsigned most_kd_levels = 48;
 
 class KdTreePhase final : public PackedPhase {
     struct Leaf {
@@ -51,7 +51,7 @@ class KdTreePhase final : public PackedPhase {
             open.pop_back();
             Leaf low;
             Leaf high;
-            if (leaf.list.size() <= leaf_size || leaf.level == most_levels ||
+            if (leaf.list.size() <= leaf_size || leaf.level == most_kd_levels ||
                 !cut(leaf, low, high, budget)) {
                 counts_.cells += leaf.list.size();
                 leaves_.push_back(std::move(leaf));

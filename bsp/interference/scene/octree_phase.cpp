@@ -12,18 +12,17 @@
 
 #include <trisect/bsp/interference/scene/broad_phases.h>
 #include <trisect/bsp/interference/scene/packed_phase.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 namespace {
 
 using detail::BodyBox;
-using Double3 = std::array<double, 3>;
-
-constexpr unsigned most_levels = 21;
+constexpr unsigned most_octree_levels = 21;
 
 class OctreePhase final : public PackedPhase {
     struct Cell {
-        Double3 middle{};
+        Vector3 middle{};
         double half = 0;                       // of the cell; it reaches twice as far
         std::array<std::uint32_t, 8> child{};  // 0 where there is none
         std::uint32_t first = 0;               // boxes in it: a list through next_
@@ -63,16 +62,16 @@ class OctreePhase final : public PackedPhase {
         return r;
     }
 
-    static Double3 centre_of(const BodyBox& b) {
+    static Vector3 centre_of(const BodyBox& b) {
         return {0.5 * b.lo[0] + 0.5 * b.hi[0], 0.5 * b.lo[1] + 0.5 * b.hi[1],
                 0.5 * b.lo[2] + 0.5 * b.hi[2]};
     }
 
     std::size_t cell_for(const BodyBox& box) {
-        const Double3 centre = centre_of(box);
+        const Vector3 centre = centre_of(box);
         const double size = extent(box);
         std::uint32_t at = 0;
-        for (unsigned level = 1; level < most_levels; ++level) {
+        for (unsigned level = 1; level < most_octree_levels; ++level) {
             // A child's cells are `half` long; a box that long reaches out by half of that. The
             // strict comparison leaves room for rounding, see `reach`.
             if (!(size < cells_[at].half * (1 - 0x1p-20))) break;

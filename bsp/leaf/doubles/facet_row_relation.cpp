@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What plain_pairs.cpp asks of two triangles in doubles, of four pairs in single precision: the
+// The tests of plain_pairs.cpp on two triangles in doubles, of four pairs in single precision: the
 // sides of the corners, and the order of the points where edges pierce the other support. Most of
 // what boxes leave is parted by a plane, half of the rest is apart along the line that the supports
 // have in common, and what crosses surely needs no more from doubles than the ends of the segment.
@@ -30,6 +30,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/float4.h>
 #include <trisect/kernel/support/wide_clones.h>
 
@@ -88,8 +89,6 @@ struct Facets {
     }
 };
 
-Float4 dot(const Vectors& a, const Vectors& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
 Float4 only(Mask4 lanes, Float4 v) {
     return reinterpret_cast<Float4>(reinterpret_cast<Mask4>(v) & lanes);
 }
@@ -120,13 +119,14 @@ struct Values {
 
 // Where triangles enter the other support and leave it on the way around their outlines: products
 // with the line's direction, and what they are off by.
-struct Interval {
+struct LineIntervals {
     Float4 up{};
     Float4 up_error{};
     Float4 down{};
     Float4 down_error{};
 
-    Interval(const Facets& facets, const Values& values, Float4 bound, const Vectors& direction) {
+    LineIntervals(const Facets& facets, const Values& values, Float4 bound,
+                  const Vectors& direction) {
         const Vectors along{dot(facets.corners[0], direction), dot(facets.corners[1], direction),
                             dot(facets.corners[2], direction)};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -172,8 +172,8 @@ TRISECT_WIDE_CLONES void relate_four(const std::array<Numbers, 4>& first,
         of_a.are_sure() & of_b.are_sure() & ~off & (longest > all_lanes(10) * (a.tilt + b.tilt));
     // In that direction the first one begins where it goes up through the other support, the second
     // one where it goes down.
-    const Interval s(a, of_a, b.bound, direction);
-    const Interval t(b, of_b, a.bound, direction);
+    const LineIntervals s(a, of_a, b.bound, direction);
+    const LineIntervals t(b, of_b, a.bound, direction);
     const Float4 starts_error = s.up_error + t.down_error;
     const Float4 ends_error = s.down_error + t.up_error;
     const Float4 before_error = s.down_error + t.down_error;

@@ -67,14 +67,6 @@ std::array<FourFloats, 3> fours(const std::array<Number, 3>& v) {
 
 using Fours = std::array<FourFloats, 3>;
 
-Fours minus(const Fours& a, const Fours& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Fours cross(const Fours& a, const Fours& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-FourFloats dot(const Fours& a, const Fours& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
 }  // namespace
 
 void FacetRows::start(const Vector3& extent) {

@@ -4,8 +4,8 @@
 // meet, an edge of the cutters' mesh pierces the facet. The facet is split along the whole line of
 // a segment, within the part that the segment runs through, so parts stay convex. Then the next
 // segment begins on a line that was cut before, exactly at the point that both lines have in
-// common: such points carry the name of the edge that pierces there, and no arithmetic asks about
-// them. Whatever else is asked is about points that differ, and doubles nearly always tell.
+// common: such points carry the name of the edge that pierces there, and no arithmetic is done on
+// them. Other signs are of points that differ, and doubles nearly always decide.
 //
 // Facets of one plane with a common edge, the two halves of a quadrilateral say, give one line.
 
@@ -18,6 +18,7 @@
 
 #include <trisect/bsp/cells/facet_in_cell.h>
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -195,8 +196,8 @@ int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
     return exact_sign(vertex, other.source->support(other.facet));
 }
 
-// The same for the middle of a part; 0 when nothing tells. Where its corners are on one side of the
-// support, so is the middle.
+// The same for the middle of a part; 0 when nothing decides. Where its corners are on one side of
+// the support, so is the middle.
 int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& middle, int attempt,
                                  std::size_t contact) {
     const int s = facets_->plane(contacts_[contact].other).sign(middle);
@@ -253,7 +254,7 @@ void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
 }
 
 // Whether a vertex on a contact's line is an end of the contact's segment. Points of different
-// names that are the same are left to doubles, which cannot tell.
+// names that are the same are left to doubles, which cannot decide.
 bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
                           const PlainEnd& end) const {
     const PlainContact& c = contacts_[contact];
@@ -409,7 +410,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
     for (std::size_t i = 0; i < from.size; ++i) {
         int s = 0;
         if (from.vertices[i] < (*facets_)[item_].size && point(i).error == 0) {
-            // A lattice position, and the last one below the wall is exact too.
+            // A lattice position, and the last one below the splitting plane is exact too.
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
         } else {
@@ -421,7 +422,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
         below = below || s < 0;
         above = above || s > 0;
     }
-    if (!(high ? above : below)) return true;  // nothing is beyond the wall
+    if (!(high ? above : below)) return true;  // nothing is beyond the splitting plane
     was_clipped_ = true;
     if (!(high ? below : above)) {
         clipped_.size = 0;
@@ -521,8 +522,8 @@ bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::siz
                               std::size_t end) {
     ++stats_->traces_within;
     const auto set = [&](int w) {
-        formula_->set(above(part), LeafWork::u(operand), w);
-        formula_->set(below(part), LeafWork::u(operand), w);
+        formula_->set(above(part), as_index(operand), w);
+        formula_->set(below(part), as_index(operand), w);
     };
     if (part.winding >= 0) {
         set(part.winding);
@@ -531,7 +532,7 @@ bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::siz
     for (int attempt = 0; attempt < 4; ++attempt) {
         int change = 0;
         if (!change_to(part, attempt, begin, end, change)) continue;
-        set(start_windings_[LeafWork::u(operand)] + change);
+        set(start_windings_[as_index(operand)] + change);
         return true;
     }
     return false;
@@ -542,8 +543,8 @@ void PlainCutting::set_sides(const PlainPart& part, std::span<const int> winding
     const PlainFacet& f = (*facets_)[item_];
     std::copy(windings.begin(), windings.end(), above(part).begin());
     std::copy(windings.begin(), windings.end(), below(part).begin());
-    above(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 0 : 1;
-    below(part)[LeafWork::u(f.operand)] = f.orientation > 0 ? 1 : 0;
+    above(part)[as_index(f.operand)] = f.orientation > 0 ? 0 : 1;
+    below(part)[as_index(f.operand)] = f.orientation > 0 ? 1 : 0;
     formula_->fill(above(part));
     formula_->fill(below(part));
 }
@@ -569,7 +570,7 @@ void PlainCutting::start_item(LeafIndex item) {
 // Whether an operand other than a facet's own decides the formula on both of its sides.
 bool PlainCutting::is_covered(LeafIndex operand, std::span<const int> windings) const {
     for (std::size_t o = 0; o < open_.size(); ++o)
-        if (windings[o] != open_[o] && o != LeafWork::u(operand)) return true;
+        if (windings[o] != open_[o] && o != as_index(operand)) return true;
     return false;
 }
 
@@ -579,7 +580,7 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
     LeafIndex windings = windings_->anchor_of(item, *stats_).windings;
     const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
     const auto answer_for = [&](LeafIndex w) -> Answer& {
-        return answers_[(4 * LeafWork::u(w) + static_cast<std::size_t>(key)) % answers_.size()];
+        return answers_[(4 * as_index(w) + static_cast<std::size_t>(key)) % answers_.size()];
     };
     const auto is_known = [&](LeafIndex w) {
         return answer_for(w).windings == w && answer_for(w).key == key;
@@ -623,7 +624,7 @@ std::optional<std::span<const int>> PlainCutting::windings_on(LeafIndex item) {
 bool PlainCutting::add_item() {
     known_windings_.assign(start_windings_.begin(), start_windings_.end());
     for (const PlainContact& c : contacts_)
-        known_windings_[LeafWork::u((*facets_)[c.other].operand)] = unknown_winding;
+        known_windings_[as_index((*facets_)[c.other].operand)] = unknown_winding;
     const PlainPart& part = add_part();
     set_sides(part, known_windings_);
     const int over = formula_->value(above(part));
@@ -656,7 +657,7 @@ PlainCutting::Result PlainCutting::cut(LeafIndex item) {
         for (std::size_t begin = 0; begin < contacts_.size();) {
             std::size_t end = begin + 1;
             while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
-            if ((start_windings_[LeafWork::u(operand_at(begin))] > 0) == around &&
+            if ((start_windings_[as_index(operand_at(begin))] > 0) == around &&
                 !cut_by(operand_at(begin), begin, end))
                 return doubtful;
             begin = end;
@@ -667,7 +668,7 @@ PlainCutting::Result PlainCutting::cut(LeafIndex item) {
 }
 
 bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end) {
-    const std::size_t o = LeafWork::u(operand);
+    const std::size_t o = as_index(operand);
     const std::size_t before = count_;
     for (std::size_t k = 0; k < before; ++k) {
         if (parts_[k].state != PlainPart::State::Open) continue;
@@ -681,7 +682,8 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
             parts_[first].winding = -1;
             std::copy_n(above(parts_[k]).begin(), 2 * row_, above(parts_[first]).begin());
         }
-        // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+        // Nothing but the first cutter can have cut a whole item in the cell: it need not be
+        // tested.
         bool sure = first == 1 && (*facets_)[item_].contained;
         for (std::size_t c = begin; c < end; ++c) {
             const std::size_t last = count_;
@@ -712,7 +714,7 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
 
 bool PlainCutting::same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                               bool below_matters) const {
-    const std::size_t o = LeafWork::u(operand);
+    const std::size_t o = as_index(operand);
     const auto over = [&](std::size_t j) { return sides_[parts_[j].sides + o]; };
     const auto under = [&](std::size_t j) { return sides_[parts_[j].sides + row_ + o]; };
     for (std::size_t j = first + 1; j < count_; ++j)

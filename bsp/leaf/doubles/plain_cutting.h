@@ -16,8 +16,8 @@
 
 namespace trisect::detail {
 
-/// A line in the support of an item: first the edges of its outline, then the cell's walls (2 ·
-/// axis, the upper one 1 more), then its contacts in their order.
+/// A line in the support of an item: first the edges of its outline, then the cell's bounding
+/// planes (2 · axis, the upper one 1 more), then its contacts in their order.
 using PlainLine = std::int16_t;
 inline constexpr PlainLine first_wall_line = PlainFacet::max_outline;
 inline constexpr PlainLine first_contact_line = first_wall_line + 6;
@@ -40,7 +40,7 @@ struct PlainPart {
     std::uint8_t size = 0;
     State state = State::Open;
     bool inside_above = false;
-    std::int8_t winding = -1;  ///< of the operand that cuts, where a cut of its has told: 0 or 1
+    std::int8_t winding = -1;  ///< of the operand that cuts, where a cut has decided it: 0 or 1
     std::uint32_t above = 0;   ///< bit i: the part lies above the plane of line i instead of below
     std::array<std::int16_t, max_size> vertices{};
     std::array<PlainLine, max_size> lines{};
@@ -56,7 +56,7 @@ struct PlainPart {
 
 /// Cuts an item by the other operands, one after the other, and no more than the result needs: what
 /// LeafCutting does, on doubles and names. Points on a line have zero distance by name, all others
-/// nearly always show in doubles; where planes are nearly parallel the exact predicates are asked.
+/// nearly always show in doubles; where planes are nearly parallel the exact predicates decide.
 /// Keeps its memory.
 class PlainCutting {
 public:
@@ -65,7 +65,7 @@ public:
     void start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
                LeafFormula& formula, std::span<const int> open, EvaluateStats& stats);
 
-    /// What is left of an item. `Doubtful`: doubles cannot tell.
+    /// What is left of an item. `Doubtful`: doubles cannot decide.
     enum class Remains : std::uint8_t { Doubtful, Nothing, Uncut, Parts };
     struct Result {
         Remains kind = Remains::Nothing;
@@ -76,7 +76,7 @@ public:
     /// An item that nothing crosses: does it bound the result?
     [[nodiscard]] Result whole(LeafIndex item);
     /// Winding numbers by operand at some point that an item has in the cell; nothing when it may
-    /// have none there. `nullopt`: doubles cannot tell. Valid until the next call.
+    /// have none there. `nullopt`: doubles cannot decide. Valid until the next call.
     [[nodiscard]] std::optional<std::span<const int>> windings_on(LeafIndex item);
 
     [[nodiscard]] std::span<const PlainPart> parts() const { return {parts_.data(), count_}; }
@@ -85,7 +85,7 @@ public:
     [[nodiscard]] PolygonRef fragment(const PlainPart& part);
     /// The part of the last item in the cell.
     [[nodiscard]] const PlainPart& clipped() const { return clipped_; }
-    /// Whether the cell's walls cut anything off the last item.
+    /// Whether the cell's bounding planes cut anything off the last item.
     [[nodiscard]] bool was_clipped() const { return was_clipped_; }
 
 private:

@@ -20,8 +20,8 @@ namespace {
 // Differences of lattice positions up to this are exact.
 constexpr double exact_limit = 0x1p53;
 
-// Corners lie anywhere in memory: they are asked for well before their turn. The names of their
-// points are already there, since all of the leaf's were asked for at first.
+// Corners lie anywhere in memory: they are prefetched well before their turn. The names of their
+// points are already there, since all of the leaf's were prefetched first.
 void look_ahead(std::span<const PolygonRef> polygons) {
     constexpr std::size_t near = 6;
     if (polygons.size() <= near) return;
@@ -30,7 +30,7 @@ void look_ahead(std::span<const PolygonRef> polygons) {
         __builtin_prefetch(&mesh.points[v]);
 }
 
-// How many polygons a leaf has, if all can be held in doubles; asks for their triangles ahead.
+// How many polygons a leaf has, if all can be held in doubles; prefetches their triangles.
 std::optional<std::size_t> plain_polygons(const LeafProblem& leaf) {
     std::size_t count = 0;
     for (const LeafOperand& o : leaf.operands) {
@@ -85,7 +85,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     reaches_.assign(leaf.operands.size(), {});
     if (first == leaf.operands.end()) return true;
     set_origin(first->polygons[0].source->corner(first->polygons[0].facet, 0));
-    // Of all points that a plane is asked about.
+    // Over all points compared with a plane.
     Vector3 low = reference_.c;
     Vector3 high = reference_.c;
     bool small = true;
@@ -128,7 +128,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             f.contained = contained;
             if (f.is_whole()) continue;
             if (!contained) f.contained = is_contained_but_for_walls(f.walls, lo, hi);
-            // Planes are asked about points from their first corner on. What doubles hold of a
+            // Planes are evaluated at points relative to their first corner. What doubles hold of a
             // fragment's facet need not be near the fragment.
             for (std::size_t k = 0; k < 3; ++k) {
                 low[k] = std::min(low[k], f.corners[0][k]);
@@ -182,7 +182,7 @@ void PlainFacets::add_box(PlainFacet& f) {
     }
 }
 
-// Whether a box reaches beyond those walls of the cell only at which its fragment ends.
+// Whether a box reaches beyond those bounding planes of the cell only at which its fragment ends.
 bool PlainFacets::is_contained_but_for_walls(unsigned walls, const Vector3& lo,
                                              const Vector3& hi) const {
     for (std::size_t k = 0; k < 3; ++k, walls >>= 2)
@@ -212,7 +212,8 @@ void PlainFacets::add_outline(PlainFacet& f) {
     }
 }
 
-// At which walls of the cell a fragment ends: with its edge on the wall it is on one side of that.
+// At which bounding planes of the cell a fragment ends: with its edge on the splitting plane it is
+// on one side of that.
 std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
     const Cell& cell = problem_->cell;
     unsigned walls = 0;

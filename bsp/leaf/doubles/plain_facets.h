@@ -12,12 +12,12 @@
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/stamp_map.h>
 
 namespace trisect::detail {
-
-using Vector3 = std::array<double, 3>;
 
 /// The support of a facet: points p with normal · (p - origin) = 0. Exact points of the leaf have a
 /// value within `bound` of the computed one; points with an error add `slope` times that.
@@ -32,7 +32,7 @@ struct PlainPlane {
                normal[2] * (p[2] - origin[2]);
     }
     [[nodiscard]] double error(const Approximation& p) const { return bound + slope * p.error; }
-    /// -1 below, 1 above; 0 when doubles cannot tell.
+    /// -1 below, 1 above; 0 when doubles cannot decide.
     [[nodiscard]] int sign(const Approximation& p) const {
         const double v = value(p.c);
         const double e = error(p);
@@ -44,7 +44,7 @@ struct PlainPlane {
 /// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
 /// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
 struct PlainFacet {
-    /// Fragments with more corners are left to the long way.
+    /// Fragments with more corners are left to the exact path.
     static constexpr std::size_t max_outline = 20;
     static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
 
@@ -55,11 +55,11 @@ struct PlainFacet {
     LeafIndex operand = 0;
     LeafIndex sheet = 0;  ///< one number for each operand and source in it
     std::int8_t orientation = 1;
-    std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot tell, 2: not computed
+    std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot decide, 2: not computed
     bool contained = false;             ///< lies in the cell
     std::uint8_t size = 3;              ///< corners of the outline
     std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
-                             ///< ends at that wall of the cell by name
+                             ///< ends at that bounding plane of the cell by name
     std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
     /// Bit i: corner i of the outline lies in the support of some item of another operand whose box
     /// meets that of this one, so perhaps on that item.
@@ -110,12 +110,10 @@ public:
     [[nodiscard]] bool list(const LeafProblem& leaf);
 
     [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
-    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[LeafWork::u(i)]; }
-    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const {
-        return facets_[LeafWork::u(i)];
-    }
+    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[as_index(i)]; }
+    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const { return facets_[as_index(i)]; }
     [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
-        PlainFacet& f = facets_[LeafWork::u(i)];
+        PlainFacet& f = facets_[as_index(i)];
         if (f.plane.bound < 0) {
             f.plane = plane_of(f.corners, extent_);
             make_outline(i);
@@ -125,9 +123,9 @@ public:
     /// The plane of three points of a leaf of that extent.
     [[nodiscard]] static PlainPlane plane_of(const std::array<Vector3, 3>& corners,
                                              const Vector3& extent);
-    /// Most fragments are never asked for their corners.
+    /// Corners of most fragments are never used.
     void make_outline(LeafIndex i) {
-        PlainFacet& f = facets_[LeafWork::u(i)];
+        PlainFacet& f = facets_[as_index(i)];
         if (!f.is_whole() && f.outline == PlainFacet::no_outline) add_outline(f);
     }
     /// A corner of an item's outline. \pre an item of which plane() or make_outline() was called
@@ -155,10 +153,11 @@ public:
             if (p[k] < inner_lo_[k] || p[k] > inner_hi_[k]) return false;
         return true;
     }
-    /// The lattice positions next to the cell's walls, inside of them; exact as far as corners go.
+    /// The lattice positions next to the cell's bounding planes, inside of them; exact as far as
+    /// corners go.
     [[nodiscard]] const Vector3& inner_lo() const { return inner_lo_; }
     [[nodiscard]] const Vector3& inner_hi() const { return inner_hi_; }
-    /// The walls themselves, rounded.
+    /// The splitting planes themselves, rounded.
     [[nodiscard]] const Vector3& wall_lo() const { return wall_lo_; }
     [[nodiscard]] const Vector3& wall_hi() const { return wall_hi_; }
     [[nodiscard]] const Approximation& reference() const { return reference_; }
@@ -205,7 +204,7 @@ private:
     Vector3 extent_{};  // of all facets, unclipped, and the reference point
 };
 
-/// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot tell.
+/// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot decide.
 [[nodiscard]] int orientation(const Vector3& a, const Vector3& b, const Vector3& c,
                               const Vector3& d);
 
@@ -213,7 +212,7 @@ private:
 [[nodiscard]] std::optional<int> exact_orientation(const Vector3& a, const Vector3& b,
                                                    const Vector3& c, const Vector3& d);
 
-/// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot tell.
+/// -1, 0, 1: the order of two points along an axis; 0 when doubles cannot decide.
 [[nodiscard]] inline int compare_along(std::size_t axis, const Approximation& a,
                                        const Approximation& b) {
     const double gap = b.c[axis] - a.c[axis];
@@ -222,8 +221,8 @@ private:
 }
 
 /// The direction of the line in which two supports meet, the product of their normals: the axis
-/// along which it is longest, and the sign there, 0 when doubles cannot tell. The left of it in the
-/// first support is what is below the second one: n × (n × m) = -m within the support of n.
+/// along which it is longest, and the sign there, 0 when doubles cannot decide. The left of it in
+/// the first support is what is below the second one: n × (n × m) = -m within the support of n.
 struct LineDirection {
     std::size_t axis = 0;
     int sign = 0;
@@ -238,7 +237,7 @@ struct LineDirection {
         // Components err by less than 8 · 2^-53 times the slopes, which bound them.
         if (std::fabs(d[axis]) > 0x1p-47 * first.slope * second.slope) sign = d[axis] > 0 ? 1 : -1;
     }
-    /// -1, 0, 1: the order of two points of the line; 0 when doubles cannot tell.
+    /// -1, 0, 1: the order of two points of the line; 0 when doubles cannot decide.
     [[nodiscard]] int order(const Approximation& a, const Approximation& b) const {
         return sign * compare_along(axis, a, b);
     }

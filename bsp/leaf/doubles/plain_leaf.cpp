@@ -5,11 +5,11 @@
 // end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
 // points exactly, pairs of facets by orientations of corners, and constructed points by doubles
 // with a bound. A point on a line that was cut before is known to be on it by name
-// (plain_cutting.cpp), and single signs are asked exactly where that is likely to help, such as
+// (plain_cutting.cpp), and single signs are decided exactly where that is likely to help, such as
 // those of corners on other facets (plain_pair_relation.cpp); every other sign that doubles cannot
-// tell ends the attempt, and the leaf is arranged the long way. So the short way never decides
-// anything that it does not know; leaves with coincident facets, or with edges along others, lose
-// the attempt, which mostly ends at the first such pair.
+// decide ends the attempt, and the leaf takes the exact path. So the filtered path never guesses;
+// leaves with coincident facets, or with edges along others, lose the attempt, which mostly ends at
+// the first such pair.
 //
 // Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
 // and whose edges name the planes that cut them out. So they are items like whole facets, of up to
@@ -23,6 +23,7 @@
 #include <algorithm>
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -112,12 +113,12 @@ void PlainLeaf::start_covers() {
 }
 
 // Notes a facet that something crosses, and the operands that it lies in here, of those that do not
-// cross it. One whose part in the cell is empty is somebody else's.
+// cross it. One whose part in the cell is empty belongs to other cells.
 bool PlainLeaf::add_covers(LeafIndex item) {
     Crossings& crossings = *findings_->crossings;
     std::vector<std::uint32_t>& seen = findings_->seen;
     if (crossings.operands.size() == 2) return true;
-    const std::size_t own = LeafWork::u(facets_[item].operand);
+    const std::size_t own = as_index(facets_[item].operand);
     const std::uint32_t number = crossings.number_of(slots_[own], facets_[item].ref.facet);
     const auto contacts = pairs_.contacts(item);
     // They come operand by operand.
@@ -139,7 +140,7 @@ bool PlainLeaf::add_covers(LeafIndex item) {
     for (std::size_t o = 0; o < open_.size(); ++o) {
         if ((*windings)[o] == open_[o] || o == own) continue;
         const bool crosses = std::ranges::any_of(contacts, [&](const PlainContact& c) {
-            return LeafWork::u(facets_[c.other].operand) == o;
+            return as_index(facets_[c.other].operand) == o;
         });
         if (!crosses) crossings.covers.push_back({number, slots_[o]});
     }

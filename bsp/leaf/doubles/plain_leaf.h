@@ -24,10 +24,11 @@ namespace trisect::detail {
 /// kind. Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
 ///
 /// Where polygons are not needed yet and crossings are collected, facets that something crosses in
-/// the cell are left out: these, and what covers them, are added to the crossings, and their
+/// the cell are left out: these, and the operands that contain
+/// them, are added to the crossings, and their
 /// numbers to `seen` if the formula has more than two operands.
 ///
-/// Not for leaves of another kind, nor where doubles cannot tell.
+/// Not for leaves of another kind, nor where doubles cannot decide.
 class PlainLeaf final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
@@ -53,7 +54,7 @@ private:
     // What there was of findings before the leaf.
     std::size_t covers_before_ = 0;
     std::size_t seen_before_ = 0;
-    // By operand, where crossings are collected: its winding number where it covers nothing, and
+    // By operand, where crossings are collected: its winding number where it contains nothing, and
     // its slot.
     std::vector<int> open_;
     std::vector<std::uint32_t> slots_;

@@ -5,17 +5,17 @@
 // With the corners numbered so that the first one is alone on its side, every end of an interval is
 // where an edge from that corner pierces the other support, and the order of two such points, one
 // of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
-// triangle-triangle overlap test using orientation predicates", 2003). Four orientations tell
+// triangle-triangle overlap test using orientation predicates", 2003). Four orientations decide
 // whether the intervals overlap and which points are the ends of what they share. No plane in
-// integers is made for that. Of whole facets of more than two operands, single precision decides
-// as much for four pairs at once (facet_row_relation.cpp), and what it leaves open comes here.
+// integers is made for that. Of whole facets of more than two operands, single precision decides as
+// much for four pairs at once (facet_row_relation.cpp), and what it leaves open comes here.
 //
 // Chains of cuts by one tool bring more: where a symmetric tool moves by equal steps along two axes
 // four of its facets have a point in common, so corners of fragments lie on the next tool's facets
 // at every step. With the sides of such corners known exactly the rest is the same: an interval may
 // begin at a corner, or be a single point. Two polygons with no more than a point in common do not
 // change each other's winding numbers; but at a corner on another operand there are none, so such
-// corners are marked (PlainFacet::resting). An edge in another support is left to the long way.
+// corners are marked (PlainFacet::resting). An edge in another support is left to the exact path.
 
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
 
@@ -28,13 +28,14 @@ namespace trisect::detail {
 namespace {
 
 // Corners of one facet with respect to the support of another one.
-struct Sides {
+struct CornerSides {
     std::array<double, 3> value{};
     double bound = 0;
     int above = 0;
     int below = 0;
 
-    Sides(const PlainPlane& plane, const std::array<Vector3, 3>& corners) : bound(plane.bound) {
+    CornerSides(const PlainPlane& plane, const std::array<Vector3, 3>& corners)
+        : bound(plane.bound) {
         for (std::size_t i = 0; i < 3; ++i) {
             value[i] = plane.value(corners[i]);
             above += value[i] > bound ? 1 : 0;
@@ -72,7 +73,7 @@ struct Numbered {
 Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
 
 // Where the edge from the lonely corner to corner i pierces the other support.
-bool pierce(const Numbered& t, const Sides& sides, std::size_t i, Approximation& x) {
+bool pierce(const Numbered& t, const CornerSides& sides, std::size_t i, Approximation& x) {
     return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
                        sides.value[t.corner[i]], 2 * sides.bound, x);
 }
@@ -147,7 +148,7 @@ public:
         }
         on_ = ((1U << f.size) - 1) & ~(above_ | below_);
     }
-    /// Corners of which doubles do not tell count as being on the support until this is called.
+    /// Corners that doubles do not decide count as being on the support until this is called.
     [[nodiscard]] bool is_sure() const { return on_ == 0; }
     void make_sure(const PlainFacet& other) {
         const Plane plane = other.ref.source->support(other.ref.facet);
@@ -176,7 +177,7 @@ public:
         return is_single(up) && is_single(down);
     }
     [[nodiscard]] std::size_t edge(bool up) const { return up ? up_ : down_; }
-    /// Where one of these edges is in the support. False when doubles tell too little.
+    /// Where one of these edges is in the support. False when doubles do not decide enough.
     [[nodiscard]] bool pierce(bool up, Approximation& x) const {
         const std::size_t i = edge(up);
         const std::size_t next = i + 1U < f_.size ? i + 1 : 0;
@@ -231,7 +232,7 @@ int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approxi
     return edge.above ? s : -s;
 }
 
-// Surely: a segment on a wall is not.
+// Surely: a segment on a splitting plane is not.
 bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         const double low = facets.wall_lo()[k];
@@ -287,9 +288,9 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
     const PlainFacet& a = facets[s];
     const PlainFacet& b = facets[t];
-    const Sides of_b(facets.plane(s), b.corners);
+    const CornerSides of_b(facets.plane(s), b.corners);
     if (of_b.is_off()) return Relation::Apart;
-    const Sides of_a(facets.plane(t), a.corners);
+    const CornerSides of_a(facets.plane(t), a.corners);
     if (of_a.is_off()) return Relation::Apart;
     if (!of_a.is_sure() || !of_b.is_sure()) return relate_outlines(facets, s, t, out);
     const std::size_t lonely_a = of_a.lonely();

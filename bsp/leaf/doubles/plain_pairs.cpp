@@ -10,6 +10,7 @@
 #include <limits>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -27,14 +28,14 @@ constexpr std::size_t many_pairs = 4096;
 // of one operand with all of the other takes less than to sort them. Facets of the first operand
 // come first.
 bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
-    const std::size_t n = LeafWork::u(facets.size());
+    const std::size_t n = as_index(facets.size());
     has_all_boxes_ = true;
     has_planes_ = false;
     boxes_.clear();
     for (LeafIndex i = 0; i < facets.size(); ++i)
         boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
     const auto reach_of = [&](LeafIndex operand) {
-        const PlainFacets::Reach& r = facets.reach(LeafWork::u(operand));
+        const PlainFacets::Reach& r = facets.reach(as_index(operand));
         return BoxRows::probe(r.lo, r.hi, operand);
     };
     const std::array reaches{reach_of(0), reach_of(1)};
@@ -76,8 +77,7 @@ void PlainPairs::list_candidates(PlainFacets& facets, LeafIndex few) {
         const PlainFacet& f = facets[i];
         bool candidate = all;
         for (std::size_t o = 0; o < n && !candidate; ++o)
-            candidate =
-                o != LeafWork::u(f.operand) && f.meets(facets.reach(o).lo, facets.reach(o).hi);
+            candidate = o != as_index(f.operand) && f.meets(facets.reach(o).lo, facets.reach(o).hi);
         if (candidate) candidates_.push_back({0, i});
     }
     if (has_all_boxes_) {
@@ -131,7 +131,7 @@ void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
     marked_.assign(rows, 0);
     next_marked_.assign(rows + 1, rows);
     for (std::size_t i = 0; i < candidates_.size(); ++i)
-        if (marks[LeafWork::u(candidates_[i].item)] != 0)
+        if (marks[as_index(candidates_[i].item)] != 0)
             marked_[i / 4] = static_cast<std::uint8_t>(marked_[i / 4] | 1U << i % 4);
     for (std::size_t row = rows; row-- > 0;)
         next_marked_[row] = marked_[row] != 0 ? row : next_marked_[row + 1];
@@ -225,7 +225,7 @@ bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks
                         EvaluateStats& stats) {
     edges_apart_ = edges_apart;
     crossings_.clear();
-    has_partner_.assign(LeafWork::u(facets.size()), 0);
+    has_partner_.assign(as_index(facets.size()), 0);
     const bool two = facets.operand_count() == 2 && marks.empty();
     if (!(two ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
     stats.pairs_touching += crossings_.size();
@@ -239,7 +239,7 @@ void PlainPairs::add_to(Crossings& crossings, const PlainFacets& facets) const {
         FacetCrossing& made = crossings.pairs.emplace_back();
         for (std::size_t k = 0; k < 2; ++k) {
             const PlainFacet& f = facets[c.items[k]];
-            const std::int32_t slot = facets.problem().operands[LeafWork::u(f.operand)].slot;
+            const std::int32_t slot = facets.problem().operands[as_index(f.operand)].slot;
             made.facets[k] = crossings.number_of(static_cast<std::size_t>(slot), f.ref.facet);
             const PlainEnd& end = c.ends[k];
             made.ends[k] = {facets.in_lattice(end.at), end.of_second, end.edge};
@@ -250,15 +250,15 @@ void PlainPairs::add_to(Crossings& crossings, const PlainFacets& facets) const {
 bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats) {
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
-    has_partner_[LeafWork::u(s)] = has_partner_[LeafWork::u(t)] = 1;
+    has_partner_[as_index(s)] = has_partner_[as_index(t)] = 1;
     return add_pair(facets, s, t);
 }
 
 // Counting sort by item: `first_contact_[i + 1]` runs from the start of item i to its end.
 void PlainPairs::list_contacts(LeafIndex count) {
-    first_contact_.assign(LeafWork::u(count) + 1, 0);
+    first_contact_.assign(as_index(count) + 1, 0);
     for (const PlainCrossing& c : crossings_)
-        for (const LeafIndex i : c.items) ++first_contact_[LeafWork::u(i) + 1];
+        for (const LeafIndex i : c.items) ++first_contact_[as_index(i) + 1];
     std::size_t before = 0;
     for (std::size_t i = 1; i < first_contact_.size(); ++i) {
         const std::size_t n = first_contact_[i];
@@ -269,7 +269,7 @@ void PlainPairs::list_contacts(LeafIndex count) {
     for (std::size_t c = 0; c < crossings_.size(); ++c) {
         const auto& items = crossings_[c].items;
         for (std::size_t i = 0; i < 2; ++i)
-            contacts_[first_contact_[LeafWork::u(items[i]) + 1]++] = {
+            contacts_[first_contact_[as_index(items[i]) + 1]++] = {
                 items[1 - i], static_cast<std::int32_t>(c), i == 1};
     }
     for (std::size_t i = 0; i + 1 < first_contact_.size(); ++i) {

@@ -13,6 +13,7 @@
 #include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -56,10 +57,10 @@ struct PlainContact {
 /// Compares all polygons of different operands whose boxes meet; keeps its memory.
 class PlainPairs {
 public:
-    /// False when doubles cannot tell about some pair. Where edges meet edges, or a corner comes
-    /// near a support, that is asked exactly, unless `edges_apart`: then such a pair is one about
-    /// which they cannot tell. Polygons that meet in no more than a point do not cross, but are
-    /// marked as touched. False also when an edge lies in a support. Counts pairs.
+    /// False when doubles cannot decide some pair. Where edges meet edges, or a corner comes near a
+    /// support, that is decided exactly, unless `edges_apart`: then such a pair is one that they
+    /// cannot decide. Polygons that meet in no more than a point do not cross, but are marked as
+    /// touched. False also when an edge lies in a support. Counts pairs.
     [[nodiscard]] bool relate_all(PlainFacets& facets, bool edges_apart, EvaluateStats& stats) {
         return relate(facets, {}, edges_apart, stats);
     }
@@ -78,12 +79,12 @@ public:
     [[nodiscard]] std::span<const PlainCrossing> crossings() const { return crossings_; }
     /// Whether an item's box meets that of all facets of some other operand. \pre two operands
     [[nodiscard]] bool is_candidate(LeafIndex item) const {
-        return is_candidate_[LeafWork::u(item)] != 0;
+        return is_candidate_[as_index(item)] != 0;
     }
     /// Whether an item's box meets that of some facet of the other operand. \pre relate_all(), two
     /// operands
     [[nodiscard]] bool has_partner(LeafIndex item) const {
-        return has_partner_[LeafWork::u(item)] != 0;
+        return has_partner_[as_index(item)] != 0;
     }
     /// The boxes of all items in their order, if they are there: in all but large leaves.
     [[nodiscard]] const BoxRows* all_boxes() const { return has_all_boxes_ ? &boxes_ : nullptr; }
@@ -93,7 +94,7 @@ public:
     }
     /// Contacts of an item, by ascending `other`.
     [[nodiscard]] std::span<const PlainContact> contacts(LeafIndex item) const {
-        const auto i = LeafWork::u(item);
+        const auto i = as_index(item);
         return {contacts_.data() + first_contact_[i], contacts_.data() + first_contact_[i + 1]};
     }
 

@@ -2,9 +2,9 @@
 //
 // A trace is a straight segment from the leaf's reference point, or from the end of an earlier
 // trace on the same operand, which is mostly near: then there is little to look at. It counts the
-// facets that it goes through. Which side of a facet its ends are on tells the value of the facet's
-// plane there; whether it goes through the facet or beside it is seen along the axis that is
-// nearest to the normal. A segment so near to an edge that doubles cannot tell is given up.
+// facets that it goes through. The sides of a facet on which its ends are give the value of the
+// facet's plane there; whether it goes through the facet or beside it is seen along the axis that
+// is nearest to the normal. A segment so near to an edge that doubles cannot decide is given up.
 
 #include <trisect/bsp/leaf/doubles/plain_windings.h>
 
@@ -14,13 +14,14 @@
 #include <utility>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
 
-// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
-// doubles and with a margin.
+// Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
+// planes, in doubles and with a margin.
 bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b) {
     const Vector3& lo = facets.inner_lo();
     const Vector3& hi = facets.inner_hi();
@@ -41,7 +42,7 @@ bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b)
 }
 
 // Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
-// outside, 0 when doubles cannot tell.
+// outside, 0 when doubles cannot decide.
 template <class Corner>
 int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x) {
     const Vector3& n = f.plane.normal;
@@ -111,14 +112,14 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
     known_.clear();
     for (const LeafOperand& o : facets.problem().operands) known_.push_back(o.winding);
     starts_.assign(1, {facets.reference(), -1, 0});
-    vertices_.resize(LeafWork::u(facets.size()));
-    first_.assign(LeafWork::u(facets.size()), -1);
+    vertices_.resize(as_index(facets.size()));
+    first_.assign(as_index(facets.size()), -1);
     regions_.fill(-1);
-    regions_of_.assign(LeafWork::u(facets.size()), -1);
+    regions_of_.assign(as_index(facets.size()), -1);
     for (LeafIndex i = 0; i < facets.size(); ++i) {
         if (const int region = region_of(i); region >= 0) {
-            regions_of_[LeafWork::u(i)] = static_cast<std::int8_t>(region);
-            vertices_[LeafWork::u(i)].fill(-1);
+            regions_of_[as_index(i)] = static_cast<std::int8_t>(region);
+            vertices_[as_index(i)].fill(-1);
             continue;
         }
         const bool free = pairs.contacts(i).empty();
@@ -140,7 +141,7 @@ int PlainWindings::region_of(LeafIndex item) const {
 }
 
 int PlainWindings::region_beside(LeafIndex operand, const Vector3& low, const Vector3& high) const {
-    const auto& [lo, hi] = facets_->reach(LeafWork::u(1 - operand));
+    const auto& [lo, hi] = facets_->reach(as_index(1 - operand));
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
         if (high[axis] < lo[axis]) return 6 * operand + 2 * k;
@@ -154,7 +155,7 @@ LeafIndex PlainWindings::windings_in(int region) {
     LeafIndex& known = regions_[static_cast<std::size_t>(region)];
     if (known >= 0) return known;
     const auto axis = static_cast<std::size_t>(region % 6 / 2);
-    const auto& [lo, hi] = facets_->reach(LeafWork::u(1 - region / 6));
+    const auto& [lo, hi] = facets_->reach(as_index(1 - region / 6));
     const Approximation& p = facets_->reference();
     const bool is_there =
         region % 2 == 0 ? p.c[axis] + p.error < lo[axis] : p.c[axis] - p.error > hi[axis];
@@ -163,10 +164,10 @@ LeafIndex PlainWindings::windings_in(int region) {
 }
 
 // A fragment has a node for each corner of its facet that is left of that. At a corner on another
-// operand there is no winding number; whoever has that corner knows it.
+// operand there is no winding number; the owner of that corner has it.
 void PlainWindings::add_corners(LeafIndex item, bool free) {
     const PlainFacet& f = (*facets_)[item];
-    auto& vertices = vertices_[LeafWork::u(item)];
+    auto& vertices = vertices_[as_index(item)];
     vertices.fill(-1);
     for (std::size_t c = 0; c < f.size; ++c) {
         const int corner = f.mesh_corner(c);
@@ -182,7 +183,7 @@ void PlainWindings::add_corners(LeafIndex item, bool free) {
 // Edges of a whole facet that run through the cell and have no end there.
 void PlainWindings::add_edges(LeafIndex item) {
     const PlainFacet& f = (*facets_)[item];
-    const auto& vertices = vertices_[LeafWork::u(item)];
+    const auto& vertices = vertices_[as_index(item)];
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t d = c == 2 ? 0 : c + 1;
         if (vertices[c] >= 0 || vertices[d] >= 0 ||
@@ -215,7 +216,7 @@ LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int c
 }
 
 void PlainWindings::join_item(LeafIndex item, LeafIndex node) {
-    LeafIndex& first = first_[LeafWork::u(item)];
+    LeafIndex& first = first_[as_index(item)];
     if (first < 0) {
         first = node;
     } else {
@@ -224,9 +225,9 @@ void PlainWindings::join_item(LeafIndex item, LeafIndex node) {
 }
 
 LeafIndex PlainWindings::root(LeafIndex v) {
-    while (nodes_[LeafWork::u(v)].parent != v) {
-        LeafIndex& parent = nodes_[LeafWork::u(v)].parent;
-        v = parent = nodes_[LeafWork::u(parent)].parent;
+    while (nodes_[as_index(v)].parent != v) {
+        LeafIndex& parent = nodes_[as_index(v)].parent;
+        v = parent = nodes_[as_index(parent)].parent;
     }
     return v;
 }
@@ -236,12 +237,12 @@ void PlainWindings::join(LeafIndex a, LeafIndex b) {
     b = root(b);
     if (a == b) return;
     // A tree's root is a vertex if there is one.
-    if (nodes_[LeafWork::u(a)].corner < 0) std::swap(a, b);
-    nodes_[LeafWork::u(b)].parent = a;
-    if (nodes_[LeafWork::u(b)].corner >= 0) nodes_[LeafWork::u(a)].example = b;
+    if (nodes_[as_index(a)].corner < 0) std::swap(a, b);
+    nodes_[as_index(b)].parent = a;
+    if (nodes_[as_index(b)].corner >= 0) nodes_[as_index(a)].example = b;
     // A region whose windings are known is worth more than another one.
-    std::int8_t& region = nodes_[LeafWork::u(a)].region;
-    const std::int8_t other = nodes_[LeafWork::u(b)].region;
+    std::int8_t& region = nodes_[as_index(a)].region;
+    const std::int8_t other = nodes_[as_index(b)].region;
     if (other >= 0 && (region < 0 || windings_in(region) < 0)) region = other;
 }
 
@@ -325,11 +326,11 @@ bool PlainWindings::trace(const Start& start, const Approximation& target, LeafI
     };
     if (all != nullptr && operands_ > 2) return count_in(*all, 0, 0, all->row_count());
     if (all != nullptr) {
-        const OperandBoxes& other = boxes_[1 - LeafWork::u(own)];
-        return count_in(*all, 0, LeafWork::u(other.first) / 4, (LeafWork::u(other.last) + 3) / 4);
+        const OperandBoxes& other = boxes_[1 - as_index(own)];
+        return count_in(*all, 0, as_index(other.first) / 4, (as_index(other.last) + 3) / 4);
     }
     for (std::size_t o = 0; o < operands_; ++o) {
-        if (o == LeafWork::u(own)) continue;
+        if (o == as_index(own)) continue;
         const BoxRows& boxes = boxes_of(o);
         if (!count_in(boxes, boxes_[o].first, 0, boxes.row_count())) return false;
     }
@@ -376,7 +377,7 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
     if (!(std::fabs(at.start) > at.start_error)) return false;
     Approximation x;
     if (!(std::fabs(at.target) > at.target_error)) {
-        // The target may be in the plane. It is not on the facet: so beside that, or nobody knows.
+        // The target may be in the plane. It is not on the facet: so beside it, or undecided.
         return near_target(at, start, target, x) && is_inside(*facets_, f, x) < 0;
     }
     if ((at.start > 0) == (at.target > 0)) return true;
@@ -385,7 +386,7 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
             ? is_inside(*facets_, f, x)
             : 0;
     if (inside == 0) return false;
-    if (inside > 0) w[LeafWork::u(f.operand)] += at.start > 0 ? f.orientation : -f.orientation;
+    if (inside > 0) w[as_index(f.operand)] += at.start > 0 ? f.orientation : -f.orientation;
     return true;
 }
 
@@ -402,29 +403,28 @@ const BoxRows& PlainWindings::boxes_of(std::size_t operand) {
 }
 
 void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
-    const int region = nodes_[LeafWork::u(r)].region;
+    const int region = nodes_[as_index(r)].region;
     if (region >= 0 && windings_in(region) >= 0) {
         ++stats.linked;
-        nodes_[LeafWork::u(r)].state = State::Known;
-        nodes_[LeafWork::u(r)].windings = windings_in(region);
+        nodes_[as_index(r)].state = State::Known;
+        nodes_[as_index(r)].windings = windings_in(region);
         spread(r);
         return;
     }
-    nodes_[LeafWork::u(r)].state = State::Useless;
-    const LeafIndex example = nodes_[LeafWork::u(r)].example;
+    nodes_[as_index(r)].state = State::Useless;
+    const LeafIndex example = nodes_[as_index(r)].example;
     for (const LeafIndex at : {r, example}) {
         if (at < 0) continue;
-        const Node& n = nodes_[LeafWork::u(at)];
+        const Node& n = nodes_[as_index(at)];
         if (n.corner < 0) continue;  // edges only: see remember()
         const PlainFacet& f = (*facets_)[n.item];
         facets_->make_outline(n.item);
         if (!at_point(facets_->corner(f, static_cast<std::size_t>(n.corner)), f.operand, stats,
                       traced_))
             continue;
-        nodes_[LeafWork::u(r)].state = State::Known;
-        nodes_[LeafWork::u(r)].windings = keep(traced_);
-        if (region >= 0)
-            regions_[static_cast<std::size_t>(region)] = nodes_[LeafWork::u(r)].windings;
+        nodes_[as_index(r)].state = State::Known;
+        nodes_[as_index(r)].windings = keep(traced_);
+        if (region >= 0) regions_[static_cast<std::size_t>(region)] = nodes_[as_index(r)].windings;
         spread(r);
         return;
     }
@@ -435,7 +435,7 @@ void PlainWindings::list_ways() {
     found_.clear();
     for (LeafIndex i = 0; i < facets_->size(); ++i) {
         if (pairs_->contacts(i).empty() || !(*facets_)[i].is_whole()) continue;
-        const auto& vertices = vertices_[LeafWork::u(i)];
+        const auto& vertices = vertices_[as_index(i)];
         for (std::int8_t c = 0; c < 3; ++c) {
             const auto d = static_cast<std::int8_t>(c == 2 ? 0 : c + 1);
             const LeafIndex a = vertices[static_cast<std::size_t>(c)];
@@ -450,10 +450,10 @@ void PlainWindings::list_ways() {
     }
     // Counting sort: `first_way_[n + 1]` runs from the start of node n's to their end.
     first_way_.assign(nodes_.size() + 2, 0);
-    for (const Way& w : found_) ++first_way_[LeafWork::u(w.from) + 2];
+    for (const Way& w : found_) ++first_way_[as_index(w.from) + 2];
     for (std::size_t n = 2; n < first_way_.size(); ++n) first_way_[n] += first_way_[n - 1];
     ways_.resize(found_.size());
-    for (const Way& w : found_) ways_[first_way_[LeafWork::u(w.from) + 1]++] = w;
+    for (const Way& w : found_) ways_[first_way_[as_index(w.from) + 1]++] = w;
 }
 
 // From a tree that has become known to all that edges connect it with.
@@ -463,14 +463,14 @@ void PlainWindings::spread(LeafIndex r) {
     while (!reached_.empty()) {
         const LeafIndex from = reached_.back();
         reached_.pop_back();
-        const std::size_t end = first_way_[LeafWork::u(from) + 1];
-        for (std::size_t i = first_way_[LeafWork::u(from)]; i < end; ++i) {
+        const std::size_t end = first_way_[as_index(from) + 1];
+        for (std::size_t i = first_way_[as_index(from)]; i < end; ++i) {
             const Way& way = ways_[i];
-            if (nodes_[LeafWork::u(way.to)].state == State::Known) continue;
-            const auto known = windings(nodes_[LeafWork::u(from)].windings);
+            if (nodes_[as_index(way.to)].state == State::Known) continue;
+            const auto known = windings(nodes_[as_index(from)].windings);
             traced_.assign(known.begin(), known.end());
             if (!follow(way, traced_)) continue;
-            Node& to = nodes_[LeafWork::u(way.to)];
+            Node& to = nodes_[as_index(way.to)];
             to.state = State::Known;
             to.windings = keep(traced_);
             reached_.push_back(way.to);
@@ -488,7 +488,7 @@ bool PlainWindings::follow(const Way& way, std::span<int> w) const {
         for (const PlainEnd& end : crossing.ends) {
             if (end.edge_of(c.is_second) != way.edge) continue;
             if (end.other_edge >= 0) return false;
-            w[LeafWork::u(f.operand)] += above ? f.orientation : -f.orientation;
+            w[as_index(f.operand)] += above ? f.orientation : -f.orientation;
         }
     }
     return true;
@@ -525,42 +525,42 @@ LeafIndex PlainWindings::from_clear_boxes(LeafIndex item, EvaluateStats& stats) 
 
 LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {
     const LeafIndex kept = keep(windings);
-    if (const int region = regions_of_[LeafWork::u(item)]; region >= 0)
+    if (const int region = regions_of_[as_index(item)]; region >= 0)
         regions_[static_cast<std::size_t>(region)] = kept;
     if (is_clear(item)) clear_boxes_.push_back(clear_box(item, kept));
-    const LeafIndex first = first_[LeafWork::u(item)];
+    const LeafIndex first = first_[as_index(item)];
     if (first < 0) return kept;
-    Node& r = nodes_[LeafWork::u(root(first))];
+    Node& r = nodes_[as_index(root(first))];
     r.windings = kept;
     r.state = State::Known;
     return kept;
 }
 
 PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& stats) {
-    if (const int region = regions_of_[LeafWork::u(item)]; region >= 0) {
+    if (const int region = regions_of_[as_index(item)]; region >= 0) {
         const LeafIndex known = windings_in(region);
         if (known >= 0) ++stats.linked;
         return {known, 0};
     }
-    if (const LeafIndex first = first_[LeafWork::u(item)]; first >= 0) {
+    if (const LeafIndex first = first_[as_index(item)]; first >= 0) {
         // All its vertices hang together; which one it is does not matter.
         const LeafIndex r = root(first);
-        if (nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
-        return {nodes_[LeafWork::u(r)].windings, 0};
+        if (nodes_[as_index(r)].state == State::Unknown) find_windings(r, stats);
+        return {nodes_[as_index(r)].windings, 0};
     }
     const PlainFacet& f = (*facets_)[item];
     if (f.contained) {
         if (const LeafIndex known = from_clear_boxes(item, stats); known >= 0) return {known, 0};
     }
-    const auto& vertices = vertices_[LeafWork::u(item)];
+    const auto& vertices = vertices_[as_index(item)];
     // First a vertex of which the windings are known.
     for (const bool ask : {false, true}) {
         for (std::size_t c = 0; c < f.size; ++c) {
             const int corner = f.mesh_corner(c);
             if (corner < 0 || vertices[static_cast<std::size_t>(corner)] < 0) continue;
             const LeafIndex r = root(vertices[static_cast<std::size_t>(corner)]);
-            if (ask && nodes_[LeafWork::u(r)].state == State::Unknown) find_windings(r, stats);
-            const Node& n = nodes_[LeafWork::u(r)];
+            if (ask && nodes_[as_index(r)].state == State::Unknown) find_windings(r, stats);
+            const Node& n = nodes_[as_index(r)];
             if (n.state == State::Known) return {n.windings, static_cast<int>(c)};
         }
     }

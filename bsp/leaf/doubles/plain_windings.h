@@ -11,6 +11,7 @@
 #include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/plain_facets.h>
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -20,7 +21,7 @@ namespace trisect::detail {
 /// edge of these they change where it pierces others, which is known by then: so one trace serves
 /// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles. Facets
 /// beside the box of the only other operand are not even looked at, and where boxes of facets meet
-/// in which it has none, one of them tells the others: EvaluateStats::linked counts both.
+/// in which it has none, one of them determines the others: EvaluateStats::linked counts both.
 class PlainWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
@@ -39,11 +40,11 @@ public:
     LeafIndex remember(LeafIndex item, std::span<const int> windings);
     /// By operand; the entry of the facet's own is meaningless.
     [[nodiscard]] std::span<const int> windings(LeafIndex i) const {
-        return {known_.data() + LeafWork::u(i) * operands_, operands_};
+        return {known_.data() + as_index(i) * operands_, operands_};
     }
     /// Winding numbers at a point on a facet of the operand `own`, with a meaningless one for that.
     /// The way there starts at the nearest point on that operand where they are known by now, or at
-    /// the cell's reference. False when doubles cannot tell.
+    /// the cell's reference. False when doubles cannot decide.
     [[nodiscard]] bool at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
                                 std::vector<int>& w);
 
@@ -127,7 +128,7 @@ private:
     std::vector<std::size_t> first_way_;  // by node
     bool has_ways_ = false;
     std::vector<LeafIndex> reached_;
-    // Of all facets of an operand, by operand; made for the first trace that asks for them.
+    // Of all facets of an operand, by operand; made for the first trace that needs them.
     struct OperandBoxes {
         LeafIndex first = 0;
         LeafIndex last = 0;

@@ -12,10 +12,10 @@
 // vertex and within each polygon (leaf_anchors.h, leaf_cutting.h); where an operand may meet
 // itself, from piece to piece (leaf_links.h).
 //
-// Coplanar overlaps: the pieces of a facet are split along the edges of every facet that covers it,
-// so each piece is covered completely or not at all. Of all facets that cover a piece the first one
-// (by slot, source, facet) speaks for all: the others drop theirs, and the step of winding numbers
-// across the piece is the sum over all of them.
+// Coplanar overlaps: the pieces of a facet are split along the edges of every facet that overlaps
+// it, so each piece is overlapped completely or not at all. Of all facets that overlap a piece the
+// first one (by slot, source, facet) represents all: the others drop theirs, and the step of
+// winding numbers across the piece is the sum over all of them.
 //
 // What goes wrong otherwise: classifying the two halves of one clipped polygon separately by float
 // rays (holes), closed coplanar twins emitted twice, and snapping intersection points. Here no
@@ -82,7 +82,7 @@ void ExactLeaf::emit_remains(LeafIndex i, const LeafRemains& remains) {
     }
 }
 
-// Any operands: cut everything, then let the pieces know from each other what they are.
+// Any operands: cut everything, then classify the pieces by their neighbours.
 void ExactLeaf::arrange_any() {
     for (LeafIndex i = 0; i < work_.item_count(); ++i)
         if (!work_.item(i).is_whole()) make_pieces(work_, i);

@@ -6,19 +6,21 @@
 #include <cmath>
 #include <utility>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 namespace {
 
-constexpr LeafIndex none = -1;
-constexpr LeafIndex outside = -2;
+constexpr LeafIndex no_edge = -1;
+constexpr LeafIndex outside_cell = -2;
 
 bool is_facet(const LeafItem& item) {
     return item.ref.fragment == nullptr && !item.ref.source->is_half_space();
 }
 
-// Whether a segment surely has a part of some length in a cell: it is clipped by the walls, in
-// doubles and with a margin.
+// Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
+// planes, in doubles and with a margin.
 bool runs_through(const Cell& cell, const LatticePoint& a, const LatticePoint& b) {
     double from = 0;
     double to = 1;
@@ -50,9 +52,9 @@ void LeafAnchors::build(LeafWork& work, LeafWindings& windings) {
     vertex_of_id_.clear();
     vertices_.clear();
     known_count_ = 0;
-    first_.assign(work.items.size(), none);
+    first_.assign(work.items.size(), no_edge);
     for (LeafIndex i = 0; i < work.item_count(); ++i) {
-        // Only what nothing touches makes others hang together; the rest is looked at when asked.
+        // Only what nothing touches makes others hang together; the rest is looked at on demand.
         if (!work.contacts(i).empty()) continue;
         const std::size_t n = corner_count(i);
         for (std::size_t k = 0; k < n; ++k) join_item(i, vertex_of(i, k));
@@ -64,7 +66,7 @@ void LeafAnchors::build(LeafWork& work, LeafWindings& windings) {
 
 void LeafAnchors::join_item(LeafIndex item, LeafIndex vertex) {
     if (vertex < 0) return;
-    LeafIndex& first = first_[LeafWork::u(item)];
+    LeafIndex& first = first_[as_index(item)];
     if (first < 0) {
         first = vertex;
     } else {
@@ -85,7 +87,7 @@ bool LeafAnchors::is_in_cell(LeafIndex i, std::size_t corner) {
             Box::of(item.ref.source->corner(item.ref.facet, static_cast<int>(corner))));
     const PointId p = work_->shape(i).points[corner];
     if (work_->bench.is_corner(p)) return cell.contains(Box::of(work_->bench.lattice(p)));
-    // A vertex very near to a wall does not count.
+    // A vertex very near to a splitting plane does not count.
     const Approximation& a = work_->bench.approximation(p);
     for (std::size_t k = 0; k < 3; ++k) {
         const double slack = 1.001 * a.error + 0x1p-45 * std::fabs(a.c[k]);
@@ -114,7 +116,7 @@ LeafIndex LeafAnchors::vertex_of(LeafIndex i, std::size_t corner) {
     }
     const auto [id, inserted] = ids_.insert(key, static_cast<std::int32_t>(vertex_of_id_.size()));
     if (inserted) {
-        vertex_of_id_.push_back(outside);
+        vertex_of_id_.push_back(outside_cell);
         if (is_in_cell(i, corner)) {
             const auto v = static_cast<LeafIndex>(vertices_.size());
             vertex_of_id_.back() = v;
@@ -125,7 +127,7 @@ LeafIndex LeafAnchors::vertex_of(LeafIndex i, std::size_t corner) {
             vertices_.push_back(vertex);
         }
     }
-    return vertex_of_id_[LeafWork::u(id)];
+    return vertex_of_id_[as_index(id)];
 }
 
 // An edge of a source with both ends outside the cell, if it surely runs through the cell.
@@ -135,8 +137,8 @@ LeafIndex LeafAnchors::edge_of(LeafIndex i, int edge) {
     const LatticePoint& a = source.corner(item.ref.facet, edge);
     const LatticePoint& b = source.corner(item.ref.facet, (edge + 1) % 3);
     const Cell& cell = work_->problem->cell;
-    if (cell.contains(Box::of(a)) || cell.contains(Box::of(b))) return none;
-    if (!runs_through(cell, a, b)) return none;
+    if (cell.contains(Box::of(a)) || cell.contains(Box::of(b))) return no_edge;
+    if (!runs_through(cell, a, b)) return no_edge;
     const std::uint64_t v = source.corner_index(item.ref.facet, edge);
     const std::uint64_t w = source.corner_index(item.ref.facet, (edge + 1) % 3);
     const Key128 key{(std::uint64_t{1} << 41) | static_cast<std::uint64_t>(item.sheet),
@@ -151,13 +153,13 @@ LeafIndex LeafAnchors::edge_of(LeafIndex i, int edge) {
         vertex.parent = at;
         vertices_.push_back(vertex);
     }
-    return vertex_of_id_[LeafWork::u(id)];
+    return vertex_of_id_[as_index(id)];
 }
 
 LeafIndex LeafAnchors::root(LeafIndex v) {
-    while (vertices_[LeafWork::u(v)].parent != v) {
-        LeafIndex& parent = vertices_[LeafWork::u(v)].parent;
-        v = parent = vertices_[LeafWork::u(parent)].parent;
+    while (vertices_[as_index(v)].parent != v) {
+        LeafIndex& parent = vertices_[as_index(v)].parent;
+        v = parent = vertices_[as_index(parent)].parent;
     }
     return v;
 }
@@ -167,9 +169,9 @@ void LeafAnchors::join(LeafIndex a, LeafIndex b) {
     b = root(b);
     if (a == b) return;
     // A tree's root is a vertex if there is one.
-    if (vertices_[LeafWork::u(a)].corner < 0) std::swap(a, b);
-    vertices_[LeafWork::u(b)].parent = a;
-    if (vertices_[LeafWork::u(b)].corner >= 0) vertices_[LeafWork::u(a)].example = b;
+    if (vertices_[as_index(a)].corner < 0) std::swap(a, b);
+    vertices_[as_index(b)].parent = a;
+    if (vertices_[as_index(b)].corner >= 0) vertices_[as_index(a)].example = b;
 }
 
 bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
@@ -187,24 +189,24 @@ bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
 // One trace, to another vertex when the first is degenerate. On a grid where vertices lie on other
 // surfaces all the time, more attempts cost more than the traces that they might spare.
 void LeafAnchors::find_windings(LeafIndex r) {
-    vertices_[LeafWork::u(r)].state = State::Useless;
+    vertices_[as_index(r)].state = State::Useless;
     if (known_count_ == known_.size()) known_.emplace_back();
-    if (vertices_[LeafWork::u(r)].corner < 0) return;  // edges only: see remember()
+    if (vertices_[as_index(r)].corner < 0) return;  // edges only: see remember()
     for (int attempt = 0; attempt < 2; ++attempt) {
-        const LeafIndex example = vertices_[LeafWork::u(r)].example;
+        const LeafIndex example = vertices_[as_index(r)].example;
         const LeafIndex at = attempt == 0 ? r : example;
-        if (at < 0 || vertices_[LeafWork::u(at)].corner < 0 ||
-            !trace_to(vertices_[LeafWork::u(at)], known_[known_count_]))
+        if (at < 0 || vertices_[as_index(at)].corner < 0 ||
+            !trace_to(vertices_[as_index(at)], known_[known_count_]))
             continue;
-        vertices_[LeafWork::u(r)].state = State::Known;
-        vertices_[LeafWork::u(r)].windings = static_cast<LeafIndex>(known_count_++);
+        vertices_[as_index(r)].state = State::Known;
+        vertices_[as_index(r)].windings = static_cast<LeafIndex>(known_count_++);
         return;
     }
 }
 
 void LeafAnchors::remember(LeafIndex item, const std::vector<int>& windings) {
-    if (!work_->contacts(item).empty() || first_[LeafWork::u(item)] < 0) return;
-    Vertex& r = vertices_[LeafWork::u(root(first_[LeafWork::u(item)]))];
+    if (!work_->contacts(item).empty() || first_[as_index(item)] < 0) return;
+    Vertex& r = vertices_[as_index(root(first_[as_index(item)]))];
     if (r.state == State::Known) return;
     if (known_count_ == known_.size()) known_.emplace_back();
     known_[known_count_] = windings;
@@ -215,11 +217,11 @@ void LeafAnchors::remember(LeafIndex item, const std::vector<int>& windings) {
 LeafAnchor LeafAnchors::anchor_of(LeafIndex item) {
     if (work_->contacts(item).empty()) {
         // All its vertices hang together; which one it is does not matter.
-        const LeafIndex first = first_[LeafWork::u(item)];
+        const LeafIndex first = first_[as_index(item)];
         if (first < 0) return {};
         const LeafIndex r = root(first);
-        if (vertices_[LeafWork::u(r)].state == State::Unknown) find_windings(r);
-        return {vertices_[LeafWork::u(r)].windings, 0};
+        if (vertices_[as_index(r)].state == State::Unknown) find_windings(r);
+        return {vertices_[as_index(r)].windings, 0};
     }
     const std::size_t n = corner_count(item);
     // First a vertex of which the windings are known.
@@ -228,8 +230,8 @@ LeafAnchor LeafAnchors::anchor_of(LeafIndex item) {
             const LeafIndex v = vertex_of(item, k);
             if (v < 0) continue;
             const LeafIndex r = root(v);
-            if (ask && vertices_[LeafWork::u(r)].state == State::Unknown) find_windings(r);
-            const Vertex& at = vertices_[LeafWork::u(r)];
+            if (ask && vertices_[as_index(r)].state == State::Unknown) find_windings(r);
+            const Vertex& at = vertices_[as_index(r)];
             if (at.state == State::Known) return {at.windings, k};
         }
     }

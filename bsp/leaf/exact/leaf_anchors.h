@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/leaf/exact/leaf_windings.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -32,7 +33,7 @@ public:
     void remember(LeafIndex item, const std::vector<int>& windings);
     /// By operand; the entry of the polygon's own is meaningless.
     [[nodiscard]] const std::vector<int>& windings(LeafIndex i) const {
-        return known_[LeafWork::u(i)];
+        return known_[as_index(i)];
     }
 
 private:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 void LeafClassification::classify(LeafWork& work, LeafLinks& links) {
@@ -11,7 +13,7 @@ void LeafClassification::classify(LeafWork& work, LeafLinks& links) {
     links_ = &links;
     std::int32_t last_slot = -1;
     for (const LeafOperand& o : work.problem->operands) last_slot = std::max(last_slot, o.slot);
-    values_.assign(u(last_slot + 1), -1);
+    values_.assign(as_index(last_slot + 1), -1);
     windings_.start(work);
     sides_.assign(work.items.size() + work.pieces.size(), std::nullopt);
     choose_roots();
@@ -29,9 +31,10 @@ void LeafClassification::choose_roots() {
         return work_->item(node).contained ? 0 : 2;
     };
     for (LeafNode node = 0; node < static_cast<LeafNode>(sides_.size()); ++node) {
-        if (node < items ? !work_->item(node).is_whole() : work_->pieces[u(node - items)].dropped)
+        if (node < items ? !work_->item(node).is_whole()
+                         : work_->pieces[as_index(node - items)].dropped)
             continue;
-        LeafNode& root = roots_[u(links_->tree_of(node))];
+        LeafNode& root = roots_[as_index(links_->tree_of(node))];
         if (root < 0 || rank(node) < rank(root)) root = node;
     }
 }
@@ -60,7 +63,7 @@ void LeafClassification::walk(LeafNode root, const Visit& visit) {
 
 void LeafClassification::apply(const LeafLinks::Link& link, int sign) {
     for (const LeafChange& c : links_->changes(link)) {
-        above_[u(c.operand)] += sign * link.sign * c.change;
+        above_[as_index(c.operand)] += sign * link.sign * c.change;
         changed_ = true;
     }
 }
@@ -71,11 +74,11 @@ void LeafClassification::classify_tree(LeafNode root) {
     known_.assign(n, 0);
     // An embedded operand has 0 outside its own facets and 1 inside.
     const LeafItem& item = work_->item(item_index(root));
-    if (work_->operand_of(item).embedded) known_[u(item.operand)] = 1;
+    if (work_->operand_of(item).embedded) known_[as_index(item.operand)] = 1;
     collect_known(root);
     if (!trace_root(root)) return;
     changed_ = true;
-    walk(root, [&](LeafNode node) { sides_[u(node)] = sides_at(node); });
+    walk(root, [&](LeafNode node) { sides_[as_index(node)] = sides_at(node); });
 }
 
 // Winding numbers at the root from those that are known anywhere in its tree.
@@ -87,7 +90,7 @@ void LeafClassification::collect_known(LeafNode root) {
         for (LeafIndex k = links_->first_known(node); k >= 0 && missing > 0;
              k = links_->known(k).next) {
             const LeafLinks::Known& known = links_->known(k);
-            const std::size_t o = u(known.operand);
+            const std::size_t o = as_index(known.operand);
             if (known_[o] != 0) continue;
             known_[o] = 1;
             at_root_[o] = known.winding - above_[o];
@@ -106,7 +109,7 @@ bool LeafClassification::trace_root(LeafNode root) {
     set_step(root);
     if (!clips) {
         const WorkPolygon& part =
-            root < items ? work_->shape(root) : work_->pieces[u(root - items)].shape;
+            root < items ? work_->shape(root) : work_->pieces[as_index(root - items)].shape;
         windings_.windings_above(item_index(root), part, step_, known_, above_);
         return true;
     }
@@ -120,22 +123,23 @@ bool LeafClassification::trace_root(LeafNode root) {
 // How winding numbers change from above a node to below it.
 void LeafClassification::set_step(LeafNode node) {
     const LeafIndex items = work_->item_count();
-    const LeafIndex special = node < items ? -1 : work_->pieces[u(node - items)].step;
+    const LeafIndex special = node < items ? -1 : work_->pieces[as_index(node - items)].step;
     if (special >= 0) {
-        step_ = work_->steps[u(special)];
+        step_ = work_->steps[as_index(special)];
         return;
     }
     const LeafItem& item = work_->item(item_index(node));
     step_.assign(above_.size(), 0);
-    step_[u(item.operand)] = item.orientation;
+    step_[as_index(item.operand)] = item.orientation;
 }
 
 LeafSides LeafClassification::sides_at(LeafNode node) {
     const LeafIndex items = work_->item_count();
     const LeafItem& item = work_->item(item_index(node));
-    const bool special = node >= items && work_->pieces[u(node - items)].step >= 0;
+    const bool special = node >= items && work_->pieces[as_index(node - items)].step >= 0;
     if (!special && !changed_ && item.orientation == last_orientation_) return *last_;
-    if (work_->operand_of(item).embedded) above_[u(item.operand)] = item.orientation > 0 ? 0 : 1;
+    if (work_->operand_of(item).embedded)
+        above_[as_index(item.operand)] = item.orientation > 0 ? 0 : 1;
     set_step(node);
     const LeafSides sides{formula_at(0), formula_at(1)};
     changed_ = special;
@@ -149,7 +153,8 @@ bool LeafClassification::formula_at(int step_sign) {
     for (std::size_t o = 0; o < above_.size(); ++o) {
         const LeafOperand& operand = work_->problem->operands[o];
         const int winding = above_[o] + step_sign * step_[o];
-        values_[u(operand.slot)] = is_inside(winding, work_->problem->options->winding) ? 1 : 0;
+        values_[as_index(operand.slot)] =
+            is_inside(winding, work_->problem->options->winding) ? 1 : 0;
     }
     return value_of(*work_->problem->formula, values_);
 }

@@ -10,6 +10,7 @@
 #include <trisect/bsp/leaf/exact/leaf_links.h>
 #include <trisect/bsp/leaf/exact/leaf_windings.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -39,7 +40,6 @@ private:
         LeafIndex link = -1;     ///< next one to follow
         LeafIndex arrival = -1;  ///< link that led here
     };
-    static std::size_t u(LeafIndex i) { return static_cast<std::size_t>(i); }
     void choose_roots();
     void classify_tree(LeafNode root);
     void collect_known(LeafNode root);
@@ -51,8 +51,9 @@ private:
     template <class Visit>
     void walk(LeafNode root, const Visit& visit);
     [[nodiscard]] LeafIndex item_index(LeafNode node) const {
-        return node < work_->item_count() ? node
-                                          : work_->pieces[u(node - work_->item_count())].item;
+        return node < work_->item_count()
+                   ? node
+                   : work_->pieces[as_index(node - work_->item_count())].item;
     }
 
     LeafWork* work_ = nullptr;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 bool covered_by(const Workbench& bench, const WorkPolygon& piece, const WorkPolygon& cover) {
@@ -31,7 +33,7 @@ void resolve_coincidence(LeafWork& work, std::size_t first) {
         LeafPiece& piece = work.pieces[k];
         const LeafItem& item = work.item(piece.item);
         std::fill(step.begin(), step.end(), 0);
-        step[LeafWork::u(item.operand)] += item.orientation;
+        step[as_index(item.operand)] += item.orientation;
         bool alone = true;
         for (const LeafContact& c : work.contacts(piece.item)) {
             if (!c.covers || !covered_by(work.bench, piece.shape, work.with_edges(c.other)))
@@ -43,11 +45,11 @@ void resolve_coincidence(LeafWork& work, std::size_t first) {
                     work.incomplete.push_back({item.ref.source->serial(), item.ref.facet});
                 break;
             }
-            // Orientation of the cover relative to this item's support.
+            // Orientation of the coincident polygon relative to this item's support.
             const LeafItem& other = work.item(c.other);
             const bool same = same_orientation(work.bench.plane_at(item.shape.support),
                                                work.bench.plane_at(other.shape.support));
-            step[LeafWork::u(other.operand)] += same ? other.orientation : -other.orientation;
+            step[as_index(other.operand)] += same ? other.orientation : -other.orientation;
         }
         if (alone || piece.dropped) continue;
         piece.step = static_cast<LeafIndex>(work.steps.size());

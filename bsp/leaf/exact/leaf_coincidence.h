@@ -7,7 +7,7 @@
 
 namespace trisect::detail {
 
-/// Drops the pieces from `first` on for which another item speaks, and gives the others the step of
+/// Drops the pieces from `first` on that another item represents, and gives the others the step of
 /// winding numbers across all that coincides there. \pre they are the pieces of one item.
 void resolve_coincidence(LeafWork& work, std::size_t first);
 
@@ -15,7 +15,7 @@ void resolve_coincidence(LeafWork& work, std::size_t first);
 [[nodiscard]] bool covered_by(const Workbench& bench, const WorkPolygon& piece,
                               const WorkPolygon& cover);
 
-/// Of two coincident items, which one speaks for both?
+/// Of two coincident items, which one represents both?
 [[nodiscard]] bool speaks_before(const LeafWork& work, LeafIndex a, LeafIndex b);
 
 }  // namespace trisect::detail

@@ -4,8 +4,8 @@
 // runs in the item's plane, so it meets only what cuts the item: a handful of polygons instead of
 // the whole leaf. What is wanted are the winding numbers just above the plane. A cutter that goes
 // through the plane is met there as it is in the plane; one that stands on the plane with an edge
-// is met just above it, although in the plane only its edge is; one that hangs below is not.
-// All signs come from doubles; where those cannot tell, a trace through the leaf does.
+// is met just above it, although in the plane only its edge is; one that hangs below is not. All
+// signs come from doubles; where those cannot decide, a trace through the leaf does.
 
 #include <trisect/bsp/leaf/exact/leaf_cutting.h>
 
@@ -18,14 +18,11 @@
 #include <trisect/bsp/leaf/exact/leaf_coincidence.h>
 #include <trisect/bsp/leaf/split_piece.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
-namespace {
-
-std::size_t u(LeafIndex i) { return LeafWork::u(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 void LeafCutting::start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors,
                         LeafFormula& formula) {
@@ -49,8 +46,8 @@ void LeafCutting::set_sides(Sides& sides, const std::vector<int>& windings) cons
     sides.above.resize(formula_->row_size());
     std::copy(windings.begin(), windings.end(), sides.above.begin());
     sides.below = sides.above;
-    sides.above[u(item.operand)] = item.orientation > 0 ? 0 : 1;
-    sides.below[u(item.operand)] = item.orientation > 0 ? 1 : 0;
+    sides.above[as_index(item.operand)] = item.orientation > 0 ? 0 : 1;
+    sides.below[as_index(item.operand)] = item.orientation > 0 ? 1 : 0;
     formula_->fill(sides.above);
     formula_->fill(sides.below);
 }
@@ -65,13 +62,13 @@ void LeafCutting::set_start(const WorkPolygon& part) {
     }
     const LeafItem& item = work_->item(item_);
     known_.assign(work_->problem->operands.size(), 0);
-    known_[u(item.operand)] = 1;
+    known_[as_index(item.operand)] = 1;
     start_.windings.assign(known_.size(), 0);
     start_.vertex = -1;
     // In the plane of another facet it is not clear whether the point lies on that.
     for (const LeafContact& c : work_->contacts(item_)) {
         if (!c.covers) continue;
-        const std::size_t operand = u(work_->item(c.other).operand);
+        const std::size_t operand = as_index(work_->item(c.other).operand);
         start_.windings[operand] = unknown_winding;
         known_[operand] = 1;
     }
@@ -86,8 +83,8 @@ bool LeafCutting::may_bound(const Part& part) {
     return above < 0 || above != formula_->value(part.sides.below);
 }
 
-// Drops what lies in a coincident facet that speaks for both. That comes first: a part may be known
-// to bound the result long before all is known about the operand of that facet.
+// Drops what lies in a coincident facet that represents both. That comes first: a part may be
+// decided to bound the result long before all is known about the operand of that facet.
 void LeafCutting::leave_to_speakers() {
     const LeafItem& item = work_->item(item_);
     if (!item.covered) return;
@@ -173,7 +170,7 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
         known_windings_ = start_.windings;
         for (const LeafContact& c : contacts)
             if (c.cuts || c.covers)
-                known_windings_[u(work_->item(c.other).operand)] = unknown_winding;
+                known_windings_[as_index(work_->item(c.other).operand)] = unknown_winding;
         set_sides(part.sides, known_windings_);
         if (!may_bound(part)) return {};
     }
@@ -188,7 +185,7 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
             std::size_t end = begin + 1;
             while (end < contacts.size() && operand_at(end) == operand_at(begin)) ++end;
             const auto group = contacts.subspan(begin, end - begin);
-            if ((start_.windings[u(operand_at(begin))] > 0) == around &&
+            if ((start_.windings[as_index(operand_at(begin))] > 0) == around &&
                 std::any_of(group.begin(), group.end(),
                             [](const LeafContact& c) { return c.cuts || c.covers; }))
                 cut_by(operand_at(begin), group);
@@ -241,8 +238,10 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
             // Undone, if anything was cut.
             Part& part = parts_[k];
             const Sides& found = parts_[first].sides;
-            if (above_matters) formula_->set(part.sides.above, u(operand), found.above[u(operand)]);
-            if (below_matters) formula_->set(part.sides.below, u(operand), found.below[u(operand)]);
+            if (above_matters)
+                formula_->set(part.sides.above, as_index(operand), found.above[as_index(operand)]);
+            if (below_matters)
+                formula_->set(part.sides.below, as_index(operand), found.below[as_index(operand)]);
             if (count_ > first + 1) ++work_->stats->cuts_undone;
             count_ = first;
             settle(part);
@@ -261,8 +260,8 @@ bool LeafCutting::same_sides(std::size_t first, LeafIndex operand, bool above_ma
     for (std::size_t j = first + 1; j < count_; ++j) {
         const Sides& a = parts_[first].sides;
         const Sides& b = parts_[j].sides;
-        if (above_matters && a.above[u(operand)] != b.above[u(operand)]) return false;
-        if (below_matters && a.below[u(operand)] != b.below[u(operand)]) return false;
+        if (above_matters && a.above[as_index(operand)] != b.above[as_index(operand)]) return false;
+        if (below_matters && a.below[as_index(operand)] != b.below[as_index(operand)]) return false;
     }
     return true;
 }
@@ -310,14 +309,14 @@ void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cu
     }
 }
 
-// The edges of a covering facet are lines in the plane of the item.
+// The edges of a overlapping facet are lines in the plane of the item.
 void LeafCutting::split_along_edges(std::size_t first, LeafIndex cover) {
     for (const WorkEdge& e : work_->with_edges(cover).edges)
         split_along_line(first, e.plane, cover, false);
 }
 
 void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
-    // Nothing but the first cutter can have cut a whole item in the cell: it need not be asked.
+    // Nothing but the first cutter can have cut a whole item in the cell: it need not be tested.
     bool sure = first == 1 && !work_->item(item_).covered && work_->item(item_).contained;
     for (const LeafContact& c : contacts) {
         if (!c.cuts) continue;
@@ -335,18 +334,18 @@ void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const Leaf
         const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
                                            work_->bench.plane_at(other.shape.support));
         const bool faces_up = (other.orientation > 0) == same;
-        formula_->set(part.sides.above, u(operand), faces_up ? 0 : 1);
-        formula_->set(part.sides.below, u(operand), faces_up ? 1 : 0);
+        formula_->set(part.sides.above, as_index(operand), faces_up ? 0 : 1);
+        formula_->set(part.sides.below, as_index(operand), faces_up ? 1 : 0);
         return;
     }
-    int winding = start_.windings[u(operand)];
+    int winding = start_.windings[as_index(operand)];
     if (winding != unknown_winding) {
         const auto change = change_to(part.shape, contacts);
         winding = change ? winding + *change : unknown_winding;
     }
     if (winding == unknown_winding) winding = traced_winding(part.shape, operand);
-    formula_->set(part.sides.above, u(operand), winding);
-    formula_->set(part.sides.below, u(operand), winding);
+    formula_->set(part.sides.above, as_index(operand), winding);
+    formula_->set(part.sides.below, as_index(operand), winding);
 }
 
 std::optional<int> LeafCutting::change_to(const WorkPolygon& part,
@@ -407,11 +406,11 @@ std::optional<int> LeafCutting::crossing(LeafIndex cutter, const Approximation& 
 
 int LeafCutting::traced_winding(const WorkPolygon& part, LeafIndex operand) {
     known_.assign(work_->problem->operands.size(), 1);
-    known_[u(operand)] = 0;
+    known_[as_index(operand)] = 0;
     step_.assign(known_.size(), 0);
     traced_.assign(known_.size(), 0);
     (void)windings_->windings_above(item_, part, step_, known_, traced_);
-    return traced_[u(operand)];
+    return traced_[as_index(operand)];
 }
 
 }  // namespace trisect::detail

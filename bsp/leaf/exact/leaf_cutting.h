@@ -42,9 +42,9 @@ public:
     /// \pre contacts are known, all operands are embedded. `formula` must outlive the leaf.
     void start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors, LeafFormula& formula);
 
-    /// An item that another one cuts or covers. Its parts are in parts() until the next call.
+    /// An item that another one cuts or overlaps. Its parts are in parts() until the next call.
     [[nodiscard]] LeafRemains cut(LeafIndex item);
-    /// An item that nothing cuts or covers: does it bound the result?
+    /// An item that nothing cuts or overlaps: does it bound the result?
     [[nodiscard]] LeafRemains whole(LeafIndex item);
     [[nodiscard]] std::span<const LeafPart> parts() const { return kept_; }
 

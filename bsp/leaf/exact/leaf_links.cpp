@@ -3,8 +3,9 @@
 // A trace costs as much as all other work on a piece, and neighbours nearly always have the same
 // answer. Walking from one to the next over their common edge is a trace of length zero: the only
 // surfaces that it can cross are those that contain the part of the edge where it is done, and
-// contacts tell which these are. So what is asked here is local, and a leaf with one sheet of each
-// of two operands needs no trace at all where the sheets cross, and one a sheet where they do not.
+// contacts determine these. So the signs here are local, and a leaf with one connected surface of
+// each of two operands needs no trace at all where the surfaces cross, and one a surface where they
+// do not.
 //
 // EMBER (Trettner, Nehring-Wirxel, Kobbelt 2022, sec. 5.4) propagates winding numbers along walks
 // through the local BSP; here only certain neighbours count, the others get a trace.
@@ -15,6 +16,8 @@
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -51,7 +54,8 @@ bool certainly_enters(const Cell& cell, const Approximation& p, const Approximat
     if (!(from < to)) return false;
     const double middle = 0.5 * (from + to);
     // The candidate is within three roundings and the errors of the ends of a point of the segment;
-    // walls carry one rounding, at most that of the candidate's size where they are near it.
+    // splitting planes carry one rounding, at most that of the candidate's size where they are near
+    // it.
     const double margin = 1.0001 * (p.error + q.error) + 0x1p-48 * largest;
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = p.c[k] + middle * (q.c[k] - p.c[k]);
@@ -80,11 +84,11 @@ void LeafLinks::build(LeafWork& work) {
         if (work.item(i).is_whole()) add_node(i);
     for (std::size_t p = 0; p < work.pieces.size(); ++p)
         if (!work.pieces[p].dropped) add_node(items_ + static_cast<LeafIndex>(p));
-    // Those for which others speak are no nodes, but at their edges there are more than two facets.
+    // Those that others represent are no nodes, but at their edges there are more than two facets.
     for (const LeafPiece& piece : work.pieces)
         if (piece.dropped && !work.operand_of(work.item(piece.item)).embedded)
             count_at_edges(piece);
-    // Lines within facets first: they tell winding numbers, and a pair that is linked already is
+    // Lines within facets first: they give winding numbers, and a pair that is linked already is
     // not looked at again.
     for (const Line& line : lines_)
         if (line.within_facet) link_line(line);
@@ -93,24 +97,25 @@ void LeafLinks::build(LeafWork& work) {
 }
 
 LeafNode LeafLinks::tree_of(LeafNode node) {
-    while (parent_[u(node)] != node) node = parent_[u(node)] = parent_[u(parent_[u(node)])];
+    while (parent_[as_index(node)] != node)
+        node = parent_[as_index(node)] = parent_[as_index(parent_[as_index(node)])];
     return node;
 }
 
 LeafIndex LeafLinks::item_index(LeafNode node) const {
-    return node < items_ ? node : work_->pieces[u(node - items_)].item;
+    return node < items_ ? node : work_->pieces[as_index(node - items_)].item;
 }
 
 const LeafItem& LeafLinks::item_of(LeafNode node) const { return work_->item(item_index(node)); }
 
 const WorkPolygon& LeafLinks::shape_of(LeafNode node) {
-    return node < items_ ? work_->shape(node) : work_->pieces[u(node - items_)].shape;
+    return node < items_ ? work_->shape(node) : work_->pieces[as_index(node - items_)].shape;
 }
 
 void LeafLinks::add_node(LeafNode node) {
     const PolygonRef& ref = item_of(node).ref;
     if (node >= items_) {
-        const auto& edges = work_->pieces[u(node - items_)].shape.edges;
+        const auto& edges = work_->pieces[as_index(node - items_)].shape.edges;
         for (std::size_t k = 0; k < edges.size(); ++k)
             add_edge(node, static_cast<int>(k), work_->bench.name(edges[k].plane));
     } else if (ref.fragment != nullptr) {
@@ -150,7 +155,7 @@ LeafLinks::Line& LeafLinks::line_at(const Key128& key, bool within_facet) {
         Line& line = lines_.emplace_back();
         line.within_facet = within_facet;
     }
-    return lines_[u(id)];
+    return lines_[as_index(id)];
 }
 
 void LeafLinks::count_facet(Line& line, std::uint32_t facet) {
@@ -175,13 +180,13 @@ void LeafLinks::add_to_line(const Key128& key, bool within_facet, LeafNode node,
 }
 
 void LeafLinks::link_line(const Line& line) {
-    for (LeafIndex i = line.first; i >= 0; i = edges_[u(i)].next) {
-        const Edge& a = edges_[u(i)];
+    for (LeafIndex i = line.first; i >= 0; i = edges_[as_index(i)].next) {
+        const Edge& a = edges_[as_index(i)];
         if (!line.within_facet && line.facet_count != 2 &&
             !work_->operand_of(item_of(a.node)).embedded)
             return;
-        for (LeafIndex j = a.next; j >= 0; j = edges_[u(j)].next) {
-            const Edge& b = edges_[u(j)];
+        for (LeafIndex j = a.next; j >= 0; j = edges_[as_index(j)].next) {
+            const Edge& b = edges_[as_index(j)];
             if (tree_of(a.node) == tree_of(b.node)) continue;
             if (line.within_facet) {
                 try_within_facet(a, b);
@@ -299,7 +304,7 @@ void LeafLinks::try_within_facet(const Edge& a, const Edge& b) {
     const bool same_line =
         i.sheet == j.sheet && i.ref.facet == j.ref.facet && plane_name(a) == plane_name(b);
     if (!same_line || !overlap(a, b)) return;
-    // Of two edges the shorter one is less likely to be partly covered by something.
+    // Of two edges the shorter one is less likely to be partly overlapped.
     const auto length = [&](const Edge& e) {
         const Ends ends = ends_of(e);
         double sum = 0;
@@ -339,20 +344,20 @@ void LeafLinks::try_across_edge(const Edge& a, const Edge& b) {
 // `side`: where the node lies with respect to a polygon whose interior its edge runs through.
 void LeafLinks::note_known(LeafNode node, const LeafItem& crossed, int side) {
     const int winding = side * crossed.orientation > 0 ? 0 : 1;
-    known_.push_back({crossed.operand, winding, first_known_[u(node)]});
-    first_known_[u(node)] = static_cast<LeafIndex>(known_.size()) - 1;
+    known_.push_back({crossed.operand, winding, first_known_[as_index(node)]});
+    first_known_[as_index(node)] = static_cast<LeafIndex>(known_.size()) - 1;
 }
 
 void LeafLinks::join(LeafNode a, LeafNode b, std::span<const LeafChange> changes) {
     ++work_->stats->linked;
-    parent_[u(tree_of(a))] = tree_of(b);
+    parent_[as_index(tree_of(a))] = tree_of(b);
     const auto first = static_cast<std::uint32_t>(changes_.size());
     const auto count = static_cast<std::uint32_t>(changes.size());
     changes_.insert(changes_.end(), changes.begin(), changes.end());
-    links_.push_back({b, first_link_[u(a)], first, count, 1});
-    first_link_[u(a)] = static_cast<LeafIndex>(links_.size()) - 1;
-    links_.push_back({a, first_link_[u(b)], first, count, -1});
-    first_link_[u(b)] = static_cast<LeafIndex>(links_.size()) - 1;
+    links_.push_back({b, first_link_[as_index(a)], first, count, 1});
+    first_link_[as_index(a)] = static_cast<LeafIndex>(links_.size()) - 1;
+    links_.push_back({a, first_link_[as_index(b)], first, count, -1});
+    first_link_[as_index(b)] = static_cast<LeafIndex>(links_.size()) - 1;
 }
 
 }  // namespace trisect::detail

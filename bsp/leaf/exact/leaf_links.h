@@ -10,11 +10,12 @@
 #include <vector>
 
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
-/// A polygon that gets one answer: item i, when nothing cuts or covers it, is node i; piece p is
+/// A polygon that gets one answer: item i, when nothing cuts or overlaps it, is node i; piece p is
 /// node (number of items) + p. "Above" is in the sense of the item's support.
 using LeafNode = LeafIndex;
 
@@ -29,11 +30,11 @@ struct LeafChange {
 ///
 /// Two nodes may be linked when they have an open part of an edge in common, in the cell:
 ///  - across an edge of their mesh, when no other surface contains part of it: nothing changes. An
-///    operand that may meet itself must have exactly two facets there, or they are several sheets;
+///    operand that may meet itself must have exactly two facets there, or they are separate;
 ///  - across a line within one facet, when every other polygon that contains part of it contains
 ///    it in its interior: crossing such a polygon takes its step. If that polygon's operand is
 ///    embedded, the winding numbers on both sides are even known: 0 outside and 1 inside.
-/// Contact is decided exactly. Whether two edges overlap is asked in doubles with a margin: a
+/// Contact is decided exactly. Whether two edges overlap is decided in doubles with a margin: a
 /// contact may be missed, never invented, and a missing link costs a trace.
 class LeafLinks {
 public:
@@ -55,14 +56,16 @@ public:
     };
     /// The root of a node's tree; the same for all nodes of the tree.
     [[nodiscard]] LeafNode tree_of(LeafNode node);
-    [[nodiscard]] LeafIndex first_link(LeafNode node) const { return first_link_[u(node)]; }
-    [[nodiscard]] const Link& link(LeafIndex i) const { return links_[u(i)]; }
+    [[nodiscard]] LeafIndex first_link(LeafNode node) const { return first_link_[as_index(node)]; }
+    [[nodiscard]] const Link& link(LeafIndex i) const { return links_[as_index(i)]; }
     [[nodiscard]] std::span<const LeafChange> changes(const Link& l) const {
         return {changes_.data() + l.first_change, l.change_count};
     }
-    [[nodiscard]] LeafIndex first_known(LeafNode node) const { return first_known_[u(node)]; }
+    [[nodiscard]] LeafIndex first_known(LeafNode node) const {
+        return first_known_[as_index(node)];
+    }
     [[nodiscard]] bool any_known() const { return !known_.empty(); }
-    [[nodiscard]] const Known& known(LeafIndex i) const { return known_[u(i)]; }
+    [[nodiscard]] const Known& known(LeafIndex i) const { return known_[as_index(i)]; }
 
 private:
     /// Edge k of a node, in the list of those on its line.
@@ -83,8 +86,6 @@ private:
         Approximation a;
         Approximation b;
     };
-
-    static std::size_t u(LeafIndex i) { return static_cast<std::size_t>(i); }
     void add_node(LeafNode node);
     void add_edge(LeafNode node, int k, const PlaneName& plane);
     void add_to_line(const Key128& key, bool within_facet, LeafNode node, int k);

@@ -14,6 +14,7 @@
 #include <trisect/bsp/cells/trace.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/triangle_pair.h>
 
 namespace trisect::detail {
@@ -125,7 +126,7 @@ private:
         }
         return is_outside_cell(ends[0], ends[1]);
     }
-    // Surely: a segment on a wall is not.
+    // Surely: a segment on a splitting plane is not.
     [[nodiscard]] bool is_outside_cell(const Approximation& a, const Approximation& b) const {
         const Cell& cell = work_.problem->cell;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -204,13 +205,13 @@ void LeafPairs::list_candidates(const LeafWork& work) {
     operand_boxes_.assign(n, Box{});
     if (compare)
         for (const LeafItem& item : work.items)
-            operand_boxes_[LeafWork::u(item.operand)].add(item.box);
+            operand_boxes_[as_index(item.operand)].add(item.box);
     for (LeafIndex i = 0; i < work.item_count(); ++i) {
         const LeafItem& item = work.item(i);
         const bool embedded = work.operand_of(item).embedded;
         bool candidate = !compare || !embedded;
         for (std::size_t o = 0; o < n && !candidate; ++o)
-            candidate = o != LeafWork::u(item.operand) && operand_boxes_[o].overlaps(item.box);
+            candidate = o != as_index(item.operand) && operand_boxes_[o].overlaps(item.box);
         if (candidate) candidates_.push_back({{}, {}, i, item.operand, embedded});
     }
 }

@@ -38,7 +38,7 @@ private:
         LeafIndex sheet = -1;  // -1: not a whole facet
         std::array<double, 3> normal{};
         double offset = 0;
-        double bound = -1;  // of the error of a side; -1: the plane was not asked for
+        double bound = -1;  // of the error of a side; -1: the plane is not made yet
     };
     void list_candidates(const LeafWork& work);
     [[nodiscard]] int best_axis(const LeafWork& work) const;

@@ -44,8 +44,8 @@ void make_pieces(LeafWork& work, LeafIndex i) {
     if (item.covered) {
         for (const LeafContact& c : work.contacts(i)) {
             if (!c.covers) continue;
-            // The edges of the covering facet are lines in the plane of the item, given by its edge
-            // planes.
+            // The edges of the overlapping facet are lines in the plane of the item, given by its
+            // edge planes.
             const WorkPolygon& cover = work.with_edges(c.other);
             for (const WorkEdge& e : cover.edges) split_all(work, first, e.plane, cover);
         }

@@ -7,6 +7,7 @@
 #include <trisect/bsp/cells/trace_winding.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -49,7 +50,7 @@ bool LeafWindings::trace(const TraceTarget& target, PlaneId own_class,
     const Box segment = box_of_segment(reference_approximation_, target.approximation());
     for (LeafIndex i = 0; i < work_->item_count(); ++i) {
         LeafItem& item = work_->item(i);
-        if (known[LeafWork::u(item.operand)] != 0 || !item.box.overlaps(segment)) continue;
+        if (known[as_index(item.operand)] != 0 || !item.box.overlaps(segment)) continue;
         const PlaneId support_id = work_->shape(i).support;
         const Plane& support = work_->bench.plane_at(support_id);
         if (own_class >= 0 && work_->bench.plane_class(support_id) == own_class) continue;
@@ -83,7 +84,7 @@ bool LeafWindings::trace(const TraceTarget& target, PlaneId own_class,
         }
         if (worst == 0) return false;
         if (worst > 0) continue;
-        w[LeafWork::u(item.operand)] += at_start > 0 ? item.orientation : -item.orientation;
+        w[as_index(item.operand)] += at_start > 0 ? item.orientation : -item.orientation;
     }
     return true;
 }
@@ -119,7 +120,7 @@ Approximation LeafWindings::windings_above(LeafIndex item, const WorkPolygon& pa
 bool LeafWindings::at_point(const TraceTarget& target, LeafIndex own, std::vector<int>& w) {
     check_budget(*work_->problem->options, *work_->stats);
     own_.assign(work_->problem->operands.size(), 0);
-    own_[LeafWork::u(own)] = 1;
+    own_[as_index(own)] = 1;
     ++work_->stats->traces;
     if (trace(target, -1, own_, w)) return true;
     ++work_->stats->traces_retried;
@@ -131,7 +132,7 @@ TraceTarget middle_of(const Workbench& bench, const WorkPolygon& part) {
 }
 
 // Another reference in the cell: some point between the old one and a pseudo-random corner of the
-// polygons' box, at even positions so that it lies on no wall.
+// polygons' box, at even positions so that it lies on no splitting plane.
 void LeafWindings::next_reference() {
     Box around;
     for (const LeafItem& item : work_->items) around.add(item.box);

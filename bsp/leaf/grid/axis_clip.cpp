@@ -15,8 +15,8 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::size_t low = 0;
-constexpr std::size_t high = 1;
+constexpr std::size_t at_low = 0;
+constexpr std::size_t at_high = 1;
 
 // The edges of a polygon by what they are across.
 struct OwnEdges {
@@ -34,8 +34,8 @@ OwnEdges own_edges(const AxisPolygon& p) {
             return;
         }
         const std::size_t i = across->axis == (k + 1) % 3 ? 0 : 1;
-        const std::size_t side = e.above == (across->sign > 0) ? low : high;
-        const std::int64_t bound = side == low ? p.lo[across->axis] : p.hi[across->axis];
+        const std::size_t side = e.above == (across->sign > 0) ? at_low : at_high;
+        const std::int64_t bound = side == at_low ? p.lo[across->axis] : p.hi[across->axis];
         if (across->position == bound) out.along[i][side] = e;
     };
     if (p.ref.fragment != nullptr) {
@@ -47,12 +47,12 @@ OwnEdges own_edges(const AxisPolygon& p) {
 }
 
 // Of the rectangle, in 1/256 lattice units.
-struct Corner {
+struct RectangleCorner {
     std::array<std::int64_t, 2> at{};
     EdgeName edge;  // that begins here
 };
-using Corners = std::array<Corner, 4>;
-using Sides = std::array<std::array<AxisRectangle::Side, 2>, 2>;
+using RectangleCorners = std::array<RectangleCorner, 4>;
+using RectangleSides = std::array<std::array<AxisRectangle::Side, 2>, 2>;
 
 struct Outline {
     std::array<EdgeName, 5> edges;
@@ -66,29 +66,30 @@ struct Outline {
 
 // The sides of what a rectangle has of the polygon's box, with the polygon's own names where it
 // ends there; nothing when that has no area.
-std::optional<Sides> common_sides(const AxisPolygon& polygon, const OwnEdges& own, Sides sides) {
+std::optional<RectangleSides> common_sides(const AxisPolygon& polygon, const OwnEdges& own,
+                                           RectangleSides sides) {
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t axis = (polygon.plane.axis + 1 + i) % 3;
         const auto& [own_low, own_high] = own.along[i];
-        if (own_low && polygon.lo[axis] >= sides[i][low].at)
-            sides[i][low] = {polygon.lo[axis], *own_low};
-        if (own_high && polygon.hi[axis] <= sides[i][high].at)
-            sides[i][high] = {polygon.hi[axis], *own_high};
-        if (sides[i][low].at >= sides[i][high].at) return std::nullopt;
+        if (own_low && polygon.lo[axis] >= sides[i][at_low].at)
+            sides[i][at_low] = {polygon.lo[axis], *own_low};
+        if (own_high && polygon.hi[axis] <= sides[i][at_high].at)
+            sides[i][at_high] = {polygon.hi[axis], *own_high};
+        if (sides[i][at_low].at >= sides[i][at_high].at) return std::nullopt;
     }
     return sides;
 }
 
 // Counter-clockwise seen from above the support, whose normal points up or down the axis.
-Corners corners_of(const Sides& sides, bool up) {
+RectangleCorners corners_of(const RectangleSides& sides, bool up) {
     const auto corner = [&](std::size_t i, std::size_t j, std::size_t axis, std::size_t side) {
-        return Corner{{sides[0][i].at, sides[1][j].at}, sides[axis][side].edge};
+        return RectangleCorner{{sides[0][i].at, sides[1][j].at}, sides[axis][side].edge};
     };
     if (up)
-        return {corner(low, low, 1, low), corner(high, low, 0, high), corner(high, high, 1, high),
-                corner(low, high, 0, low)};
-    return {corner(low, low, 0, low), corner(low, high, 1, high), corner(high, high, 0, high),
-            corner(high, low, 1, low)};
+        return {corner(at_low, at_low, 1, at_low), corner(at_high, at_low, 0, at_high),
+                corner(at_high, at_high, 1, at_high), corner(at_low, at_high, 0, at_low)};
+    return {corner(at_low, at_low, 0, at_low), corner(at_low, at_high, 1, at_high),
+            corner(at_high, at_high, 0, at_high), corner(at_high, at_low, 1, at_low)};
 }
 
 // A coordinate of a place that is given in 1/256 units.
@@ -102,15 +103,15 @@ class PlaneVertices {
 public:
     explicit PlaneVertices(const AxisPlane& plane) : plane_(plane) {}
 
-    [[nodiscard]] Approximation at(const Corner& c) const {
+    [[nodiscard]] Approximation at(const RectangleCorner& c) const {
         Approximation a;
         set(a, plane_.axis, plane_.position);
         for (std::size_t i = 0; i < 2; ++i) set(a, axis(i), c.at[i]);
         return a;
     }
     // Where a line crosses the side from one corner to the next.
-    [[nodiscard]] Approximation crossing(const SlantedEdge& line, const Corner& a,
-                                         const Corner& b) const {
+    [[nodiscard]] Approximation crossing(const SlantedEdge& line, const RectangleCorner& a,
+                                         const RectangleCorner& b) const {
         const std::size_t fixed = a.at[0] == b.at[0] ? 0 : 1;
         const std::size_t free = 1 - fixed;
         Approximation x;
@@ -132,7 +133,7 @@ private:
 };
 
 // 1 on the polygon's side of its slanted edge, 0 on it.
-int side_of_line(const SlantedEdge& line, const Corner& c) {
+int side_of_line(const SlantedEdge& line, const RectangleCorner& c) {
     const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
     const Int128 turn = step(0) * (c.at[1] - Int128{line.from[1]} * wall_scale) -
                         step(1) * (c.at[0] - Int128{line.from[0]} * wall_scale);
@@ -140,13 +141,13 @@ int side_of_line(const SlantedEdge& line, const Corner& c) {
 }
 
 // What a slanted edge leaves of a rectangle.
-Outline cut(const Corners& corners, const SlantedEdge& line, const EdgeName& slanted,
+Outline cut(const RectangleCorners& corners, const SlantedEdge& line, const EdgeName& slanted,
             const PlaneVertices& vertices) {
     std::array<int, 4> sides{};
     for (std::size_t i = 0; i < 4; ++i) sides[i] = side_of_line(line, corners[i]);
     Outline out;
     for (std::size_t i = 0; i < 4; ++i) {
-        const Corner& here = corners[i];
+        const RectangleCorner& here = corners[i];
         const int s = sides[i];
         const int t = sides[(i + 1) % 4];
         if (s > 0) out.add(vertices.at(here), here.edge);
@@ -184,11 +185,11 @@ std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon& polygon,
     const OwnEdges own = own_edges(polygon);
     const auto sides = common_sides(polygon, own, rectangle.sides);
     if (!sides) return std::nullopt;
-    const Corners corners = corners_of(*sides, polygon.plane.sign > 0);
+    const RectangleCorners corners = corners_of(*sides, polygon.plane.sign > 0);
     const PlaneVertices vertices(polygon.plane);
     Outline outline;
     if (polygon.slanted_count == 0) {
-        for (const Corner& c : corners) outline.add(vertices.at(c), c.edge);
+        for (const RectangleCorner& c : corners) outline.add(vertices.at(c), c.edge);
     } else {
         outline = cut(corners, polygon.slanted[0], own.slanted, vertices);
         if (outline.size < 3) return std::nullopt;

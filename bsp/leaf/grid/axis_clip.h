@@ -11,8 +11,8 @@
 
 namespace trisect::detail {
 
-/// A rectangle across an axis: for each of the two others, cyclically after it, its lower and its
-/// higher side with the plane that ends it there.
+/// An axis-perpendicular rectangle: for each of the two others, cyclically after it, its lower and
+/// its higher side with the plane that ends it there.
 struct AxisRectangle {
     struct Side {
         std::int64_t at = 0;  ///< in 1/256 lattice units

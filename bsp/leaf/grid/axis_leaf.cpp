@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where everything is across an axis everything coincides: walls of rooms, teeth of combs, a
+// Where everything is axis-perpendicular everything coincides: walls of rooms, teeth of combs, a
 // thousand cubes with common faces. Comparing facets pair by pair then finds nothing but contacts,
 // vertices lie on other surfaces, and every segment runs through an edge. But the planes cut the
 // cell into at most 64³ units, each wholly inside or outside of every operand, because the boundary
 // of an embedded operand turns only where two of these planes meet. So a facet is the centres of
-// units that it covers; which units are inside follows from one that is known, the reference's, by
-// crossing facets; the formula is evaluated word by word; and what bounds the result is where
-// neighbouring units differ. The exact arithmetic that is left is one determinant of integers for
-// the diagonal of a triangle.
+// units in it; which units are inside follows from one that is known, the reference's, by crossing
+// facets; the formula is evaluated word by word; and what bounds the result is where neighbouring
+// units differ. The exact arithmetic that is left is one determinant of integers for the diagonal
+// of a triangle.
 //
 // Rank compression and bitmaps are the usual way to the area of a union of rectangles (Bentley
 // 1977, "Solutions to Klee's rectangle problems"), one dimension up.
@@ -21,6 +21,7 @@
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect::detail {
@@ -166,7 +167,7 @@ void AxisLeaf::fill(LeafIndex operand, Polygons polygons) {
                 toggles_[plane * n + r] ^= grid_.scan(p, frame, r);
         }
     }
-    const bool inside = problem_->operands[LeafWork::u(operand)].winding > 0;
+    const bool inside = problem_->operands[as_index(operand)].winding > 0;
     if (((line >> bit & 1) != 0) != inside) line = ~line & all_bits();
     units[layer * n + row] = line;
     for (std::size_t r = row + 1; r < n; ++r)
@@ -184,7 +185,7 @@ void AxisLeaf::evaluate(const Residual& formula, Units& out) {
         return;
     }
     const auto units_of_slot = [&](std::int32_t slot) {
-        return units_of(operand_of_slot_[LeafWork::u(slot)]);
+        return units_of(operand_of_slot_[as_index(slot)]);
     };
     out.assign(words(), 0);
     const std::uint64_t all = all_bits();
@@ -267,7 +268,7 @@ void AxisLeaf::emit_all() {
 }
 
 // A plane is outlined as a whole where all of its facets have changed; any other needs the parts of
-// its facets, and then a picture was made in vain.
+// its facets, and then an occupancy grid was made in vain.
 void AxisLeaf::emit_picture() {
     const std::uint64_t untouched = stats_->untouched_polygons;
     start_planes();
@@ -297,7 +298,7 @@ void AxisLeaf::emit_sheet(Polygons sheet) {
     for_each_run(sheet, group_key, [&](Polygons group) { emit_group(group); });
 }
 
-// Of a facet in the plane of the sheet.
+// Of a facet in the plane.
 void AxisLeaf::note_found(std::uint8_t what) {
     std::uint8_t& found = found_[axis_][plane_];
     found |= what;
@@ -384,7 +385,7 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
     out_.push_back(ref);
 }
 
-// Whether the result is inside on the lower side of some units of the sheet.
+// Whether the result is inside on the lower side of some units of the plane.
 bool AxisLeaf::is_inside_low(const UnitRows& units) const {
     for (std::size_t r = first_row_; r < end_row_; ++r)
         if (units[r] != 0) return (whole_low_[r] & units[r]) != 0;
@@ -470,7 +471,7 @@ void AxisLeaf::emit_rectangles(Polygons group, UnitRows rows, bool inside_low) {
     }
 }
 
-// Of planes that the grid knows.
+// Of planes of the grid.
 AxisRectangle AxisLeaf::with_names(const Rectangle& r) const {
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
     AxisRectangle out;
@@ -549,7 +550,7 @@ void AxisLeaf::note_incomplete(const AxisPolygon& p, const UnitRows& units) {
 // Whether the boundary of another operand may meet a polygon: it meets the closure of its units,
 // and boxes do.
 bool AxisLeaf::touches_others(const AxisPolygon& p, const UnitRows& rows) const {
-    // Beside many operands nobody asks: it only saves work in an assembly.
+    // Beside many operands it is not used: it only saves work in an assembly.
     constexpr std::size_t few = 8;
     if (problem_->operands.size() > few) return true;
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);

@@ -19,11 +19,12 @@
 #include <trisect/bsp/leaf/grid/axis_clip.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
-/// Arranges a leaf of embedded operands whose polygons are all across an axis. The planes make a
-/// grid of the cell, and a set is a bit for each of its units. Coincident, touching and crossing
+/// Arranges a leaf of embedded operands whose polygons are all axis-perpendicular. The planes make
+/// a grid of the cell, and a set is a bit for each of its units. Coincident, touching and crossing
 /// facets are nothing special, no pair is compared and no segment traced. Keeps its memory from
 /// leaf to leaf; what it returns depends on the problem alone.
 ///
@@ -56,7 +57,7 @@ private:
     [[nodiscard]] std::size_t layers() const { return grid_.units(2).count(); }
     [[nodiscard]] std::size_t words() const { return rows() * layers(); }
     [[nodiscard]] std::uint64_t* units_of(LeafIndex operand) {
-        return insides_.data() + LeafWork::u(operand) * words();
+        return insides_.data() + as_index(operand) * words();
     }
     [[nodiscard]] std::uint64_t all_bits() const { return unit_bits(0, grid_.units(0).count()); }
 
@@ -102,7 +103,7 @@ private:
     bool remembers_ = false;
     Units toggles_;
     std::array<std::vector<UnitRows>, 3> claimed_;  // by axis and plane
-    // The sheet that is being emitted.
+    // The plane that is being emitted.
     std::size_t axis_ = 0;
     std::size_t plane_ = 0;
     std::size_t first_row_ = 0;
@@ -114,13 +115,13 @@ private:
     UnitRows whole_low_{};  // the result on the lower side
     Polygons sheet_;
     std::vector<std::uint8_t> clean_;  // by polygon, see find_clean()
-    bool pictures_ = false;            // a picture is made instead of parts of facets
-    bool needs_parts_ = false;         // a picture is not enough
+    bool pictures_ = false;            // an occupancy grid is made instead of parts of facets
+    bool needs_parts_ = false;         // an occupancy grid is not enough
     bool any_cut_ = false;
     static constexpr std::uint8_t found_clean = 1;
     static constexpr std::uint8_t found_cut = 2;
     std::array<std::vector<std::uint8_t>, 3> found_;  // by axis and plane
-    std::vector<AxisPicture::Part> parts_;            // of what is pictured
+    std::vector<AxisPicture::Part> parts_;            // of the occupancy grid
     Workbench bench_;
 };
 

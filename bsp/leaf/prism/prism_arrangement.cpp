@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A plate with ten thousand engraved stars is one arrangement of segments in a plane for each layer
-// between two covers' positions. Cut into cells it is thousands of small arrangements in which
+// between two caps' positions. Cut into cells it is thousands of small arrangements in which
 // nothing is whole any more: the plate's upper side becomes half a million convex pieces, only to
 // be put together again.
 //
-// Walls that end in a common edge make outlines, and outlines are walked along. What is inside
-// beside a wall changes where another wall crosses it and nowhere else, so it is looked up once for
-// each outline: one sweep over all of them counts the walls that a straight way out of the figure
-// crosses. From then on it is a matter of turning over one operand at each crossing.
+// Side faces that end in a common edge make outlines, and outlines are walked along. What is inside
+// beside a side face changes where another side face crosses it and nowhere else, so it is looked
+// up once for each outline: one sweep over all of them counts the side faces that a straight way
+// out of the figure crosses. From then on it is a matter of turning over one operand at each
+// crossing.
 //
-// What bounds the result can be read off beside the walls. In the plane of a cover it is bounded
-// where the layers below and above differ, so the region's outline is made of the stretches of
-// walls with a difference on one side only; what is in the middle of it need not be known. Covers
-// of one operand that hang together, a sheet, come out whole if all that bounds them bounds the
-// region in the same way and no outline of the region lies within; for that the walk knows which
-// sheets are around it. Of walls that bound the result as a whole nothing is written either.
+// What bounds the result can be read off beside the side faces. In the plane of a cap it is bounded
+// where the layers below and above differ, so the region's outline is made of the intervals of side
+// faces with a difference on one side only; what is in the middle of it need not be known.
+// Connected components of caps of one operand come out whole if all that bounds them bounds the
+// region in the same way and no outline of the region lies within; for that the walk keeps which
+// components are around it. Of side faces that bound the result as a whole nothing is written
+// either.
 //
-// All vertices on a wall at a position are where what is on its two sides, below and above,
+// All vertices on a side face at a position are where what is on its two sides, below and above,
 // changes. All four faces that meet there are divided in the same places.
 
 #include <trisect/bsp/leaf/prism/prism_arrangement.h>
@@ -28,6 +30,7 @@
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
@@ -56,12 +59,12 @@ std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& pr
     return LeafOutlines{listed(), std::move(outlines_)};
 }
 
-// Every wall is looked at in each of its layers, and every crossing turns over as many.
+// Every side face is looked at in each of its layers, and every crossing turns over as many.
 bool PrismArrangement::has_few_layers() const {
     constexpr std::size_t few = 16;
     std::size_t looked_at = 0;
     std::size_t all = 0;
-    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i) {
+    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i) {
         const std::size_t places = 1 + crossings_.of(i).size();
         looked_at += places * (wall(i).end_layer - wall(i).first_layer);
         all += places;
@@ -73,37 +76,37 @@ bool PrismArrangement::has_few_layers() const {
 
 void PrismArrangement::find_chains() {
     const auto walls = static_cast<LeafIndex>(facets_.walls().size());
-    // Ends of walls by their edges along the axis, as lists.
+    // Ends of side faces by their edges along the axis, as lists.
     std::vector<std::int32_t> first(sheets_.edge_count(), -1);
     std::vector<std::int32_t> next(2 * facets_.walls().size());
     for (std::int32_t end = 2 * walls; end-- > 0;) {
-        std::int32_t& head = first[sheets_.edge_at(end / 2, u(end) % 2)];
-        next[u(end)] = head;
+        std::int32_t& head = first[sheets_.edge_at(end / 2, as_index(end) % 2)];
+        next[as_index(end)] = head;
         head = end;
     }
     std::vector<bool> walked(facets_.walls().size(), false);
     steps_.clear();
     chain_begin_.clear();
     for (LeafIndex i = 0; i < walls; ++i) {
-        if (walked[u(i)]) continue;
+        if (walked[as_index(i)]) continue;
         chain_begin_.push_back(steps_.size());
         for (Step step{i, false}; step.wall >= 0;) {
             steps_.push_back(step);
-            walked[u(step.wall)] = true;
+            walked[as_index(step.wall)] = true;
             std::int32_t end = first[sheets_.edge_at(step.wall, step.backwards ? 0 : 1)];
-            while (end >= 0 && walked[u(end / 2)]) end = next[u(end)];
+            while (end >= 0 && walked[as_index(end / 2)]) end = next[as_index(end)];
             step = end < 0 ? Step{-1, false} : Step{end / 2, end % 2 == 1};
         }
     }
     chain_begin_.push_back(steps_.size());
 }
 
-// False where too many walls lie across the lines of chains, as in PrismCrossings.
+// False where too many side faces lie across the lines of chains, as in PrismCrossings.
 bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
     const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
     const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
     std::vector<std::pair<std::int64_t, LeafIndex>> walls;  // by their lower ends
-    for (LeafIndex i = 0; u(i) < facets_.walls().size(); ++i)
+    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i)
         if (low(i) != high(i)) walls.emplace_back(low(i), i);
     std::ranges::sort(walls);
     const auto start = [&](std::size_t chain) -> const FlatPoint& {
@@ -133,7 +136,7 @@ bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& st
     return true;
 }
 
-// All walls of a chain are in the same layers, and bound the same two sheets.
+// All side faces of a chain are in the same layers, and bound the same two components.
 void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crossed) {
     const PrismWall& w = wall(chain[0].wall);
     layers_here_ = w.end_layer - w.first_layer + 2;
@@ -142,14 +145,14 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     met_.clear();
     for (const LeafIndex c : crossed) {
         for (const std::int32_t sheet : sheets_.of_wall(c)) {
-            odd_[u(sheet)] ^= 1U;
+            odd_[as_index(sheet)] ^= 1U;
             met_.push_back(sheet);
         }
         turn_over(wall(c), w);
     }
     for (const std::int32_t sheet : met_) {
-        if (odd_[u(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
-        odd_[u(sheet)] = 0;
+        if (odd_[as_index(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
+        odd_[as_index(sheet)] = 0;
     }
     for (const Step& step : chain) {
         walk_wall(step);
@@ -157,13 +160,14 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
     }
     for (const LeafIndex operand : changed_) {
         for (std::size_t i = 0; i < layers_here_; ++i)
-            formula_.set(row(w.first_layer - 1 + i), u(operand), facets_.outside()[u(operand)]);
-        is_changed_[u(operand)] = false;
+            formula_.set(row(w.first_layer - 1 + i), as_index(operand),
+                         facets_.outside()[as_index(operand)]);
+        is_changed_[as_index(operand)] = false;
     }
     changed_.clear();
 }
 
-// Sheets in the planes of other layers do no harm: nothing asks for them.
+// Components in the planes of other layers do no harm: they are not used.
 void PrismArrangement::enter_sheet(std::int32_t sheet) {
     const auto at = std::ranges::find(around_, sheet);
     if (at == around_.end()) {
@@ -175,28 +179,30 @@ void PrismArrangement::enter_sheet(std::int32_t sheet) {
 }
 
 void PrismArrangement::set_row(std::size_t layer, LeafIndex operand, bool in) {
-    formula_.set(row(layer), u(operand), in ? 1 : 0);
-    if (is_changed_[u(operand)]) return;
-    is_changed_[u(operand)] = true;
+    formula_.set(row(layer), as_index(operand), in ? 1 : 0);
+    if (is_changed_[as_index(operand)]) return;
+    is_changed_[as_index(operand)] = true;
     changed_.push_back(operand);
 }
 
-// What a wall's operand is on its other side, in the layers of another wall and next to them.
+// What a side face's operand is on its other side, in the layers of another side face and next to
+// them.
 void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) {
     const std::size_t first = std::max(crossed.first_layer, by.first_layer - 1);
     const std::size_t end = std::min(crossed.end_layer, by.end_layer + 1);
     for (std::size_t layer = first; layer < end; ++layer)
-        set_row(layer, crossed.operand, row(layer)[u(crossed.operand)] == 0);
+        set_row(layer, crossed.operand, row(layer)[as_index(crossed.operand)] == 0);
 }
 
-// --- Along a wall.
+// --- Along a side face.
 
 void PrismArrangement::walk_wall(const Step& step) {
     const PrismWall& w = wall(step.wall);
     begins_.clear();
     insides_.clear();
     for (std::size_t end = 0; end < 2; ++end) {
-        const bool beyond = row(end == 0 ? w.first_layer - 1 : w.end_layer)[u(w.operand)] != 0;
+        const bool beyond =
+            row(end == 0 ? w.first_layer - 1 : w.end_layer)[as_index(w.operand)] != 0;
         cover_is_left_[end] = beyond != w.inside_is_left;
     }
     look(w, step.backwards ? at_to : at_from);
@@ -219,7 +225,7 @@ void PrismArrangement::walk_wall(const Step& step) {
     if (step.backwards) turn_stretches();
 }
 
-// Begins a stretch, unless all is as it was before.
+// Begins an interval, unless all is as it was before.
 void PrismArrangement::look(const PrismWall& w, Bound begin) {
     const std::size_t first = w.first_layer - 1;
     const std::size_t before = insides_.size();
@@ -297,7 +303,7 @@ PrismArrangement::WallState PrismArrangement::state_of(LeafIndex i) const {
     return out;
 }
 
-// Whether a half of a wall has its edge across the axis at the lower end.
+// Whether a half of a side face has its edge perpendicular to the axis at the lower end.
 bool PrismArrangement::is_low(const PrismWall& w, std::size_t half) const {
     const PolygonRef& f = w.facets[half];
     const int third = (facets_.upright_edge(w, half).edge + 2) % 3;
@@ -310,7 +316,7 @@ bool PrismArrangement::is_unbroken(std::size_t position) const {
     return true;
 }
 
-// Whether two stretches have the same on all four sides of a position (of those here).
+// Whether two intervals have the same on all four sides of a position (of those here).
 bool PrismArrangement::is_same_beside(std::size_t position, std::size_t s, std::size_t t) const {
     return std::ranges::equal(stretch(s).subspan(position, 2), stretch(t).subspan(position, 2));
 }
@@ -355,7 +361,7 @@ void PrismArrangement::note_sheet(LeafIndex i, std::size_t p, std::array<int, 2>
     sheet.bounds = here;
 }
 
-// Of the faces in the plane of the position, to the left and to the right of stretches [s, t).
+// Of the faces in the plane of the position, to the left and to the right of intervals [s, t).
 void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t) {
     const PrismWall& w = wall(i);
     const std::size_t position = w.first_layer - 1 + p;
@@ -378,7 +384,7 @@ void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s
     }
 }
 
-// Where stretches [s, t) of the wall begin or end to bound the result, along the axis.
+// Where intervals [s, t) of the side face begin or end to bound the result, along the axis.
 void PrismArrangement::add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
                                       const WallState& state) {
     const PrismWall& w = wall(i);
@@ -414,7 +420,7 @@ void PrismArrangement::add_vertical_edges(LeafIndex i, const WallState& state) {
         }
 }
 
-// The edge in which a face of the wall begins (or ends, seen from `from` to `to`), in layers
+// The edge in which a face of the side face begins (or ends, seen from `from` to `to`), in layers
 // [first, end) of those here.
 void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_t first,
                                    std::size_t end, Facing f, const WallState& state) {
@@ -428,7 +434,8 @@ void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_
     outlines_.edges.push_back(e);
 }
 
-// One half of a wall that bounds the result as a whole: vertices lie in the edge that it ends with.
+// One half of a side face that bounds the result as a whole: vertices lie in the edge that it ends
+// with.
 void PrismArrangement::add_half(LeafIndex i, const WallState& state) {
     const PrismWall& w = wall(i);
     const std::size_t half = state.outlined == 1 ? 0 : 1;
@@ -478,7 +485,8 @@ NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t
                         plane_at(position));
 }
 
-// The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the wall's `to`.
+// The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the side face's
+// `to`.
 EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) const {
     const PrismWall& w = wall(i);
     if (b < 0) {
@@ -491,7 +499,7 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
     return {support_of(b), left == other.above_is_left[0]};
 }
 
-// --- Covers.
+// --- Caps.
 
 namespace {
 

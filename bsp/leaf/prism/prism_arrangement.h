@@ -18,38 +18,39 @@
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/bsp/leaf/prism/prism_sheets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 /// Like PrismLeaf, but for what is left of facets it makes outlines instead of convex pieces, so
-/// its time is near linear in walls, crossings and layers together. What bounds the result as it
-/// is, without a vertex in its edges, comes out whole, the rest as LeafOutlines.
-/// \pre each operand is all facets of one source.
+/// its time is near linear in side faces, crossings and layers together. What bounds the result as
+/// it is, without a vertex in its edges, comes out whole, the rest as LeafOutlines. \pre each
+/// operand is all facets of one source.
 ///
-/// Not for operands of another kind, nor where walls touch or coincide, or there are so many
-/// layers, or walls beside each other, that cells are the better way.
+/// Not for operands of another kind, nor where side faces touch or coincide, or there are so many
+/// layers, or side faces beside each other, that cells are the better way.
 class PrismArrangement final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
                                                            LeafFindings& findings) override;
-    // Where a stretch of a wall ends: at the wall of that number, which crosses it, or with the
-    // wall itself.
+    // Where an interval of a side face ends: at the side face of that number, which crosses it, or
+    // with the side face itself.
     using Bound = LeafIndex;
     static constexpr Bound at_from = -1;
     static constexpr Bound at_to = -2;
-    /// What is inside in a layer: to the left of a wall, and to its right.
+    /// What is inside in a layer: to the left of a side face, and to its right.
     struct Inside {
         bool left = false;
         bool right = false;
         friend bool operator==(const Inside&, const Inside&) = default;
     };
-    /// A wall in the walk around its outline.
+    /// A side face in the walk around its outline.
     struct Step {
         LeafIndex wall = 0;
         bool backwards = false;  // from its `to` to its `from`
     };
     using Chain = std::span<const Step>;
-    /// What a wall's face is in one layer.
+    /// What a side face's face is in one layer.
     enum class Facing : std::uint8_t { None, InsideLeft, InsideRight };
     static Facing facing(const Inside& i) {
         return i.left == i.right ? Facing::None
@@ -59,16 +60,14 @@ private:
         NamedOutlines::Edge edge;
         std::int32_t sheet = -1;  // of whose facets it is an edge if they are whole
     };
-    /// How much of a wall bounds the result: bits for its two halves.
+    /// How much of a side face bounds the result: bits for its two halves.
     struct WallState {
         unsigned whole = 0;
         unsigned outlined = 0;
         Facing facing = Facing::None;
     };
     static constexpr unsigned both_halves = 3;
-
-    static std::size_t u(std::int32_t i) { return static_cast<std::size_t>(i); }
-    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[u(i)]; }
+    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[as_index(i)]; }
     [[nodiscard]] bool has_few_layers() const;
     void find_chains();
     [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);
@@ -127,20 +126,21 @@ private:
     std::vector<Step> steps_;
     std::vector<std::size_t> chain_begin_;
     // Where the walk is: a row of the formula for each layer; operands that differ from what is far
-    // away; sheets around it, of any operand but the wall's own.
+    // away; components around it, of any operand but the side face's own.
     std::size_t row_size_ = 0;
     std::vector<int> rows_;
     std::vector<LeafIndex> changed_;
     std::vector<bool> is_changed_;
     std::vector<std::int32_t> around_;
-    std::vector<std::uint8_t> odd_;  // by sheet
+    std::vector<std::uint8_t> odd_;  // by component
     std::vector<std::int32_t> met_;
-    // Of the wall that the walk is at, from its `from` on: where its stretches begin, and what is
-    // beside them, from the layer below it to the one above it.
+    // Of the side face that the walk is at, from its `from` on: where its intervals begin, and what
+    // is beside them, from the layer below it to the one above it.
     std::vector<Bound> begins_;
     std::vector<Inside> insides_;
     std::size_t layers_here_ = 0;
-    // Of the same wall: where the covers are that end it, below and above, and its faces by facing.
+    // Of the same side face: where the caps are that end it, below and above, and its faces by
+    // facing.
     std::array<bool, 2> cover_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
 

@@ -7,28 +7,27 @@
 #include <numeric>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/number/int128.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
 
-int sign(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
-Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
-
 // Two neighbours in one outline: in a common corner, and nowhere else.
 bool are_neighbours(const PrismWall& s, const PrismWall& t, bool in_line) {
     if (s.operand != t.operand || s.lo != t.lo || s.hi != t.hi) return false;
-    // `from` is the smaller end, so walls in one line that share the same end overlap.
+    // `from` is the smaller end, so side faces in one line that share the same end overlap.
     if (s.to == t.from || s.from == t.to) return true;
     return !in_line && (s.from == t.from || s.to == t.to);
 }
 
-// The part of the way along a wall at which another one crosses it.
+// The part of the way along a side face at which another one crosses it.
 struct Fraction {
     Int128 part;
     Int128 whole;
 
-    /// From the sides of the other wall on which its ends lie.
+    /// From the sides of the other side face on which its ends lie.
     Fraction(Int128 from, Int128 to)
         : part(magnitude(from)), whole(magnitude(from) + magnitude(to)) {}
     Fraction(const PrismWall& on, const PrismWall& other)
@@ -44,7 +43,7 @@ struct Fraction {
 int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) const {
     if (const double gap = a.at - b.at; std::fabs(gap) > 0x1p-50) return gap < 0 ? -1 : 1;
     const auto place = [&](const PrismCrossing& c) {
-        return Fraction(walls_[LeafWork::u(c.on)], walls_[LeafWork::u(c.wall)]);
+        return Fraction(walls_[as_index(c.on)], walls_[as_index(c.wall)]);
     };
     const Fraction f = place(a);
     const Fraction g = place(b);
@@ -59,7 +58,7 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
     found_.clear();
     order_.resize(walls.size());
     std::iota(order_.begin(), order_.end(), 0);
-    const auto wall = [&](LeafIndex i) -> const PrismWall& { return walls[LeafWork::u(i)]; };
+    const auto wall = [&](LeafIndex i) -> const PrismWall& { return walls[as_index(i)]; };
     std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
         return wall(a).from[0] != wall(b).from[0] ? wall(a).from[0] < wall(b).from[0] : a < b;
     });
@@ -88,15 +87,15 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
         return order != 0 ? order < 0 : a.wall < b.wall;
     });
     first_.assign(walls.size() + 1, 0);
-    for (const PrismCrossing& c : found_) ++first_[LeafWork::u(c.on) + 1];
+    for (const PrismCrossing& c : found_) ++first_[as_index(c.on) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     return true;
 }
 
-// Notes where two walls cross, if they do; false when they touch otherwise than as neighbours.
+// Notes where two side faces cross, if they do; false when they touch otherwise than as neighbours.
 bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
-    const PrismWall& a = walls_[LeafWork::u(s)];
-    const PrismWall& b = walls_[LeafWork::u(t)];
+    const PrismWall& a = walls_[as_index(s)];
+    const PrismWall& b = walls_[as_index(t)];
     const Int128 b_from = flat_turn(a.from, a.to, b.from);
     const Int128 b_to = flat_turn(a.from, a.to, b.to);
     if (sign(b_from) * sign(b_to) > 0) return true;

@@ -9,35 +9,36 @@
 
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
-/// A place on a wall where another one crosses it.
+/// A place on a side face where another one crosses it.
 struct PrismCrossing {
-    LeafIndex on = 0;    ///< that wall
+    LeafIndex on = 0;    ///< that side face
     LeafIndex wall = 0;  ///< the other one
     double at = 0;  ///< part of the way from its `from` to its `to`; relative error below 2^-51
 };
 
-/// Crossings are many, up to the square of the number of walls: what is exact about their places is
-/// computed when two of them are so near to each other that doubles cannot tell.
+/// Crossings are many, up to the square of the number of side faces: what is exact about their
+/// places is computed when two of them are so near to each other that doubles cannot decide.
 class PrismCrossings {
 public:
-    /// How many other walls each one may have beside it, on average. Where they are more, looking
-    /// at all of them once takes longer than cells do.
+    /// How many other side faces each one may have beside it, on average. Where they are more,
+    /// looking at all of them once takes longer than cells do.
     static constexpr std::size_t most_per_wall = 2048;
 
-    /// False when walls touch or overlap without crossing each other, and where too many lie side
-    /// by side. `walls` must outlive what is asked later. Time O(n log n + n m) for n walls with m
-    /// others beside each.
+    /// False when side faces touch or overlap without crossing each other, and where too many lie
+    /// side by side. `walls` must outlive later queries. Time O(n log n + n m) for n side faces
+    /// with m others beside each.
     [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismWall> walls,
                             EvaluateStats& stats);
-    /// In their order along the wall.
+    /// In their order along the side face.
     [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex wall) const {
-        const std::size_t i = LeafWork::u(wall);
+        const std::size_t i = as_index(wall);
         return std::span(found_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
-    /// Exact order of two places on one wall.
+    /// Exact order of two places on one side face.
     [[nodiscard]] int compare(const PrismCrossing& a, const PrismCrossing& b) const;
 
 private:
@@ -45,8 +46,8 @@ private:
 
     std::span<const PrismWall> walls_;
     std::vector<LeafIndex> order_;
-    std::vector<PrismCrossing> found_;  // by wall, and in their order there
-    std::vector<std::size_t> first_;    // by wall
+    std::vector<PrismCrossing> found_;  // by side face, and in their order there
+    std::vector<std::size_t> first_;    // by side face
 };
 
 }  // namespace trisect::detail

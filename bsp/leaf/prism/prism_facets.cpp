@@ -6,11 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 namespace {
-
-std::int64_t at(const LatticePoint& p, std::size_t axis) { return p[static_cast<int>(axis)]; }
 
 auto wall_key(const PrismWall& w) {
     return std::tuple(w.operand, w.from, w.to, w.lo, w.hi, w.facets[0].source != nullptr ? 0 : 1);
@@ -24,7 +25,7 @@ bool same_rectangle(const PrismWall& a, const PrismWall& b) {
 }  // namespace
 
 FlatPoint PrismFacets::flat(const LatticePoint& p) const {
-    return {at(p, (axis_ + 1) % 3), at(p, (axis_ + 2) % 3)};
+    return {coordinate(p, (axis_ + 1) % 3), coordinate(p, (axis_ + 2) % 3)};
 }
 
 bool PrismFacets::faces_up(const PolygonRef& cover) const {
@@ -39,7 +40,7 @@ PrismFacets::Upright PrismFacets::upright_edge(const PrismWall& wall, std::size_
     };
     int i = 0;
     while (flat(corner(i)) != flat(corner(i + 1))) ++i;
-    const bool up = at(corner(i), axis_) < at(corner(i + 1), axis_);
+    const bool up = coordinate(corner(i), axis_) < coordinate(corner(i + 1), axis_);
     return {up ? i : (i + 1) % 3, up ? (i + 1) % 3 : i, i};
 }
 
@@ -52,7 +53,7 @@ bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
         const LatticePoint& b = polygon.source->corner(polygon.facet, (i + 1) % 3);
         int here = 0;
         for (std::size_t k = 0; k < 3; ++k)
-            if (at(a, k) == at(b, k)) {
+            if (coordinate(a, k) == coordinate(b, k)) {
                 ++equal[k];
                 ++here;
             }
@@ -82,7 +83,7 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
                 !problem.cell.contains(ref.box()))
                 return false;
         }
-    // Where everything is across an axis other ways are shorter.
+    // Where everything is axis-perpendicular other ways are shorter.
     const bool is_grid = std::ranges::all_of(
         walls_, [](const PrismWall& w) { return w.from[0] == w.to[0] || w.from[1] == w.to[1]; });
     if (is_grid || !join_halves() || !find_layers()) return false;
@@ -96,7 +97,7 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& p = ref.source->corner(ref.facet, i);
         corners[static_cast<std::size_t>(i)] = flat(p);
-        height[static_cast<std::size_t>(i)] = at(p, axis_);
+        height[static_cast<std::size_t>(i)] = coordinate(p, axis_);
     }
     if (height[0] == height[1] && height[0] == height[2]) {
         covers_.push_back({operand, ref, 0});
@@ -150,7 +151,7 @@ bool PrismFacets::join_halves() {
 
 bool PrismFacets::find_layers() {
     const auto height = [&](const PolygonRef& ref) {
-        return at(ref.source->corner(ref.facet, 0), axis_);
+        return coordinate(ref.source->corner(ref.facet, 0), axis_);
     };
     positions_.clear();
     for (const PrismCover& c : covers_) positions_.push_back(height(c.ref));
@@ -163,7 +164,7 @@ bool PrismFacets::find_layers() {
     for (PrismWall& w : walls_) {
         w.first_layer = index(w.lo) + 1;
         w.end_layer = index(w.hi) + 1;
-        // Ends where nothing covers it.
+        // Ends where it meets no cap.
         if (w.end_layer > positions_.size() || positions_[w.first_layer - 1] != w.lo ||
             positions_[w.end_layer - 1] != w.hi)
             return false;
@@ -198,7 +199,7 @@ void PrismFacets::find_outside(const LeafProblem& problem) {
         const FlatPoint to{w.to[0] * wall_scale, w.to[1] * wall_scale};
         if ((from[1] > point[1]) == (to[1] > point[1])) continue;
         if ((flat_turn(from, to, point) > 0) == (to[1] > from[1]))
-            outside_[LeafWork::u(w.operand)] ^= 1;
+            outside_[as_index(w.operand)] ^= 1;
     }
 }
 

@@ -41,8 +41,8 @@ struct PrismWall {
     }
 };
 
-/// Whether the way from p along the first of the two coordinates, upwards, crosses a wall. Its ends
-/// count as above the way.
+/// Whether the way from p along the first of the two coordinates, upwards, crosses a side face. Its
+/// ends count as above the way.
 [[nodiscard]] inline bool crosses_way(const PrismWall& w, const FlatPoint& p) {
     if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
     return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
@@ -51,20 +51,20 @@ struct PrismWall {
 /// Leaves of prisms may be so many times as large as others.
 inline constexpr std::uint32_t prism_leaf_factor = 40;
 
-/// A facet across the axis.
+/// A facet perpendicular to the axis.
 struct PrismCover {
     LeafIndex operand = 0;
     PolygonRef ref;
     std::size_t position = 0;  ///< see PrismFacets
 };
 
-/// The facets of a leaf whose operands are all unions of prisms along one axis. The covers'
-/// positions divide the space into layers, in which nothing depends on the axis: layer i ends at
-/// position i.
+/// The facets of a leaf whose operands are all unions of prisms along one axis. The caps' positions
+/// divide the space into layers, in which nothing depends on the axis: layer i ends at position i.
 class PrismFacets {
 public:
-    /// False when some polygon is neither across the axis nor one of the two halves of a rectangle
-    /// along it, is cut, or is not all within the cell; or when an operand may meet itself.
+    /// False when some polygon is neither perpendicular to the axis nor one of the two halves of a
+    /// rectangle along it, is cut, or is not all within the cell; or when an operand may meet
+    /// itself.
     [[nodiscard]] bool list(const LeafProblem& problem);
     /// False for polygons that are of no prism along any axis.
     [[nodiscard]] static bool may_be_of_prism(const PolygonRef& polygon);
@@ -73,15 +73,15 @@ public:
     /// By position, operand, source and facet.
     [[nodiscard]] std::span<const PrismCover> covers() const { return covers_; }
     [[nodiscard]] std::span<const std::int64_t> positions() const { return positions_; }
-    /// A facet across the axis there.
+    /// A facet perpendicular to the axis there.
     [[nodiscard]] const PolygonRef& cover_at(std::size_t position) const {
         return named_[position];
     }
-    /// Whether a cover's support has its upper side towards greater positions.
+    /// Whether a cap's support has its upper side towards greater positions.
     [[nodiscard]] bool faces_up(const PolygonRef& cover) const;
     [[nodiscard]] std::size_t axis() const { return axis_; }
-    /// The edge along the axis of the half of a wall that has one at its `from` (end 0) or `to`
-    /// (end 1): numbers of the facet's corners. `edge` is that of the edge.
+    /// The edge along the axis of the half of a side face that has one at its `from` (end 0) or
+    /// `to` (end 1): numbers of the facet's corners. `edge` is that of the edge.
     struct Upright {
         int low = 0;
         int high = 0;

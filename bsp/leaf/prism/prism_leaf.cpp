@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Gears side by side, plates with holes, a stack of profiles: operands that are prisms along one
-// axis, and many of them begin and end in the same planes. Compared facet by facet all covers
-// coincide, every wall ends in every cover's plane, and nothing is in general position. Yet there
-// is no more to it than an arrangement of segments in a plane, one for each layer between two
-// covers' positions.
+// axis, and many of them begin and end in the same planes. Compared facet by facet all caps
+// coincide, every side face ends in every cap's plane, and nothing is in general position. Yet
+// there is no more to it than an arrangement of segments in a plane, one for each layer between two
+// caps' positions.
 //
-// So nothing is compared but walls, as segments. Along a wall the operands that are inside on its
-// two sides change only where other walls cross it; with the order of these places, fractions of
-// integers, the stretches that bound the result are read off. In the plane of a cover the result is
-// bounded where the layers below and above it differ; of several operands with a cover there the
-// first one speaks. How that region is divided among its speakers shows on the walls' stretches,
-// too: on the two sides of a stretch other operands speak. A cover is cut along the stretches that
-// bound its operand's share and no others, hence n coincident covers make n small sets of parts and
-// not n² ones.
+// So nothing is compared but side faces, as segments. Along a side face the operands that are
+// inside on its two sides change only where other side faces cross it; with the order of these
+// places, fractions of integers, the intervals that bound the result are read off. In the plane of
+// a cap the result is bounded where the layers below and above it differ; of several operands with
+// a cap there the first one is the representative. The division of that region among its
+// representatives shows on the side faces' intervals, too: on the two sides of an interval other
+// operands are representatives. A cap is cut along the intervals that bound its operand's share and
+// no others, hence n coincident caps make n small sets of parts and not n² ones.
 //
-// Where walls touch or overlap instead of crossing the leaf is arranged the long way.
+// Where side faces touch or overlap instead of crossing the leaf takes the exact path.
 
 #include <trisect/bsp/leaf/prism/prism_leaf.h>
 
@@ -27,15 +27,16 @@
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr std::size_t left = 0;
-constexpr std::size_t right = 1;
+constexpr std::size_t on_left = 0;
+constexpr std::size_t on_right = 1;
 
-// crosses_way() from a point in doubles; nothing when they cannot tell.
+// crosses_way() from a point in doubles; nothing when they cannot decide.
 std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
     const double from_v = static_cast<double>(w.from[1]) - p[1];
     const double to_v = static_cast<double>(w.to[1]) - p[1];
@@ -57,7 +58,7 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
 std::optional<LeafResult> PrismLeaf::try_to_arrange(const LeafProblem& problem,
                                                     LeafFindings& findings) {
     if (!facets_.list(problem)) return std::nullopt;
-    // Fragments that nobody has taken end here, whatever is thrown or given up.
+    // Fragments without owners end here, whatever is thrown or given up.
     struct EndCovers {
         std::vector<PolygonRef>& covers;
         ~EndCovers() {
@@ -101,7 +102,7 @@ bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats)
     for (std::size_t position = 0; position < facets_.positions().size(); ++position) {
         for (auto& stretches : outlines_) stretches.clear();
         for (LeafIndex i = 0; i < walls; ++i) {
-            const PrismWall& w = facets_.walls()[LeafWork::u(i)];
+            const PrismWall& w = facets_.walls()[as_index(i)];
             if (!w.is_in(position) && !w.is_in(position + 1)) continue;
             check_budget(*problem.options, stats);
             walk(i, position);
@@ -117,10 +118,10 @@ bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats)
     return true;
 }
 
-// --- Along a wall.
+// --- Along a side face.
 
 void PrismLeaf::walk(LeafIndex i, std::size_t position) {
-    const PrismWall& wall = facets_.walls()[LeafWork::u(i)];
+    const PrismWall& wall = facets_.walls()[as_index(i)];
     start_walk(wall, position);
     Stretch stretch{i, open, open};
     Sides now = sides();
@@ -129,7 +130,7 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
         const std::size_t first = c;
         bool changed = false;
         do {
-            const PrismWall& other = facets_.walls()[LeafWork::u(crossings[c].wall)];
+            const PrismWall& other = facets_.walls()[as_index(crossings[c].wall)];
             for (std::size_t layer = 0; layer < 2; ++layer) {
                 if (!other.is_in(position + layer)) continue;
                 cross(other.operand, layer);
@@ -149,27 +150,27 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
     add_stretch(stretch, now, position);
 }
 
-// What is where the wall begins. On its own operand's side there it is known without looking.
+// What is where the side face begins. On its own operand's side there it is known without looking.
 void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
     for (std::size_t layer = 0; layer < 2; ++layer) {
-        std::uint8_t* in = insides(layer, left);
+        std::uint8_t* in = insides(layer, on_left);
         std::copy(facets_.outside().begin(), facets_.outside().end(), in);
         for (const PrismWall& w : facets_.walls())
             if (w.is_in(position + layer) && crosses_way(w, wall.from))
-                in[LeafWork::u(w.operand)] ^= 1;
-        std::uint8_t* other = insides(layer, right);
+                in[as_index(w.operand)] ^= 1;
+        std::uint8_t* other = insides(layer, on_right);
         std::copy_n(in, operands_, other);
         if (wall.is_in(position + layer)) {
-            in[LeafWork::u(wall.operand)] = wall.inside_is_left ? 1 : 0;
-            other[LeafWork::u(wall.operand)] = wall.inside_is_left ? 0 : 1;
+            in[as_index(wall.operand)] = wall.inside_is_left ? 1 : 0;
+            other[as_index(wall.operand)] = wall.inside_is_left ? 0 : 1;
         }
-        for (const std::size_t side : {left, right}) {
+        for (const std::size_t side : {on_left, on_right}) {
             const std::span<int> r = row(layer, side);
             std::copy_n(insides(layer, side), operands_, r.begin());
             formula_.fill(r);
         }
     }
-    for (const std::size_t side : {left, right}) {
+    for (const std::size_t side : {on_left, on_right}) {
         covered_[side].assign(operands_ / 64 + 1, 0);
         for (std::size_t o = 0; o < operands_; ++o)
             if (insides(0, side)[o] != insides(1, side)[o])
@@ -178,8 +179,8 @@ void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
 }
 
 void PrismLeaf::cross(LeafIndex operand, std::size_t layer) {
-    const std::size_t o = LeafWork::u(operand);
-    for (const std::size_t side : {left, right}) {
+    const std::size_t o = as_index(operand);
+    for (const std::size_t side : {on_left, on_right}) {
         std::uint8_t& in = insides(layer, side)[o];
         in ^= 1;
         formula_.set(row(layer, side), o, in);
@@ -189,7 +190,7 @@ void PrismLeaf::cross(LeafIndex operand, std::size_t layer) {
 
 PrismLeaf::Sides PrismLeaf::sides() const {
     Sides out;
-    for (const std::size_t side : {left, right}) {
+    for (const std::size_t side : {on_left, on_right}) {
         const auto value = [&](std::size_t layer) {
             return formula_.value(
                 std::span(rows_).subspan((2 * layer + side) * row_size_, row_size_));
@@ -206,8 +207,8 @@ PrismLeaf::Sides PrismLeaf::sides() const {
 }
 
 void PrismLeaf::add_stretch(const Stretch& stretch, const Sides& s, std::size_t position) {
-    if (s[left].below != s[right].below) {
-        const bool inside_left = s[left].below == 1;
+    if (s[on_left].below != s[on_right].below) {
+        const bool inside_left = s[on_left].below == 1;
         WallPart* last = wall_parts_.empty() ? nullptr : &wall_parts_.back();
         if (last != nullptr && last->stretch.wall == stretch.wall && last->layer == position &&
             last->inside_left == inside_left && last->stretch.end == stretch.begin &&
@@ -220,24 +221,24 @@ void PrismLeaf::add_stretch(const Stretch& stretch, const Sides& s, std::size_t 
     const auto share = [](const Side& side) {
         return side.bounds() ? 2 * side.speaker + side.below : -1;
     };
-    if (share(s[left]) == share(s[right])) return;
-    for (const std::size_t side : {left, right})
+    if (share(s[on_left]) == share(s[on_right])) return;
+    for (const std::size_t side : {on_left, on_right})
         if (s[side].bounds() &&
-            (side == left || !s[left].bounds() || s[left].speaker != s[right].speaker))
-            outlines_[LeafWork::u(s[side].speaker)].push_back(stretch);
+            (side == on_left || !s[on_left].bounds() || s[on_left].speaker != s[on_right].speaker))
+            outlines_[as_index(s[side].speaker)].push_back(stretch);
 }
 
-// --- Covers.
+// --- Caps.
 
-// A wall along a stretch: its support, and the planes that end it.
+// A side face along an interval: its support, and the planes that end it.
 WorkPolygon PrismLeaf::cutter_of(const Stretch& stretch) {
-    const PrismWall& wall = facets_.walls()[LeafWork::u(stretch.wall)];
+    const PrismWall& wall = facets_.walls()[as_index(stretch.wall)];
     WorkPolygon out;
     out.support = bench_.plane(PlaneName::support(wall.facets[0].source, wall.facets[0].facet));
     const auto bound = [&](Bound b, std::size_t end) {
         const FlatPoint& kept = end == 0 ? wall.to : wall.from;
         if (b != open) {
-            const PrismWall& other = facets_.walls()[LeafWork::u(b)];
+            const PrismWall& other = facets_.walls()[as_index(b)];
             const PolygonRef& f = other.facets[0];
             out.edges.push_back({bench_.plane(PlaneName::support(f.source, f.facet)),
                                  is_left(b, kept) == other.above_is_left[0]});
@@ -255,7 +256,7 @@ WorkPolygon PrismLeaf::cutter_of(const Stretch& stretch) {
 }
 
 bool PrismLeaf::is_left(LeafIndex wall, const FlatPoint& p) const {
-    const PrismWall& w = facets_.walls()[LeafWork::u(wall)];
+    const PrismWall& w = facets_.walls()[as_index(wall)];
     return flat_turn(w.from, w.to, p) > 0;
 }
 
@@ -266,7 +267,7 @@ bool PrismLeaf::cut_cover(const PrismCover& cover) {
     WorkPolygon whole = bench_.polygon(cover.ref);
     bench_.with_edges(whole, cover.ref);
     parts_.push_back(whole);
-    for (const Stretch& s : outlines_[LeafWork::u(cover.operand)]) {
+    for (const Stretch& s : outlines_[as_index(cover.operand)]) {
         const WorkPolygon cutter = cutter_of(s);
         const std::size_t end = parts_.size();
         for (std::size_t i = 0; i < end; ++i) {
@@ -291,15 +292,14 @@ bool PrismLeaf::cut_cover(const PrismCover& cover) {
     return true;
 }
 
-// Most points of a cut cover are of parts that were cut further or dropped: what thousands of
-// covers leave would be most of the memory of a leaf. \pre nothing holds numbers of points or
-// planes.
+// Most points of a cut cap are of parts that were cut further or dropped: what thousands of caps
+// leave would be most of the memory of a leaf. \pre nothing holds numbers of points or planes.
 void PrismLeaf::keep_bench_small() {
     constexpr std::size_t most_points = 1024;
     if (bench_.point_count() > most_points) bench_.clear();
 }
 
-// A part is on one side of whatever divides its cover's shares, so any point of it will do.
+// A part is on one side of whatever divides its cap's shares, so any point of it will do.
 std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part,
                                                          std::size_t position) {
     ++stats_->traces;
@@ -321,7 +321,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
         error += 0x1p-48 * (std::fabs(middle[0]) + std::fabs(middle[1]) + 1);
         bool sure = true;
         for (std::size_t layer = 0; layer < 2; ++layer)
-            std::copy(facets_.outside().begin(), facets_.outside().end(), insides(layer, left));
+            std::copy(facets_.outside().begin(), facets_.outside().end(), insides(layer, on_left));
         for (const PrismWall& w : facets_.walls()) {
             if (!w.is_in(position) && !w.is_in(position + 1)) continue;
             const auto crosses = crosses_way(w, middle, error);
@@ -329,15 +329,16 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
             if (!sure) break;
             if (!*crosses) continue;
             for (std::size_t layer = 0; layer < 2; ++layer)
-                if (w.is_in(position + layer)) insides(layer, left)[LeafWork::u(w.operand)] ^= 1;
+                if (w.is_in(position + layer)) insides(layer, on_left)[as_index(w.operand)] ^= 1;
         }
         if (!sure) continue;
         Side out;
         for (std::size_t o = operands_; o-- > 0;)
-            if (insides(0, left)[o] != insides(1, left)[o]) out.speaker = static_cast<LeafIndex>(o);
+            if (insides(0, on_left)[o] != insides(1, on_left)[o])
+                out.speaker = static_cast<LeafIndex>(o);
         for (std::size_t layer = 0; layer < 2; ++layer) {
-            const std::span<int> r = row(layer, left);
-            std::copy_n(insides(layer, left), operands_, r.begin());
+            const std::span<int> r = row(layer, on_left);
+            std::copy_n(insides(layer, on_left), operands_, r.begin());
             formula_.fill(r);
             (layer == 0 ? out.below : out.above) = formula_.value(r);
         }
@@ -348,11 +349,11 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
 
 // --- What bounds the result.
 
-// The parts of one wall.
+// The parts of one side face.
 void PrismLeaf::emit_wall(std::size_t first, std::size_t last) {
     keep_bench_small();
     const auto parts = std::span(wall_parts_).subspan(first, last - first);
-    const PrismWall& wall = facets_.walls()[LeafWork::u(parts[0].stretch.wall)];
+    const PrismWall& wall = facets_.walls()[as_index(parts[0].stretch.wall)];
     const bool whole = parts.size() == wall.end_layer - wall.first_layer &&
                        std::ranges::all_of(parts, [&](const WallPart& p) {
                            return p.stretch.begin == open && p.stretch.end == open &&
@@ -371,7 +372,7 @@ void PrismLeaf::emit_wall(std::size_t first, std::size_t last) {
 }
 
 void PrismLeaf::emit_wall_part(const WallPart& part) {
-    const PrismWall& wall = facets_.walls()[LeafWork::u(part.stretch.wall)];
+    const PrismWall& wall = facets_.walls()[as_index(part.stretch.wall)];
     for (std::size_t half = 0; half < 2; ++half) {
         const PolygonRef& ref = wall.facets[half];
         WorkPolygon shape = bench_.polygon(ref);
@@ -384,7 +385,7 @@ void PrismLeaf::emit_wall_part(const WallPart& part) {
         };
         const auto clip_at = [&](Bound b, const FlatPoint& kept) {
             if (b == open) return;
-            const PrismWall& other = facets_.walls()[LeafWork::u(b)];
+            const PrismWall& other = facets_.walls()[as_index(b)];
             clip(other.facets[0], is_left(b, kept) == other.above_is_left[0]);
         };
         clip_at(part.stretch.begin, wall.to);

@@ -18,14 +18,15 @@
 
 namespace trisect::detail {
 
-/// Arranges a leaf in which all operands are unions of prisms along a common axis and no walls
-/// touch or coincide; covers may coincide as they like. Such leaves may be much larger than others.
+/// Arranges a leaf in which all operands are unions of prisms along a common axis and no side faces
+/// touch or coincide; caps may coincide as they like. Such leaves may be much larger than others.
 /// Keeps its memory from leaf to leaf; what it returns depends on the problem alone.
 class PrismLeaf final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
                                                            LeafFindings& findings) override;
-    // Where a stretch of a wall begins or ends: at the crossing wall, or with the wall itself.
+    // Where an interval of a side face begins or ends: at the crossing side face, or with the side
+    // face itself.
     using Bound = LeafIndex;
     static constexpr Bound open = -1;
     struct Stretch {
@@ -33,28 +34,28 @@ private:
         Bound begin = open;
         Bound end = open;
     };
-    // A stretch that bounds the result within a layer.
+    // A interval that bounds the result within a layer.
     struct WallPart {
         Stretch stretch;
         std::size_t layer = 0;
         bool inside_left = false;
     };
-    // What is on one side of a stretch, in the layers below and above a position.
+    // What is on one side of an interval, in the layers below and above a position.
     struct Side {
         int below = 0;
         int above = 0;
-        LeafIndex speaker = -1;  // the first operand of which a cover is there
+        LeafIndex speaker = -1;  // the first operand of which a cap is there
         [[nodiscard]] bool bounds() const { return below != above; }
         friend bool operator==(const Side&, const Side&) = default;
     };
-    using Sides = std::array<Side, 2>;  // left and right of a wall
+    using Sides = std::array<Side, 2>;  // left and right of a side face
     struct CoverPart {
         WorkPolygon shape;
         bool inside_below = false;
     };
     [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats);
     void walk(LeafIndex wall, std::size_t position);
-    // Sets what is on both sides of the wall at its beginning.
+    // Sets what is on both sides of the side face at its beginning.
     void start_walk(const PrismWall& wall, std::size_t position);
     void cross(LeafIndex operand, std::size_t layer);
     [[nodiscard]] Sides sides() const;
@@ -84,13 +85,13 @@ private:
     Workbench bench_;
     std::size_t operands_ = 0;
     std::size_t row_size_ = 0;
-    // By layer (below or above the position) and side (left or right of the wall).
+    // By layer (below or above the position) and side (left or right of the side face).
     std::vector<int> rows_;
     std::vector<std::uint8_t> insides_;
     std::array<std::vector<std::uint64_t>, 2> covered_;  // by side: a bit for each operand
     std::vector<WallPart> wall_parts_;
-    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it speaks for
-    std::vector<CoverPart> cover_parts_;          // of one cover
+    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it represents
+    std::vector<CoverPart> cover_parts_;          // of one cap
     std::vector<PolygonRef> covers_;              // what of all of them bounds the result
     std::vector<WorkPolygon> parts_;
 };

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include <trisect/kernel/support/as_index.h>
+
 namespace trisect::detail {
 
 std::uint32_t PrismSheets::root(std::uint32_t v) {
@@ -28,7 +30,7 @@ bool PrismSheets::list(const LeafProblem& problem, const PrismFacets& facets) {
     root_.resize(points);
     std::iota(root_.begin(), root_.end(), 0U);
     const auto point = [&](LeafIndex operand, const PolygonRef& ref, int i) {
-        return first_[LeafWork::u(operand)] + ref.source->corner_index(ref.facet, i);
+        return first_[as_index(operand)] + ref.source->corner_index(ref.facet, i);
     };
     for (const PrismCover& c : facets.covers()) {
         const std::uint32_t v = point(c.operand, c.ref, 0);

@@ -14,8 +14,8 @@
 
 namespace trisect::detail {
 
-/// Covers of one operand in one plane that have corners in common. The walls that end at one of its
-/// corners bound it. In the result a sheet is whole, or not known to be.
+/// Caps of one operand in one plane that have corners in common. The side faces that end at one of
+/// its corners bound it. In the result a component is whole, or may not be.
 class PrismSheets {
 public:
     struct Sheet {
@@ -24,19 +24,19 @@ public:
         int bounds = 0;     ///< 1: the result is below it, -1: above it; 0: not known yet
     };
 
-    /// False when a wall ends where its operand has no cover. \pre each operand is all facets of
+    /// False when a side face ends where its operand has no cap. \pre each operand is all facets of
     /// one source.
     [[nodiscard]] bool list(const LeafProblem& problem, const PrismFacets& facets);
     [[nodiscard]] std::size_t size() const { return sheets_.size(); }
     [[nodiscard]] Sheet& operator[](std::int32_t i) { return sheets_[static_cast<std::size_t>(i)]; }
-    /// That a wall bounds with its lower end, and with its upper one.
+    /// That a side face bounds with its lower end, and with its upper one.
     [[nodiscard]] const std::array<std::int32_t, 2>& of_wall(LeafIndex wall) const {
         return of_wall_[static_cast<std::size_t>(wall)];
     }
-    /// By the number of the cover.
+    /// By the number of the cap.
     [[nodiscard]] std::int32_t of_cover(std::size_t cover) const { return of_cover_[cover]; }
-    /// A number for the edge along the axis at an end of a wall (0: `from`, 1: `to`): walls of one
-    /// outline have one in common.
+    /// A number for the edge along the axis at an end of a side face (0: `from`, 1: `to`): side
+    /// faces of one outline have one in common.
     [[nodiscard]] std::uint32_t edge_at(LeafIndex wall, std::size_t end) const {
         return edges_[static_cast<std::size_t>(wall)][end];
     }
@@ -49,7 +49,7 @@ private:
 
     std::vector<std::uint32_t> first_;  // by operand: of its source's points, numbered in a row
     std::vector<std::uint32_t> root_;   // by point
-    std::vector<std::int32_t> number_;  // of sheets, by root
+    std::vector<std::int32_t> number_;  // of components, by root
     std::vector<Sheet> sheets_;
     std::vector<std::array<std::int32_t, 2>> of_wall_;
     std::vector<std::int32_t> of_cover_;

@@ -19,16 +19,13 @@
 #include <cstring>
 
 #include <trisect/bsp/query/index/triangle_in_boxes.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
 constexpr double listing_margin = 0x1p-10;
-
-double largest(const std::array<double, 3>& v) {
-    return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-}
 
 IndexBrickBuilder::Low sum(const IndexBrickBuilder::Low& low, std::uint32_t x, std::uint32_t y,
                            std::uint32_t z, unsigned shift) {
@@ -65,9 +62,9 @@ void IndexBrickBuilder::gather_triangle(BlockItem& item, Coefficients& plane,
     const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     // Corners are within 2^-50 M, M their largest coordinate; with L the largest one of the edges
     // the normal is within 2^-46 L M and the offset within 2^-43 L M^2.
-    const double size = largest(n);
-    const double m = std::max({4.0, largest(item.lo), largest(item.hi)});
-    const double l = std::max(largest(u), largest(v));
+    const double size = largest_component(n);
+    const double m = std::max({4.0, largest_component(item.lo), largest_component(item.hi)});
+    const double l = std::max(largest_component(u), largest_component(v));
     plane = {};
     if (!(0x1p-43 * l * m * m <= 0x1p-22 * size)) return;
     const double f = 1 / size;
@@ -96,7 +93,7 @@ void IndexBrickBuilder::gather_other(BlockItem& item, Coefficients& plane, const
         offset += t;
         terms += std::fabs(t);
     }
-    const double size = largest(n);
+    const double size = largest_component(n);
     if (!(0x1p-48 * terms <= 0x1p-22 * size)) return;
     plane = {n[0] / size, n[1] / size, n[2] / size, offset / size};
 }
@@ -308,7 +305,7 @@ float IndexBrickBuilder::write_corners(const Work& w, std::uint32_t count, const
             r = std::max({r, -from_middle(t.lo, k), from_middle(t.hi, k)});
         return r;
     };
-    double reach = 0.75;  // of points that are asked about
+    double reach = 0.75;  // of query points
     for (std::uint32_t i = 0; i < count; ++i)
         if (const double r = reach_of(w.items[w.leaf_items[i]]); r < LeafCorners::farthest)
             reach = std::max(reach, r);

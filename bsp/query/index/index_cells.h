@@ -26,7 +26,7 @@ struct DoubleBox {
 [[nodiscard]] DoubleBox hull(const Point& a, const Point& b);
 /// Everything.
 [[nodiscard]] DoubleBox root_cell();
-/// The cells of a node's children. Rounded where an inherited wall is no double.
+/// The cells of a node's children. Rounded where an inherited splitting plane is no double.
 [[nodiscard]] DoubleBox child_cell(const DoubleBox& cell, const IndexTree::Node& n, bool above);
 
 /// A cell of a block that fills `cell`: the first and last cells reach as far as that.

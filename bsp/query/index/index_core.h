@@ -66,7 +66,7 @@ void classify_batch(const IndexBase& index, std::span<const std::array<double, 3
 [[nodiscard]] Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on,
                              const IndexPoint& point);
 
-/// Its location alone, which doubles mostly tell.
+/// Its location alone, which doubles mostly decide.
 [[nodiscard]] Location location_on(const IndexPolygons& polygons, std::vector<PolygonId>& on);
 
 /// The same as place_on, for what is not a point: the rank is that of the normals, and no corner is

@@ -19,7 +19,7 @@ namespace trisect::detail {
 struct IndexSlot {
     static constexpr std::uint32_t outside = 0xfffffffeU;  ///< empty
     static constexpr std::uint32_t inside = 0xffffffffU;   ///< empty
-    static constexpr std::uint32_t pending = 0xfffffffdU;  ///< a cell that was not asked for yet
+    static constexpr std::uint32_t pending = 0xfffffffdU;  ///< a cell without a query yet
     static constexpr std::uint32_t brick_flag = 0x80000000U;
     [[nodiscard]] static bool is_empty(std::uint32_t slot) { return slot >= outside; }
     [[nodiscard]] static bool is_brick(std::uint32_t slot) {
@@ -55,7 +55,7 @@ private:
     }
 };
 
-/// Cells in a block: walls at origin + i · size, all of them doubles.
+/// Cells in a block: splitting planes at origin + i · size, all of them doubles.
 struct IndexBlock {
     std::array<double, 3> origin{};
     std::array<double, 3> size{1, 1, 1};
@@ -74,9 +74,10 @@ struct IndexBlock {
 
 /// A grid of n[0] · n[1] · n[2] cells, each of which may be divided `levels` times.
 ///
-/// Finest cells are counted from `origin`; `fine` is their edge, such that all walls are doubles,
-/// at odd multiples of 1/256 where coordinates leave room for that. A cell is half-open: its lower
-/// walls belong to it. The first and last cells along an axis reach as far as the node's cell does.
+/// Finest cells are counted from `origin`; `fine` is their edge, such that all splitting planes are
+/// doubles, at odd multiples of 1/256 where coordinates leave room for that. A cell is half-open:
+/// its lower splitting planes belong to it. The first and last cells along an axis reach as far as
+/// the node's cell does.
 ///
 /// The lower corner of a cell is a reference point: it is on no polygon, and its winding number is
 /// known. A cell and the first cell of its brick share it.
@@ -113,7 +114,7 @@ struct IndexGrid {
             const auto i = static_cast<std::uint32_t>(clamped);
             const double part = t - static_cast<double>(i);
             out.at[k] = t;
-            // t is below 2^25, so it is known to 2^-26; near a wall that is not enough.
+            // t is below 2^25, so it is known to 2^-26; near a splitting plane that is not enough.
             const bool sure = part > 0x1p-20 && part < 1 - 0x1p-20 &&
                               (p.is_doubles() || p.error() * scale[k] < 0x1p-22);
             out.fine[k] = sure ? i : corrected(k, p, i);
@@ -164,7 +165,7 @@ struct ApproximateLine {
 
 /// Calls visit(x, y, z, lo, hi) for all cells that the line may meet for t from `lo` to `hi`, slab
 /// by slab in the line's direction, and some beside it; the line is in the cell within its lo and
-/// hi at most. Before each slab, more(t) is asked whether what begins at t still matters.
+/// hi at most. Before each slab, more(t) decides whether what begins at t still matters.
 template <class More, class Visit>
 void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo, double hi,
                      const More& more, const Visit& visit) {
@@ -193,10 +194,10 @@ void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo
         std::uint32_t hi = 0;
     };
     const auto indices = [&](std::size_t k, const Span& s) {
-        // What cannot be told is everything.
+        // If it cannot be decided, all is listed.
         if (!(s.lo > -HUGE_VAL && s.hi < HUGE_VAL)) return Indices{0, g.n[k] - 1};
         const std::uint32_t i = g.clamped(k, s.lo);
-        // A coordinate just below a wall may have been rounded to it.
+        // A coordinate just below a splitting plane may have been rounded to it.
         const bool on_wall = g.wall(k, i) >= s.lo;
         return Indices{on_wall && i > 0 ? i - 1 : i, g.clamped(k, s.hi)};
     };

@@ -17,8 +17,8 @@
 
 namespace trisect::detail {
 
-/// Lists the polygons that meet a cell. A cell of a grid also has their planes, see LeafPlanes,
-/// knows its corners, and mostly has the corners of triangles, see LeafCorners.
+/// Lists the polygons that meet a cell. A cell of a grid also has their planes, see LeafPlanes, has
+/// its corners, and mostly has the corners of triangles, see LeafCorners.
 struct IndexLeaf {
     std::uint32_t first = 0;  ///< of the tree's list
     std::uint32_t count = 0;
@@ -68,12 +68,12 @@ struct LeafPlanes {
 /// Nine numbers a polygon, the three x first; for what is no triangle, or a far too large one, all
 /// of them are 0. They follow the planes.
 ///
-/// They serve to tell how a line runs past a triangle: with `d` its direction and a, b, c the
-/// corners seen from a point of it, the signs of d · (a × b), d · (b × c), d · (c × a). In steps
-/// components of a, b, c are below D = 2^16. They err by 0.53: 1/2 for the corner, the rest for the
-/// point, which is known within 2^-23 of the cell (2^-7.6 steps) and rounded thrice. With
-/// components of d below E that err by 1/25, a determinant errs by (6.4 E + D/4) D from these and
-/// by 30 · 2^-24 E D^2 = 0.12 E D for rounding of its terms; all that is below 7 E D + 2^30.
+/// They decide how a line runs past a triangle: with `d` its direction and a, b, c the corners seen
+/// from a point of it, the signs of d · (a × b), d · (b × c), d · (c × a). In steps components of
+/// a, b, c are below D = 2^16. They err by 0.53: 1/2 for the corner, the rest for the point, which
+/// is known within 2^-23 of the cell (2^-7.6 steps) and rounded thrice. With components of d below
+/// E that err by 1/25, a determinant errs by (6.4 E + D/4) D from these and by 30 · 2^-24 E D^2 =
+/// 0.12 E D for rounding of its terms; all that is below 7 E D + 2^30.
 struct LeafCorners {
     static constexpr std::int32_t most_steps = 32000;
     /// Triangles that reach farther from the cell's middle, in cells, are left out.
@@ -84,7 +84,7 @@ struct LeafCorners {
     [[nodiscard]] static float bound(float e) { return 0x1p19F * e + 0x1p30F; }
 };
 
-/// Whether a line passes by a triangle, goes through it, or one cannot tell.
+/// Whether a line passes by a triangle, goes through it, or undecided.
 enum class LineSide : std::int8_t { Beside, Through, Unsure };
 
 /// A line through a point of a leaf's cell, in steps from its middle.

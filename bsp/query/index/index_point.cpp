@@ -8,6 +8,7 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -39,10 +40,6 @@ int fraction_bits(const std::array<double, 3>& c) {
     for (const double v : c)
         if (v != 0) bits = std::max(bits, -scaled(v).exponent);
     return bits;
-}
-
-double largest(const std::array<double, 3>& c) {
-    return std::max({std::fabs(c[0]), std::fabs(c[1]), std::fabs(c[2])});
 }
 
 template <int N>
@@ -146,7 +143,7 @@ const HomogeneousPoint* IndexPoint::homogeneous() const {
     if (homogeneous_) return &*homogeneous_;
     if (!fits_) return nullptr;
     const int bits = fraction_bits(c_);
-    if (bits > homogeneous_bits || largest(c_) >= homogeneous_limit) return nullptr;
+    if (bits > homogeneous_bits || largest_component(c_) >= homogeneous_limit) return nullptr;
     HomogeneousPoint h;
     h.w = WideInt<6>(1).shifted_left(bits);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -6,15 +6,11 @@
 //   e(a, b) = det(r - p, a - p, b - p)                  on which side of a→b the line p r passes
 //
 // The segment from r to p meets the triangle's interior when s(r) and s(p) differ in sign and the
-// three e agree. Signs come from doubles first. Differences of doubles carry one rounding; with L
-// the largest component of the edges, D of the third vector, a minor is within 8u L^2 of its exact
-// value, u = 2^-53, and the sum of three products, each at most 2 L^2 D, within 48u L^2 D (8u L^2 D
-// a term from the minor, as much again from the vector, the product and the sums). 2^-47 leaves a
-// quarter of it for second-order terms and the rounding of the bound itself. An error of the
-// point itself moves a component of a difference by that much, hence the determinant by at most
-// 6 L^2 error.
+// three e agree. Signs come from doubles first, with the bound of error_bounds.h
+// (difference_determinant_rounding). An error of the point itself moves the determinant by at most
+// 6 L^2 of it.
 //
-// When doubles cannot tell, every one of these determinants is linear in p: n · (p - x) with a
+// When doubles cannot decide, every one of these determinants is linear in p: n · (p - x) with a
 // normal n made of lattice points and the reference alone, of at most 2^126. So the exact stage is
 // one dot product: in 128 bits when p has few bits, which is the common case for points that lie
 // exactly on something, in 576 bits for what a HomogeneousPoint holds, in rationals otherwise.
@@ -27,28 +23,16 @@
 #include <optional>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/int128.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
 using Normal = std::array<Int128, 3>;
 using Fine = std::array<std::int64_t, 3>;
-
-constexpr double relative_bound = 0x1p-47;
-
-Vector to_doubles(const LatticePoint& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-double largest(const Vector& a) {
-    return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
-}
 
 int bit_length(Int128 v) {
     const Uint128 m =
@@ -99,20 +83,17 @@ Fine fine_coordinates(const LatticePoint& p) {
     return {p.x * wall_scale, p.y * wall_scale, p.z * wall_scale};
 }
 
-Normal cross(const Fine& u, const Fine& v) {
+Normal exact_cross(const Fine& u, const Fine& v) {
     const auto minor = [&](std::size_t j, std::size_t l) {
         return Int128{u[j]} * v[l] - Int128{u[l]} * v[j];
     };
     return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
-Fine difference(const Fine& a, const Fine& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Normal triangle_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-    return cross(difference(coordinates(b), coordinates(a)),
-                 difference(coordinates(c), coordinates(a)));
+    return exact_cross(minus(coordinates(b), coordinates(a)),
+                       minus(coordinates(c), coordinates(a)));
 }
-
-int sign(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
 
 int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
                const LatticePoint& c) {
@@ -123,7 +104,7 @@ int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b
 int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b, std::size_t k) {
     const std::size_t j = (k + 1) % 3;
     const std::size_t l = (k + 2) % 3;
-    const Fine e = difference(coordinates(b), coordinates(a));
+    const Fine e = minus(coordinates(b), coordinates(a));
     Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
     n[l] = e[j];
     n[j] = -Int128{e[l]};
@@ -133,7 +114,7 @@ int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b
 // det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
 int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoint& a,
                        const LatticePoint& b) {
-    Normal n = cross(difference(fine_coordinates(a), r.c), difference(fine_coordinates(b), r.c));
+    Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
     if (const int s = sign_linear(p, n, r.c, wall_bits); s != 0) return s;
     ++predicate_counters().symbolic;
@@ -145,7 +126,7 @@ int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoi
 int exact_reference_side(const FinePoint& r, const LatticePoint& a, const LatticePoint& b,
                          const LatticePoint& c) {
     const Normal n = triangle_normal(a, b, c);
-    const Fine d = difference(r.c, fine_coordinates(a));
+    const Fine d = minus(r.c, fine_coordinates(a));
     ++predicate_counters().exact_narrow;
     WideInt<4> sum;  // 109 + 63 + 2 bits
     for (std::size_t k = 0; k < 3; ++k) sum += multiply<4>(WideInt<2>(n[k]), WideInt<1>(d[k]));
@@ -177,7 +158,7 @@ bool is_in_triangle(const IndexPoint& p, const LatticePoint& a, const LatticePoi
 // Whether a point is on a triangle, in integers of two words where these are enough; nothing
 // otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
 std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
-                                 const LatticePoint& c, const Vector& normal) {
+                                 const LatticePoint& c, const Vector3& normal) {
     const auto& small = p.small();
     if (!small) return std::nullopt;
     const auto bits = static_cast<unsigned>(small->bits);
@@ -201,10 +182,10 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, con
         }
     }
     longest_way *= static_cast<double>(std::uint64_t{1} << bits);
-    const double longest_normal = largest(normal) + 0x1p-40 * longest_edge * longest_edge;
+    const double longest_normal = largest_component(normal) + 0x1p-40 * longest_edge * longest_edge;
     if (!(longest_way < 0x1p61) || !(longest_normal * longest_way < 0x1p124)) return std::nullopt;
     ++predicate_counters().exact_narrow;
-    const Normal n = cross(edge[0], edge[1]);
+    const Normal n = exact_cross(edge[0], edge[1]);
     if (n[0] * way[0][0] + n[1] * way[0][1] + n[2] * way[0][2] != 0) return false;
     // Seen along the axis in which the normal is largest.
     std::size_t k = 0;
@@ -302,18 +283,19 @@ void Reference::set_error() {
 
 Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const IndexPoint& p, const Reference& r) {
-    const Vector fa = to_doubles(a);
-    const Vector fb = to_doubles(b);
-    const Vector fc = to_doubles(c);
-    const Vector u = minus(fb, fa);
-    const Vector v = minus(fc, fa);
-    const Vector n = cross(u, v);
-    const double edge = std::max(largest(u), largest(v));
+    const Vector3 fa = to_vector(a);
+    const Vector3 fb = to_vector(b);
+    const Vector3 fc = to_vector(c);
+    const Vector3 u = minus(fb, fa);
+    const Vector3 v = minus(fc, fa);
+    const Vector3 n = cross(u, v);
+    const double edge = std::max(largest_component(u), largest_component(v));
     auto& counters = predicate_counters();
 
-    const Vector w = minus(p.approximate(), fa);
+    const Vector3 w = minus(p.approximate(), fa);
     const double at_p = dot(n, w);
-    const double p_bound = edge * edge * (relative_bound * largest(w) + 8 * p.error());
+    const double p_bound =
+        edge * edge * (difference_determinant_rounding * largest_component(w) + 8 * p.error());
     int p_side = 0;
     if (at_p > p_bound) {
         p_side = 1;
@@ -323,9 +305,10 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
         p_side = exact_side(p, a, b, c);
         if (p_side == 0) return is_in_triangle(p, a, b, c) ? Passing::On : Passing::None;
     }
-    const Vector q = minus(r.c, fa);
+    const Vector3 q = minus(r.c, fa);
     const double at_r = dot(n, q);
-    const double r_bound = edge * edge * (relative_bound * largest(q) + 8 * r.error);
+    const double r_bound =
+        edge * edge * (difference_determinant_rounding * largest_component(q) + 8 * r.error);
     int r_side = 0;
     if (at_r > r_bound) {
         r_side = 1;
@@ -337,13 +320,13 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
     counters.filtered += 2;
     if (r_side == p_side) return Passing::None;
 
-    const Vector d = minus(r.c, p.approximate());
-    const Vector pa = minus(fa, p.approximate());
-    const Vector pb = minus(fb, p.approximate());
-    const Vector pc = minus(fc, p.approximate());
-    const double m =
-        std::max(std::max(largest(d), largest(pa)), std::max(largest(pb), largest(pc)));
-    const double bound = m * m * (relative_bound * m + 18 * (p.error() + r.error));
+    const Vector3 d = minus(r.c, p.approximate());
+    const Vector3 pa = minus(fa, p.approximate());
+    const Vector3 pb = minus(fb, p.approximate());
+    const Vector3 pc = minus(fc, p.approximate());
+    const double m = std::max(std::max(largest_component(d), largest_component(pa)),
+                              std::max(largest_component(pb), largest_component(pc)));
+    const double bound = m * m * (difference_determinant_rounding * m + 18 * (p.error() + r.error));
     const std::array<double, 3> e{dot(d, cross(pa, pb)), dot(d, cross(pb, pc)),
                                   dot(d, cross(pc, pa))};
     const std::array<const LatticePoint*, 4> corner{&a, &b, &c, &a};
@@ -373,18 +356,19 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
         const LatticePoint& a = s.corner(f, 0);
         const LatticePoint& b = s.corner(f, 1);
         const LatticePoint& c = s.corner(f, 2);
-        const Vector fa = to_doubles(a);
-        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_doubles(b) ||
-                               p.approximate() == to_doubles(c))) {
+        const Vector3 fa = to_vector(a);
+        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_vector(b) ||
+                               p.approximate() == to_vector(c))) {
             ++predicate_counters().symbolic;
             return true;
         }
-        const Vector u = minus(to_doubles(b), fa);
-        const Vector v = minus(to_doubles(c), fa);
-        const Vector w = minus(p.approximate(), fa);
-        const double edge = std::max(largest(u), largest(v));
-        const double bound = edge * edge * (relative_bound * largest(w) + 8 * p.error());
-        const Vector n = cross(u, v);
+        const Vector3 u = minus(to_vector(b), fa);
+        const Vector3 v = minus(to_vector(c), fa);
+        const Vector3 w = minus(p.approximate(), fa);
+        const double edge = std::max(largest_component(u), largest_component(v));
+        const double bound =
+            edge * edge * (difference_determinant_rounding * largest_component(w) + 8 * p.error());
+        const Vector3 n = cross(u, v);
         if (std::fabs(dot(n, w)) > bound) {
             ++predicate_counters().filtered;
             return false;

@@ -4,12 +4,12 @@
 //
 // The cell tree of a solid is as fine as the last operation needed it: a fresh mesh is one leaf
 // that lists everything, and a leaf of a result may list thousands of facets that nothing cut. Its
-// walls are kept, and a leaf with many polygons becomes a grid over the box of these, whose crowded
-// cells are divided 4 x 4 x 4 at a time (index_bricks.cpp).
+// splitting planes are kept, and a leaf with many polygons becomes a grid over the box of these,
+// whose crowded cells are divided 4 x 4 x 4 at a time (index_bricks.cpp).
 //
 // Built at once is only the grid with its lists and winding numbers. Its cells are divided when a
-// query first comes to them, under a lock, and then published by one word; who only asks about a
-// corner of a model never pays for the rest. Cells are large enough that the lock is rare.
+// query first comes to them, under a lock, and then published by one word; queries of a corner of a
+// model never pays for the rest. Cells are large enough that the lock is rare.
 //
 // Every mixed cell needs a point off the surface with its winding number. The lower corners of
 // cells serve, and they are the same points for a cell and for the first cell of its brick. So they
@@ -195,7 +195,7 @@ private:
     IndexTree& t_;
     IndexCells& cells_;
     IndexPolygons& polygons_;
-    double quantum_ = 1.0 / static_cast<double>(wall_scale);  // walls are odd multiples of it
+    double quantum_ = 1.0 / static_cast<double>(wall_scale);  // positions are odd multiples of it
     std::vector<Id> ids_;                                     // of a leaf
 };
 
@@ -239,7 +239,7 @@ void IndexTreeBuilder::find_bounds(const CellRef& root) {
         t_.hi_[k] = static_cast<double>(box.hi[k]);
         reach = std::max({reach, -box.lo[k], box.hi[k]});
     }
-    // Walls must be doubles: multiples of the quantum below 2^52 of it.
+    // Splitting planes must be doubles: multiples of the quantum below 2^52 of it.
     while (static_cast<double>(reach) >= 0x1p51 * quantum_) quantum_ *= 2;
 }
 

@@ -44,10 +44,11 @@ class IndexDivision;
 /// Nodes in one array, children side by side; leaves of the cell tree with many polygons become
 /// grids (IndexGrid).
 ///
-/// The walls of nodes are *inherited* from the solid's cell tree; leaves on either side list what
-/// meets their open cell, so a point on such a wall needs both sides. Cells of a grid list every
-/// polygon that meets the cell, a little enlarged (by 2^-10 of its size at least), so a point on
-/// one of their walls needs one cell only, and a ray those that it comes through up to rounding.
+/// The splitting planes of nodes are *inherited* from the solid's cell tree; leaves on either side
+/// list what meets their open cell, so a point on such a splitting plane needs both sides. Cells of
+/// a grid list every polygon that meets the cell, a little enlarged (by 2^-10 of its size at
+/// least), so a point on one of their splitting planes needs one cell only, and a ray those that it
+/// comes through up to rounding.
 class IndexTree {
 public:
     using Id = IndexPolygons::Id;
@@ -58,7 +59,7 @@ public:
         static constexpr std::uint32_t grid_flag = 16;  // beside `leaf`: no leaf but a grid
         static constexpr std::uint32_t none = 0xffffffffU;
 
-        /// The wall's position, 1/256 units; the number of a mixed leaf's reference.
+        /// The splitting plane's position, 1/256 units; the number of a mixed leaf's reference.
         std::int64_t position = 0;
         /// The child below (the child above is next), or the number of a mixed leaf or grid, or
         /// `none`.
@@ -149,10 +150,11 @@ public:
     void set_inside_beyond(bool inside) { beyond_ = inside; }
 
     /// Calls visit(cell, position) for the leaves whose closed cells hold the point: one, or
-    /// several when it lies on inherited walls. The position is the one in the cell's grid.
+    /// several when it lies on inherited splitting planes. The position is the one in the cell's
+    /// grid.
     template <class Visit>
     void for_leaves_at(const IndexPoint& p, Visit&& visit) const;
-    /// -1, 0, 1: the point below, on, above a node's wall.
+    /// -1, 0, 1: the point below, on, above a node's splitting plane.
     [[nodiscard]] static int side_of_wall(const Node& n, const IndexPoint& p) {
         return p.compare_fine(n.axis(), n.position);
     }
@@ -217,7 +219,7 @@ inline IndexTree::Cell IndexTree::cell_at(const IndexGrid& g, const IndexGrid::P
 
 template <class Visit>
 void IndexTree::for_leaves_at(const IndexPoint& p, Visit&& visit) const {
-    std::vector<std::uint32_t> pending;  // allocates only where a point is on an inherited wall
+    std::vector<std::uint32_t> pending;  // allocates only for points on inherited planes
     std::uint32_t at = 0;
     for (;;) {
         const Node& n = nodes_[at];

@@ -17,13 +17,13 @@ namespace trisect::detail {
 
 namespace {
 
-struct Range {
+struct IntegerRange {
     int lo = 0;
     int hi = -1;
 };
 
 // The integers from lo to hi below n, n < 2^20. No call of floor, which is one of a library.
-Range integers(double lo, double hi, std::uint32_t n) {
+IntegerRange integers(double lo, double hi, std::uint32_t n) {
     const double last = static_cast<double>(n) - 1;
     if (!(hi >= 0) || lo > last) return {};
     return {lo > 0 ? static_cast<int>(lo + 1) : 0, static_cast<int>(std::min(hi, last))};
@@ -68,9 +68,11 @@ bool IndexWindings::add_along(const BlockItem& item, double margin, double large
     constexpr std::size_t b = (Axis + 1) % 3;
     constexpr std::size_t c = (Axis + 2) % 3;
     // How many lines there are: along x everywhere, and so on.
-    const Range rows = integers(item.lo[b] - margin, item.hi[b] + margin, b < Axis ? 1 : n_[b]);
+    const IntegerRange rows =
+        integers(item.lo[b] - margin, item.hi[b] + margin, b < Axis ? 1 : n_[b]);
     if (rows.lo > rows.hi) return true;
-    const Range columns = integers(item.lo[c] - margin, item.hi[c] + margin, c < Axis ? 1 : n_[c]);
+    const IntegerRange columns =
+        integers(item.lo[c] - margin, item.hi[c] + margin, c < Axis ? 1 : n_[c]);
     if (columns.lo > columns.hi) return true;
     if (item.hi[Axis] < -margin || item.lo[Axis] > static_cast<double>(n_[Axis])) return true;
     for (int row = rows.lo; row <= rows.hi; ++row)
@@ -84,7 +86,7 @@ bool IndexWindings::add_along(const BlockItem& item, double margin, double large
     return true;
 }
 
-// A triangle and a line in doubles; false when they cannot tell.
+// A triangle and a line in doubles; false when they cannot decide.
 template <std::size_t Axis>
 bool IndexWindings::add_quickly(const BlockItem& item, std::array<std::uint32_t, 3> line,
                                 double largest) {
@@ -121,7 +123,7 @@ bool IndexWindings::add_quickly(const BlockItem& item, std::array<std::uint32_t,
 bool IndexWindings::add_exactly(const BlockItem& item, std::size_t axis,
                                 std::array<std::uint32_t, 3> line) {
     if (n_[axis] < 2) return true;
-    const Range steps = integers(item.lo[axis] - 1.001, item.hi[axis] + 0.001, n_[axis] - 1);
+    const IntegerRange steps = integers(item.lo[axis] - 1.001, item.hi[axis] + 0.001, n_[axis] - 1);
     for (int i = steps.lo; i <= steps.hi; ++i) {
         line[axis] = static_cast<std::uint32_t>(i);
         const Reference from(corner(line));

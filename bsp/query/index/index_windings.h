@@ -22,12 +22,12 @@ struct BlockItem {
     bool is_triangle = false;
 };
 
-/// All corners are connected by straight lines along the axes: along x everywhere, along y where
-/// x = 0, along z where x = y = 0. A polygon changes the winding number where it crosses a line.
-/// That is found polygon by polygon, in doubles: a triangle seen along the axis contains the line's
+/// All corners are connected by straight lines along the axes: along x everywhere, along y where x
+/// = 0, along z where x = y = 0. A polygon changes the winding number where it crosses a line. That
+/// is found polygon by polygon, in doubles: a triangle seen along the axis contains the line's
 /// point or does not, and few lines meet the box of a small triangle at all. What doubles cannot
-/// tell is asked exactly, segment by segment (`passing`, which moves one end symbolically); where
-/// doubles can, that would have the same answer.
+/// decide is decided exactly, segment by segment (`passing`, which moves one end symbolically);
+/// where doubles can, that would have the same answer.
 class IndexWindings {
 public:
     using Vector = std::array<double, 3>;

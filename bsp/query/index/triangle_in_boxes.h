@@ -11,7 +11,7 @@
 namespace trisect::detail {
 
 /// By the triangle's plane and its edges seen along the axes (Akenine-Möller 2001), with margins
-/// for coordinates below 2^54. Made once for a triangle, asked for many cubes; on the safe side.
+/// for coordinates below 2^54. Made once for a triangle, tested with many cubes; on the safe side.
 class TriangleInBoxes {
 public:
     explicit TriangleInBoxes(const std::array<std::array<double, 3>, 3>& c) {

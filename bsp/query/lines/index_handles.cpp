@@ -16,14 +16,11 @@
 
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/int128.h>
 
 namespace trisect::detail {
 
 namespace {
-
-Uint128 magnitude(Int128 v) {
-    return v < 0 ? static_cast<Uint128>(0) - static_cast<Uint128>(v) : static_cast<Uint128>(v);
-}
 
 Uint128 gcd(Uint128 a, Uint128 b) {
     while (b != 0) {
@@ -44,11 +41,11 @@ struct NormalKey {
 
 NormalKey key_of(const Plane& p) {
     Uint128 g = 0;
-    for (int k = 0; k < 3; ++k) g = gcd(magnitude(p.normal(k)), g);
+    for (int k = 0; k < 3; ++k) g = gcd(unsigned_magnitude(p.normal(k)), g);
     NormalKey key;
     for (int k = 0; k < 3; ++k) {
         const auto kk = static_cast<std::size_t>(k);
-        key.n[kk] = static_cast<Int128>(magnitude(p.normal(k)) / g);
+        key.n[kk] = static_cast<Int128>(unsigned_magnitude(p.normal(k)) / g);
         if (p.normal(k) < 0) key.n[kk] = -key.n[kk];
     }
     return key;

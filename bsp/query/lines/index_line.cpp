@@ -2,12 +2,12 @@
 //
 // A line o + t d against a triangle a, b, c: with the determinants e = d · ((a - o) × (b - o)) and
 // so on around the triangle, the line meets its interior when all three have one sign, and then
-// t = N · (a - o) / N · d. Bounds as in index_signs.cpp: a determinant of differences with largest
-// components M, M and D errs by less than 2^-47 M^2 D.
+// t = N · (a - o) / N · d, with the bounds of error_bounds.h (difference_determinant_rounding).
 //
-// What doubles cannot tell is asked of planes in rationals: a line meets a convex polygon where it
-// meets the support between its edges, or, when it runs in the support, from the last edge that it
-// enters by to the first one that it leaves by. Such a parameter is where the line meets a plane.
+// What doubles cannot decide is decided by planes in rationals: a line meets a convex polygon where
+// it meets the support between its edges, or, when it runs in the support, from the last edge that
+// it enters by to the first one that it leaves by. Such a parameter is where the line meets a
+// plane.
 
 #include <trisect/bsp/query/lines/index_line.h>
 
@@ -18,12 +18,13 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/plane_value.h>
 
 namespace trisect {
 
 namespace {
-
-using Vector = std::array<double, 3>;
 
 ExactRational exact_coordinate(double v, int exponent) {
     return ExactRational::from_double(v).scaled(-exponent);
@@ -127,20 +128,6 @@ namespace {
 
 using Id = IndexPolygons::Id;
 
-constexpr double relative_bound = 0x1p-47;
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vector& a, const Vector& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-double largest(const Vector& a) {
-    return std::max(std::max(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
-}
-Vector to_doubles(const LatticePoint& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
-
 const Ray& checked(const Ray& ray) {
     bool moves = false;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -243,14 +230,14 @@ LineContact meet_exactly(const IndexPolygons& polygons, Id id, const IndexLine& 
     return c;
 }
 
-// Range of a quotient of two doubles with errors; nothing when the divisor may be 0.
-struct Range {
+// QuotientRange of a quotient of two doubles with errors; nothing when the divisor may be 0.
+struct QuotientRange {
     double lo = 0;
     double hi = 0;
     bool known = false;
 };
 
-Range quotient(double n, double n_error, double d, double d_error) {
+QuotientRange quotient(double n, double n_error, double d, double d_error) {
     const double safe = std::fabs(d) - d_error;
     if (!(safe > 0.5 * std::fabs(d))) return {};
     const double t = n / d;
@@ -258,19 +245,21 @@ Range quotient(double n, double n_error, double d, double d_error) {
     return {t - e, t + e, e < HUGE_VAL};
 }
 
-// -1: misses; 0: doubles cannot tell; 1: crosses in `contact`.
-int meet_triangle(const Vector& a, const Vector& b, const Vector& c, const IndexLine& line,
+// -1: misses; 0: doubles cannot decide; 1: crosses in `contact`.
+int meet_triangle(const Vector3& a, const Vector3& b, const Vector3& c, const IndexLine& line,
                   LineContact& contact) {
-    const Vector& d = line.direction();
-    const Vector& o = line.origin().approximate();
-    const Vector oa = minus(a, o);
-    const Vector ob = minus(b, o);
-    const Vector oc = minus(c, o);
-    const double m = std::max(std::max(largest(oa), largest(ob)), largest(oc));
-    const double dm = largest(d);
+    const Vector3& d = line.direction();
+    const Vector3& o = line.origin().approximate();
+    const Vector3 oa = minus(a, o);
+    const Vector3 ob = minus(b, o);
+    const Vector3 oc = minus(c, o);
+    const double m =
+        std::max(std::max(largest_component(oa), largest_component(ob)), largest_component(oc));
+    const double dm = largest_component(d);
     const double o_error = line.origin().error();
     const double bound =
-        m * m * (relative_bound * dm + 6 * line.direction_error()) + 12 * m * dm * o_error;
+        m * m * (difference_determinant_rounding * dm + 6 * line.direction_error()) +
+        12 * m * dm * o_error;
     const double e1 = dot(d, cross(oa, ob));
     const double e2 = dot(d, cross(ob, oc));
     const double e3 = dot(d, cross(oc, oa));
@@ -278,13 +267,14 @@ int meet_triangle(const Vector& a, const Vector& b, const Vector& c, const Index
     const double hi = std::max(std::max(e1, e2), e3);
     if (lo < -bound && hi > bound) return -1;
     if (!(lo > bound) && !(hi < -bound)) return 0;
-    const Vector u = minus(b, a);
-    const Vector v = minus(c, a);
-    const Vector n = cross(u, v);
-    const double l = std::max(largest(u), largest(v));
+    const Vector3 u = minus(b, a);
+    const Vector3 v = minus(c, a);
+    const Vector3 n = cross(u, v);
+    const double l = std::max(largest_component(u), largest_component(v));
     const double l2 = l * l;
-    const Range t = quotient(dot(n, oa), l2 * (relative_bound * largest(oa) + 8 * o_error),
-                             dot(n, d), l2 * (relative_bound * dm + 6 * line.direction_error()));
+    const QuotientRange t = quotient(
+        dot(n, oa), l2 * (difference_determinant_rounding * largest_component(oa) + 8 * o_error),
+        dot(n, d), l2 * (difference_determinant_rounding * dm + 6 * line.direction_error()));
     if (!t.known) return 0;
     if (t.hi < 0 || t.lo > line.limit()) return -1;
     if (t.lo < 0 || t.hi > line.limit()) return 0;
@@ -292,50 +282,27 @@ int meet_triangle(const Vector& a, const Vector& b, const Vector& c, const Index
     return 1;
 }
 
-struct Bounded {
-    double value = 0;
-    double error = 0;
-};
-
-Bounded value_of(const Plane& plane, const IndexPoint& p) {
-    double value = plane.approx_offset();
-    double terms = std::fabs(value);
-    double normals = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double t = plane.approx_normal(k) * p[static_cast<std::size_t>(k)];
-        value += t;
-        terms += std::fabs(t);
-        normals += std::fabs(plane.approx_normal(k));
-    }
-    return {value, 0x1p-50 * terms + 1.0000001 * p.error() * normals};
+Ball value_of(const Plane& plane, const IndexPoint& p) {
+    return value_at_point(plane, p.approximate(), p.error());
 }
 
-Bounded slope_of(const Plane& plane, const IndexLine& line) {
-    double value = 0;
-    double terms = 0;
-    double normals = 0;
-    for (int k = 0; k < 3; ++k) {
-        const double t = plane.approx_normal(k) * line.direction()[static_cast<std::size_t>(k)];
-        value += t;
-        terms += std::fabs(t);
-        normals += std::fabs(plane.approx_normal(k));
-    }
-    return {value, 0x1p-50 * terms + 1.0000001 * line.direction_error() * normals};
+Ball slope_of(const Plane& plane, const IndexLine& line) {
+    return linear_value(plane, 0, line.direction(), line.direction_error());
 }
 
 int meet_convex(const Plane& support, std::span<const Plane> edges, const IndexLine& line,
                 LineContact& contact) {
-    const Bounded at = value_of(support, line.origin());
-    const Bounded slope = slope_of(support, line);
-    const Range t = quotient(-at.value, at.error, slope.value, slope.error);
+    const Ball at = value_of(support, line.origin());
+    const Ball slope = slope_of(support, line);
+    const QuotientRange t = quotient(-at.value, at.error, slope.value, slope.error);
     if (!t.known) return 0;
     if (t.hi < 0 || t.lo > line.limit()) return -1;
     bool sure = t.lo >= 0 && t.hi <= line.limit();
     const double mid = 0.5 * (t.lo + t.hi);
     const double half = 0.5 * (t.hi - t.lo) * 1.001 + std::fabs(mid) * 0x1p-51;
     for (const Plane& edge : edges) {
-        const Bounded e = value_of(edge, line.origin());
-        const Bounded s = slope_of(edge, line);
+        const Ball e = value_of(edge, line.origin());
+        const Ball s = slope_of(edge, line);
         const double value = e.value + mid * s.value;
         const double error =
             (e.error + std::fabs(mid) * s.error + half * (std::fabs(s.value) + s.error) +
@@ -387,7 +354,7 @@ IndexLine::IndexLine(const Segment& segment, Lattice lattice)
 }
 
 bool IndexLine::is_moderate() const {
-    const double d = largest(direction_);
+    const double d = largest_component(direction_);
     return direction_error_ < HUGE_VAL && origin_.error() < HUGE_VAL && d > 0x1p-300 && d < 0x1p300;
 }
 
@@ -422,9 +389,8 @@ LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
     LineContact contact;
     int known = 0;
     if (polygons.is_triangle(id)) {
-        known =
-            meet_triangle(to_doubles(polygons.corner(id, 0)), to_doubles(polygons.corner(id, 1)),
-                          to_doubles(polygons.corner(id, 2)), line, contact);
+        known = meet_triangle(to_vector(polygons.corner(id, 0)), to_vector(polygons.corner(id, 1)),
+                              to_vector(polygons.corner(id, 2)), line, contact);
     } else {
         known = meet_convex(polygons.support(id), polygons.edges(id), line, contact);
     }

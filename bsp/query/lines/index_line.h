@@ -26,7 +26,7 @@ public:
     [[nodiscard]] double direction_error() const { return direction_error_; }
     /// Exactly 0.
     [[nodiscard]] bool is_parallel(std::size_t axis) const { return parallel_[axis]; }
-    /// Whether doubles tell where the line is: errors are finite, and nothing is near overflow.
+    /// Whether doubles locate the line: errors are finite, and nothing is near overflow.
     [[nodiscard]] bool is_moderate() const;
     /// 1 for segments, infinite for rays.
     [[nodiscard]] double limit() const { return limit_; }

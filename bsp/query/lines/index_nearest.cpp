@@ -25,24 +25,14 @@
 
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/bsp/query/lines/index_handles.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
 using Exact = IndexPoint::Rational;
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double largest(const Vector& a) {
-    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-}
-
-Exact minus(const Exact& a, const Exact& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-ExactRational dot(const Exact& a, const Exact& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 ExactRational squared_distance(const Exact& a, const Exact& b) {
     const Exact d = minus(a, b);
     return dot(d, d);
@@ -50,23 +40,23 @@ ExactRational squared_distance(const Exact& a, const Exact& b) {
 
 // The nearest point to the origin of the triangle a, b, c, up to rounding: a combination of the
 // corners with weights >= 0.
-Vector nearest_on_segment(const Vector& a, const Vector& b) {
-    const Vector e = minus(b, a);
+Vector3 nearest_on_segment(const Vector3& a, const Vector3& b) {
+    const Vector3 e = minus(b, a);
     const double ee = dot(e, e);
     const double t = ee > 0 ? std::clamp(-dot(a, e) / ee, 0.0, 1.0) : 0.0;
-    Vector q{};
+    Vector3 q{};
     for (std::size_t k = 0; k < 3; ++k) q[k] = (1 - t) * a[k] + t * b[k];
     return q;
 }
 
-Vector between(const Vector& a, const Vector& b, double t) {
+Vector3 between(const Vector3& a, const Vector3& b, double t) {
     return {(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1], (1 - t) * a[2] + t * b[2]};
 }
 
 // By the region of a corner, an edge or the middle that the origin is in (Ericson 2005, 5.1.5).
-Vector nearest_on_triangle(const Vector& a, const Vector& b, const Vector& c) {
-    const Vector u = minus(b, a);
-    const Vector v = minus(c, a);
+Vector3 nearest_on_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 u = minus(b, a);
+    const Vector3 v = minus(c, a);
     const double ua = -dot(u, a);
     const double va = -dot(v, a);
     if (ua <= 0 && va <= 0) return a;
@@ -86,14 +76,14 @@ Vector nearest_on_triangle(const Vector& a, const Vector& b, const Vector& c) {
     if (of_a <= 0 && from_b > 0 && from_c > 0) return between(b, c, from_b / (from_b + from_c));
     const double sum = of_a + of_b + of_c;
     if (of_a >= 0 && of_b >= 0 && of_c >= 0 && sum > 0) {
-        Vector q{};
+        Vector3 q{};
         for (std::size_t k = 0; k < 3; ++k)
             q[k] = (of_a / sum) * a[k] + (of_b / sum) * b[k] + (of_c / sum) * c[k];
         return q;
     }
     // Rounding made no region of it.
-    Vector best = nearest_on_segment(a, b);
-    for (const Vector& q : {nearest_on_segment(b, c), nearest_on_segment(c, a)})
+    Vector3 best = nearest_on_segment(a, b);
+    for (const Vector3& q : {nearest_on_segment(b, c), nearest_on_segment(c, a)})
         if (dot(q, q) < dot(best, best)) best = q;
     return best;
 }
@@ -104,14 +94,14 @@ struct Bounds {
 };
 
 // Of the distance from the origin to the hull of the corners, which are known within `error`.
-Bounds bounds_of(std::span<const Vector> corners, double error) {
+Bounds bounds_of(std::span<const Vector3> corners, double error) {
     double m = 0;
-    for (const Vector& c : corners) m = std::max(m, largest(c));
+    for (const Vector3& c : corners) m = std::max(m, largest_component(c));
     if (!(m < 0x1p500)) return {};
-    Vector q = corners[0];
+    Vector3 q = corners[0];
     if (corners.size() == 2) q = nearest_on_segment(corners[0], corners[1]);
     for (std::size_t i = 2; i < corners.size(); ++i) {
-        const Vector r = nearest_on_triangle(corners[0], corners[i - 1], corners[i]);
+        const Vector3 r = nearest_on_triangle(corners[0], corners[i - 1], corners[i]);
         if (i == 2 || dot(r, r) < dot(q, q)) q = r;
     }
     const double length = std::sqrt(dot(q, q));
@@ -119,7 +109,7 @@ Bounds bounds_of(std::span<const Vector> corners, double error) {
     Bounds b{0, length + slack};
     if (length > 4 * slack) {
         double least = HUGE_VAL;
-        for (const Vector& c : corners) least = std::min(least, dot(q, c));
+        for (const Vector3& c : corners) least = std::min(least, dot(q, c));
         // |g| is within slack of exact; so is each g · c / |g| times a few.
         b.lo = std::max(0.0, least / length - 8 * slack * (1 + m / length));
     }
@@ -144,27 +134,28 @@ struct NearestPart {
 // Corners are within 2^-52 M + error, M their largest coordinate. Ways along edges, products of two
 // differences below 2 M and M, err by less than 2^-46 M^2 + 16 M error; the sides of edges,
 // products of four such, by less than 2^-41 M^4 + 2^8 M^3 error.
-NearestPart surely_nearest(const std::array<Vector, 3>& c, double error) {
+NearestPart surely_nearest(const std::array<Vector3, 3>& c, double error) {
     double m = 0;
-    for (const Vector& v : c) m = std::max(m, largest(v));
+    for (const Vector3& v : c) m = std::max(m, largest_component(v));
     if (!(m < 0x1p200)) return {};
     const double way_bound = 0x1p-46 * m * m + 16 * m * error;
     const double side_bound = 0x1p-41 * m * m * m * m + 0x1p8 * m * m * m * error;
-    std::array<Vector, 3> edge{};
+    std::array<Vector3, 3> edge{};
     for (std::size_t i = 0; i < 3; ++i) edge[i] = minus(c[(i + 1) % 3], c[i]);
-    const Vector& u = edge[0];
-    const Vector& v = edge[1];
-    const Vector n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Vector3& u = edge[0];
+    const Vector3& v = edge[1];
+    const Vector3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                    u[0] * v[1] - u[1] * v[0]};
     unsigned inside = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector& e = edge[i];
+        const Vector3& e = edge[i];
         const double from_start = -dot(e, c[i]);
         const double from_end = dot(e, c[(i + 1) % 3]);
         // Neither edge leads from the corner to what is nearer.
         if (from_start < -way_bound && dot(edge[(i + 2) % 3], c[i]) < -way_bound)
             return {NearestPart::Kind::Corner, i};
-        const Vector out{e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2],
-                         e[0] * n[1] - e[1] * n[0]};
+        const Vector3 out{e[1] * n[2] - e[2] * n[1], e[2] * n[0] - e[0] * n[2],
+                          e[0] * n[1] - e[1] * n[0]};
         const double side = -dot(out, c[i]);
         if (side > side_bound && from_start > way_bound && from_end > way_bound)
             return {NearestPart::Kind::Edge, i};
@@ -173,9 +164,9 @@ NearestPart surely_nearest(const std::array<Vector, 3>& c, double error) {
     return inside == 3 ? NearestPart{NearestPart::Kind::Face, 0} : NearestPart{};
 }
 
-class Search {
+class NearestSearch {
 public:
-    Search(const IndexCore& core, const IndexPoint& point, NearestKind kind)
+    NearestSearch(const IndexCore& core, const IndexPoint& point, NearestKind kind)
         : core_(core), polygons_(core.polygons()), p_(point), kind_(kind) {}
 
     [[nodiscard]] std::optional<Nearest> run() {
@@ -384,8 +375,8 @@ private:
         }
     }
 
-    [[nodiscard]] std::array<Vector, 3> relative_triangle(PolygonId id) const {
-        std::array<Vector, 3> out{};
+    [[nodiscard]] std::array<Vector3, 3> relative_triangle(PolygonId id) const {
+        std::array<Vector3, 3> out{};
         for (int i = 0; i < 3; ++i) {
             const LatticePoint& c = polygons_.corner(id, i);
             out[static_cast<std::size_t>(i)] = minus(
@@ -395,8 +386,8 @@ private:
         return out;
     }
 
-    [[nodiscard]] std::vector<Vector> relative_corners(PolygonId id, double& error) const {
-        std::vector<Vector> out;
+    [[nodiscard]] std::vector<Vector3> relative_corners(PolygonId id, double& error) const {
+        std::vector<Vector3> out;
         error = p_.error();
         if (polygons_.is_triangle(id)) {
             const auto c = relative_triangle(id);
@@ -410,7 +401,7 @@ private:
     }
 
     // Whether the box of a triangle is surely farther than what is known.
-    [[nodiscard]] bool is_box_beyond(const std::array<Vector, 3>& c) const {
+    [[nodiscard]] bool is_box_beyond(const std::array<Vector3, 3>& c) const {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double lo = std::min(std::min(c[0][k], c[1][k]), c[2][k]);
@@ -431,12 +422,12 @@ private:
             PolygonId& recent = recent_[id % recent_.size()];
             if (recent == id) return;
             recent = id;
-            const std::array<Vector, 3> c = relative_triangle(id);
+            const std::array<Vector3, 3> c = relative_triangle(id);
             if (!is_box_beyond(c)) offer({id, -1, -1, bounds_of(c, p_.error())});
             return;
         }
         double error = 0;
-        const std::vector<Vector> c = relative_corners(id, error);
+        const std::vector<Vector3> c = relative_corners(id, error);
         if (kind_ == NearestKind::Boundary) {
             offer({id, -1, -1, bounds_of(c, error)});
             return;
@@ -445,7 +436,7 @@ private:
             const auto number = static_cast<std::int32_t>(i);
             offer({id, -1, number, bounds_of(std::span(c).subspan(i, 1), error)});
             if (kind_ != NearestKind::Edge) continue;
-            const std::array<Vector, 2> ends{c[i], c[(i + 1) % c.size()]};
+            const std::array<Vector3, 2> ends{c[i], c[(i + 1) % c.size()]};
             offer({id, number, -1, bounds_of(ends, error)});
         }
     }
@@ -609,11 +600,11 @@ double nearest_root(const ExactRational& square) {
 }
 
 std::optional<NearestBounds> distance(const IndexCore& core, const IndexPoint& point) {
-    return Search(core, point, NearestKind::Boundary).run_in_doubles();
+    return NearestSearch(core, point, NearestKind::Boundary).run_in_doubles();
 }
 
 std::optional<Nearest> nearest(const IndexCore& core, const IndexPoint& point, NearestKind kind) {
-    return Search(core, point, kind).run();
+    return NearestSearch(core, point, kind).run();
 }
 
 }  // namespace trisect::detail

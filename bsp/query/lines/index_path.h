@@ -14,7 +14,7 @@
 
 namespace trisect::detail {
 
-/// Followed in doubles, from wall to wall (Amanatides and Woo 1987), with a division an axis for
+/// Followed in doubles, from cell to cell (Amanatides and Woo 1987), with a division an axis for
 /// the whole line. A computed point is within 2^-12 finest cells of the real one, or there is no
 /// path. Cells list what meets them enlarged by 2^-10, so whatever the line meets at t is listed in
 /// the cell in which the path is at t, even where that is not the line's own cell.

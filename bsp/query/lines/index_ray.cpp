@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rays. The tree is walked from front to back with enclosures of the parameters at its walls, so
-// that no cell that the ray touches is missed; each polygon of a cell is tested whole, wherever it
-// meets the ray. The walk for a first hit ends when every cell left begins behind the upper bound
-// of a hit.
+// Rays. The tree is walked from front to back with enclosures of the parameters at its splitting
+// planes, so that no cell that the ray touches is missed; each polygon of a cell is tested whole,
+// wherever it meets the ray. The walk for a first hit ends when every cell left begins behind the
+// upper bound of a hit.
 //
 // A line meets most polygons in an interior point, which doubles decide. What is left are rays
 // through edges and vertices, along edges and in faces. There all contacts are collected, their
-// ends sorted exactly, and between and at these the rank of the normals tells what the ray is on.
+// ends sorted exactly, and between and at these the rank of the normals decides what the ray is on.
 // Of a point and the intervals beside it that have the same rank one hit is made: the point was the
 // end of a triangle, but not of a face or edge.
 
@@ -33,13 +33,13 @@ struct Contact {
     LineContact contact;
 };
 
-struct Range {
+struct ParameterRange {
     double lo = 0;
     double hi = 0;
 };
 
-// The enclosure of the parameter at which the line passes a wall.
-Range at_wall(const IndexLine& line, std::size_t axis, double wall, double wall_error) {
+// The enclosure of the parameter at which the line passes a splitting plane.
+ParameterRange at_wall(const IndexLine& line, std::size_t axis, double wall, double wall_error) {
     const double d = line.direction()[axis];
     const double t = (wall - line.origin()[axis]) / d;
     const double e = std::fabs(t) * (0x1p-50 + line.direction_error() / std::fabs(d) * 1.01) +
@@ -55,7 +55,7 @@ public:
     // Every polygon that the line meets, once; for a first hit, those that may be it.
     [[nodiscard]] std::vector<Contact> contacts() {
         if (line_.is_moderate()) {
-            Range whole{0, line_.limit()};
+            ParameterRange whole{0, line_.limit()};
             if (clipped_to_bounds(whole)) walk(0, whole);
         } else {
             visit_all();
@@ -72,10 +72,10 @@ public:
 private:
     struct Pending {
         std::uint32_t node = 0;
-        Range range;
+        ParameterRange range;
     };
 
-    // For lines of which doubles do not tell the cells.
+    // For lines whose cells doubles do not decide.
     void visit_all() {
         for_leaves(
             index_.tree, [](const DoubleBox&) { return true; },
@@ -85,7 +85,7 @@ private:
     }
 
     // Faces without an end may be hit beyond the bounds.
-    [[nodiscard]] bool clipped_to_bounds(Range& range) const {
+    [[nodiscard]] bool clipped_to_bounds(ParameterRange& range) const {
         const IndexTree& tree = index_.tree;
         if (!tree.is_bounded()) return true;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -96,8 +96,8 @@ private:
                 continue;
             }
             if (line_.direction()[k] == 0) continue;  // too small for a double
-            const Range a = at_wall(line_, k, tree.lo()[k], 0);
-            const Range b = at_wall(line_, k, tree.hi()[k], 0);
+            const ParameterRange a = at_wall(line_, k, tree.lo()[k], 0);
+            const ParameterRange b = at_wall(line_, k, tree.hi()[k], 0);
             const double lo = std::min(a.lo, b.lo);
             const double hi = std::max(a.hi, b.hi);
             if (lo > range.hi || hi < range.lo) return false;
@@ -108,7 +108,7 @@ private:
     }
 
     // From a node on, front to back.
-    void walk(std::uint32_t node, const Range& whole) {
+    void walk(std::uint32_t node, const ParameterRange& whole) {
         const std::size_t base = pending_.size();
         pending_.push_back({node, whole});
         while (pending_.size() > base) {
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    void walk_grid(const IndexGrid& g, const Range& range) {
+    void walk_grid(const IndexGrid& g, const ParameterRange& range) {
         const auto more = [&](double t) { return !first_only_ || !(t > nearest_); };
         // Faces without an end may be hit beyond the grid.
         const auto path = index_.tree.is_bounded() ? GridPath::make(g, line_, range) : std::nullopt;
@@ -164,13 +164,13 @@ private:
             return;
         }
         const std::uint32_t far = line_.direction()[axis] > 0 ? 1 : 0;
-        const Range t = at_wall(line_, axis, wall, wall_error);
+        const ParameterRange t = at_wall(line_, axis, wall, wall_error);
         if (at.range.hi < t.lo) {
             at.node = n.next + 1 - far;
         } else if (at.range.lo > t.hi) {
             at.node = n.next + far;
         } else {
-            Range behind = at.range;
+            ParameterRange behind = at.range;
             if (t.lo > behind.lo) behind.lo = t.lo;
             pending_.push_back({n.next + far, behind});
             if (t.hi < at.range.hi) at.range.hi = t.hi;
@@ -238,7 +238,7 @@ struct Part {
 };
 
 // The line from one end of a part to the next: a point or an open interval.
-struct Piece {
+struct LinePiece {
     RayParameter enter;
     RayParameter leave;
     bool is_interval = false;
@@ -295,7 +295,7 @@ private:
 
     void add(const RayParameter& enter, const RayParameter& leave, bool is_interval,
              const std::vector<const Part*>& parts) {
-        Piece piece{enter, leave, is_interval, 0, {}};
+        LinePiece piece{enter, leave, is_interval, 0, {}};
         for (const Part* p : parts) piece.on.push_back(p->id);
         piece.rank = place_on(core_.polygons(), piece.on).face_count;
         pieces_.push_back(std::move(piece));
@@ -303,7 +303,7 @@ private:
 
     // Pieces that follow each other and are on one face or edge. The polygons of an interval
     // contain its ends, so planes at the end are the same when there are no more dimensions.
-    [[nodiscard]] bool continues(const Piece& a, const Piece& b) const {
+    [[nodiscard]] bool continues(const LinePiece& a, const LinePiece& b) const {
         return a.is_interval != b.is_interval && a.rank == b.rank &&
                (a.is_interval ? a.leave : a.enter) == b.enter;
     }
@@ -341,7 +341,7 @@ private:
     const IndexCore& core_;
     const IndexLine& line_;
     std::vector<Part> parts_;
-    std::vector<Piece> pieces_;
+    std::vector<LinePiece> pieces_;
 };
 
 }  // namespace

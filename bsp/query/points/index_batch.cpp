@@ -2,10 +2,10 @@
 //
 // Many points at once. A point alone waits for memory most of its time: slot, brick, leaf, planes,
 // corners of the mesh, one after the other. Here every step is done for 32 points before the next
-// one, and asks for the memory that the next one needs. Points in cells without polygons need no
-// more than what fits into a small cache and are found at once; the others are sorted by leaf
-// first, so that neighbours come after each other. On several threads, too, all of them are sorted
-// together: were each part sorted by itself, every thread would walk through the whole tree.
+// one, and prefetches the memory of the next one. Points in cells without polygons need no more
+// than what fits into a small cache and are found at once; the others are sorted by leaf first, so
+// that neighbours come after each other. On several threads, too, all of them are sorted together:
+// were each part sorted by itself, every thread would walk through the whole tree.
 
 #include <algorithm>
 #include <bit>

@@ -8,7 +8,7 @@
 // instead takes a dozen lines of memory for ten polygons, and that, not arithmetic, is what it
 // would cost.
 //
-// Where a sign is not sure the polygon is asked exactly. A point can be on a polygon only when its
+// Where a sign is not sure the polygon is tested exactly. A point can be on a polygon only when its
 // side of the plane is not sure and the line through it along the normal does not surely pass by
 // the triangle.
 
@@ -30,7 +30,7 @@ namespace {
 
 using Answer = PointInLeaf::Answer;
 
-// A sign that a leaf's planes did not tell.
+// A sign that a leaf's planes did not decide.
 constexpr int unsure_sign = 2;
 
 int sure_sign(float v) {

@@ -13,7 +13,7 @@ namespace trisect::detail {
 
 /// Steps of locating one point, apart from each other so that many points can go together: each
 /// needs other memory. The first ones use only what is kept with the leaf, in single precision with
-/// proved bounds; the last one asks exactly what these left open.
+/// proved bounds; the last one decides exactly what these left open.
 class PointInLeaf {
 public:
     enum class Answer : std::uint8_t { Outside, Inside, Open };
@@ -29,7 +29,7 @@ public:
     /// returned has no meaning.
     [[nodiscard]] bool finish(const IndexBase& index, const IndexPoint& p,
                               std::vector<PolygonId>& on);
-    /// The rank of the normals of the polygons found, or 0 where single precision does not tell.
+    /// The rank of the normals of the polygons found, or 0 where single precision does not decide.
     [[nodiscard]] int rank(const IndexTree& tree) const;
 
 private:

@@ -1,61 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What kind of boundary point it is, the normals of the polygons that contain it tell: in one plane
-// a face, planes through one line an edge, else a vertex. Near the point the boundary is a cone
-// over these polygons, so this is a property of the set.
+// The normals of the polygons that contain it decide the kind of boundary point: in one plane a
+// face, planes through one line an edge, else a vertex. Near the point the boundary is a cone over
+// these polygons, so this is a property of the set.
 
 #include <algorithm>
 #include <cmath>
 
 #include <trisect/bsp/query/index/index_core.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-bool are_parallel(const Plane& a, const Plane& b) {
+bool have_parallel_normals(const Plane& a, const Plane& b) {
     for (int k = 0; k < 3; ++k)
         if (sign_of_cross(a, b, k) != 0) return false;
     return true;
 }
 
-Vector cross(const Vector& u, const Vector& v) {
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-double largest(const Vector& v) {
-    return std::max(std::max(std::fabs(v[0]), std::fabs(v[1])), std::fabs(v[2]));
-}
-
 // A triangle's normal, its largest component 1, in doubles: within 2^-40, or not known.
-bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector& n) {
+bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector3& n) {
     if (!polygons.is_triangle(id)) return false;
-    std::array<Vector, 3> c{};
+    std::array<Vector3, 3> c{};
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& p = polygons.corner(id, i);
         c[static_cast<std::size_t>(i)] = {static_cast<double>(p.x), static_cast<double>(p.y),
                                           static_cast<double>(p.z)};
     }
-    const Vector u{c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]};
-    const Vector v{c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
+    const Vector3 u{c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]};
+    const Vector3 v{c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
     n = cross(u, v);
     // Each component is within 2^-50 of the product of the largest ones of u and v.
-    const double size = largest(n);
-    if (!(0x1p-50 * largest(u) * largest(v) < 0x1p-42 * size)) return false;
+    const double size = largest_component(n);
+    if (!(0x1p-50 * largest_component(u) * largest_component(v) < 0x1p-42 * size)) return false;
     for (double& x : n) x /= size;
     return true;
 }
 
 // Polygons whose normals are linearly independent, up to three: each one that is not a combination
-// of those before. Doubles tell mostly.
+// of those before. Doubles mostly decide.
 class Independent {
 public:
     explicit Independent(const IndexPolygons& polygons) : polygons_(polygons) {}
     [[nodiscard]] std::size_t rank() const { return rank_; }
     void add(PolygonId id) {
-        Vector n{};
+        Vector3 n{};
         const bool known = find_normal(polygons_, id, n);
         if (!is_independent(id, known, n)) return;
         if (rank_ == 1) both_ = cross(first_, n);
@@ -65,16 +57,16 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_independent(PolygonId id, bool known, const Vector& n) const {
+    [[nodiscard]] bool is_independent(PolygonId id, bool known, const Vector3& n) const {
         if (rank_ == 0) return true;
         // Components of a cross product are within 2^-38, a determinant within 2^-35.
         const double turn = rank_ == 1
-                                ? largest(cross(first_, n))
+                                ? largest_component(cross(first_, n))
                                 : std::fabs(both_[0] * n[0] + both_[1] * n[1] + both_[2] * n[2]);
         if (known && sure_ && turn > 0x1p-30) return true;
         const Plane p = polygons_.support(id);
         const Plane first = polygons_.support(id_[0]);
-        if (rank_ == 1) return !are_parallel(first, p);
+        if (rank_ == 1) return !have_parallel_normals(first, p);
         return sign_of_det(first, polygons_.support(id_[1]), p) != 0;
     }
 
@@ -82,8 +74,8 @@ private:
     std::array<PolygonId, 3> id_{};
     std::size_t rank_ = 0;
     bool sure_ = true;  // the normals below are good
-    Vector first_{};
-    Vector both_{};
+    Vector3 first_{};
+    Vector3 both_{};
 };
 
 }  // namespace

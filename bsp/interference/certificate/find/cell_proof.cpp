@@ -2,9 +2,9 @@
 //
 // A binary partition of space (Fuchs, Kedem and Naylor 1980) used as a proof. Open cells and the
 // planes between them fill space, so what holds for open sets in every cell holds everywhere. Where
-// many pieces are left, planes across the axes part them; few are parted by the planes of pieces,
-// each of which takes its own piece out of both sides. That ends, because every piece lies in one
-// of finitely many planes; planes that split little and keep A's pieces from B's come first.
+// many pieces are left, axis-perpendicular planes separate them; few are separated by the planes of
+// pieces, each of which takes its own piece out of both sides. That ends, because every piece lies
+// in one of finitely many planes; planes that split little and keep A's pieces from B's come first.
 //
 // Every cell has a point: a cell is divided by a plane that has points of the cell on both sides,
 // and a point of each side is made of the cell's point and of the middle of a piece, which is in
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t few_pieces = 12;
 constexpr std::size_t most_candidates = 24;
-constexpr int max_depth = 2000;
+constexpr int most_cell_levels = 2000;
 
 GmpVector middle_of(const ConvexPolygon& p) {
     GmpVector sum;
@@ -97,11 +97,11 @@ std::vector<ConvexPolygon> part(const std::vector<ConvexPolygon>& polygons, cons
     return r;
 }
 
-struct Extent {
+struct PolygonExtent {
     std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL};
     std::array<double, 3> hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
-    explicit Extent(const std::vector<ConvexPolygon>& polygons) {
+    explicit PolygonExtent(const std::vector<ConvexPolygon>& polygons) {
         for (const ConvexPolygon& p : polygons)
             for (const GmpVector& v : p)
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -129,8 +129,8 @@ double short_between(double low, double high) {
 // part anything.
 std::optional<GmpPlane> plane_across_an_axis(const std::vector<ConvexPolygon>& a,
                                              const std::vector<ConvexPolygon>& b) {
-    const Extent ea(a);
-    const Extent eb(b);
+    const PolygonExtent ea(a);
+    const PolygonExtent eb(b);
     std::size_t axis = 0;
     double longest = -1;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -201,7 +201,7 @@ bool parts(const GmpPlane& plane, const std::vector<ConvexPolygon>& a,
 std::optional<std::vector<CertifiedCell>> CellProof::run(Polygons a, Polygons b) {
     cells_.clear();
     path_.clear();
-    // Any point that is on no boundary will do; it is replaced as soon as it is asked about.
+    // Any point that is on no boundary will do; it is replaced on first use.
     const GmpVector point = a.empty() ? GmpVector{} : middle_of(a.front());
     if (divide(a, b, point, 0) != Progress::Done) return std::nullopt;
     return std::move(cells_);
@@ -224,7 +224,7 @@ std::optional<CertifiedCell::Kind> CellProof::verdict(const Polygons& a, const P
 
 CellProof::Progress CellProof::divide(const Polygons& a, const Polygons& b, const GmpVector& point,
                                       int depth) {
-    if (cells_.size() >= goal_.limit || depth > max_depth) return Progress::Failed;
+    if (cells_.size() >= goal_.limit || depth > most_cell_levels) return Progress::Failed;
     const std::size_t at = cells_.size();
     cells_.emplace_back();
     if (a.empty() || b.empty()) {
@@ -272,7 +272,7 @@ GmpVector CellProof::point_beside(const Bound& cut, const Polygons& a, const Pol
     const auto sign_at = [&cut](const GmpVector& p) {
         return sgn(mpq_class(dot(cut.normal, p) + cut.offset));
     };
-    // The middle of a piece is no good itself where the piece is the boundary asked about later: it
+    // The middle of a piece is no good itself where the piece is the boundary of a later query: it
     // is moved towards the cell's point. So is the point itself when it is in the plane.
     const auto near = [&](const GmpVector& from, const GmpVector& direction) {
         mpq_class step = 1;

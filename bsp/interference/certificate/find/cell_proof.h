@@ -31,7 +31,7 @@ struct CellGoal {
     std::size_t limit = 20000;
 };
 
-/// Where a point of the world is; asked for points on no boundary only.
+/// Location of a point of the world that is on no boundary.
 using IsInside = std::function<bool(const RationalPoint&)>;
 
 /// A tree of cells in which every leaf is done with, in preorder; nothing when the goal cannot be

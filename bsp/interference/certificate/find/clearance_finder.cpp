@@ -23,7 +23,7 @@ using namespace proof;
 
 namespace {
 
-constexpr int max_depth = 120;
+constexpr int most_clearance_levels = 120;
 constexpr std::size_t few_triangles = 40;
 constexpr double tolerance = 0x1p-30;  // of doubles, in front of exact tests
 
@@ -39,7 +39,7 @@ double value(const std::vector<double>& p, double s) {
     return r;
 }
 
-struct Extent {
+struct PointExtent {
     Approximate lo{HUGE_VAL, HUGE_VAL, HUGE_VAL};
     Approximate hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
@@ -56,8 +56,8 @@ struct Extent {
     }
 };
 
-Extent extent_of(const std::vector<Approximate>& points) {
-    Extent r;
+PointExtent extent_of(const std::vector<Approximate>& points) {
+    PointExtent r;
     for (const Approximate& x : points) r.add(x);
     return r;
 }
@@ -165,7 +165,7 @@ std::optional<std::vector<ClearanceNode>> ClearanceFinder::find(
 }
 
 bool ClearanceFinder::add(const Range& r, int depth) {
-    if (nodes_.size() >= limit_ || depth > max_depth) {
+    if (nodes_.size() >= limit_ || depth > most_clearance_levels) {
         failure_ =
             nodes_.size() >= limit_
                 ? "the limit of nodes"
@@ -448,7 +448,7 @@ std::optional<SeparatingPlane> ClearanceFinder::plane_to_divide(const Range& r,
     const auto& triangles = r.part->triangles();
     const auto& points = r.part->points();
     if (triangles.size() > 2 * few_triangles) {
-        const Extent e = extent_of(c.of_a);
+        const PointExtent e = extent_of(c.of_a);
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (e.hi[k] - e.lo[k] > e.hi[axis] - e.lo[axis]) axis = k;

@@ -22,7 +22,7 @@
 namespace trisect::detail {
 
 /// Trees of OverlapCertificate::clearance. What is found need not be right, but every plane has
-/// been shown to the checker's Clearance, which is asked to judge them.
+/// been shown to the checker's Clearance, which judges them.
 class ClearanceFinder {
 public:
     ClearanceFinder(certified::Clearance& clearance, const ProofBody& b, std::size_t limit);

@@ -36,18 +36,15 @@ namespace {
 using detail::Ball;
 using detail::BallMotion;
 using detail::BallVector;
+using detail::dot;
 using detail::IntegerPolynomial;
+using detail::minus;
 using detail::MotionPiece;
 using detail::ProofBody;
+using detail::rounded;
 using detail::proof::Approximate;
-using detail::proof::dot;
-using detail::proof::minus;
 
-constexpr int max_depth = 200;
-
-BallVector ball(const Approximate& x) {
-    return {Ball::rounded(x[0]), Ball::rounded(x[1]), Ball::rounded(x[2])};
-}
+constexpr int most_freedom_levels = 200;
 
 // The tree of one piece of the motions.
 class FreedomBuilder {
@@ -72,7 +69,8 @@ public:
     std::optional<std::vector<FreedomNode>> build() {
         if (!BallMotion::fits(to_a_)) return std::nullopt;
         const double end = contact_ ? contact_->upper : 1;
-        return detail::ProofTree<FreedomNode, double, FreedomBuilder>(*this, {limit_, max_depth})
+        return detail::ProofTree<FreedomNode, double, FreedomBuilder>(*this,
+                                                                      {limit_, most_freedom_levels})
             .build({0, a_.triangles.size(), 0, b_.triangles.size(), 0, end});
     }
     [[nodiscard]] const std::optional<CommonPoint>& common_point() const { return common_; }
@@ -153,12 +151,12 @@ private:
         const BallVector direction{Ball(d[0]), Ball(d[1]), Ball(d[2])};
         double highest = -HUGE_VAL;
         for (const std::uint32_t v : of_a)
-            highest = std::max(highest, detail::dot(direction, ball(a_.near[v])).upper());
+            highest = std::max(highest, detail::dot(direction, rounded(a_.near[v])).upper());
         double lowest = HUGE_VAL;
         std::vector<std::vector<Ball>> heights;
         for (const std::uint32_t v : of_b) {
             auto& h = heights.emplace_back();
-            const BallVector x = ball(b_.near[v]);
+            const BallVector x = rounded(b_.near[v]);
             for (std::size_t k = 0; k <= motion.degree; ++k) {
                 const BallMotion::Maps& m = motion.maps[k];
                 h.push_back(detail::dot(direction, m.matrix * x + m.shift));

@@ -17,7 +17,7 @@ namespace {
 
 using proof::Approximate;
 
-GmpVector exact(const Approximate& v) {
+GmpVector exact_fractions(const Approximate& v) {
     return {mpq_class(v[0]), mpq_class(v[1]), mpq_class(v[2])};
 }
 
@@ -98,20 +98,20 @@ std::vector<GmpVector> ContactPlanes::candidates(const Corners& resting,
         for (std::size_t k = 0; k < 3; ++k) ways.back()[k] += q[i][k] - p[i][k];
     const std::size_t count = ways.size();
     for (std::size_t i = 1; i < count; ++i) {  // between two of them
-        const double a = proof::length(ways[0]);
-        const double b = proof::length(ways[i]);
+        const double a = length(ways[0]);
+        const double b = length(ways[i]);
         if (!(a > 0) || !(b > 0)) continue;
         Approximate sum{};
         for (std::size_t k = 0; k < 3; ++k) sum[k] = ways[0][k] / a + ways[i][k] / b;
         ways.push_back(sum);
     }
     for (const Approximate& way : ways) {
-        const double length = proof::length(way);
-        if (!(length > 0) || !std::isfinite(length)) continue;
+        const double size = length(way);
+        if (!(size > 0) || !std::isfinite(size)) continue;
         // Short numbers.
         Approximate d{};
-        for (std::size_t k = 0; k < 3; ++k) d[k] = std::round(way[k] / length * 0x1p20);
-        const GmpVector e = exact(d);
+        for (std::size_t k = 0; k < 3; ++k) d[k] = std::round(way[k] / size * 0x1p20);
+        const GmpVector e = exact_fractions(d);
         if (is_zero(e)) continue;
         r.push_back(e);
         for (std::size_t i = 0; i < 3; ++i) {

@@ -31,17 +31,16 @@ namespace trisect {
 
 namespace {
 
+using detail::cross;
+using detail::dot;
 using detail::Feature;
 using detail::InterferenceModelData;
+using detail::minus;
 using detail::ProofBody;
-using Vector = RationalPoint;
 using detail::proof::Approximate;
-using detail::proof::cross;
-using detail::proof::dot;
 using detail::proof::exact;
-using detail::proof::minus;
 using detail::proof::opposite;
-using Corners = std::array<Vector, 3>;
+using RationalCorners = std::array<RationalPoint, 3>;
 
 // Of size about 1, in multiples of 2^-52, which keeps products short. Zero stays zero.
 Approximate scaled(const Approximate& v) {
@@ -52,7 +51,7 @@ Approximate scaled(const Approximate& v) {
     return r;
 }
 // A fraction's size may be beyond doubles.
-Approximate scaled(const Vector& v) {
+Approximate scaled(const RationalPoint& v) {
     ExactRational largest;
     for (const ExactRational& x : v) largest = std::max(largest, x.sign() < 0 ? -x : x);
     if (largest.sign() == 0) return {};
@@ -75,11 +74,11 @@ std::array<ExactRational, 3> on_side(std::size_t i, const ExactRational& t) {
 }
 
 // The weights of the point in a triangle's plane that is nearest to x, or 0 where it is x.
-std::array<ExactRational, 3> weights_of(const Vector& x, const Corners& t) {
-    const Vector u = minus(t[1], t[0]);
-    const Vector v = minus(t[2], t[0]);
-    const Vector w = minus(x, t[0]);
-    const Vector n = cross(u, v);
+std::array<ExactRational, 3> weights_of(const RationalPoint& x, const RationalCorners& t) {
+    const RationalPoint u = minus(t[1], t[0]);
+    const RationalPoint v = minus(t[2], t[0]);
+    const RationalPoint w = minus(x, t[0]);
+    const RationalPoint n = cross(u, v);
     const ExactRational nn = dot(n, n);
     std::array<ExactRational, 3> r;
     r[1] = dot(cross(w, v), n) / nn;
@@ -88,13 +87,14 @@ std::array<ExactRational, 3> weights_of(const Vector& x, const Corners& t) {
     return r;
 }
 
-ExactRational part_along(const Vector& x, const Vector& from, const Vector& to) {
-    const Vector d = minus(to, from);
+ExactRational part_along(const RationalPoint& x, const RationalPoint& from,
+                         const RationalPoint& to) {
+    const RationalPoint d = minus(to, from);
     return dot(minus(x, from), d) / dot(d, d);
 }
 
 // Of the point of a feature that is closest to x.
-std::array<ExactRational, 3> nearest(const Vector& x, const Corners& t, Feature f) {
+std::array<ExactRational, 3> nearest(const RationalPoint& x, const RationalCorners& t, Feature f) {
     if (f.is_interior()) return weights_of(x, t);
     if (f.is_side()) return on_side(f.index(), part_along(x, t[f.index()], t[(f.index() + 1) % 3]));
     return on_side(f.index(), ExactRational());
@@ -102,14 +102,15 @@ std::array<ExactRational, 3> nearest(const Vector& x, const Corners& t, Feature 
 
 // The closest points of two triangles by the features that they are on: a corner, or two sides that
 // are not parallel.
-PointsOfPair points_of(const Corners& p, Feature on_p, const Corners& q, Feature on_q) {
+PointsOfPair points_of(const RationalCorners& p, Feature on_p, const RationalCorners& q,
+                       Feature on_q) {
     if (on_p.is_corner()) return {on_side(on_p.index(), {}), nearest(p[on_p.index()], q, on_q)};
     if (on_q.is_corner()) return {nearest(q[on_q.index()], p, on_p), on_side(on_q.index(), {})};
     const std::size_t i = on_p.index();
     const std::size_t j = on_q.index();
-    const Vector u = minus(p[(i + 1) % 3], p[i]);
-    const Vector v = minus(q[(j + 1) % 3], q[j]);
-    const Vector r = minus(p[i], q[j]);
+    const RationalPoint u = minus(p[(i + 1) % 3], p[i]);
+    const RationalPoint v = minus(q[(j + 1) % 3], q[j]);
+    const RationalPoint r = minus(p[i], q[j]);
     const ExactRational uu = dot(u, u);
     const ExactRational vv = dot(v, v);
     const ExactRational uv = dot(u, v);
@@ -118,16 +119,17 @@ PointsOfPair points_of(const Corners& p, Feature on_p, const Corners& q, Feature
             on_side(j, (uu * dot(v, r) - uv * dot(u, r)) / det)};
 }
 
-Corners corners_of(const InterferenceModelData& m, const Pose& pose, std::uint32_t triangle) {
-    Corners r;
+RationalCorners corners_of(const InterferenceModelData& m, const Pose& pose,
+                           std::uint32_t triangle) {
+    RationalCorners r;
     for (std::size_t i = 0; i < 3; ++i)
         r[i] = in_world(detail::exact_place(m.brep.point(m.triangles[triangle].vertex[i])),
                         m.brep.lattice(), pose);
     return r;
 }
 
-Vector weighted(const std::array<ExactRational, 3>& weights, const Corners& c) {
-    Vector r;
+RationalPoint weighted(const std::array<ExactRational, 3>& weights, const RationalCorners& c) {
+    RationalPoint r;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) r[k] += weights[i] * c[i][k];
     return r;
@@ -146,7 +148,7 @@ std::optional<Closest> common_point(const InterferenceModelData& a, const Pose& 
     for (const detail::MeetingPair& pair : meeting_pairs(models, true, flags))
         for (const detail::MeetingPoint& m : pair.contact.corners()) {
             if (m.a.is_interior() && m.b.is_interior()) continue;
-            const Vector x = in_world(place_of(models, pair, m), a.brep.lattice(), pose_a);
+            const RationalPoint x = in_world(place_of(models, pair, m), a.brep.lattice(), pose_a);
             return Closest{{a.triangles[pair.a].face, x}, {b.triangles[pair.b].face, x}};
         }
     return std::nullopt;
@@ -166,8 +168,8 @@ std::optional<Closest> closest_points(const InterferenceModelData& a, const Pose
         least = std::move(e);
     }
     if (best == nullptr || least.features.empty()) return common_point(a, pose_a, b, pose_b);
-    const Corners p = corners_of(a, pose_a, best->a);
-    const Corners q = corners_of(b, pose_b, best->b);
+    const RationalCorners p = corners_of(a, pose_a, best->a);
+    const RationalCorners q = corners_of(b, pose_b, best->b);
     const PointsOfPair points = points_of(p, least.features[0].a, q, least.features[0].b);
     return Closest{{a.triangles[best->a].face, weighted(points.on_p, p)},
                    {b.triangles[best->b].face, weighted(points.on_q, q)}};
@@ -232,7 +234,7 @@ private:
         return e.lowest - e.highest < e.goal - 8 * e.error - 0x1p-20 * e.goal;
     }
     // In fractions.
-    [[nodiscard]] std::optional<Slab> slab_along(const Vector& d, Indices of_a,
+    [[nodiscard]] std::optional<Slab> slab_along(const RationalPoint& d, Indices of_a,
                                                  Indices of_b) const {
         ExactRational highest = highest_along(d, of_a, a_);
         ExactRational lowest = lowest_along(d, of_b, b_);
@@ -257,14 +259,14 @@ private:
     }
     [[nodiscard]] std::optional<Slab> slab_of_triangles(std::size_t i, std::size_t j, Indices of_a,
                                                         Indices of_b) const {
-        Corners p;
-        Corners q;
+        RationalCorners p;
+        RationalCorners q;
         for (std::size_t k = 0; k < 3; ++k) {
             p[k] = a_.points[a_.triangles[i].vertex[k].index];
             q[k] = b_.points[b_.triangles[j].vertex[k].index];
         }
         std::optional<Slab> slab;
-        const auto works = [&](const Vector& d) {
+        const auto works = [&](const RationalPoint& d) {
             const Approximate near = scaled(d);
             if (near == Approximate{}) return false;
             const Extent e = extent(near, of_a, of_b);
@@ -275,15 +277,17 @@ private:
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t l = 0; l < 3; ++l)
                 if (works(minus(q[l], p[k]))) return slab;
-        const auto both_ways = [&](const Vector& d) { return works(d) || works(opposite(d)); };
+        const auto both_ways = [&](const RationalPoint& d) {
+            return works(d) || works(opposite(d));
+        };
         if (both_ways(cross(minus(p[1], p[0]), minus(p[2], p[0])))) return slab;
         if (both_ways(cross(minus(q[1], q[0]), minus(q[2], q[0])))) return slab;
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t l = 0; l < 3; ++l) {
-                const Vector u = minus(p[(k + 1) % 3], p[k]);
-                const Vector v = minus(q[(l + 1) % 3], q[l]);
+                const RationalPoint u = minus(p[(k + 1) % 3], p[k]);
+                const RationalPoint v = minus(q[(l + 1) % 3], q[l]);
                 if (both_ways(cross(u, v))) return slab;
-                const Vector w = minus(q[l], p[k]);
+                const RationalPoint w = minus(q[l], p[k]);
                 if (works(square_to(w, u)) || works(square_to(w, v))) return slab;
                 // The other way round: a corner of A and a side of B that does not begin there.
                 if (works(square_to(minus(q[l], p[(k + 1) % 3]), v))) return slab;
@@ -292,17 +296,17 @@ private:
         return std::nullopt;
     }
     // What of w is square to u, times a positive number.
-    static Vector square_to(const Vector& w, const Vector& u) {
+    static RationalPoint square_to(const RationalPoint& w, const RationalPoint& u) {
         const ExactRational uu = dot(u, u);
         const ExactRational wu = dot(w, u);
-        Vector r;
+        RationalPoint r;
         for (std::size_t k = 0; k < 3; ++k) r[k] = uu * w[k] - wu * u[k];
         return r;
     }
 
     const ProofBody& a_;
     const ProofBody& b_;
-    Vector way_;
+    RationalPoint way_;
     ExactRational squared_;
     Approximate near_way_{};
     double distance_ = 0;
@@ -318,7 +322,7 @@ DistanceCertificate certify_distance(const InterferenceModel& a, const Pose& pos
     if (a.is_empty() || b.is_empty()) return c;
     auto closest = closest_points(a.data(), pose_a, b.data(), pose_b);
     if (!closest) return c;
-    const Vector way = minus(closest->on_b.point, closest->on_a.point);
+    const RationalPoint way = minus(closest->on_b.point, closest->on_a.point);
     c.squared = dot(way, way);
     c.on_a = closest->on_a;
     c.on_b = closest->on_b;

@@ -31,29 +31,27 @@ namespace {
 using detail::Ball;
 using detail::BallMotion;
 using detail::BallVector;
+using detail::dot;
+using detail::minus;
 using detail::ProofBody;
+using detail::rounded;
 using detail::proof::Approximate;
-using detail::proof::dot;
-using detail::proof::minus;
 using Node = EnclosedFreedomNode;
 
-constexpr int max_depth = 300;
+constexpr int most_enclosed_levels = 300;
 
 double sum_of_magnitudes(const Approximate& v) {
     return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
-BallVector ball(const Approximate& x) {
-    return {Ball::rounded(x[0]), Ball::rounded(x[1]), Ball::rounded(x[2])};
-}
 BallVector direction(const Approximate& d) { return {Ball(d[0]), Ball(d[1]), Ball(d[2])}; }
 
 // A solid's enclosure over a range of time.
-struct View {
+struct EnclosedView {
     BallMotion motion;
     double by_length;
     double constant;
 
-    explicit View(const MotionEnclosure& e)
+    explicit EnclosedView(const MotionEnclosure& e)
         : motion(BallMotion::of_points(e.motion.piece(0))),
           by_length(e.by_length),
           constant(e.constant) {}
@@ -78,7 +76,7 @@ public:
 
     // Nothing where it fails.
     std::optional<std::vector<Node>> find(double from, double to) {
-        return detail::ProofTree<Node, double, FreedomFinder>(*this, {limit_, max_depth})
+        return detail::ProofTree<Node, double, FreedomFinder>(*this, {limit_, most_enclosed_levels})
             .build({0, a_.triangles.size(), 0, b_.triangles.size(), from, to});
     }
     bool separate(const Range& r, Node& node) {
@@ -101,8 +99,8 @@ public:
 
 private:
     struct Views {
-        View a;
-        View b;
+        EnclosedView a;
+        EnclosedView b;
     };
     using Indices = std::span<const std::uint32_t>;
 
@@ -110,8 +108,8 @@ private:
         auto at = views_.find({from, to});
         if (at == views_.end())
             at = views_
-                     .emplace(std::pair{from, to}, Views{View(motion_a_.enclose(from, to)),
-                                                         View(motion_b_.enclose(from, to))})
+                     .emplace(std::pair{from, to}, Views{EnclosedView(motion_a_.enclose(from, to)),
+                                                         EnclosedView(motion_b_.enclose(from, to))})
                      .first;
         return at->second;
     }
@@ -121,7 +119,7 @@ private:
         if (kink == breaks_.end() || !(*kink < r.to)) return std::nullopt;
         return *kink;
     }
-    static double squared_way(const View& view, const ProofBody& body, Indices corners) {
+    static double squared_way(const EnclosedView& view, const ProofBody& body, Indices corners) {
         double square = 0;
         for (const std::uint32_t v : {corners.front(), corners.back()}) {
             const Approximate& x = body.near[v];
@@ -167,13 +165,13 @@ private:
         std::vector<double> margins;
         double extreme;
     };
-    static Heights heights(const Approximate& d, const View& view, const ProofBody& body,
+    static Heights heights(const Approximate& d, const EnclosedView& view, const ProofBody& body,
                            Indices corners, int sign) {
         Heights r{{}, {}, -HUGE_VAL};
         const BallVector e = direction(d);
         const double length = sum_of_magnitudes(d) * (1 + 0x1p-30);
         for (const std::uint32_t v : corners) {
-            const BallVector x = ball(body.near[v]);
+            const BallVector x = rounded(body.near[v]);
             auto& h = r.all.emplace_back();
             const double margin = length * view.deviation(body.near[v]);
             r.margins.push_back(margin);
@@ -186,7 +184,7 @@ private:
         r.extreme *= sign;
         return r;
     }
-    static bool are_beyond(double at, const View& view, const Heights& h, int side) {
+    static bool are_beyond(double at, const EnclosedView& view, const Heights& h, int side) {
         for (std::size_t i = 0; i < h.all.size(); ++i)
             for (std::size_t k = 0; k <= view.motion.degree; ++k) {
                 const Ball limit =

@@ -12,9 +12,9 @@ FromWorld::FromWorld(const InterferenceModelData& model, const Pose& pose)
     std::array<RationalPoint, 3> rows;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) rows[i][j] = ExactRational(pose.matrix(i, j));
-    const ExactRational determinant = proof::dot(rows[0], proof::cross(rows[1], rows[2]));
+    const ExactRational determinant = dot(rows[0], cross(rows[1], rows[2]));
     for (std::size_t j = 0; j < 3; ++j) {
-        columns_[j] = proof::cross(rows[(j + 1) % 3], rows[(j + 2) % 3]);
+        columns_[j] = cross(rows[(j + 1) % 3], rows[(j + 2) % 3]);
         for (ExactRational& x : columns_[j]) x /= determinant;
     }
 }

@@ -12,7 +12,7 @@
 
 namespace trisect::detail {
 
-/// Keeps references to both. For those who look for certificates.
+/// Keeps references to both. For the search for certificates.
 class FromWorld {
 public:
     FromWorld(const InterferenceModelData& model, const Pose& pose);

@@ -15,9 +15,6 @@ namespace trisect::detail {
 
 using GmpVector = std::array<mpq_class, 3>;
 
-using proof::cross;
-using proof::dot;
-using proof::minus;
 using proof::opposite;
 
 inline bool is_zero(const GmpVector& v) {

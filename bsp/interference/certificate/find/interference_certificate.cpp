@@ -38,17 +38,16 @@ using detail::ProofBody;
 
 namespace {
 
-using Vector = RationalPoint;
+using detail::cross;
+using detail::dot;
+using detail::minus;
 using detail::proof::Approximate;
-using detail::proof::cross;
-using detail::proof::dot;
 using detail::proof::exact;
-using detail::proof::minus;
 using detail::proof::opposite;
 
 // A plane with `below` strictly on its lower side and `above` on the upper one; or weakly, when
 // that is enough.
-std::optional<SeparatingPlane> plane_along(const Vector& direction,
+std::optional<SeparatingPlane> plane_along(const RationalPoint& direction,
                                            std::span<const std::uint32_t> below, const ProofBody& a,
                                            std::span<const std::uint32_t> above, const ProofBody& b,
                                            bool strict) {
@@ -59,24 +58,24 @@ std::optional<SeparatingPlane> plane_along(const Vector& direction,
 }
 
 // The directions of separating planes of two triangles or convex sets are among these.
-std::vector<Vector> directions_of(const ProofBody& a, const CertifiedTriangle& s,
-                                  const ProofBody& b, const CertifiedTriangle& t) {
+std::vector<RationalPoint> directions_of(const ProofBody& a, const CertifiedTriangle& s,
+                                         const ProofBody& b, const CertifiedTriangle& t) {
     const auto sides = [](const ProofBody& p, const CertifiedTriangle& x) {
-        std::array<Vector, 3> e;
+        std::array<RationalPoint, 3> e;
         for (std::size_t i = 0; i < 3; ++i)
             e[i] = minus(p.points[x.vertex[(i + 1) % 3].index], p.points[x.vertex[i].index]);
         return e;
     };
     const auto u = sides(a, s);
     const auto v = sides(b, t);
-    const Vector n = cross(u[0], u[1]);
-    const Vector m = cross(v[0], v[1]);
-    std::vector<Vector> out{n, m};
-    for (const Vector& e : u)
-        for (const Vector& f : v) out.push_back(cross(e, f));
-    for (const Vector& e : u) out.push_back(cross(e, n));
-    for (const Vector& f : v) out.push_back(cross(f, m));
-    std::erase_if(out, [](const Vector& d) { return dot(d, d).sign() == 0; });
+    const RationalPoint n = cross(u[0], u[1]);
+    const RationalPoint m = cross(v[0], v[1]);
+    std::vector<RationalPoint> out{n, m};
+    for (const RationalPoint& e : u)
+        for (const RationalPoint& f : v) out.push_back(cross(e, f));
+    for (const RationalPoint& e : u) out.push_back(cross(e, n));
+    for (const RationalPoint& f : v) out.push_back(cross(f, m));
+    std::erase_if(out, [](const RationalPoint& d) { return dot(d, d).sign() == 0; });
     return out;
 }
 
@@ -103,8 +102,8 @@ private:
     std::optional<SeparatingPlane> exact_plane(std::size_t i, std::size_t j,
                                                std::span<const std::uint32_t> below,
                                                std::span<const std::uint32_t> above) const {
-        for (const Vector& d : directions_of(a_, a_.triangles[i], b_, b_.triangles[j]))
-            for (const Vector& v : {d, opposite(d)})
+        for (const RationalPoint& d : directions_of(a_, a_.triangles[i], b_, b_.triangles[j]))
+            for (const RationalPoint& v : {d, opposite(d)})
                 if (auto plane = plane_along(v, below, a_, above, b_, true)) return plane;
         return std::nullopt;
     }
@@ -146,8 +145,8 @@ std::optional<SeparatingPlane> touching_plane(const ProofBody& a, const ProofBod
         if (++tried > 64) break;
         const auto& s = models.a.triangles[pair.a];
         const auto& t = models.b.triangles[pair.b];
-        for (const Vector& d : directions_of(a, {s.face, s.vertex}, b, {t.face, t.vertex}))
-            for (const Vector& v : {d, opposite(d)})
+        for (const RationalPoint& d : directions_of(a, {s.face, s.vertex}, b, {t.face, t.vertex}))
+            for (const RationalPoint& v : {d, opposite(d)})
                 if (auto plane = plane_along(v, below, a, above, b, false)) return plane;
     }
     return std::nullopt;
@@ -158,7 +157,7 @@ std::vector<detail::ConvexPolygon> polygons_of(const ProofBody& placed) {
     for (const CertifiedTriangle& t : placed.triangles) {
         detail::ConvexPolygon& p = r.emplace_back();
         for (const VertexId v : t.vertex) {
-            const Vector& x = placed.points[v.index];
+            const RationalPoint& x = placed.points[v.index];
             p.push_back({detail::to_gmp(x[0]), detail::to_gmp(x[1]), detail::to_gmp(x[2])});
         }
     }
@@ -200,8 +199,9 @@ public:
 
 private:
     detail::CellProof proof(const detail::CellGoal& goal, detail::CellProof::Visit visit) {
-        return {[this](const Vector& p) { return in_a_.is_inside(p); },
-                [this](const Vector& p) { return in_b_.is_inside(p); }, goal, std::move(visit)};
+        return {[this](const RationalPoint& p) { return in_a_.is_inside(p); },
+                [this](const RationalPoint& p) { return in_b_.is_inside(p); }, goal,
+                std::move(visit)};
     }
 
     ProofBody a_;

@@ -27,8 +27,6 @@ using detail::certified::Part;
 using detail::certified::piece_of;
 using detail::certified::RootTime;
 
-bool interiors_meet(Relation r) { return r != Relation::Disjoint && r != Relation::Touching; }
-
 // Where the event is. Nothing that follows depends on the end of a piece, so an event there is at
 // the start of the next one.
 bool name_event(OverlapCertificate& c, const AlgebraicNumber& time) {

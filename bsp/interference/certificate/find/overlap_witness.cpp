@@ -35,7 +35,7 @@ using certified::Polynomial;
 using certified::RootTime;
 using certified::Tetrahedron;
 
-constexpr std::size_t most_triangles = 8;
+constexpr std::size_t largest_part = 8;
 
 // In multiples of a power of two near 2^-30 of a length: short numbers.
 RationalPoint rounded(const Approximate& x, double size) {
@@ -139,7 +139,7 @@ private:
         }
         std::ranges::sort(all);
         std::vector<std::uint32_t> r;
-        for (std::size_t i = 0; i < std::min(all.size(), most_triangles); ++i)
+        for (std::size_t i = 0; i < std::min(all.size(), largest_part); ++i)
             r.push_back(all[i].second);
         return r;
     }
@@ -167,10 +167,10 @@ private:
     RationalPoint point_;
 };
 
-class Search {
+class WitnessSearch {
 public:
-    Search(const OverlapCertificate& c, const InterferenceModel& a, const Motion& motion_a,
-           const InterferenceModel& b, const Motion& motion_b)
+    WitnessSearch(const OverlapCertificate& c, const InterferenceModel& a, const Motion& motion_a,
+                  const InterferenceModel& b, const Motion& motion_b)
         : c_(c), a_(a), motion_a_(motion_a), b_(b), motion_b_(motion_b) {
         if (!c.polynomial.empty()) event_.emplace(c.polynomial, c.lower, c.upper);
         to_a_ = seen_from(certified::piece_of(motion_a, c.piece),
@@ -216,7 +216,7 @@ std::optional<OverlapWitness> find_overlap_witness(const OverlapCertificate& c,
                                                    const Motion& motion_a,
                                                    const InterferenceModel& b,
                                                    const Motion& motion_b) {
-    const Search search(c, a, motion_a, b, motion_b);
+    const WitnessSearch search(c, a, motion_a, b, motion_b);
     const double event = c.polynomial.empty() ? 0 : c.upper.to_double();
     for (const int bits : {5, 12, 22}) {
         // A time with few digits.

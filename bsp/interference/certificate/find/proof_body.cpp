@@ -64,8 +64,8 @@ double ProofBody::squared_size(std::span<const std::uint32_t> vertices) const {
     const std::array<double, 3> m = middle(vertices);
     double square = 0;
     for (const std::uint32_t v : vertices) {
-        const std::array<double, 3> d = proof::minus(near[v], m);
-        square = std::max(square, proof::dot(d, d));
+        const std::array<double, 3> d = minus(near[v], m);
+        square = std::max(square, dot(d, d));
     }
     return square;
 }
@@ -105,10 +105,9 @@ void ProofBody::order(std::size_t from, std::size_t to) {
 
 ExactRational lowest_along(const RationalPoint& direction, std::span<const std::uint32_t> vertices,
                            const ProofBody& body) {
-    ExactRational lowest = proof::dot(direction, body.points[vertices.front()]);
+    ExactRational lowest = dot(direction, body.points[vertices.front()]);
     for (const std::uint32_t v : vertices.subspan(1))
-        if (ExactRational x = proof::dot(direction, body.points[v]); x < lowest)
-            lowest = std::move(x);
+        if (ExactRational x = dot(direction, body.points[v]); x < lowest) lowest = std::move(x);
     return lowest;
 }
 
@@ -130,8 +129,7 @@ void add_proof_directions(const TriangleCorners& p, const TriangleCorners& q,
             way[k] += closest.on_q[i] * q[i][k] - closest.on_p[i] * p[i][k];
     directions.insert(directions.begin(), way);
     for (const TriangleCorners& t : {p, q}) {
-        const std::array<double, 3> n =
-            proof::cross(proof::minus(t[1], t[0]), proof::minus(t[2], t[0]));
+        const std::array<double, 3> n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
         directions.push_back(n);
         directions.push_back({-n[0], -n[1], -n[2]});
     }

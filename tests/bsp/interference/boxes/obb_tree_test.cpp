@@ -23,7 +23,6 @@ using brute::Point3;
 using brute::Rational;
 using reference::Random;
 using trisect::detail::ApproximateMap;
-using trisect::detail::Double3;
 using trisect::detail::Float4;
 using trisect::detail::ObbChild;
 using trisect::detail::ObbId;
@@ -33,9 +32,10 @@ using trisect::detail::ObbTree;
 using trisect::detail::OrientedBox;
 using trisect::detail::PartingPlanes;
 using trisect::detail::PlanePose;
+using trisect::detail::Vector3;
 
 struct Soup {
-    std::vector<Double3> positions;
+    std::vector<Vector3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -151,8 +151,8 @@ TEST(ObbTree, NoTrianglesNoBoxes) {
 
 // A frame at random, its axes rounded to floats as in a tree.
 trisect::detail::AreaFrame random_frame(Random& random) {
-    const Double3 a{uniform(random), uniform(random), uniform(random)};
-    const Double3 b{uniform(random), uniform(random), uniform(random)};
+    const Vector3 a{uniform(random), uniform(random), uniform(random)};
+    const Vector3 b{uniform(random), uniform(random), uniform(random)};
     return trisect::detail::triangle_frame({0, 0, 0}, a, b);
 }
 
@@ -188,8 +188,8 @@ ObbTree frame_of_reference() {
     return t;
 }
 
-Double3 point_of(const OrientedBox& b, const Double3& s) {
-    Double3 p{};
+Vector3 point_of(const OrientedBox& b, const Vector3& s) {
+    Vector3 p{};
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = static_cast<double>(b.center[k]);
         for (std::size_t i = 0; i < 3; ++i)
@@ -229,11 +229,11 @@ TEST(ObbPose, BoxesWithACommonPointAreNotFoundApart) {
             const OrientedBox one = random_box(random);
             const std::size_t lane = static_cast<std::size_t>(trial % 4);
             ApproximateMap map = random_map(random, kind);
-            const Double3 s{coefficient(), coefficient(), coefficient()};
-            const Double3 r{coefficient(), coefficient(), coefficient()};
+            const Vector3 s{coefficient(), coefficient(), coefficient()};
+            const Vector3 r{coefficient(), coefficient(), coefficient()};
             for (const bool single_a : {true, false}) {
-                const Double3 in_a = point_of(single_a ? one : four[lane], s);
-                const Double3 in_b = point_of(single_a ? four[lane] : one, r);
+                const Vector3 in_a = point_of(single_a ? one : four[lane], s);
+                const Vector3 in_b = point_of(single_a ? four[lane] : one, r);
                 map.t = {};
                 map.t = trisect::detail::minus(in_a, map(in_b));
                 const ObbPose pose(frame, frame, map);
@@ -257,15 +257,15 @@ TEST(ObbPose, BoxesASmallGapApartAreFoundApart) {
         ApproximateMap map = random_map(random, Kind::Rotation);
         const std::size_t lane = static_cast<std::size_t>(trial % 4);
         // The supporting corner of B against the normal of A's face 0.
-        Double3 normal{};
+        Vector3 normal{};
         for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<double>(one.axis[0][k]);
-        Double3 s{};
+        Vector3 s{};
         for (std::size_t i = 0; i < 3; ++i) {
-            Double3 u{};
+            Vector3 u{};
             for (std::size_t k = 0; k < 3; ++k) u[k] = static_cast<double>(four[lane].axis[i][k]);
             s[i] = trisect::detail::dot(normal, map(u)) > 0 ? -1 : 1;
         }
-        Double3 target = point_of(one, {1, uniform(random), uniform(random)});
+        Vector3 target = point_of(one, {1, uniform(random), uniform(random)});
         for (std::size_t k = 0; k < 3; ++k) target[k] += 1e-4 * normal[k];
         map.t = trisect::detail::minus(target, map(point_of(four[lane], s)));
         const ObbPose pose(frame, frame, map);
@@ -311,13 +311,13 @@ TEST(ObbPose, PlanesKeptFromAnotherPoseNeverSayTooMuch) {
             const OrientedBox one = random_box(random);
             const std::size_t lane = static_cast<std::size_t>(trial % 4);
             ApproximateMap map = random_map(random, kind);
-            const Double3 s{uniform(random), uniform(random), uniform(random)};
-            const Double3 r{uniform(random), uniform(random), uniform(random)};
-            const Double3 way{uniform(random), uniform(random), uniform(random)};
+            const Vector3 s{uniform(random), uniform(random), uniform(random)};
+            const Vector3 r{uniform(random), uniform(random), uniform(random)};
+            const Vector3 way{uniform(random), uniform(random), uniform(random)};
             const double length = std::sqrt(trisect::detail::dot(way, way));
             for (const bool single_a : {true, false}) {
-                const Double3 in_a = point_of(single_a ? one : four[lane], s);
-                const Double3 in_b = point_of(single_a ? four[lane] : one, r);
+                const Vector3 in_a = point_of(single_a ? one : four[lane], s);
+                const Vector3 in_b = point_of(single_a ? four[lane] : one, r);
                 map.t = {};
                 map.t = trisect::detail::minus(in_a, map(in_b));
                 ApproximateMap before = random_map(random, kind);
@@ -385,10 +385,10 @@ TEST(ObbPose, DisplacementIsAtLeastThatOfEveryPoint) {
             const double bound =
                 ObbPose(frame, frame, one).displacement_from(ObbPose(frame, frame, other));
             for (int n = 0; n < 20; ++n) {
-                Double3 x{uniform(random), uniform(random), uniform(random)};
+                Vector3 x{uniform(random), uniform(random), uniform(random)};
                 const double length = std::sqrt(trisect::detail::dot(x, x)) + 1e-9;
                 for (double& c : x) c *= 2 / length;
-                const Double3 moved = trisect::detail::minus(one(x), other(x));
+                const Vector3 moved = trisect::detail::minus(one(x), other(x));
                 const double way = std::sqrt(trisect::detail::dot(moved, moved));
                 ASSERT_LE(way, bound);
                 closest = std::max(closest, way / bound);

@@ -22,13 +22,13 @@ using brute::Triangle3;
 using reference::Random;
 using trisect::detail::ApproximateMap;
 using trisect::detail::BoxedTriangles;
-using trisect::detail::Double3;
 using trisect::detail::ObbTree;
 using trisect::detail::ObbWalk;
 using trisect::detail::PairVerdict;
+using trisect::detail::Vector3;
 
 struct Soup {
-    std::vector<Double3> positions;
+    std::vector<Vector3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     ObbTree tree;
     double largest = 0;
@@ -87,7 +87,7 @@ std::size_t expect_right(const Soup& a, const Soup& b, const ApproximateMap& map
 }
 
 // A rotation rounded to doubles.
-ApproximateMap turned(Random& random, const Double3& by) {
+ApproximateMap turned(Random& random, const Vector3& by) {
     const auto c = [&random] { return static_cast<double>(random.between(-1000, 1000)); };
     const auto f = trisect::detail::triangle_frame({0, 0, 0}, {c(), c(), c()}, {c(), c(), c()});
     ApproximateMap map;

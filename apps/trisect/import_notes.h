@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Remarks about what import and rounding changed.
+#pragma once
+
+#include <trisect/brep/import_mesh.h>
+
+#include <span>
+#include <string>
+
+#include "session.h"
+
+namespace trisect::app {
+
+/// An input and what its import changed.
+struct ImportNote {
+    std::string name;
+    ImportReport report;
+};
+
+/// At most one line about rounding, however many inputs there are, and one for each other change of
+/// an input. With --verbose one line about rounding for each input.
+void note_imports(Session& session, std::span<const ImportNote> imports);
+
+/// What rounding to a lattice changed, if anything.
+void note_rounding(Session& session, const LatticeReport& report, const std::string& name);
+
+}  // namespace trisect::app
