@@ -14,7 +14,7 @@ using Triangle = Twins::Triangle;
 constexpr auto none = static_cast<std::uint32_t>(-1);
 
 // A triangle at one of its corners: the other two, and the half-edge that leaves the corner.
-struct Corner {
+struct TwinCorner {
     std::uint32_t next, previous;
     std::uint32_t halfedge;
 };
@@ -22,9 +22,9 @@ struct Corner {
 std::uint32_t halfedge_before(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 // All triangles dealt to their corners.
-class CornerTable {
+class TwinCorners {
 public:
-    CornerTable(std::size_t point_count, std::span<const Triangle> triangles)
+    TwinCorners(std::size_t point_count, std::span<const Triangle> triangles)
         : begin_(point_count + 2, 0), corners_(3 * triangles.size()) {
         for (const Triangle& t : triangles)
             for (const std::uint32_t c : t) ++begin_[std::size_t{c} + 2];
@@ -34,13 +34,13 @@ public:
             for (std::size_t i = 0; i < 3; ++i)
                 corners_[begin_[std::size_t{t[i]} + 1]++] = {t[(i + 1) % 3], t[(i + 2) % 3], h++};
     }
-    [[nodiscard]] std::span<Corner> at(std::size_t v) {
+    [[nodiscard]] std::span<TwinCorner> at(std::size_t v) {
         return {corners_.data() + begin_[v], begin_[v + 1] - begin_[v]};
     }
 
 private:
     std::vector<std::uint32_t> begin_;
-    std::vector<Corner> corners_;
+    std::vector<TwinCorner> corners_;
 };
 
 // The triangles around one corner, in their circular order. The neighbour over the edge to `next`
@@ -49,13 +49,13 @@ private:
 class Fan {
 public:
     /// False unless they form one fan of three or more. Sorts them.
-    [[nodiscard]] bool link(std::span<Corner> corners) {
+    [[nodiscard]] bool link(std::span<TwinCorner> corners) {
         if (corners.empty()) return true;  // no triangle names the corner
         // Two would be one another's neighbours over all three edges.
         if (corners.size() < 3) return false;
-        if (corners.size() > short_list) std::ranges::sort(corners, {}, &Corner::previous);
+        if (corners.size() > short_list) std::ranges::sort(corners, {}, &TwinCorner::previous);
         neighbour_.clear();
-        for (const Corner& c : corners) {
+        for (const TwinCorner& c : corners) {
             const std::uint32_t other = only_before(corners, c.next);
             if (other == none || c.next == c.previous) return false;
             neighbour_.push_back(other);
@@ -76,9 +76,10 @@ private:
     static constexpr std::size_t short_list = 32;
 
     // The only one with this previous corner.
-    static std::uint32_t only_before(std::span<const Corner> corners, std::uint32_t previous) {
+    static std::uint32_t only_before(std::span<const TwinCorner> corners, std::uint32_t previous) {
         if (corners.size() > short_list) {
-            const auto found = std::ranges::equal_range(corners, previous, {}, &Corner::previous);
+            const auto found =
+                std::ranges::equal_range(corners, previous, {}, &TwinCorner::previous);
             return found.size() == 1 ? static_cast<std::uint32_t>(found.begin() - corners.begin())
                                      : none;
         }
@@ -97,11 +98,11 @@ private:
 }  // namespace
 
 std::optional<Twins> Twins::of(std::size_t point_count, std::span<const Triangle> triangles) {
-    CornerTable table(point_count, triangles);
+    TwinCorners table(point_count, triangles);
     std::vector<std::uint32_t> twin(3 * triangles.size());
     Fan fan;
     for (std::size_t v = 0; v < point_count; ++v) {
-        const std::span<Corner> corners = table.at(v);
+        const std::span<TwinCorner> corners = table.at(v);
         if (!fan.link(corners)) return std::nullopt;
         for (std::size_t i = 0; i < corners.size(); ++i)
             twin[corners[i].halfedge] = halfedge_before(corners[fan.neighbour()[i]].halfedge);
