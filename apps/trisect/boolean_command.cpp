@@ -59,7 +59,7 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
         session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
     }
     session.stage("write", [&] {
-        if (!options.exact.empty()) session.write_output(options.exact, exact_text(brep));
+        if (!options.boundary.empty()) session.write_output(options.boundary, exact_text(brep));
         result.written = write_output_mesh(session, options.output, format, mesh);
     });
 }
@@ -73,7 +73,7 @@ Json document_of(const Session& session, const BooleanOptions& options,
     for (const Operand& operand : operands) document["inputs"].push_back(operand.facts);
     document["embedding"] = options.operands.assume_embedded ? "assumed" : "resolved";
     document["output"]["file"] = options.output;
-    if (!options.exact.empty()) document["output"]["exact"] = options.exact;
+    if (!options.boundary.empty()) document["output"]["boundary"] = options.boundary;
     document["output"].update(to_json(result.description));
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
@@ -111,7 +111,7 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
         ->required();
     command
-        ->add_option("--exact", options.exact,
+        ->add_option("--boundary", options.boundary,
                      "file for the boundary without loss, as integers; '-' is the standard output")
         ->type_name("FILE");
     command->add_flag("--source-faces", options.source_faces,
@@ -137,7 +137,7 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const MeshFormat format = output_format(session, options.output);
-    check_outputs(session, {options.output, options.exact});
+    check_outputs(session, {options.output, options.boundary});
     session.plan(options.certificate ? 6 : 5);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });

@@ -3,6 +3,8 @@
 
 #include <trisect/kernel/stop_scope.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <csignal>
 #include <functional>
@@ -139,6 +141,17 @@ void add_common_options(CLI::App& app, CommonOptions& o) {
     add_limit_options(app, o);
 }
 
+/// The value of an option is no option: `--boundary --json` lacks the name of a file.
+std::string refuse_option(const std::string& value) {
+    if (!value.starts_with("--") || value.size() == 2) return {};
+    return fmt::format("'{}' stands where a value is needed", value);
+}
+
+void refuse_options_as_values(CLI::App& app) {
+    for (CLI::Option* option : app.get_options())
+        if (option->get_items_expected_max() > 0) option->check(refuse_option, "");
+}
+
 void declare(CLI::App& app, Request& request) {
     app.set_version_flag("--version", "trisect " TRISECT_VERSION);
     app.require_subcommand(1);
@@ -162,7 +175,9 @@ void declare(CLI::App& app, Request& request) {
     add_compare_hierarchies_command(app, request.compare_hierarchies);
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
+        refuse_options_as_values(*command);
     }
+    refuse_options_as_values(app);
 }
 
 Outcome run_command(Session& session, const std::string& name, const Request& request) {

@@ -54,7 +54,8 @@ struct BooleanOptions {
     std::vector<std::string> inputs;
     std::string output;
     OperandOptions operands;
-    std::string exact;  ///< a file for the boundary without loss; empty: none
+    std::string boundary;  ///< a file for the boundary without loss; empty: none
+    bool exact = false;    ///< also the volume as a fraction
     bool source_faces = false;
     bool certificate = true;
     bool repair = false;  ///< what is written must be certified

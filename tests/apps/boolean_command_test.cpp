@@ -82,8 +82,8 @@ TEST_F(BooleanCommand, ExactBoundariesAreOperands) {
     const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
     const std::string kept = path("kept.exact");
     const std::string rest = path("rest.exact");
-    (void)run("intersection", {tetrahedron, block, "--exact", kept});
-    (void)run("difference", {tetrahedron, block, "--exact", rest});
+    (void)run("intersection", {tetrahedron, block, "--boundary", kept});
+    (void)run("difference", {tetrahedron, block, "--boundary", rest});
     // Corners at thirds: together again it is the tetrahedron, and nothing is left between them.
     EXPECT_EQ(run("union", {kept, rest})["output"]["volume"], 17.5);
     EXPECT_EQ(run("xor", {kept, rest})["output"]["volume"], 17.5);
@@ -138,20 +138,20 @@ TEST_F(BooleanCommand, OutputsInOneFileAreRefused) {
         return result.code == 2;
     };
     const std::size_t before = entry_count();
-    EXPECT_TRUE(refused({"-o", x, "--exact", x}));
-    EXPECT_TRUE(refused({"-o", x, "--exact", path("./x.off")}));
-    EXPECT_TRUE(refused({"-o", x, "--exact", path("none/../x.off")}));
+    EXPECT_TRUE(refused({"-o", x, "--boundary", x}));
+    EXPECT_TRUE(refused({"-o", x, "--boundary", path("./x.off")}));
+    EXPECT_TRUE(refused({"-o", x, "--boundary", path("none/../x.off")}));
     EXPECT_EQ(entry_count(), before);
     fs::create_symlink("x.off", path("link.off"));
-    EXPECT_TRUE(refused({"-o", path("link.off"), "--exact", x}));
-    EXPECT_TRUE(refused({"-o", x, "--exact", path("link.off")}));
+    EXPECT_TRUE(refused({"-o", path("link.off"), "--boundary", x}));
+    EXPECT_TRUE(refused({"-o", x, "--boundary", path("link.off")}));
     (void)write("x.off", "old");
-    EXPECT_TRUE(refused({"-o", path("link.off"), "--exact", x}));
+    EXPECT_TRUE(refused({"-o", path("link.off"), "--boundary", x}));
     fs::create_hard_link(x, path("hard.off"));
-    EXPECT_TRUE(refused({"-o", path("hard.off"), "--exact", x}));
+    EXPECT_TRUE(refused({"-o", path("hard.off"), "--boundary", x}));
     EXPECT_EQ(read(x), "old");
     fs::create_directory_symlink(".", path("here"));
-    EXPECT_TRUE(refused({"-o", path("here/y.off"), "--exact", path("y.off")}));
+    EXPECT_TRUE(refused({"-o", path("here/y.off"), "--boundary", path("y.off")}));
 }
 
 TEST_F(BooleanCommand, TheStandardOutputHoldsOneThing) {
@@ -160,16 +160,16 @@ TEST_F(BooleanCommand, TheStandardOutputHoldsOneThing) {
         arguments.insert(arguments.end(), options.begin(), options.end());
         return trisect(arguments).code;
     };
-    EXPECT_EQ(code({"-o", "-", "--exact", "-"}), 2);
-    EXPECT_EQ(code({"-o", "-", "--exact", "/dev/stdout"}), 2);
-    EXPECT_EQ(code({"-o", out_, "--exact", "-", "--json"}), 2);
-    EXPECT_EQ(code({"-o", out_, "--exact", "/dev/stdout", "--json"}), 2);
+    EXPECT_EQ(code({"-o", "-", "--boundary", "-"}), 2);
+    EXPECT_EQ(code({"-o", "-", "--boundary", "/dev/stdout"}), 2);
+    EXPECT_EQ(code({"-o", out_, "--boundary", "-", "--json"}), 2);
+    EXPECT_EQ(code({"-o", out_, "--boundary", "/dev/stdout", "--json"}), 2);
     EXPECT_EQ(code({"-o", "/dev/stdout", "--json"}), 2);
     // Nobody reads what is written there.
-    EXPECT_EQ(code({"-o", "/dev/null", "--exact", "/dev/null"}), 0);
+    EXPECT_EQ(code({"-o", "/dev/null", "--boundary", "/dev/null"}), 0);
     const std::string exact = path("alone.exact");
-    EXPECT_EQ(code({"-o", out_, "--exact", exact}), 0);
-    const Finished alone = trisect({"union", a_, b_, "-o", out_, "--exact", "-"});
+    EXPECT_EQ(code({"-o", out_, "--boundary", exact}), 0);
+    const Finished alone = trisect({"union", a_, b_, "-o", out_, "--boundary", "-"});
     EXPECT_EQ(alone.code, 0) << alone.err;
     EXPECT_EQ(alone.out, read(exact));
 }

@@ -66,7 +66,7 @@ constexpr std::string_view words[] = {
     // Outputs.
     "o.off", "o.obj", "o.stl", "o.ply", "o.png", "o.svg", "o.exact", "o",
     // Options.
-    "-o", "--output", "--exact", "--source-faces", "--no-certificate", "--repair",
+    "-o", "--output", "--exact", "--boundary", "--source-faces", "--no-certificate", "--repair",
     "--assume-embedded", "--winding", "--mixed-lattices", "--op", "--points", "--point", "--motion",
     "--motion-of-a", "--until", "--width", "--plane", "--section", "--view", "--up",
     "--perspective", "--samples", "--edges", "--background", "--pose-a", "--pose-b", "--contacts",
