@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The value of a plane's equation at an approximate point, with a proved bound of its error.
+// Value of a plane's equation at an approximate point, with error bound.
+// The bound is proved.
 #pragma once
 
 #include <array>

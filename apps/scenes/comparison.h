@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What structures cost on a sequence of poses: counted, predicted by the cost function and
-// measured.
+// Costs of structures on a sequence of poses.
+// They are counted, predicted by the cost function and measured.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Asking a structure about a sequence of poses, counted and timed.
+// Counted and timed queries of a structure for a sequence of poses.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Poses of scenes from rotations and ways.
+// Poses of scenes from rotations and translations.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes on which structures are compared: meshes and placements as plain doubles, so that every
-// engine sees the same ones. All are the same with every compiler, and random ones come from seeds.
+// Scenes for the comparison of structures.
+// Meshes and placements are plain doubles, so that every engine gets the same ones. All are the
+// same with every compiler, and random ones come from seeds.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoxScene: operands made of axis-parallel boxes, and what a boolean of them must be by counting.
+// BoxScene: boxes as operands, with counted properties of their booleans.
 //
 // All planes of all boxes together divide space into cells, each wholly inside or outside every
 // operand. Volume, area, the Euler number and memberships of the result are sums over these cells;

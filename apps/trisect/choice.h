@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Options whose value is one of a few words. The option library prints the enumerators behind the
-// words too, and those of one byte as characters, zero bytes among them; here help and errors show
-// the words and nothing else.
+// Options with a few words as values.
+// The option library prints the enumerators behind the words too, and those of one byte as
+// characters, zero bytes among them; here help and errors show the words and nothing else.
 #pragma once
 
 #include <trisect/kernel/error.h>

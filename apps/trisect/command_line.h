@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command line of trisect: from arguments to an exit code.
+// Command line of trisect, from arguments to an exit code.
 #pragma once
 
 namespace trisect::app {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The sub-commands. Each has a file of its own with two functions: `add_...` declares its options
-// on a command line, `run_...` does the work.
+// Sub-commands of trisect.
+// Each has a file of its own with two functions: `add_...` declares its options on a command
+// line, `run_...` does the work.
 #pragma once
 
 #include <CLI/CLI.hpp>

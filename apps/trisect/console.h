@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Console: the two output streams of the command, and the rule who may speak last.
+// Console: the two output streams of the command, and their final document.
 //
 // Results go to the standard output, everything else to the standard error. With --json the
 // standard output holds exactly one document whatever happens: two threads may want to print it,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes of the corpus whose faces are not across the axes: terrain of slanted facets, and prisms
-// over polygons of many corners. Their volumes are counted with integers, their areas are sums of
-// square roots of integers, and again no geometry kernel takes part.
+// Scenes of the corpus with slanted faces.
+// They are terrain of slanted facets, and prisms over polygons of many corners. Their volumes are
+// counted with integers, their areas are sums of square roots of integers, and again no geometry
+// kernel takes part.
 #pragma once
 
 #include <cstdint>

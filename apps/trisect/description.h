@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Description: counts and measures of a boundary, as `info` shows them and as booleans report them
-// of their results.
+// Description: counts and measures of a boundary.
+// `info` shows them, and booleans report those of their results.
 #pragma once
 
 #include <trisect/brep/brep.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ExactMap: a map of space with exact coefficients, and what applying it to a mesh rounded.
+// ExactMap: an exact map of space, and its rounding of a mesh.
 #pragma once
 
 #include <trisect/brep/exact_rational.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Failures: from what was thrown to an exit code, a line for people and a document for programs
-// ({"schema": "trisect.error/1", "error": {code, kind, message, file, line, column}}).
+// Failures as an exit code, a line of text and a document.
+// The document is {"schema": "trisect.error/1", "error": {code, kind, message, file, line,
+// column}}.
 #pragma once
 
 #include <trisect/kernel/error.h>

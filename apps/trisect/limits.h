@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Limits: --threads and --max-memory, in force while the object lives; and the last resort for
-// failures that no handler could see.
+// Limits: --threads and --max-memory, in force during the object's lifetime.
+// It has the last resort for failures without a handler, too.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of points: three numbers a line, apart by blanks, tabs or commas. Empty lines and what
-// follows '#' mean nothing.
+// Files of points: three numbers a line.
+// Numbers are separated by blanks, tabs or commas. Empty lines and text after '#' mean nothing.
 #pragma once
 
 #include <array>

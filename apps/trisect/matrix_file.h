@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of matrices and poses: twelve numbers, the 3x4 matrix row by row, apart by blanks, tabs and
-// ends of lines.
+// Files of matrices and poses: twelve numbers.
+// They are the 3x4 matrix row by row, separated by blanks, tabs and ends of lines.
 #pragma once
 
 #include <array>

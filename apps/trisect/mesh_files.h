@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mesh files as operands and results: reading, importing and writing under the common options, with
-// the name of the file in every error.
+// Mesh files as operands and results of commands.
+// They are read, imported and written under the common options, with the name of the file in
+// every error.
 #pragma once
 
 #include <trisect/brep/import_mesh.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of motions: a line for the pose at the start, then a line for every piece.
+// Files of motions: the pose at the start, then the pieces.
+// Each is a line.
 #pragma once
 
 #include <trisect/bsp/interference/enclosed_motion.h>

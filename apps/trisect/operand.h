@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operand: an input of a boolean, as a solid and as what there is to say about the file.
+// Operand: an input of a boolean, as a solid with its report.
 #pragma once
 
 #include <trisect/bsp/solid.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The operation that a name in a file or on the command line stands for.
+// Operations by their names in files and on the command line.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the user asked for: the options that every sub-command has, and those of each sub-command.
-// Plain data, filled by command_line.cpp, read by everyone.
+// Options that all sub-commands have, and those of each.
+// Plain data, filled by command_line.cpp.
 #pragma once
 
 #include <trisect/brep/import_mesh.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Outcome: what a sub-command has to say when it is done, once for programs and once for people;
-// and the exit codes.
+// Outcome: the report of a finished sub-command, for programs and people.
+// The exit codes are here, too.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The names of outputs: of those that have one format only, and of several that must not be one
-// file.
+// Names of outputs: formats, and tests for equal files.
+// Some outputs have one format only, and several must not be one file.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PictureStyle: how `render` draws.
+// PictureStyle: the drawing options of `render`.
 #pragma once
 
 #include <cstdint>

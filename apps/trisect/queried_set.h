@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// QueriedSet: the set that a command asks about: one mesh, or several combined.
+// QueriedSet: the set of a query command, one mesh or several combined.
 #pragma once
 
 #include <trisect/brep/measure.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Camera: from places in a picture to rays in space.
+// Camera: rays in space for places in a picture.
 #pragma once
 
 #include <trisect/brep/polygon_mesh.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SampleGrid: what the rays of a picture hit, several rays a pixel where it matters.
+// SampleGrid: hits of the rays of a picture, with local supersampling.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scene: what a picture needs to know of a solid: its first hit by a ray, and how what was hit
-// looks.
+// Scene: first hits of rays, and the look of what they hit.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Session: what every sub-command works with: the common options, a place for remarks, and the
-// stages of the work, which are timed and shown as progress.
+// Session: the common context of all sub-commands.
+// It has the common options, a place for remarks, and the stages of the work, which are timed and
+// shown as progress.
 #pragma once
 
 #include <chrono>

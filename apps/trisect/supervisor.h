@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Supervisor: the thread that watches the clock and the signals while another one works, and draws
-// the progress line.
+// Supervisor: a thread for the clock, signals and the progress line.
+// Another thread works meanwhile.
 //
 // An evaluation can be asked to stop: the supervisor sets a flag, the evaluation throws, everything
 // is taken down in order, and the command leaves with 5 (out of time) or 6 (interrupted). Other

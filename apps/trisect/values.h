@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Values of options as text. Parsed here and not by the option library, because that follows the
-// locale and accepts what is only half a number.
+// Values of options as text.
+// They are parsed here and not by the option library, because that follows the locale and accepts
+// what is only half a number.
 #pragma once
 
 #include <array>

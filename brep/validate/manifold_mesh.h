@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ManifoldMesh: a closed triangle mesh whose neighbours are known, and what that says about it.
+// ManifoldMesh: a closed triangle mesh with adjacency.
+// Some checks follow from the adjacency alone.
 #pragma once
 
 #include <array>
