@@ -33,8 +33,8 @@ std::vector<std::uint8_t> srgb_table() {
 
 std::string Color::hex() const { return fmt::format("#{:06x}", rgb); }
 
-Light to_light(Color color) {
-    Light light{};
+LinearColor to_light(Color color) {
+    LinearColor light{};
     for (int i = 0; i < 3; ++i) {
         light[static_cast<std::size_t>(i)] =
             static_cast<float>(srgb_to_light(color.channel(i) / 255.0));

@@ -21,9 +21,9 @@ struct Color {
 };
 
 /// Red, green and blue as amounts of light, from 0 to 1.
-using Light = std::array<float, 3>;
+using LinearColor = std::array<float, 3>;
 
-[[nodiscard]] Light to_light(Color color);
+[[nodiscard]] LinearColor to_light(Color color);
 /// The nearest of 256 levels of sRGB.
 [[nodiscard]] std::uint8_t to_srgb(float light);
 

@@ -90,7 +90,7 @@ ReadOperand mesh_operand(const Session& session, const std::string& name,
 ReadOperand read_operand(const Session& session, const std::string& name,
                          const OperandOptions& options) {
     if (has_exact_boundary(name))
-        return {exact_operand(session, name, options), {name, ValidationReport()}};
+        return {exact_operand(session, name, options), {name, ImportReport()}};
     return mesh_operand(session, name, options);
 }
 

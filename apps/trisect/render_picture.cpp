@@ -125,8 +125,8 @@ std::vector<float> contact_shades(const SampleGrid& grid, double diameter) {
 // --- colour ------------------------------------------------------------------------------------
 
 struct Backdrop {
-    Light top;
-    Light bottom;
+    LinearColor top;
+    LinearColor bottom;
     bool is_opaque = true;
 };
 
@@ -141,7 +141,7 @@ Backdrop backdrop_of(Background background) {
         case Background::Transparent:
             break;
     }
-    return {Light{}, Light{}, false};
+    return {LinearColor{}, LinearColor{}, false};
 }
 
 /// Diagonal stripes, fixed to the picture.
@@ -180,9 +180,9 @@ private:
     /// Light that is not covered by anything counts as the background, or with it the pixel's
     /// alpha.
     struct Sum {
-        Light light{};
+        LinearColor light{};
         float coverage = 0;
-        void add(const Light& color, float factor, float part) {
+        void add(const LinearColor& color, float factor, float part) {
             for (std::size_t k = 0; k < 3; ++k) light[k] += color[k] * factor * part;
             coverage += part;
         }
@@ -197,7 +197,7 @@ private:
         }
         const float scale = 1.0F / static_cast<float>(n * n);
         const float coverage = sum.coverage * scale;
-        Light light{};
+        LinearColor light{};
         for (std::size_t k = 0; k < 3; ++k) light[k] = sum.light[k] * scale;
         if (backdrop_.is_opaque) {
             const float s =
@@ -234,10 +234,10 @@ private:
     std::vector<std::uint8_t> lines_;
     std::vector<float> shades_;
     std::vector<float> brightness_;
-    std::array<Light, 8> palette_{};
-    Light ink_;
-    Light section_;
-    Light hatch_;
+    std::array<LinearColor, 8> palette_{};
+    LinearColor ink_;
+    LinearColor section_;
+    LinearColor hatch_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace trisect::hierarchies {
 namespace {
 
 using detail::BodyBox;
+using detail::Vector3;
 constexpr unsigned most_octree_levels = 21;
 
 class OctreePhase final : public PackedPhase {
