@@ -17,6 +17,7 @@
 
 #include "engines.h"
 
+namespace prism_test {
 namespace {
 
 using reference::Operand;
@@ -299,3 +300,4 @@ TEST(Prisms, ThousandsOfLongWallsSideBySideAreNotOutlined) {
 }
 
 }  // namespace
+}  // namespace prism_test

@@ -15,9 +15,11 @@
 #include <trisect/kernel/error.h>
 
 #include "reference/random_solids.h"
+#include "support/enclosed_motions.h"
 
 namespace {
 
+using moving::whole;
 using trisect::ConstantTurn;
 using trisect::EnclosedMotion;
 using trisect::ExactRational;
@@ -97,10 +99,6 @@ RealVector turned(const Pose& start, const ConstantTurn& turn, Real t, const Rea
     y = rotated(q, y);
     for (std::size_t i = 0; i < 3; ++i) y[i] += turn.center[i] + t * turn.shift[i];
     return y;
-}
-
-double whole(reference::Random& random, int low, int high) {
-    return static_cast<double>(random.between(low, high));
 }
 
 RealVector random_point(reference::Random& random) {
