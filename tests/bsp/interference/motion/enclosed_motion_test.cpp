@@ -246,24 +246,24 @@ TEST(EnclosedMotion, StraightLinesContainASmoothMotion) {
 
 TEST(EnclosedMotion, WhatMakesNoSenseIsRefused) {
     const std::vector<KeyFrame> one{{}};
-    EXPECT_THROW(EnclosedMotion::through(one), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(one), UsageError);
     const std::vector<KeyFrame> late{{1, {1, 0, 0, 0}, {}}, {2, {1, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(late), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(late), UsageError);
     const std::vector<KeyFrame> equal{{0, {1, 0, 0, 0}, {}}, {0, {1, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(equal), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(equal), UsageError);
     const std::vector<KeyFrame> zero{{0, {1, 0, 0, 0}, {}}, {1, {0, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(zero), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(zero), UsageError);
     const std::vector<KeyFrame> infinite{{0, {1, 0, 0, 0}, {}},
                                          {1, {1, 0, 0, 0}, {HUGE_VAL, 0, 0}}};
-    EXPECT_THROW(EnclosedMotion::through(infinite), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(infinite), UsageError);
     ConstantTurn turn;
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn, 0), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn, 0), UsageError);
     turn.axis = {};
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn), UsageError);
     turn = {};
     turn.angle = 0x1p21;
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn), UsageError);
-    EXPECT_THROW(EnclosedMotion::smooth({}, {0, 1}), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::smooth({}, {0, 1}), UsageError);
     EXPECT_THROW(EnclosedMotion(nullptr, {0, 1}), UsageError);
 }
 

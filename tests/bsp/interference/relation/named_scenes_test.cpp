@@ -442,7 +442,7 @@ TEST(NamedScenes, RegionsHaveExactCorners) {
     EXPECT_TRUE(regions_only.contacts.empty());
     const auto first = std::ranges::find(corners, std::array<std::string, 3>{"3/2", "1", "1"});
     ASSERT_NE(first, corners.end());
-    std::ranges::rotate(corners, first);
+    std::rotate(corners.begin(), first, corners.end());
     EXPECT_EQ(corners, (std::vector<std::array<std::string, 3>>{{"3/2", "1", "1"},
                                                                 {"21/10", "9/5", "1"},
                                                                 {"13/10", "12/5", "1"},
