@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Format {
     const char* file;
     MeshFormat format;
     PlyEncoding encoding = PlyEncoding::Ascii;
+
+    friend std::ostream& operator<<(std::ostream& out, const Format& f) { return out << f.name; }
 };
 
 PolygonMesh tetrahedron() {

@@ -17,9 +17,11 @@
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::volume;
 using trisect::evaluate;
 using trisect::Expression;
 using trisect::Solid;
@@ -29,10 +31,6 @@ constexpr int evaluated_length = 50'000;
 
 Solid box(const reference::LatticePoint& low, const reference::LatticePoint& high) {
     return engines::solid(reference::box(low, high));
-}
-
-std::string volume(const Expression& e) {
-    return trisect::exact_volume(evaluate(e).to_brep()).to_string();
 }
 
 class Operators : public ::testing::Test {

@@ -45,62 +45,7 @@
 #include <trisect/kernel/stop_scope.h>
 
 #include "bench/shapes.h"
-
-namespace {
-
-// Allocations of all threads; the one that brings the count to 0 fails. Negative: none does.
-constinit std::atomic<std::int64_t> allocations_left{-1};
-constinit std::atomic<std::int64_t> allocations{0};
-constinit std::atomic<std::int64_t> live_blocks{0};
-
-void* allocate(std::size_t size, std::size_t alignment) noexcept {
-    allocations.fetch_add(1, std::memory_order_relaxed);
-    if (allocations_left.load(std::memory_order_relaxed) >= 0 &&
-        allocations_left.fetch_sub(1, std::memory_order_relaxed) == 0)
-        return nullptr;
-    size = std::max<std::size_t>(size, 1);
-    void* p = alignment <= alignof(std::max_align_t)
-                  ? std::malloc(size)
-                  : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    if (p != nullptr) live_blocks.fetch_add(1, std::memory_order_relaxed);
-    return p;
-}
-
-void release(void* p) noexcept {
-    if (p != nullptr) live_blocks.fetch_sub(1, std::memory_order_relaxed);
-    std::free(p);
-}
-
-void* allocate_or_throw(std::size_t size, std::size_t alignment) {
-    void* p = allocate(size, alignment);
-    if (p == nullptr) throw std::bad_alloc();
-    return p;
-}
-
-constexpr std::size_t usual = alignof(std::max_align_t);
-
-}  // namespace
-
-void* operator new(std::size_t n) { return allocate_or_throw(n, usual); }
-void* operator new[](std::size_t n) { return allocate_or_throw(n, usual); }
-void* operator new(std::size_t n, std::align_val_t a) {
-    return allocate_or_throw(n, static_cast<std::size_t>(a));
-}
-void* operator new[](std::size_t n, std::align_val_t a) {
-    return allocate_or_throw(n, static_cast<std::size_t>(a));
-}
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept { return allocate(n, usual); }
-void* operator new[](std::size_t n, const std::nothrow_t&) noexcept { return allocate(n, usual); }
-void operator delete(void* p) noexcept { release(p); }
-void operator delete[](void* p) noexcept { release(p); }
-void operator delete(void* p, std::size_t) noexcept { release(p); }
-void operator delete[](void* p, std::size_t) noexcept { release(p); }
-void operator delete(void* p, std::align_val_t) noexcept { release(p); }
-void operator delete[](void* p, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
-void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { release(p); }
-void operator delete(void* p, const std::nothrow_t&) noexcept { release(p); }
-void operator delete[](void* p, const std::nothrow_t&) noexcept { release(p); }
+#include "support/failing_new.h"
 
 namespace {
 
@@ -108,6 +53,8 @@ using trisect::EvaluateOptions;
 using trisect::PolygonMesh;
 using trisect::Pose;
 using trisect::Solid;
+using trisect::test::allocations_anywhere;
+using trisect::test::live_blocks_anywhere;
 using Clock = std::chrono::steady_clock;
 
 enum class Kind : std::uint8_t { Cancel, Work, Memory, Exception };
@@ -321,17 +268,17 @@ public:
         const Limits free{.threads = threads_};
         expected_ = call_.run(free);
         const auto start = Clock::now();
-        const std::int64_t allocated = allocations;
+        const std::int64_t allocated = allocations_anywhere();
         trisect::StopScope counting(nullptr);
         if (call_.run(free) != expected_) wrong("another result");
         seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
-        allocations_ = allocations - allocated;
+        allocations_ = allocations_anywhere() - allocated;
         work_ = std::max<std::uint64_t>(counting.work(), 1'000);
     }
 
     // False when something was wrong.
     bool run(std::uint64_t stops) {
-        const std::int64_t live = live_blocks;
+        const std::int64_t live = live_blocks_anywhere();
         std::uint64_t stopped = 0;
         std::uint64_t finished = 0;
         const std::uint64_t most = 20 * stops + 100;
@@ -351,7 +298,7 @@ public:
                 wrong("another result after a stop");
         }
         if (call_.run({.threads = threads_}) != expected_) wrong("another result at the end");
-        const std::int64_t kept = live_blocks - live;
+        const std::int64_t kept = live_blocks_anywhere() - live;
         // Caches of threads that came later, a worker's scratch memory: bounded.
         if (kept > 2'000 + static_cast<std::int64_t>(stops / 4)) wrong("blocks are not given back");
         std::printf("| %-12s | %-9s | %u | %8.2f | %llu | %llu | %lld | %s |\n", call_.name,
@@ -439,10 +386,7 @@ private:
     Outcome fail_allocation() {
         const std::uint64_t n = part_of(1.05 * static_cast<double>(allocations_)) - 1;
         const Outcome outcome = outcome_of<std::bad_alloc>([&] {
-            allocations_left = static_cast<std::int64_t>(n);
-            struct End {
-                ~End() { allocations_left = -1; }
-            } end;
+            const trisect::test::FailingAllocationAnywhere failing(static_cast<std::int64_t>(n));
             return call_.run({.threads = threads_});
         });
         return outcome;

@@ -12,9 +12,11 @@
 #include <trisect/kernel/error.h>
 
 #include "figures.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::volume;
 using trisect::evaluate;
 using trisect::Expression;
 using trisect::Lattice;
@@ -26,10 +28,6 @@ Solid box_on(int exponent, const reference::LatticePoint& low,
     trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box(low, high));
     mesh.lattice = Lattice{exponent};
     return Solid::from_lattice_mesh(std::move(mesh), trisect::Embedding::Resolve);
-}
-
-std::string volume(const Expression& e) {
-    return trisect::exact_volume(evaluate(e).to_brep()).to_string();
 }
 
 TEST(LatticeMix, CoarseMeetsFine) {

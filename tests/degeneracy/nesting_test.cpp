@@ -11,6 +11,7 @@
 
 #include "figures.h"
 
+namespace nesting_test {
 namespace {
 
 using degeneracy::cube;
@@ -114,3 +115,4 @@ TEST(Nesting, EmptySetAndWholeSpaceAsOperands) {
 }
 
 }  // namespace
+}  // namespace nesting_test

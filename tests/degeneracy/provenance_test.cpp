@@ -16,6 +16,7 @@
 
 #include "figures.h"
 
+namespace provenance_test {
 namespace {
 
 using trisect::Brep;
@@ -132,3 +133,4 @@ TEST(Provenance, DoesNotDependOnTheTree) {
 }
 
 }  // namespace
+}  // namespace provenance_test

@@ -8,6 +8,7 @@
 
 #include "figures.h"
 
+namespace self_intersection_test {
 namespace {
 
 using degeneracy::cube;
@@ -133,3 +134,4 @@ TEST(SelfIntersection, ResolvedOperandsMeetOthers) {
 }
 
 }  // namespace
+}  // namespace self_intersection_test

@@ -20,6 +20,7 @@
 
 #include "figures.h"
 
+namespace touching_pairs_test {
 namespace {
 
 using degeneracy::cube;
@@ -342,3 +343,4 @@ TRISECT_TOUCHING_TABLE(flush_faces);
 TRISECT_TOUCHING_TABLE(without_contact);
 
 }  // namespace
+}  // namespace touching_pairs_test

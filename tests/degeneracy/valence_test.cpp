@@ -18,6 +18,7 @@
 
 #include "figures.h"
 
+namespace valence_test {
 namespace {
 
 using degeneracy::checked_figures;
@@ -248,3 +249,4 @@ TEST(Needles, AlmostParallelSheets) {
 }
 
 }  // namespace
+}  // namespace valence_test

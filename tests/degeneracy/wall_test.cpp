@@ -10,6 +10,7 @@
 
 #include "figures.h"
 
+namespace wall_test {
 namespace {
 
 using degeneracy::checked_figures;
@@ -119,3 +120,4 @@ TEST(Walls, FacesCutByWallsAreOneAgain) {
 }
 
 }  // namespace
+}  // namespace wall_test

@@ -19,6 +19,7 @@ namespace {
 
 using engines::mapped;
 using reference::Operand;
+using Kind = reference::Expression::Kind;
 
 struct Leaves {
     std::uint64_t plain = 0;
@@ -92,7 +93,6 @@ TEST(GeneralPosition, BarsWhoseSidesAreCutInTwoTriangles) {
 
 // The second step comes to leaves whose facets the first one has not cut yet, and passes others on.
 TEST(GeneralPosition, AStepAfterTheOther) {
-    using Kind = reference::Expression::Kind;
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         reference::Random random(seed + 350000);

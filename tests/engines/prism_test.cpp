@@ -19,6 +19,7 @@
 
 #include "engines.h"
 
+namespace prism_test {
 namespace {
 
 using reference::Operand;
@@ -305,3 +306,4 @@ TEST(Prisms, ThousandsOfLongWallsSideBySideAreNotOutlined) {
 }
 
 }  // namespace
+}  // namespace prism_test

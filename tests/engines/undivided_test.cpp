@@ -12,6 +12,7 @@
 
 #include "engines.h"
 
+namespace undivided_test {
 namespace {
 
 using reference::Operand;
@@ -180,3 +181,4 @@ TEST(Undivided, PairsOnASmallGrid) {
 }
 
 }  // namespace
+}  // namespace undivided_test

@@ -9,6 +9,7 @@
 
 #include "support/gmp_oracle.h"
 
+namespace plane_test {
 namespace {
 
 using oracle::numbers;
@@ -151,3 +152,4 @@ TEST(Plane, LatticesOf26BitsAreNarrow) {
 }
 
 }  // namespace
+}  // namespace plane_test

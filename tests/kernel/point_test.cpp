@@ -13,6 +13,7 @@
 
 #include "support/gmp_oracle.h"
 
+namespace point_test {
 namespace {
 
 using trisect::HomogeneousPoint;
@@ -247,3 +248,4 @@ TEST(Point, CopiesShareTheirName) {
 }
 
 }  // namespace
+}  // namespace point_test

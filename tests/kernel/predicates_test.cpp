@@ -14,6 +14,7 @@
 
 #include "support/gmp_oracle.h"
 
+namespace predicates_test {
 namespace {
 
 using trisect::Approximation;
@@ -323,3 +324,4 @@ TEST(Consistency, ApproximatingParallelPlanesIsRefused) {
 }
 
 }  // namespace
+}  // namespace predicates_test

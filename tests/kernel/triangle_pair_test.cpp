@@ -57,7 +57,7 @@ bool straddles(const SidedTriangle& t) {
 }
 
 void compare(std::int64_t range, int count) {
-    std::mt19937_64 random(range);
+    std::mt19937_64 random(static_cast<std::uint64_t>(range));
     std::uniform_int_distribution<std::int64_t> at(-range, range);
     const auto triangle = [&] {
         Triangle t;

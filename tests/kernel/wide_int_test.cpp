@@ -117,8 +117,8 @@ TEST(WideInt, ProductsExtendTheSignIntoAWideResult) {
 TEST(WideInt, ConstructionFromBuiltInIntegers) {
     EXPECT_EQ(integer(WideInt<4>(-5)), -5);
     EXPECT_EQ(integer(WideInt<1>(7)), 7);
-    const std::int64_t least = INT64_MIN;
-    EXPECT_EQ(integer(WideInt<3>(least)), mpz_class(-1) << 63);
+    const std::int64_t lowest = INT64_MIN;
+    EXPECT_EQ(integer(WideInt<3>(lowest)), mpz_class(-1) << 63);
     const Int128 big = Int128{1} << 126;
     EXPECT_EQ(integer(WideInt<2>(big)), mpz_class(1) << 126);
     EXPECT_EQ(integer(WideInt<5>(-big)), -(mpz_class(1) << 126));

@@ -8,13 +8,15 @@ where
   - a folder of tests is neither in the table nor that of a room with sources, or a folder of the table is not
     there;
   - NAME_test.cpp includes NAME.h and is in the folder of another room than NAME.h and NAME.cpp;
-  - an include goes to a folder of tests that the table does not allow, or to a file that does not exist.
+  - an include goes to a folder of tests that the table does not allow, or to a file that does not exist;
+  - a CMakeLists.txt calls a case SLOW that its folder does not have.
 """
 import pathlib
 import re
 import sys
 
 LAYERS = ('kernel', 'brep', 'bsp')
+SLOW = re.compile(r'trisect_add_test\([^()]*?\sSLOW\s([^()]*)\)')
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 # Folders that are not of tests, and whose headers are included by a path of their own.
 OUTSIDE = ('bench/', 'scenes/', 'trisect/')
@@ -68,6 +70,8 @@ class Check:
         for path in self.files:
             self.name(path)
             self.includes(path)
+        for listed in sorted(self.tests.rglob('CMakeLists.txt')):
+            self.slow_cases(listed)
         return self.problems
 
     def place(self, folder):
@@ -93,6 +97,14 @@ class Check:
             if says:
                 line = text.count('\n', 0, match.start()) + 1
                 self.problems.append(f'{path.relative_to(self.root)}:{line}: {match[0].strip()}   <- {says}')
+
+    def slow_cases(self, listed):
+        text = ''.join(path.read_text(encoding='utf-8') for path in listed.parent.glob('*.cpp'))
+        for match in SLOW.finditer(re.sub(r'#.*', '', listed.read_text(encoding='utf-8'))):
+            for case in match[1].split():
+                suite, _, name = re.sub(r'^\w+/(?=\w+\.)|/\*$', '', case).partition('.')
+                if not re.search(fr'\(\s*{suite},\s*{name}[,)]', text):
+                    self.problems.append(f'{listed.relative_to(self.root)}: there is no case {case}')
 
     def refusal(self, path, reach, what):
         if (path.parent / what).is_file() and '/' not in what:

@@ -31,7 +31,9 @@ TABLE
         >"$tree/tests/kernel/plane_test.cpp"
     printf '%s\n' '#include "bench/shapes.h"' '#include <trisect/brep/mesh.h>' \
         >"$tree/tests/brep/import/mesh_test.cpp"
-    : >"$tree/tests/brep/import/touching_boxes_test.cpp"
+    echo 'TEST_P(Boxes, Touch) {}' >"$tree/tests/brep/import/touching_boxes_test.cpp"
+    echo 'trisect_add_test(brep_import_test mesh_test.cpp LIBS engines SLOW All/Boxes.Touch/* Boxes.Touch)' \
+        >"$tree/tests/brep/import/CMakeLists.txt"
 }
 
 checked() { "$python" "$check" "$tree" "$tree/folders.txt"; }
@@ -68,6 +70,7 @@ clean_tree && mv "$tree/tests/brep/import/mesh_test.cpp" "$tree/tests/kernel/mes
 refused 'a test of another room'
 clean_tree && rm -r "$tree/tests"/*/
 refused 'a tree without tests'
+refuses tests/brep/import/CMakeLists.txt 'trisect_add_test(one one.cpp SLOW Boxes.Touch Boxes.Cross)'
 # The table.
 refuses folders.txt 'engines : '
 refuses folders.txt 'nobodys :'

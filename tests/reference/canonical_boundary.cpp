@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "vector.h"
+
 namespace reference {
 namespace {
 
@@ -96,13 +98,9 @@ std::vector<BoundarySegment> read_off(const Lines& lines, const PlaneChart& char
     return segments;
 }
 
-std::array<Rational, 3> difference(const Point3& a, const Point3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 bool collinear(const Point3& a, const Point3& b, const Point3& c) {
-    const auto e = difference(b, a);
-    const auto f = difference(c, a);
+    const auto e = subtracted(b, a);
+    const auto f = subtracted(c, a);
     return e[0] * f[1] == e[1] * f[0] && e[1] * f[2] == e[2] * f[1] && e[0] * f[2] == e[2] * f[0];
 }
 

@@ -9,15 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "rational.h"
+#include "vector.h"
 
 namespace reference {
 
 using Triangle3 = std::array<Point3, 3>;
-
-Point3 subtracted(const Point3& a, const Point3& b);
-Point3 cross(const Point3& a, const Point3& b);
-Rational dot(const Point3& a, const Point3& b);
 
 // The part of a triangle that a point is on: corners 0, 1, 2, sides 3, 4, 5 (from corner i to the
 // next one), 6 the interior; nothing when it is not in the closed triangle.

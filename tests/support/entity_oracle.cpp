@@ -5,14 +5,19 @@
 #include <cstddef>
 #include <optional>
 
+#include "reference/vector.h"
+
 namespace trisect::test {
 
 namespace {
 
+using reference::cross;
+using reference::dot;
 using reference::Integer;
 using reference::Point3;
 using reference::Rational;
 using reference::sign;
+using reference::subtracted;
 using Leaf = MspTree::Leaf;
 using Ref = MspTree::Ref;
 
@@ -27,17 +32,10 @@ Integer integer(const WideInt<N>& v) {
     return v.is_negative() ? Integer(-r) : r;
 }
 
-Point3 minus(const Point3& a, const Point3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Rational dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point3 cross(const Point3& a, const Point3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // Whether p is strictly between the ends.
 bool is_between(const Point3& from, const Point3& to, const Point3& p) {
-    const Point3 d = minus(to, from);
-    const Point3 e = minus(p, from);
+    const Point3 d = subtracted(to, from);
+    const Point3 e = subtracted(p, from);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t l = (k + 1) % 3;
         if (d[k] * e[l] != d[l] * e[k]) return false;

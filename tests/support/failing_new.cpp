@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "failing_new.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -11,7 +12,21 @@ constinit thread_local std::int64_t allocations_left = -1;  // negative: none fa
 constinit thread_local bool failed = false;
 constinit thread_local std::int64_t live = 0;
 
+// Of all threads together.
+constinit std::atomic<std::int64_t> left_anywhere{-1};
+constinit std::atomic<std::int64_t> asked_anywhere{0};
+constinit std::atomic<std::int64_t> live_anywhere{0};
+
+void count_block(std::int64_t change) {
+    live += change;
+    live_anywhere.fetch_add(change, std::memory_order_relaxed);
+}
+
 bool fails_now() {
+    asked_anywhere.fetch_add(1, std::memory_order_relaxed);
+    if (left_anywhere.load(std::memory_order_relaxed) >= 0 &&
+        left_anywhere.fetch_sub(1, std::memory_order_relaxed) == 0)
+        return true;
     if (allocations_left < 0) return false;
     if (allocations_left-- > 0) return false;
     failed = true;
@@ -27,7 +42,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
     } else {
         p = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     }
-    if (p != nullptr) ++live;
+    if (p != nullptr) count_block(1);
     return p;
 }
 
@@ -38,7 +53,7 @@ void* allocate_or_throw(std::size_t size, std::size_t alignment) {
 }
 
 void release(void* p) noexcept {
-    if (p != nullptr) --live;
+    if (p != nullptr) count_block(-1);
     std::free(p);
 }
 
@@ -54,7 +69,13 @@ FailingAllocation::FailingAllocation(std::int64_t n) {
 }
 FailingAllocation::~FailingAllocation() { allocations_left = -1; }
 bool FailingAllocation::has_failed() const { return failed; }
+
+FailingAllocationAnywhere::FailingAllocationAnywhere(std::int64_t n) { left_anywhere = n; }
+FailingAllocationAnywhere::~FailingAllocationAnywhere() { left_anywhere = -1; }
+
 std::int64_t live_blocks() { return live; }
+std::int64_t live_blocks_anywhere() { return live_anywhere; }
+std::int64_t allocations_anywhere() { return asked_anywhere; }
 
 }  // namespace trisect::test
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/solid.h>
@@ -22,12 +21,6 @@ struct Pair {
     trisect::InterferenceModel b;
     trisect::Motion motion_b;
 };
-
-inline trisect::InterferenceModel box(double x0, double y0, double z0, double x1, double y1,
-                                      double z1) {
-    return trisect::InterferenceModel(
-        trisect::Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
 
 inline trisect::Motion by(double x, double y, double z) {
     return trisect::Motion::translation(trisect::Pose(), {x, y, z});

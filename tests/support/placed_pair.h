@@ -3,7 +3,6 @@
 // Pairs of placed solids for tests of certificates.
 #pragma once
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
@@ -24,12 +23,6 @@ inline PlacedPair placed_pair(reference::Random& random) {
     const Scene scene = random_scene(random);
     return {trisect::InterferenceModel(scene.a.solid()),
             trisect::InterferenceModel(scene.b.solid()), scene.pose_a, scene.pose_b};
-}
-
-inline trisect::InterferenceModel box(double x0, double y0, double z0, double x1, double y1,
-                                      double z1) {
-    return trisect::InterferenceModel(
-        trisect::Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
 }
 
 }  // namespace brute

@@ -28,9 +28,9 @@ public:
 
     std::optional<Point> next() {
         switch (below(8)) {
-            case 0: {
-                return brep_.point(VertexId(below(brep_.vertices().size())));
-            }
+            case 0:
+                return brep_.point(
+                    VertexId(static_cast<std::size_t>(below(brep_.vertices().size()))));
             case 1:
                 return on_edge();
             case 2:

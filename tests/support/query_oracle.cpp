@@ -7,18 +7,18 @@
 #include <set>
 #include <utility>
 
+#include "reference/vector.h"
+
 namespace brute {
 
+using reference::cross;
+using reference::dot;
+using reference::subtracted;
 using trisect::FaceSource;
 using trisect::Location;
 
 namespace {
 
-Point3 minus(const Point3& a, const Point3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point3 cross(const Point3& a, const Point3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const Point3& a, const Point3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Rational value(const Polygon& g, const Point3& p) {
     return Rational(g.normal[0]) * p[0] + Rational(g.normal[1]) * p[1] +
            Rational(g.normal[2]) * p[2] + Rational(g.offset);
@@ -35,7 +35,7 @@ Point3 normal(const Polygon& g) {
 Rational edge_value(const Polygon& g, std::size_t i, const Point3& p) {
     const Point3& a = g.corners[i];
     const Point3& b = g.corners[(i + 1) % g.corners.size()];
-    return dot(cross(minus(b, a), minus(p, a)), normal(g));
+    return dot(cross(subtracted(b, a), subtracted(p, a)), normal(g));
 }
 
 bool contains(const Polygon& g, const Point3& p) {
@@ -72,10 +72,10 @@ Rational squared_distance_to(const Polygon& g, const Point3& p) {
     std::optional<Rational> best;
     for (std::size_t i = 0; i < g.corners.size(); ++i) {
         const Point3& a = g.corners[i];
-        const Point3 e = minus(g.corners[(i + 1) % g.corners.size()], a);
-        Rational t = dot(minus(p, a), e) / dot(e, e);
+        const Point3 e = subtracted(g.corners[(i + 1) % g.corners.size()], a);
+        Rational t = dot(subtracted(p, a), e) / dot(e, e);
         t = std::clamp(t, Rational(0), Rational(1));
-        const Point3 q = minus(p, {a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]});
+        const Point3 q = subtracted(p, {a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]});
         const Rational d = dot(q, q);
         if (!best || d < *best) best = d;
     }
@@ -130,12 +130,13 @@ void Boundary::add(std::vector<Point3> corners, FaceSource name) {
         const Point3& a = corners[(i + corners.size() - 1) % corners.size()];
         const Point3& b = corners[i];
         const Point3& c = corners[(i + 1) % corners.size()];
-        const Point3 n = cross(minus(b, a), minus(c, b));
+        const Point3 n = cross(subtracted(b, a), subtracted(c, b));
         if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
         g.corners.push_back(b);
     }
     if (g.corners.size() < 3) return;
-    const Point3 n = cross(minus(g.corners[1], g.corners[0]), minus(g.corners[2], g.corners[1]));
+    const Point3 n =
+        cross(subtracted(g.corners[1], g.corners[0]), subtracted(g.corners[2], g.corners[1]));
     const Rational d = -dot(n, g.corners[0]);
     Integer common = d.get_den();
     for (const Rational& x : n) mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), x.get_den_mpz_t());

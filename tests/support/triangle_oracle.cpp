@@ -5,20 +5,14 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "reference/vector.h"
+
 namespace brute {
 
+using reference::cross;
+using reference::dot;
+using reference::subtracted;
 namespace {
-
-Point3 minus(const Point3& a, const Point3& b) {
-    return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
-Point3 product(const Point3& a, const Point3& b) {
-    return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-            Rational(a[0] * b[1] - a[1] * b[0])};
-}
-Rational dot(const Point3& a, const Point3& b) {
-    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
 
 // Projection along an axis in which a plane is not seen edge on.
 struct View {
@@ -66,10 +60,10 @@ bool segments_meet(const Point3& a, const Point3& b, const Point3& c, const Poin
 
 // -1: no common point, 0: some, 1: passes through the inside.
 int segment_and_triangle(const Point3& a, const Point3& b, const Triangle3& t) {
-    const Point3 n = product(minus(t[1], t[0]), minus(t[2], t[0]));
+    const Point3 n = cross(subtracted(t[1], t[0]), subtracted(t[2], t[0]));
     const View view(n);
-    const Rational da = dot(n, minus(a, t[0]));
-    const Rational db = dot(n, minus(b, t[0]));
+    const Rational da = dot(n, subtracted(a, t[0]));
+    const Rational db = dot(n, subtracted(b, t[0]));
     if (sgn(da) * sgn(db) > 0) return -1;
     if (sgn(da) == 0 && sgn(db) == 0) {
         if (place_in(t, a, view) >= 0 || place_in(t, b, view) >= 0) return 0;

@@ -30,9 +30,11 @@
 #include <trisect/kernel/error.h>
 
 #include "support/failing_new.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::box;
 using trisect::Expression;
 using trisect::MeshFormat;
 using trisect::PolygonMesh;
@@ -72,10 +74,6 @@ void fail_every_allocation(const std::function<std::string()>& call) {
     EXPECT_EQ(call(), expected);
     // What is kept between calls may have grown a little; a leak grows with n.
     EXPECT_LE(trisect::test::live_blocks() - live, 2 + n / 50) << "after " << n << " failures";
-}
-
-Solid box(double low, double high) {
-    return Solid::from_mesh(trisect::make_box({low, low, low}, {high, high, high}));
 }
 
 trisect::EvaluateOptions one_thread() {

@@ -22,18 +22,16 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
-#include "small_stack.h"
+#include "support/small_stack.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::box;
 using trisect::Expression;
 using trisect::PolygonMesh;
 using trisect::Solid;
 using trisect::test::run_with_small_stack;
-
-Solid box(double low, double high) {
-    return Solid::from_mesh(trisect::make_box({low, low, low}, {high, high, high}));
-}
 
 Solid slab(double low, double high, double width) {
     return Solid::from_mesh(trisect::make_box({low, 0, 0}, {high, width, width}));

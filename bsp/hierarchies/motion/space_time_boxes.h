@@ -18,7 +18,7 @@ namespace trisect::hierarchies {
 
 /// A box that contains a solid from one value of its motion's parameter to another.
 struct SpaceTimeBox {
-    detail::BodyBox space;
+    trisect::detail::BodyBox space;
     double from = 0;
     double to = 0;
 };

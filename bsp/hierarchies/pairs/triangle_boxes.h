@@ -14,7 +14,7 @@
 
 namespace trisect::hierarchies {
 
-using Box = detail::BodyBox;
+using Box = trisect::detail::BodyBox;
 
 /// Boxes by the numbers of triangles; they contain their triangles provably. Value type.
 class TriangleBoxes {

@@ -33,14 +33,14 @@ struct WallCells {
         Plane plane;
         Ref below = 0;
         Ref above = 0;
-        detail::BodyBox box_below;  ///< around all polygons there
-        detail::BodyBox box_above;
+        trisect::detail::BodyBox box_below;  ///< around all polygons there
+        trisect::detail::BodyBox box_above;
     };
     struct Cell {
         std::vector<ConvexPolygon> polygons;   ///< of triangles, their parts within the cell
         std::vector<std::uint32_t> triangles;  ///< of which each polygon is a part
         std::vector<Plane> walls;              ///< the cell is below all of them
-        detail::BodyBox box;                   ///< around the polygons, where vertices are exact
+        trisect::detail::BodyBox box;          ///< around the polygons, where vertices are exact
     };
 
     std::vector<Wall> walls;  ///< the first one is the root

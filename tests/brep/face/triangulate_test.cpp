@@ -14,6 +14,7 @@
 
 #include <trisect/brep/exact_rational.h>
 
+namespace triangulate_test {
 namespace {
 
 using namespace trisect;
@@ -438,3 +439,4 @@ TEST(Triangulate, ManyOutlinesInHolesOfEachOther) {
 }
 
 }  // namespace
+}  // namespace triangulate_test

@@ -13,6 +13,8 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
+#include "support/solids.h"
+
 namespace {
 
 using trisect::Brep;
@@ -20,9 +22,6 @@ using trisect::exact_text;
 using trisect::Expression;
 using trisect::make_box;
 using trisect::read_exact;
-using trisect::Solid;
-
-Expression solid(const trisect::PolygonMesh& mesh) { return Expression(Solid::from_mesh(mesh)); }
 
 void expect_same(const Brep& a, const Brep& b) {
     ASSERT_EQ(a.counts(), b.counts());
@@ -60,19 +59,20 @@ void expect_round_trip(const Expression& e) {
 }
 
 TEST(ExactBoundary, ResultsOfBooleansAreReadBackBitForBit) {
-    const auto ball = solid(trisect::make_icosphere(1.1, 2));
-    const auto cube = solid(make_box({0, 0, 0}, {1.3, 1.7, 0.9}));
+    const auto ball = solids::of_mesh(trisect::make_icosphere(1.1, 2));
+    const auto cube = solids::of_mesh(make_box({0, 0, 0}, {1.3, 1.7, 0.9}));
     expect_round_trip(ball | cube);
     expect_round_trip(ball - cube);
     expect_round_trip(ball & cube);
-    expect_round_trip(cube - solid(make_box({0.2, 0.3, -1}, {0.4, 0.5, 2})));     // a hole
-    expect_round_trip(cube - solid(make_box({0.2, 0.3, 0.1}, {0.4, 0.5, 0.2})));  // a cavity
-    expect_round_trip(cube & solid(make_box({2, 2, 2}, {3, 3, 3})));              // nothing
+    expect_round_trip(cube - solids::of_mesh(make_box({0.2, 0.3, -1}, {0.4, 0.5, 2})));  // a hole
+    expect_round_trip(cube -
+                      solids::of_mesh(make_box({0.2, 0.3, 0.1}, {0.4, 0.5, 0.2})));  // a cavity
+    expect_round_trip(cube & solids::of_mesh(make_box({2, 2, 2}, {3, 3, 3})));       // nothing
 }
 
 TEST(ExactBoundary, SolidsThatTouchThemselves) {
     const auto box = [](double x, double y, double z) {
-        return solid(make_box({x, y, z}, {x + 1, y + 1, z + 1}));
+        return solids::of_mesh(make_box({x, y, z}, {x + 1, y + 1, z + 1}));
     };
     expect_round_trip(box(0, 0, 0) | box(1, 1, 0));  // in an edge
     expect_round_trip(box(0, 0, 0) | box(1, 1, 1));  // in a vertex

@@ -13,6 +13,7 @@
 
 #include "support/random_patch.h"
 
+namespace read_patches_test {
 namespace {
 
 using trisect::BezierPatch;
@@ -70,3 +71,4 @@ TEST(ReadPatches, LimitsAreKept) {
 }
 
 }  // namespace
+}  // namespace read_patches_test

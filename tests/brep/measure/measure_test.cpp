@@ -10,13 +10,14 @@
 #include <trisect/brep/brep_mesh.h>
 
 #include "support/breps.h"
+#include "support/numbers.h"
 
 namespace {
 
+using numbers::q;
+
 using namespace trisect;
 using namespace trisect::test;
-
-ExactRational q(const char* text) { return ExactRational::from_string(text); }
 
 Brep corner_pyramid(Int128 a, Int128 b, Int128 c, std::int64_t d, Lattice lattice = {}) {
     // The octant's corner cut off by a x + b y + c z = d.

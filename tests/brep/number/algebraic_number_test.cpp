@@ -17,8 +17,11 @@
 
 #include <trisect/kernel/error.h>
 
+#include "support/numbers.h"
+
 namespace {
 
+using numbers::q;
 using trisect::AlgebraicNumber;
 using trisect::ExactRational;
 using trisect::roots_between;
@@ -26,7 +29,6 @@ using trisect::UsageError;
 
 using Coefficients = std::vector<ExactRational>;
 
-ExactRational q(const char* text) { return ExactRational::from_string(text); }
 ExactRational power_of_ten(int negative_exponent) {
     return q(("1/1" + std::string(static_cast<std::size_t>(negative_exponent), '0')).c_str());
 }

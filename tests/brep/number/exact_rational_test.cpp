@@ -12,11 +12,12 @@
 
 #include <trisect/kernel/error.h>
 
+#include "support/numbers.h"
+
 namespace {
 
+using numbers::q;
 using trisect::ExactRational;
-
-ExactRational q(const char* text) { return ExactRational::from_string(text); }
 
 TEST(ExactRational, IsKeptInLowestTerms) {
     EXPECT_EQ(q("6/4").to_string(), "3/2");

@@ -22,8 +22,11 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
+#include "support/solids.h"
+
 namespace {
 
+using solids::box;
 using trisect::evaluate;
 using trisect::EvaluateOptions;
 using trisect::EvaluateStats;
@@ -37,10 +40,6 @@ AssemblyStats stats_of(const Solid& solid) {
     AssemblyStats stats;
     (void)trisect::detail::assemble_mesh(*solid.state(), &stats);
     return stats;
-}
-
-Solid box(double low, double high) {
-    return Solid::from_mesh(make_box({low, low, low}, {high, high, high}));
 }
 
 TEST(AssemblyWork, AnImportedMeshPassesThrough) {
@@ -141,10 +140,6 @@ void expect_matching_edges(const PolygonMesh& mesh) {
             EXPECT_FALSE(on_line && along > 0 && along < length);
         }
     }
-}
-
-Solid box(const trisect::Point3d& low, const trisect::Point3d& high) {
-    return Solid::from_mesh(make_box(low, high));
 }
 
 TEST(CoplanarFacetsOfAMesh, TwoCrossingBarsOfOneHeightHaveTwoSidesOfTwelveCorners) {

@@ -3,11 +3,9 @@
 // Trees as deep as they have nodes, on a thread with a small stack.
 
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include <trisect/bsp/bsp_build.h>
@@ -15,6 +13,7 @@
 #include <trisect/bsp/classic/bsp_boundary.h>
 
 #include "meshes.h"
+#include "support/small_stack.h"
 
 namespace trisect {
 namespace {
@@ -24,21 +23,6 @@ using NodeId = BspTree::NodeId;
 
 const NodeId in(BspTree::Label::In);
 const NodeId out(BspTree::Label::Out);
-
-// 256 KiB: some thousand recursive calls, and room for sanitizers.
-void run_with_small_stack(std::function<void()> work) {
-    pthread_attr_t attributes;
-    ASSERT_EQ(pthread_attr_init(&attributes), 0);
-    ASSERT_EQ(pthread_attr_setstacksize(&attributes, std::size_t{1} << 18), 0);
-    pthread_t thread{};
-    const auto call = [](void* f) -> void* {
-        (*static_cast<std::function<void()>*>(f))();
-        return nullptr;
-    };
-    ASSERT_EQ(pthread_create(&thread, &attributes, call, &work), 0);
-    ASSERT_EQ(pthread_join(thread, nullptr), 0);
-    pthread_attr_destroy(&attributes);
-}
 
 /// Slabs 2i <= x <= 2i + 1 for i < n: every second leaf is In.
 BspTree slabs(std::uint32_t n) {
@@ -74,36 +58,41 @@ std::vector<ConvexPolygon> parabolic_prism(std::int64_t n, std::int64_t height) 
 }
 
 TEST(BspDeep, ListsOfManyPlanes) {
-    run_with_small_stack([] {
-        const BspTree tree = slabs(50000);
-        EXPECT_EQ(tree.depth(), 100000U);
-        EXPECT_EQ(tree.classify(LatticePoint{70001, 0, 0}), Membership::OnBoundary);
-        EXPECT_EQ(tree.complement().depth(), 100000U);
-        EXPECT_EQ(tree.reduced().depth(), 100000U);
-        tree.validate();
-    });
+    EXPECT_EQ(test::run_with_small_stack([] {
+                  const BspTree tree = slabs(50000);
+                  EXPECT_EQ(tree.depth(), 100000U);
+                  EXPECT_EQ(tree.classify(LatticePoint{70001, 0, 0}), Membership::OnBoundary);
+                  EXPECT_EQ(tree.complement().depth(), 100000U);
+                  EXPECT_EQ(tree.reduced().depth(), 100000U);
+                  tree.validate();
+              }),
+              "");
 }
 
 TEST(BspDeep, MergingLists) {
-    run_with_small_stack([] {
-        const BspTree tree = slabs(400);
-        const BspTree slice = build_bsp(test::box({5, 0, 0}, {700, 10, 10}));
-        const BspTree cut = merge(tree, slice, BooleanRule::set_intersection());
-        EXPECT_EQ(enclosed_volume(boundary_of(cut)), ExactRational(34700));
-        EXPECT_TRUE(is_same_set(merge(slice, tree, BooleanRule::set_intersection()), cut));
-        EXPECT_TRUE(merge(tree, tree, BooleanRule::set_difference()).is_constant());
-    });
+    EXPECT_EQ(
+        test::run_with_small_stack([] {
+            const BspTree tree = slabs(400);
+            const BspTree slice = build_bsp(test::box({5, 0, 0}, {700, 10, 10}));
+            const BspTree cut = merge(tree, slice, BooleanRule::set_intersection());
+            EXPECT_EQ(enclosed_volume(boundary_of(cut)), ExactRational(34700));
+            EXPECT_TRUE(is_same_set(merge(slice, tree, BooleanRule::set_intersection()), cut));
+            EXPECT_TRUE(merge(tree, tree, BooleanRule::set_difference()).is_constant());
+        }),
+        "");
 }
 
 TEST(BspDeep, ConvexSolidIsAList) {
-    run_with_small_stack([] {
-        const BspTree tree = build_bsp(parabolic_prism(2000, 10), {1, 8});
-        EXPECT_EQ(tree.depth(), 4003U);
-        EXPECT_EQ(tree.classify(LatticePoint{0, 1, 5}), Membership::Inside);
-        EXPECT_EQ(tree.classify(LatticePoint{17, 289, 5}), Membership::OnBoundary);
-        EXPECT_EQ(tree.classify(LatticePoint{17, 288, 5}), Membership::Outside);
-        EXPECT_EQ(tree.complement().classify(LatticePoint{17, 288, 5}), Membership::Inside);
-    });
+    EXPECT_EQ(
+        test::run_with_small_stack([] {
+            const BspTree tree = build_bsp(parabolic_prism(2000, 10), {1, 8});
+            EXPECT_EQ(tree.depth(), 4003U);
+            EXPECT_EQ(tree.classify(LatticePoint{0, 1, 5}), Membership::Inside);
+            EXPECT_EQ(tree.classify(LatticePoint{17, 289, 5}), Membership::OnBoundary);
+            EXPECT_EQ(tree.classify(LatticePoint{17, 288, 5}), Membership::Outside);
+            EXPECT_EQ(tree.complement().classify(LatticePoint{17, 288, 5}), Membership::Inside);
+        }),
+        "");
 }
 
 }  // namespace

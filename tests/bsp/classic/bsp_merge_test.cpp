@@ -21,6 +21,7 @@
 #include "meshes.h"
 
 namespace trisect {
+namespace bsp_merge_test {
 namespace {
 
 using Label = BspTree::Label;
@@ -250,4 +251,5 @@ TEST(BspBoolean, DifferentLatticesAreRefused) {
 }
 
 }  // namespace
+}  // namespace bsp_merge_test
 }  // namespace trisect

@@ -12,6 +12,7 @@
 #include <trisect/kernel/error.h>
 
 namespace trisect {
+namespace bsp_tree_test {
 namespace {
 
 using Label = BspTree::Label;
@@ -103,4 +104,5 @@ TEST(BspTree, MalformedNodesAreRefused) {
 }
 
 }  // namespace
+}  // namespace bsp_tree_test
 }  // namespace trisect

@@ -14,11 +14,12 @@
 #include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/kernel/error.h>
 
+#include "support/models.h"
 #include "support/placed_pair.h"
 
 namespace {
 
-using brute::box;
+using models::box;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
 using trisect::LimitError;

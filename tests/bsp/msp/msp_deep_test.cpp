@@ -3,35 +3,20 @@
 // Trees as deep as they have nodes, on a thread with a small stack.
 
 #include <gtest/gtest.h>
-#include <pthread.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include <trisect/brep/brep_builder.h>
 #include <trisect/bsp/msp_tree.h>
 
+#include "support/small_stack.h"
+
 namespace trisect {
 namespace {
 
 using Leaf = MspTree::Leaf;
-
-// 256 KiB: some thousand recursive calls, and room for sanitizers.
-void run_with_small_stack(std::function<void()> work) {
-    pthread_attr_t attributes;
-    ASSERT_EQ(pthread_attr_init(&attributes), 0);
-    ASSERT_EQ(pthread_attr_setstacksize(&attributes, std::size_t{1} << 18), 0);
-    pthread_t thread{};
-    const auto call = [](void* f) -> void* {
-        (*static_cast<std::function<void()>*>(f))();
-        return nullptr;
-    };
-    ASSERT_EQ(pthread_create(&thread, &attributes, call, &work), 0);
-    ASSERT_EQ(pthread_join(thread, nullptr), 0);
-    pthread_attr_destroy(&attributes);
-}
 
 /// A prism over a polygon with 2n + 1 corners on a parabola: convex, all faces different. Vertex i
 /// of the bottom is (i - n, (i - n)², 0); the caps are the first two faces.
@@ -63,26 +48,30 @@ Brep parabolic_prism(std::int64_t n, std::int64_t height) {
 
 TEST(MspDeep, ChainOfAHundredThousandFaces) {
     const Brep brep = parabolic_prism(50000, 10);
-    run_with_small_stack([&brep] {
-        MspOptions options;
-        options.split_heuristic = MspHeuristic::AsGiven;
-        const MspTree tree = MspTree::from_brep(brep, options);
-        const MspStats stats = tree.stats();
-        EXPECT_EQ(stats.faces, 100003U);
-        EXPECT_EQ(stats.space_depth, 100003U);
-        EXPECT_EQ(stats.fragments, stats.polygons);
-        EXPECT_EQ(tree.locate(LatticePoint{0, 1, 5}).kind(), Leaf::In);
-        EXPECT_EQ(tree.locate(LatticePoint{17, 289, 5}).kind(), Leaf::OnEdge);
-        EXPECT_EQ(tree.locate(LatticePoint{17, 289, 10}).kind(), Leaf::OnVertex);
-        EXPECT_EQ(tree.locate(LatticePoint{17, 290, 10}).kind(), Leaf::OnFace);
-        EXPECT_EQ(tree.locate(LatticePoint{17, 288, 10}).kind(), Leaf::Out);
-        EXPECT_EQ(tree.locate(LatticePoint{49999, 49999LL * 49999, 0}).kind(), Leaf::OnVertex);
-    });
+    EXPECT_EQ(
+        test::run_with_small_stack([&brep] {
+            MspOptions options;
+            options.split_heuristic = MspHeuristic::AsGiven;
+            const MspTree tree = MspTree::from_brep(brep, options);
+            const MspStats stats = tree.stats();
+            EXPECT_EQ(stats.faces, 100003U);
+            EXPECT_EQ(stats.space_depth, 100003U);
+            EXPECT_EQ(stats.fragments, stats.polygons);
+            EXPECT_EQ(tree.locate(LatticePoint{0, 1, 5}).kind(), Leaf::In);
+            EXPECT_EQ(tree.locate(LatticePoint{17, 289, 5}).kind(), Leaf::OnEdge);
+            EXPECT_EQ(tree.locate(LatticePoint{17, 289, 10}).kind(), Leaf::OnVertex);
+            EXPECT_EQ(tree.locate(LatticePoint{17, 290, 10}).kind(), Leaf::OnFace);
+            EXPECT_EQ(tree.locate(LatticePoint{17, 288, 10}).kind(), Leaf::Out);
+            EXPECT_EQ(tree.locate(LatticePoint{49999, 49999LL * 49999, 0}).kind(), Leaf::OnVertex);
+        }),
+        "");
 }
 
 TEST(MspDeep, ValidatedChain) {
     const Brep brep = parabolic_prism(200, 10);
-    run_with_small_stack([&brep] { EXPECT_NO_THROW(MspTree::from_brep(brep).validate(brep)); });
+    EXPECT_EQ(test::run_with_small_stack(
+                  [&brep] { EXPECT_NO_THROW(MspTree::from_brep(brep).validate(brep)); }),
+              "");
 }
 
 }  // namespace

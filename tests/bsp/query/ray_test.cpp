@@ -10,6 +10,7 @@
 #include "support/query_oracle.h"
 #include "support/random_result.h"
 
+namespace ray_test {
 namespace {
 
 using trisect::BrepIndex;
@@ -108,3 +109,4 @@ TEST(Rays, ResultsOfBooleansOnASmallGrid) {
 }
 
 }  // namespace
+}  // namespace ray_test

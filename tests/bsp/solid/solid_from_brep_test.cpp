@@ -10,7 +10,6 @@
 
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/brep_index.h>
@@ -19,18 +18,16 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::box;
 using trisect::AssembleOptions;
 using trisect::Brep;
 using trisect::Embedding;
 using trisect::Expression;
 using trisect::Solid;
-
-Solid box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1}));
-}
 
 // Through the file.
 Solid again(const Solid& s, Embedding embedding = Embedding::Assume) {

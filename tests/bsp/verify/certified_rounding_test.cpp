@@ -20,9 +20,11 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/solids.h"
 
 namespace {
 
+using solids::box;
 using trisect::Brep;
 using trisect::certified_rounding;
 using trisect::CertifiedRounding;
@@ -32,10 +34,6 @@ using trisect::Precision;
 using trisect::RoundingOptions;
 using trisect::Solid;
 using Outcome = CertifiedRounding::Outcome;
-
-Solid box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1}));
-}
 
 RoundingOptions floats() {
     RoundingOptions o;

@@ -7,6 +7,7 @@
 
 #include <limits>
 
+namespace ply_test {
 namespace {
 
 using namespace trisect;
@@ -185,3 +186,4 @@ TEST(Ply, BinaryErrorsNameTheByte) {
 }
 
 }  // namespace
+}  // namespace ply_test

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 struct Kind {
     const char* name;
     Make make;
+
+    friend std::ostream& operator<<(std::ostream& out, const Kind& k) { return out << k.name; }
 };
 
 /// All pairs of triangles that meet, exactly.

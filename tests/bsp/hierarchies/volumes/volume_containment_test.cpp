@@ -20,15 +20,15 @@
 #include <trisect/kernel/pose/relative_pose.h>
 
 #include "reference/random_solids.h"
+#include "support/numbers.h"
 
 namespace {
 
 using namespace trisect;
 using namespace trisect::hierarchies;
+using numbers::exact;
 using reference::Random;
 using Exact3 = std::array<ExactRational, 3>;
-
-ExactRational exact(double v) { return ExactRational::from_double(v); }
 
 // In the frame of a tree, from lattice units.
 Exact3 in_frame(const Exact3& p, const TreeFrame& frame) {

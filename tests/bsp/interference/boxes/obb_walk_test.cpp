@@ -16,6 +16,7 @@
 #include "reference/random_solids.h"
 #include "support/triangle_oracle.h"
 
+namespace obb_walk_test {
 namespace {
 
 using brute::Triangle3;
@@ -180,3 +181,4 @@ TEST(ObbWalk, StopsAtTheFirstCrossingAndCountsWhatItDid) {
 }
 
 }  // namespace
+}  // namespace obb_walk_test

@@ -8,16 +8,20 @@
 #include <cstdint>
 #include <string>
 
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/distance_certificate.h>
 #include <trisect/bsp/interference/interference_certificate.h>
 
 #include "refusals.h"
+#include "support/models.h"
+#include "support/numbers.h"
 #include "support/placed_pair.h"
 
 namespace {
 
-using brute::box;
+using models::box;
+using numbers::exact;
 using refusals::expect_refused;
 using refusals::of_triangles;
 using refusals::turn_over;
@@ -53,8 +57,6 @@ RationalPoint at(double x, double y, double z) {
             ExactRational::from_double(z)};
 }
 
-ExactRational number(double x) { return ExactRational::from_double(x); }
-
 TEST(CertificateRefusals, OfBoxesThatOverlap) {
     const RelationCase c{{box(0, 0, 0, 4, 4, 4), box(2, 2, 2, 6, 6, 6), Pose(), Pose()}};
     Relations right = c.certificate();
@@ -89,7 +91,7 @@ TEST(CertificateRefusals, OfBoxesThatOverlap) {
              [](Relations& d) { d.only_in_a.reset(), d.relation = Relation::Equal; }},
             {"the plane does not separate the solids",
              [](Relations& d) {
-                 d.plane = {{at(1, 0, 0), number(-3)}};
+                 d.plane = {{at(1, 0, 0), exact(-3)}};
              }},
         });
 }
@@ -104,14 +106,14 @@ TEST(CertificateRefusals, OfBoxesSideBySide) {
         {
             {"the plane does not separate the solids", [](Relations& d) { turn_over(*d.plane); }},
             {"the plane does not separate the solids",
-             [](Relations& d) { d.plane->normal = at(0, 0, 0), d.plane->offset = number(0); }},
+             [](Relations& d) { d.plane->normal = at(0, 0, 0), d.plane->offset = exact(0); }},
             {"the plane does not separate the solids",
              [](Relations& d) {
-                 d.plane = {{at(1, 0, 0), number(-0.5)}};
+                 d.plane = {{at(1, 0, 0), exact(-0.5)}};
              }},
             {"the plane does not separate the solids",
              [](Relations& d) {
-                 d.plane = {{at(1, 0, 0), number(-1.5)}};
+                 d.plane = {{at(1, 0, 0), exact(-1.5)}};
              }},
             {"no proof that interiors are apart", [](Relations& d) { d.plane.reset(); }},
             {"no common point", [](Relations& d) { d.on_both.reset(); }},
@@ -144,7 +146,7 @@ TEST(CertificateRefusals, OfBoxesThatAreApart) {
     // Through a face of A, of B, and nothing at all.
     for (const double x : {1.0, 2.0})
         changes.push_back({"a plane of the tree does not separate", [x](Relations& d) {
-                               d.apart[0].plane = {at(1, 0, 0), number(-x)};
+                               d.apart[0].plane = {at(1, 0, 0), exact(-x)};
                            }});
     changes.push_back(
         {"a plane of the tree does not separate", [](Relations& d) { d.apart[0].plane = {}; }});
@@ -317,41 +319,40 @@ TEST(DistanceRefusals, OfBoxesFaceToFace) {
             {"the square is negative", [](Distances& d) { d.squared = -d.squared; }},
             {off, [](Distances& d) { d.on_a.face = trisect::FaceId(); }},
             {off, [](Distances& d) { d.on_b.face = trisect::FaceId(); }},
-            {off, [](Distances& d) { d.on_a.point[0] -= number(0.5); }},
-            {off, [](Distances& d) { d.on_b.point[0] += number(0.5); }},
-            {off, [](Distances& d) { d.on_a.point[1] += number(5); }},
-            {off, [](Distances& d) { d.on_b.point[2] -= number(5); }},
-            {"the points are farther apart", [](Distances& d) { d.squared = number(3.999); }},
-            {"the points are farther apart", [](Distances& d) { d.squared = number(0); }},
+            {off, [](Distances& d) { d.on_a.point[0] -= exact(0.5); }},
+            {off, [](Distances& d) { d.on_b.point[0] += exact(0.5); }},
+            {off, [](Distances& d) { d.on_a.point[1] += exact(5); }},
+            {off, [](Distances& d) { d.on_b.point[2] -= exact(5); }},
+            {"the points are farther apart", [](Distances& d) { d.squared = exact(3.999); }},
+            {"the points are farther apart", [](Distances& d) { d.squared = exact(0); }},
             {"there are no slabs", [](Distances& d) { d.slabs.clear(); }},
             {"", [](Distances& d) { d.slabs.clear(), d.is_complete = false; }},
             // It claims nothing.
             {"", [](Distances& d) { d = Distances(); }},
-            {"a slab is thinner than the distance",
-             [](Distances& d) { d.squared = number(4.001); }},
+            {"a slab is thinner than the distance", [](Distances& d) { d.squared = exact(4.001); }},
             {thin,
              [](Distances& d) {
-                 d.slabs[0].slab = {at(1, 0, 0), number(1), number(2.99)};
-             }},
-            {thin,
-             [](Distances& d) {
-                 d.slabs[0].slab = {at(2, 0, 0), number(2), number(5)};
+                 d.slabs[0].slab = {at(1, 0, 0), exact(1), exact(2.99)};
              }},
             {thin,
              [](Distances& d) {
-                 d.slabs[0].slab = {at(1, 0, 0), number(3), number(1)};
+                 d.slabs[0].slab = {at(2, 0, 0), exact(2), exact(5)};
+             }},
+            {thin,
+             [](Distances& d) {
+                 d.slabs[0].slab = {at(1, 0, 0), exact(3), exact(1)};
              }},
             {"triangles reach into a slab",
              [](Distances& d) {
-                 d.slabs[0].slab = {at(1, 0, 0), number(0.5), number(3)};
+                 d.slabs[0].slab = {at(1, 0, 0), exact(0.5), exact(3)};
              }},
             {"triangles reach into a slab",
              [](Distances& d) {
-                 d.slabs[0].slab = {at(1, 0, 0), number(1), number(3.5)};
+                 d.slabs[0].slab = {at(1, 0, 0), exact(1), exact(3.5)};
              }},
             {"triangles reach into a slab",
              [](Distances& d) {
-                 d.slabs[0].slab = {at(0, 0, 0), number(0), number(1)};
+                 d.slabs[0].slab = {at(0, 0, 0), exact(0), exact(1)};
              }},
             {"the tree is no tree",
              [](Distances& d) { d.slabs[0].kind = trisect::SlabNode::Kind::SplitA; }},
@@ -363,11 +364,11 @@ TEST(DistanceRefusals, OfBoxesFaceToFace) {
         {
             {"",
              [](Distances& d) {
-                 d.slabs[0].slab = {at(1, 0, 0), number(1), number(3)};
+                 d.slabs[0].slab = {at(1, 0, 0), exact(1), exact(3)};
              }},
             {"",
              [](Distances& d) {
-                 d.slabs[0].slab = {at(2, 0, 0), number(2), number(6)};
+                 d.slabs[0].slab = {at(2, 0, 0), exact(2), exact(6)};
              }},
         });
 }

@@ -13,17 +13,20 @@
 #include <vector>
 
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/contact_certificate.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
 
 #include "refusals.h"
 #include "support/certified_pair.h"
+#include "support/models.h"
 #include "support/moving_pair.h"
 
+namespace contact_refusals_test {
 namespace {
 
-using moving::box;
+using models::box;
 using moving::by;
 using refusals::expect_refused;
 using refusals::of_triangles;
@@ -361,3 +364,4 @@ TEST(ContactRefusals, MotionsThatFlattenASolid) {
 }
 
 }  // namespace
+}  // namespace contact_refusals_test

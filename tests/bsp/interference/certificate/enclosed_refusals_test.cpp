@@ -20,9 +20,12 @@
 #include <trisect/bsp/solid.h>
 
 #include "refusals.h"
+#include "support/models.h"
 
+namespace enclosed_refusals_test {
 namespace {
 
+using models::box;
 using refusals::expect_refused;
 using refusals::of_triangles;
 using trisect::EnclosedCertificate;
@@ -58,10 +61,6 @@ struct Case {
         return check_enclosed_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
     }
 };
-
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
 
 // From place to place, in one unit of time each.
 EnclosedMotion through(const std::vector<std::array<double, 3>>& places) {
@@ -286,3 +285,4 @@ TEST(EnclosedRefusals, MotionsThatAreNotKnown) {
 }
 
 }  // namespace
+}  // namespace enclosed_refusals_test

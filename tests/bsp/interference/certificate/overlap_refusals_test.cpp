@@ -10,18 +10,23 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/overlap_certificate.h>
 
 #include "refusals.h"
 #include "support/certified_pair.h"
+#include "support/models.h"
 #include "support/moving_pair.h"
+#include "support/numbers.h"
 
+namespace overlap_refusals_test {
 namespace {
 
-using moving::box;
+using models::box;
 using moving::by;
+using numbers::exact;
 using refusals::expect_refused;
 using refusals::of_triangles;
 using trisect::ClearanceNode;
@@ -42,8 +47,7 @@ constexpr const char* not_separate = "a plane does not separate";
 constexpr const char* not_within = "a tetrahedron is not within its solid";
 constexpr const char* no_overlap = "the tetrahedra do not overlap right after the event";
 
-ExactRational number(double x) { return ExactRational::from_double(x); }
-RationalPoint at(double x, double y, double z) { return {number(x), number(y), number(z)}; }
+RationalPoint at(double x, double y, double z) { return {exact(x), exact(y), exact(z)}; }
 
 ClearanceNode leaf_of(SupportingPlane plane) {
     ClearanceNode n;
@@ -51,7 +55,7 @@ ClearanceNode leaf_of(SupportingPlane plane) {
     return n;
 }
 ClearanceNode horizontal(SupportingPlane::Kind kind, double height) {
-    return leaf_of({kind, {at(0, 0, 1), number(-height)}, {}, {}, {}});
+    return leaf_of({kind, {at(0, 0, 1), exact(-height)}, {}, {}, {}});
 }
 ClearanceNode by_edges(const RationalPoint& along_a, const RationalPoint& along_b,
                        const RationalPoint& through) {
@@ -84,7 +88,7 @@ TEST(OverlapRefusals, OfABlockThatFallsThroughAFloor) {
         // The planes of the proof do not hold to the end.
         {not_separate, [](C& d) { d.is_overlap = false; }},
         {"no time after the event", [](C& d) { d.after.until = 0; }},
-        {"no time after the event", [](C& d) { d.after.until = number(1.5); }},
+        {"no time after the event", [](C& d) { d.after.until = exact(1.5); }},
         {no_overlap, [](C& d) { d.after.until = d.lower; }},
         // The block has left the floor below it.
         {no_overlap, [](C& d) { d.after.until = 1; }},
@@ -143,8 +147,8 @@ TEST(OverlapRefusals, TreesOverABlockThatFallsThroughAFloor) {
         ClearanceNode n;
         n.kind = kind;
         n.other = other;
-        n.time = number(0.25);
-        n.cut = {at(1, 0, 0), number(-2)};
+        n.time = exact(0.25);
+        n.cut = {at(1, 0, 0), exact(-2)};
         return n;
     };
     const auto tree = [](std::vector<ClearanceNode> nodes) {
@@ -157,7 +161,7 @@ TEST(OverlapRefusals, TreesOverABlockThatFallsThroughAFloor) {
     ClearanceNode no_cut = split(Kind::SplitA, 2);
     no_cut.cut.normal = at(0, 0, 0);
     ClearanceNode beside = split(Kind::SplitA, 2);
-    beside.cut.offset = number(-100);
+    beside.cut.offset = exact(-100);
     std::vector<ClearanceNode> deep(8, leaf);
     for (std::uint32_t i = 0; i < 4; ++i) deep[i] = split(Kind::SplitB, 4 + i);
     const Changes changes{
@@ -257,3 +261,4 @@ TEST(OverlapRefusals, MotionsThatFlattenASolid) {
 }
 
 }  // namespace
+}  // namespace overlap_refusals_test

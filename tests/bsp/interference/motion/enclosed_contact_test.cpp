@@ -18,10 +18,15 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/enclosed_motions.h"
+#include "support/models.h"
 #include "support/motion_oracle.h"
 
 namespace {
 
+using models::box;
+using moving::straight;
+using moving::whole;
 using trisect::AlgebraicNumber;
 using trisect::ConstantTurn;
 using trisect::enclosed_first_contact;
@@ -39,22 +44,9 @@ using trisect::Solid;
 using trisect::UsageError;
 using Outcome = EnclosedContact::Outcome;
 
-double whole(reference::Random& random, int low, int high) {
-    return static_cast<double>(random.between(low, high));
-}
-
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
-
 EnclosedMotion quarter_turn(double duration = 1) {
     return EnclosedMotion::through(
         std::vector<KeyFrame>{{0, {1, 0, 0, 0}, {}}, {duration, {1, 0, 0, 1}, {}}});
-}
-
-EnclosedMotion moving(std::array<double, 3> from, std::array<double, 3> to) {
-    return EnclosedMotion::through(
-        std::vector<KeyFrame>{{0, {1, 0, 0, 0}, from}, {1, {1, 0, 0, 0}, to}});
 }
 
 EnclosedContact contact(const InterferenceModel& a, const InterferenceModel& b,
@@ -108,16 +100,17 @@ TEST(EnclosedContact, CornerGrazesAWallAtAnIrrationalTime) {
 TEST(EnclosedContact, AlignedBlocksMeetFaceToFace) {
     // No edge passes through the inside of a face: a point inside both proves the contact.
     const EnclosedContact c =
-        contact(box(0, 0, 0, 1, 1, 1), box(0, 0, 0, 1, 1, 1), moving({3, 0, 0}, {0.5, 0, 0}));
+        contact(box(0, 0, 0, 1, 1, 1), box(0, 0, 0, 1, 1, 1), straight({3, 0, 0}, {0.5, 0, 0}));
     expect_at(c, 0.8);
     EXPECT_TRUE(c.witnesses.empty());
-    expect_at(contact(box(0, 0, 0, 4, 4, 1), box(0, 0, 0, 1, 1, 1), moving({1, 1, 3}, {1, 1, -1})),
-              0.5);
+    expect_at(
+        contact(box(0, 0, 0, 4, 4, 1), box(0, 0, 0, 1, 1, 1), straight({1, 1, 3}, {1, 1, -1})),
+        0.5);
 }
 
 TEST(EnclosedContact, BlockSlidesOnATable) {
     const EnclosedContact c =
-        contact(box(0, 0, 0, 9, 9, 1), box(0, 0, 0, 1, 1, 1), moving({1, 1, 1}, {5, 5, 1}));
+        contact(box(0, 0, 0, 9, 9, 1), box(0, 0, 0, 1, 1, 1), straight({1, 1, 1}, {5, 5, 1}));
     ASSERT_EQ(c.outcome, Outcome::Undecided);
     EXPECT_EQ(c.free_until, 0);
     EXPECT_EQ(c.undecided, (std::vector<trisect::TimeSpan>{{0, 1}}));
@@ -125,7 +118,7 @@ TEST(EnclosedContact, BlockSlidesOnATable) {
 
 TEST(EnclosedContact, BlockIsLiftedFromATable) {
     const EnclosedContact c =
-        contact(box(0, 0, 0, 9, 9, 1), box(0, 0, 0, 1, 1, 1), moving({1, 1, 1}, {1, 1, 4}));
+        contact(box(0, 0, 0, 9, 9, 1), box(0, 0, 0, 1, 1, 1), straight({1, 1, 1}, {1, 1, 4}));
     ASSERT_EQ(c.outcome, Outcome::Undecided);
     EXPECT_EQ(c.free_until, 0);
     ASSERT_EQ(c.undecided.size(), 1U);
@@ -149,7 +142,7 @@ TEST(EnclosedContact, BlockIsLiftedAndPutDownInto) {
 
 TEST(EnclosedContact, SolidsThatOverlapAtTheStart) {
     const EnclosedContact c =
-        contact(box(0, 0, 0, 4, 4, 4), box(0, 0, 0, 1, 1, 9), moving({1, 1, 1}, {9, 9, 9}));
+        contact(box(0, 0, 0, 4, 4, 4), box(0, 0, 0, 1, 1, 9), straight({1, 1, 1}, {9, 9, 9}));
     ASSERT_EQ(c.outcome, Outcome::Contact);
     EXPECT_EQ(c.free_until, 0);
     EXPECT_EQ(c.contact_by, 0);

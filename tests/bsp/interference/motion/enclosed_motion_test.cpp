@@ -15,9 +15,11 @@
 #include <trisect/kernel/error.h>
 
 #include "reference/random_solids.h"
+#include "support/enclosed_motions.h"
 
 namespace {
 
+using moving::whole;
 using trisect::ConstantTurn;
 using trisect::EnclosedMotion;
 using trisect::ExactRational;
@@ -97,10 +99,6 @@ RealVector turned(const Pose& start, const ConstantTurn& turn, Real t, const Rea
     y = rotated(q, y);
     for (std::size_t i = 0; i < 3; ++i) y[i] += turn.center[i] + t * turn.shift[i];
     return y;
-}
-
-double whole(reference::Random& random, int low, int high) {
-    return static_cast<double>(random.between(low, high));
 }
 
 RealVector random_point(reference::Random& random) {
@@ -248,24 +246,24 @@ TEST(EnclosedMotion, StraightLinesContainASmoothMotion) {
 
 TEST(EnclosedMotion, WhatMakesNoSenseIsRefused) {
     const std::vector<KeyFrame> one{{}};
-    EXPECT_THROW(EnclosedMotion::through(one), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(one), UsageError);
     const std::vector<KeyFrame> late{{1, {1, 0, 0, 0}, {}}, {2, {1, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(late), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(late), UsageError);
     const std::vector<KeyFrame> equal{{0, {1, 0, 0, 0}, {}}, {0, {1, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(equal), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(equal), UsageError);
     const std::vector<KeyFrame> zero{{0, {1, 0, 0, 0}, {}}, {1, {0, 0, 0, 0}, {}}};
-    EXPECT_THROW(EnclosedMotion::through(zero), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(zero), UsageError);
     const std::vector<KeyFrame> infinite{{0, {1, 0, 0, 0}, {}},
                                          {1, {1, 0, 0, 0}, {HUGE_VAL, 0, 0}}};
-    EXPECT_THROW(EnclosedMotion::through(infinite), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::through(infinite), UsageError);
     ConstantTurn turn;
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn, 0), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn, 0), UsageError);
     turn.axis = {};
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn), UsageError);
     turn = {};
     turn.angle = 0x1p21;
-    EXPECT_THROW(EnclosedMotion::turning(Pose(), turn), UsageError);
-    EXPECT_THROW(EnclosedMotion::smooth({}, {0, 1}), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::turning(Pose(), turn), UsageError);
+    EXPECT_THROW((void)EnclosedMotion::smooth({}, {0, 1}), UsageError);
     EXPECT_THROW(EnclosedMotion(nullptr, {0, 1}), UsageError);
 }
 

@@ -23,10 +23,17 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/models.h"
 #include "support/motion_oracle.h"
+#include "support/moving_pair.h"
+#include "support/numbers.h"
 
 namespace {
 
+using models::box;
+using moving::by;
+using moving::small;
+using numbers::q;
 using oracle::Placement;
 using reference::Operand;
 using reference::Rational;
@@ -43,12 +50,6 @@ using trisect::Relation;
 using trisect::Screw;
 using trisect::Solid;
 using trisect::UsageError;
-
-ExactRational q(const std::string& text) { return ExactRational::from_string(text); }
-
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
 
 Motion falling(double by) { return Motion::translation(Pose(), {0, 0, -by}); }
 
@@ -281,8 +282,6 @@ FirstContact first_overlap(const InterferenceModel& a, const Motion& ma, const I
     return first_contact(a, ma, b, mb, {ContactEvent::Overlap});
 }
 
-Motion moving(double x, double y, double z) { return Motion::translation(Pose(), {x, y, z}); }
-
 TEST(FirstOverlap, BlockThatFallsOntoAFloor) {
     expect_at(first_overlap(box(0, 0, 0, 4, 4, 1), Motion(), box(1, 1, 3, 2, 2, 4), falling(4)),
               "1/2");
@@ -294,14 +293,14 @@ TEST(FirstOverlap, BlockThatFallsOntoAFloor) {
 TEST(FirstOverlap, BlockThatLiesOnAFloor) {
     const auto floor = box(0, 0, 0, 8, 8, 1);
     const auto block = box(1, 1, 1, 2, 2, 2);
-    const FirstContact down = first_overlap(floor, Motion(), block, moving(0, 0, -1));
+    const FirstContact down = first_overlap(floor, Motion(), block, by(0, 0, -1));
     expect_at(down, "0");
     EXPECT_EQ(down.at_start, Relation::Touching);
     EXPECT_FALSE(down.witnesses.empty());
-    EXPECT_FALSE(first_overlap(floor, Motion(), block, moving(0, 0, 1)).exists());   // lifts
-    EXPECT_FALSE(first_overlap(floor, Motion(), block, moving(3, 2, 0)).exists());   // slides
-    EXPECT_FALSE(first_overlap(floor, Motion(), block, moving(30, 2, 0)).exists());  // and off it
-    EXPECT_FALSE(first_overlap(floor, Motion(), block, moving(0, 0, 0)).exists());
+    EXPECT_FALSE(first_overlap(floor, Motion(), block, by(0, 0, 1)).exists());   // lifts
+    EXPECT_FALSE(first_overlap(floor, Motion(), block, by(3, 2, 0)).exists());   // slides
+    EXPECT_FALSE(first_overlap(floor, Motion(), block, by(30, 2, 0)).exists());  // and off it
+    EXPECT_FALSE(first_overlap(floor, Motion(), block, by(0, 0, 0)).exists());
 }
 
 TEST(FirstOverlap, BlockSlidesOnAFloorAgainstAWallOfItsOwnHeight) {
@@ -310,13 +309,12 @@ TEST(FirstOverlap, BlockSlidesOnAFloorAgainstAWallOfItsOwnHeight) {
     const InterferenceModel room(Solid::from_mesh(trisect::make_extrusion(
         std::vector<trisect::Point2d>{{0, 0}, {8, 0}, {8, 2}, {6, 2}, {6, 1}, {0, 1}}, {}, 0, 2)));
     const auto block = box(1, 1, 0, 2, 2, 2);
-    const FirstContact c = first_overlap(room, Motion(), block, moving(8, 0, 0));
+    const FirstContact c = first_overlap(room, Motion(), block, by(8, 0, 0));
     expect_at(c, "1/2");
     EXPECT_FALSE(c.witnesses.empty());
-    EXPECT_FALSE(first_overlap(room, Motion(), block, moving(4, 0, 0)).exists());
+    EXPECT_FALSE(first_overlap(room, Motion(), block, by(4, 0, 0)).exists());
     // Up along the wall and over it.
-    EXPECT_FALSE(
-        first_overlap(room, moving(0, 0, 0), box(5, 1, 0, 6, 2, 2), moving(0, 5, 0)).exists());
+    EXPECT_FALSE(first_overlap(room, by(0, 0, 0), box(5, 1, 0, 6, 2, 2), by(0, 5, 0)).exists());
 }
 
 TEST(FirstOverlap, BlockSlidesAlongAComb) {
@@ -328,12 +326,12 @@ TEST(FirstOverlap, BlockSlidesAlongAComb) {
     outline.push_back({0, 1});
     const InterferenceModel comb(Solid::from_mesh(trisect::make_extrusion(outline, {}, 0, 2)));
     const auto block = box(2, 2, 0.5, 5, 3, 1.5);
-    const FirstContact c = first_overlap(comb, Motion(), block, moving(114, 0, 0));
+    const FirstContact c = first_overlap(comb, Motion(), block, by(114, 0, 0));
     expect_at(c, "1/2");
     EXPECT_EQ(c.at_start, Relation::Touching);
     // Some searches, not one for every event.
     EXPECT_LT(c.stats.intervals, 400U);
-    EXPECT_FALSE(first_overlap(comb, Motion(), block, moving(57, 0, 0)).exists());
+    EXPECT_FALSE(first_overlap(comb, Motion(), block, by(57, 0, 0)).exists());
 }
 
 TEST(FirstOverlap, LiesOnTheFloorLiftsAndFallsBack) {
@@ -385,12 +383,12 @@ TEST(FirstOverlap, InteriorsThatMeetAtTheStart) {
     const auto outer = box(0, 0, 0, 4, 4, 4);
     for (const ContactEvent event : {ContactEvent::Touch, ContactEvent::Overlap}) {
         const FirstContact inside =
-            first_contact(outer, Motion(), box(1, 1, 1, 2, 2, 2), moving(9, 0, 0), {event});
+            first_contact(outer, Motion(), box(1, 1, 1, 2, 2, 2), by(9, 0, 0), {event});
         expect_at(inside, "0");
         EXPECT_EQ(inside.at_start, Relation::Contains);
         EXPECT_TRUE(inside.witnesses.empty());
         const FirstContact crossing =
-            first_contact(outer, Motion(), box(3, 1, 1, 5, 2, 2), moving(9, 0, 0), {event});
+            first_contact(outer, Motion(), box(3, 1, 1, 5, 2, 2), by(9, 0, 0), {event});
         expect_at(crossing, "0");
         EXPECT_EQ(crossing.at_start, Relation::Overlapping);
         EXPECT_FALSE(crossing.witnesses.empty());
@@ -403,10 +401,9 @@ TEST(FirstOverlap, SmallSolidInACavityMovesToItsWall) {
         trisect::evaluate(Expression(Solid::from_mesh(trisect::make_box({0, 0, 0}, {9, 9, 9}))) -
                           Expression(Solid::from_mesh(trisect::make_box({1, 1, 1}, {8, 8, 8}))));
     const auto small = box(3, 3, 3, 4, 4, 4);
-    expect_at(first_contact(InterferenceModel(shell), Motion(), small, moving(8, 0, 0)), "1/2");
-    expect_at(first_overlap(InterferenceModel(shell), Motion(), small, moving(8, 0, 0)), "1/2");
-    EXPECT_FALSE(
-        first_contact(InterferenceModel(shell), Motion(), small, moving(3, 1, 2)).exists());
+    expect_at(first_contact(InterferenceModel(shell), Motion(), small, by(8, 0, 0)), "1/2");
+    expect_at(first_overlap(InterferenceModel(shell), Motion(), small, by(8, 0, 0)), "1/2");
+    EXPECT_FALSE(first_contact(InterferenceModel(shell), Motion(), small, by(3, 1, 2)).exists());
 }
 
 // Random solids on a small grid -------------------------------------------------------------------
@@ -419,8 +416,6 @@ struct Scene {
     Placement pa;
     Placement pb;
 };
-
-std::int64_t small(reference::Random& random) { return random.between(-2, 2); }
 
 Placement random_placement(reference::Random& random, bool turning) {
     Placement p;

@@ -10,20 +10,20 @@
 #include <cstdint>
 #include <vector>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/interference/first_contact.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/models.h"
 
 namespace {
 
+using models::box;
 using trisect::AlgebraicNumber;
 using trisect::ExactRational;
 using trisect::FirstContact;
 using trisect::InterferenceModel;
 using trisect::Motion;
-using trisect::Solid;
 
 constexpr std::size_t degree = 10;
 
@@ -39,10 +39,6 @@ Motion shifted(const std::array<double, 3>& from, const std::array<double, 3>& b
         shift.back() = ExactRational::from_double(by[k]);
     }
     return Motion::rational(entries, {1});
-}
-
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
 }
 
 TEST(MotionsOfDegreeTen, BlocksFaceToFaceEdgeToEdgeAndCornerToCorner) {

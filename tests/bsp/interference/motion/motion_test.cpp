@@ -14,16 +14,17 @@
 #include <trisect/bsp/interference/enclosed_motion.h>
 #include <trisect/kernel/error.h>
 
+#include "support/numbers.h"
+
 namespace {
 
+using numbers::q;
 using trisect::ExactRational;
 using trisect::Motion;
 using trisect::Pose;
 using trisect::Screw;
 using trisect::UnsupportedError;
 using trisect::UsageError;
-
-ExactRational q(const char* text) { return ExactRational::from_string(text); }
 
 TEST(Motion, StandsStillAtAPose) {
     EXPECT_TRUE(Motion().is_still());

@@ -14,16 +14,17 @@
 #include <random>
 #include <vector>
 
+#include "support/numbers.h"
+
 namespace {
 
+using numbers::q;
 using trisect::AlgebraicNumber;
 using trisect::ExactRational;
 using trisect::first_contact;
 using trisect::LinearPath;
 
 using Grid = std::array<int, 3>;
-
-ExactRational q(const char* text) { return ExactRational::from_string(text); }
 
 std::array<ExactRational, 3> place(const Grid& g) { return {g[0], g[1], g[2]}; }
 LinearPath path(const Grid& from, const Grid& to) { return {place(from), place(to)}; }

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/interference/relation/distance_search.h>
@@ -15,7 +14,9 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/models.h"
 
+namespace distance_test {
 namespace {
 
 using reference::Random;
@@ -27,10 +28,6 @@ using trisect::InterferenceModel;
 using trisect::Pose;
 using trisect::Solid;
 using trisect::detail::DistanceSearch;
-
-InterferenceModel box(double x, double y, double z) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({0, 0, 0}, {x, y, z})));
-}
 
 // The least of all pairs of triangles, in rationals.
 ExactRational brute(const InterferenceModel& a, const Pose& pa, const InterferenceModel& b,
@@ -111,19 +108,19 @@ TEST(TriangleDistance, CertainlyFartherIsNeverWrong) {
 }
 
 TEST(BoundaryDistance, FeaturesOfBoxesAreNamed) {
-    const InterferenceModel a = box(1, 1, 1);
+    const InterferenceModel a = models::box(0, 0, 0, 1, 1, 1);
     const auto corner = boundary_distance(a, Pose(), a, Pose::from_translation({2, 2, 2}));
     EXPECT_TRUE(corner->a.is_vertex() && corner->b.is_vertex());
     const auto edge = boundary_distance(a, Pose(), a, Pose::from_translation({2, 2, 0.25}));
     EXPECT_FALSE(edge->a.is_face() && edge->b.is_face());
-    const auto face = boundary_distance(box(4, 4, 1), Pose(), a,
+    const auto face = boundary_distance(models::box(0, 0, 0, 4, 4, 1), Pose(), a,
                                         Pose::from_quaternion({100, 50, 31, 7}, {2, 2, 3}));
     EXPECT_TRUE(face->a.is_face() && face->b.is_vertex());
 }
 
 TEST(BoundaryDistance, TouchingCrossingNestedAndEmpty) {
-    const InterferenceModel a = box(4, 4, 4);
-    const InterferenceModel b = box(1, 1, 1);
+    const InterferenceModel a = models::box(0, 0, 0, 4, 4, 4);
+    const InterferenceModel b = models::box(0, 0, 0, 1, 1, 1);
     const auto at = [](double x, double y, double z) { return Pose::from_translation({x, y, z}); };
     EXPECT_EQ(exact_squared_distance(a, Pose(), b, at(4, 1, 1)), ExactRational());
     EXPECT_EQ(boundary_distance(a, Pose(), b, at(4, 1, 1))->lower, 0);
@@ -156,3 +153,4 @@ TEST(BoundaryDistance, FewBoxesAreOpenedAndFewerFromAStart) {
 }
 
 }  // namespace
+}  // namespace distance_test

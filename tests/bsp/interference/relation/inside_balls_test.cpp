@@ -18,9 +18,11 @@
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
+#include "support/models.h"
 
 namespace {
 
+using models::box;
 using reference::Random;
 using trisect::InterferenceModel;
 using trisect::Pose;
@@ -32,9 +34,6 @@ using trisect::detail::InsideBalls;
 using trisect::detail::relation_by_balls;
 using trisect::detail::touching_ball;
 
-InterferenceModel box(double lo, double hi) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({lo, lo, lo}, {hi, hi, hi})));
-}
 InterferenceModel hollow_box() {
     return InterferenceModel(
         evaluate(trisect::Expression(Solid::from_mesh(trisect::make_box({-4, -4, -4}, {4, 4, 4}))) -

@@ -11,7 +11,6 @@
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference_model.h>
@@ -20,9 +19,12 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/solids.h"
 
+namespace interference_model_test {
 namespace {
 
+using solids::box;
 using trisect::BrepIndex;
 using trisect::EdgeId;
 using trisect::Expression;
@@ -34,10 +36,6 @@ using trisect::Solid;
 using trisect::VertexId;
 using trisect::detail::InterferenceModelData;
 using trisect::detail::ModelTriangle;
-
-Solid box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1}));
-}
 
 VertexId place(const InterferenceModelData& d, VertexId v) { return d.place[v.index]; }
 
@@ -216,3 +214,4 @@ TEST(InterferenceModel, RandomSolidsThatTouchThemselves) {
 }
 
 }  // namespace
+}  // namespace interference_model_test

@@ -21,10 +21,13 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 
+#include "support/models.h"
 #include "support/pose_oracle.h"
+#include "support/solids.h"
 
 namespace {
 
+using models::box;
 using trisect::Expression;
 using trisect::InterferenceModel;
 using trisect::InterferenceResult;
@@ -38,10 +41,6 @@ InterferenceModel model(const trisect::PolygonMesh& mesh) {
 }
 InterferenceModel model(const Expression& expression) {
     return InterferenceModel(evaluate(expression));
-}
-Expression solid(const trisect::PolygonMesh& mesh) { return Expression(Solid::from_mesh(mesh)); }
-InterferenceModel box(const trisect::Point3d& low, const trisect::Point3d& high) {
-    return model(make_box(low, high));
 }
 
 Relation relation(const InterferenceModel& a, const InterferenceModel& b, const Pose& pose_b = {},
@@ -268,10 +267,10 @@ TEST(NamedScenes, BoxAndCylinder) {
 
 // A groove and its tongue, cut by one boolean: three areas touch, whatever the placement.
 TEST(NamedScenes, Dovetail) {
-    const auto block = solid(make_box({0, 0, 0}, {10, 6, 5}));
+    const auto block = solids::of_mesh(make_box({0, 0, 0}, {10, 6, 5}));
     auto tail_mesh = trisect::make_prism({{3, 3}, {7, 3}, {6, 5}, {4, 5}}, 6);
     for (auto& p : tail_mesh.points) p = {p[0], 6 - p[2], p[1]};  // laid down along y
-    const auto tail = solid(tail_mesh);
+    const auto tail = solids::of_mesh(tail_mesh);
     const auto groove = model(block - tail);
     const auto tongue = model(block & tail);
     ASSERT_FALSE(tongue.is_empty());
@@ -293,8 +292,8 @@ TEST(NamedScenes, Dovetail) {
 
 // What a boolean leaves and what it takes, with vertices that are no lattice points.
 TEST(NamedScenes, WhatIsCutOffFitsWhereItWas) {
-    const auto ball = solid(trisect::make_icosphere(3, 2));
-    const auto cutter = solid(make_box({1, -4, -4}, {4, 0.3, 0.7}));
+    const auto ball = solids::of_mesh(trisect::make_icosphere(3, 2));
+    const auto cutter = solids::of_mesh(make_box({1, -4, -4}, {4, 0.3, 0.7}));
     const auto rest = model(ball - cutter);
     const auto chip = model(ball & cutter);
     const auto whole = model(ball);
@@ -309,7 +308,9 @@ TEST(NamedScenes, WhatIsCutOffFitsWhereItWas) {
 }
 
 TEST(NamedScenes, ShellsInShells) {
-    const auto ball = [](double radius) { return solid(trisect::make_icosphere(radius, 2)); };
+    const auto ball = [](double radius) {
+        return solids::of_mesh(trisect::make_icosphere(radius, 2));
+    };
     // Hollow, with a hollow ball in the cavity.
     const auto nested = model((ball(8) - ball(6)) | (ball(4) - ball(2)));
     const auto in = [&](double radius) { return relation(nested, model(ball(radius))); };
@@ -330,9 +331,9 @@ TEST(NamedScenes, ShellsInShells) {
 }
 
 TEST(NamedScenes, NutOnItsBolt) {
-    const auto hexagon = solid(trisect::make_regular_prism(6, 4, 2));
+    const auto hexagon = solids::of_mesh(trisect::make_regular_prism(6, 4, 2));
     const auto bolt_mesh = trisect::make_regular_prism(8, 2, 10);
-    const auto nut = model(hexagon - solid(bolt_mesh));
+    const auto nut = model(hexagon - solids::of_mesh(bolt_mesh));
     const auto bolt = model(bolt_mesh);
     const auto down = [](double z) { return Pose::from_translation({0, 0, z}); };
     EXPECT_EQ(relation(nut, bolt), Relation::Touching);
@@ -362,8 +363,8 @@ trisect::PolygonMesh tetrahedron(const std::array<trisect::Point3d, 4>& corners)
 // A tunnel whose edge lies in the outer face of its block, along a diagonal of that face's
 // triangulation.
 TEST(NamedScenes, EdgeOfATunnelInTheFloorOfItsBlock) {
-    const auto block = solid(make_box({3, 3, 0}, {13, 12, 5})) -
-                       solid(trisect::make_prism({{5, 3}, {12, 8}, {7, 10}}, 5));
+    const auto block = solids::of_mesh(make_box({3, 3, 0}, {13, 12, 5})) -
+                       solids::of_mesh(trisect::make_prism({{5, 3}, {12, 8}, {7, 10}}, 5));
     const auto tunnelled = model(block);
     EXPECT_TRUE(tunnelled.data().touches_itself());
     const auto slab = [&](double low, double high) { return box({3, low, -1}, {8, high, 4}); };
@@ -377,9 +378,9 @@ TEST(NamedScenes, EdgeOfATunnelInTheFloorOfItsBlock) {
 // A tetrahedron on a block, with an edge in the block's face. The wall of a channel that is cut
 // into both passes through that face just along this edge, where no crossing is.
 TEST(NamedScenes, TetrahedronStandingWithAnEdgeInABlocksFace) {
-    const auto block = solid(make_box({0, 0, 0}, {4, 4, 4}));
-    const auto tent = solid(tetrahedron({{{1, 3, 4}, {3, 3, 4}, {1, 4, 7}, {3, 0, 7}}}));
-    const auto channel = solid(make_box({2, 1, -1}, {5, 3, 5}));
+    const auto block = solids::of_mesh(make_box({0, 0, 0}, {4, 4, 4}));
+    const auto tent = solids::of_mesh(tetrahedron({{{1, 3, 4}, {3, 3, 4}, {1, 4, 7}, {3, 0, 7}}}));
+    const auto channel = solids::of_mesh(make_box({2, 1, -1}, {5, 3, 5}));
     const auto whole = model(block | tent);
     const auto cut = model((block | tent) - channel);
     EXPECT_TRUE(whole.data().touches_itself());
@@ -441,7 +442,7 @@ TEST(NamedScenes, RegionsHaveExactCorners) {
     EXPECT_TRUE(regions_only.contacts.empty());
     const auto first = std::ranges::find(corners, std::array<std::string, 3>{"3/2", "1", "1"});
     ASSERT_NE(first, corners.end());
-    std::ranges::rotate(corners, first);
+    std::rotate(corners.begin(), first, corners.end());
     EXPECT_EQ(corners, (std::vector<std::array<std::string, 3>>{{"3/2", "1", "1"},
                                                                 {"21/10", "9/5", "1"},
                                                                 {"13/10", "12/5", "1"},

@@ -7,15 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <trisect/brep/measure.h>
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference.h>
 
 #include "support/interference_oracle.h"
+#include "support/models.h"
 
 namespace {
 
+using models::box;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
 using trisect::Overlap;
@@ -23,10 +24,6 @@ using trisect::overlap;
 using trisect::Pose;
 using trisect::Relation;
 using trisect::Solid;
-
-InterferenceModel box(const trisect::Point3d& low, const trisect::Point3d& high) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box(low, high)));
-}
 
 ExactRational fraction(int p, int q) { return ExactRational(p) / ExactRational(q); }
 

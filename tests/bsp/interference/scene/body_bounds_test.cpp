@@ -18,6 +18,7 @@
 #include "exact_pose.h"
 #include "reference/random_solids.h"
 
+namespace body_bounds_test {
 namespace {
 
 using scene_test::exact;
@@ -128,3 +129,4 @@ TEST(BodyBounds, NumbersBeyondTheDoublesGiveUnboundedBoxes) {
 }
 
 }  // namespace
+}  // namespace body_bounds_test

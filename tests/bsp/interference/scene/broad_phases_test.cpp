@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ using trisect::detail::BroadPhase;
 struct Kind {
     const char* name;
     std::unique_ptr<BroadPhase> (*make)();
+
+    friend std::ostream& operator<<(std::ostream& out, const Kind& k) { return out << k.name; }
 };
 
 class BroadPhaseTest : public testing::TestWithParam<Kind> {

@@ -13,6 +13,7 @@
 
 #include "exact_pose.h"
 
+namespace joint_test {
 namespace {
 
 using scene_test::exact;
@@ -122,3 +123,4 @@ TEST(Joint, NonsenseIsRefused) {
 }
 
 }  // namespace
+}  // namespace joint_test

@@ -22,6 +22,7 @@
 #include "reference/random_solids.h"
 #include "support/scene_solids.h"
 
+namespace scene_pairs_test {
 namespace {
 
 using reference::Random;
@@ -276,3 +277,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ScenePairs,
                          name_of);
 
 }  // namespace
+}  // namespace scene_pairs_test

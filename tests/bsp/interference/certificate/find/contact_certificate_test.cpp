@@ -16,11 +16,13 @@
 #include <trisect/brep/primitives/torus.h>
 
 #include "support/certified_pair.h"
+#include "support/models.h"
 #include "support/moving_pair.h"
 
+namespace contact_certificate_test {
 namespace {
 
-using moving::box;
+using models::box;
 using moving::by;
 using trisect::CommonPoint;
 using trisect::ContactCertificate;
@@ -215,3 +217,4 @@ TEST(ContactCertificates, ABlockThatPassesUnderAPlateDoesNotTouchItBeside) {
 }
 
 }  // namespace
+}  // namespace contact_certificate_test

@@ -12,11 +12,13 @@
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/interference/boundary_distance.h>
 
+#include "support/models.h"
 #include "support/placed_pair.h"
 
+namespace distance_certificate_test {
 namespace {
 
-using brute::box;
+using models::box;
 using trisect::certify_distance;
 using trisect::check_distance_certificate;
 using trisect::DistanceCertificate;
@@ -169,3 +171,4 @@ TEST(DistanceCertificates, CorruptedAreRejected) {
 }
 
 }  // namespace
+}  // namespace distance_certificate_test

@@ -12,14 +12,19 @@
 #include <string>
 #include <vector>
 
-#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/enclosed_motions.h"
+#include "support/models.h"
 
+namespace enclosed_certificate_test {
 namespace {
 
+using models::box;
+using moving::straight;
+using moving::whole;
 using trisect::certify_enclosed_contact;
 using trisect::check_enclosed_certificate;
 using trisect::ConstantTurn;
@@ -49,18 +54,9 @@ struct Case {
     }
 };
 
-InterferenceModel box(double x0, double y0, double z0, double x1, double y1, double z1) {
-    return InterferenceModel(Solid::from_mesh(trisect::make_box({x0, y0, z0}, {x1, y1, z1})));
-}
-
 EnclosedMotion quarter_turn() {
     return EnclosedMotion::through(
         std::vector<KeyFrame>{{0, {1, 0, 0, 0}, {}}, {1, {1, 0, 0, 1}, {}}});
-}
-
-EnclosedMotion moving(std::array<double, 3> from, std::array<double, 3> to) {
-    return EnclosedMotion::through(
-        std::vector<KeyFrame>{{0, {1, 0, 0, 0}, from}, {1, {1, 0, 0, 0}, to}});
 }
 
 void expect_proved(const Case& c, Outcome outcome) {
@@ -77,15 +73,15 @@ TEST(EnclosedCertificates, OfNamedConfigurations) {
     expect_proved({box(-9, 5.5, -1, 9, 6, 2), still, arm, quarter_turn()}, Outcome::None);
     expect_proved({box(-9, 5 + 0x1p-20, -1, 9, 6, 2), still, arm, quarter_turn()}, Outcome::None);
     // Sliding on the wall can be neither proved nor excluded.
-    expect_proved({box(-9, 4, 0, 9, 6, 1), still, arm, moving({0, 0, 0}, {1, 0, 0})},
+    expect_proved({box(-9, 4, 0, 9, 6, 1), still, arm, straight({0, 0, 0}, {1, 0, 0})},
                   Outcome::Undecided);
     // Aligned blocks, one in the other at the start, and both moving.
     const auto unit = box(0, 0, 0, 1, 1, 1);
-    expect_proved({unit, still, unit, moving({3, 0, 0}, {0.5, 0, 0})}, Outcome::Contact);
-    expect_proved({box(-4, -4, -4, 4, 4, 4), still, unit, moving({0, 0, 0}, {1, 0, 0})},
+    expect_proved({unit, still, unit, straight({3, 0, 0}, {0.5, 0, 0})}, Outcome::Contact);
+    expect_proved({box(-4, -4, -4, 4, 4, 4), still, unit, straight({0, 0, 0}, {1, 0, 0})},
                   Outcome::Contact);
-    expect_proved({arm, quarter_turn(), unit, moving({-8, 3, 0}, {0, 1, 0})}, Outcome::Contact);
-    expect_proved({arm, quarter_turn(), unit, moving({8, 8, 0}, {6, -6, 0})}, Outcome::None);
+    expect_proved({arm, quarter_turn(), unit, straight({-8, 3, 0}, {0, 1, 0})}, Outcome::Contact);
+    expect_proved({arm, quarter_turn(), unit, straight({8, 8, 0}, {6, -6, 0})}, Outcome::None);
 }
 
 TEST(EnclosedCertificates, OfLinkedRings) {
@@ -105,7 +101,7 @@ TEST(EnclosedCertificates, OfLinkedRings) {
 // Sliding on a wall: only what is ordered, and certainly a number, is a time.
 TEST(EnclosedCertificates, UndecidedTimesAreSpans) {
     const Case c{box(-9, 4, 0, 9, 6, 1), EnclosedMotion(), box(0, 0, 0, 3, 4, 1),
-                 moving({0, 0, 0}, {1, 0, 0})};
+                 straight({0, 0, 0}, {1, 0, 0})};
     EnclosedCertificate certificate = c.certificate();
     ASSERT_TRUE(certificate.is_complete);
     ASSERT_EQ(c.check(certificate), "");
@@ -119,10 +115,6 @@ TEST(EnclosedCertificates, UndecidedTimesAreSpans) {
     EXPECT_EQ(c.check(certificate), "");
     certificate.answer.undecided = {{0, 0.5}, {0.75, 1}};
     EXPECT_EQ(c.check(certificate), "times are missing");
-}
-
-double whole(reference::Random& random, int low, int high) {
-    return static_cast<double>(random.between(low, high));
 }
 
 // Solids on a small grid, key frames with slerp or constant turns.
@@ -242,3 +234,4 @@ TEST(EnclosedCertificates, CorruptedAreRejected) {
 }
 
 }  // namespace
+}  // namespace enclosed_certificate_test

@@ -19,11 +19,13 @@
 
 #include "support/certified_pair.h"
 #include "support/interference_oracle.h"
+#include "support/models.h"
 #include "support/moving_pair.h"
 
+namespace overlap_certificate_test {
 namespace {
 
-using moving::box;
+using models::box;
 using moving::by;
 using trisect::ClearanceNode;
 using trisect::ExactRational;
@@ -359,3 +361,4 @@ TEST(OverlapCertificates, CorruptedAreRejected) {
 }
 
 }  // namespace
+}  // namespace overlap_certificate_test
