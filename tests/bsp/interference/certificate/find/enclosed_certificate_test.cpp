@@ -17,11 +17,11 @@
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/reason.h"
 
 namespace {
 
 using trisect::certify_enclosed_contact;
-using trisect::check_enclosed_certificate;
 using trisect::ConstantTurn;
 using trisect::EnclosedCertificate;
 using trisect::EnclosedContact;
@@ -45,7 +45,7 @@ struct Case {
         return certify_enclosed_contact(a, motion_a, b, motion_b, {width});
     }
     [[nodiscard]] std::string check(const EnclosedCertificate& c) const {
-        return check_enclosed_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
+        return refusals::reason(trisect::check(c, a.brep(), motion_a, b.brep(), motion_b));
     }
 };
 
