@@ -227,13 +227,14 @@ void measure(const Scene& scene, int runs) {
     Brep brep;
     for (int i = 0; i < runs; ++i) {
         auto start = Clock::now();
-        mesh = trisect::detail::assemble_mesh(*solid.state());
+        mesh = trisect::detail::assemble_mesh(*trisect::detail::state_of(solid));
         mesh_times.push_back(milliseconds_since(start));
         start = Clock::now();
-        brep = trisect::detail::assemble_brep(*solid.state(), {});
+        brep = trisect::detail::assemble_brep(*trisect::detail::state_of(solid), {});
         brep_times.push_back(milliseconds_since(start));
     }
-    const Brep faces = trisect::detail::assemble_brep(*solid.state(), {.maximal_faces = false});
+    const Brep faces =
+        trisect::detail::assemble_brep(*trisect::detail::state_of(solid), {.maximal_faces = false});
     std::printf("| %s | %zu | %.2f | %016llx | %zu | %.2f | %016llx | %016llx |\n",
                 scene.name.c_str(), mesh.face_count(), median(mesh_times),
                 static_cast<unsigned long long>(hash_of(mesh)), brep.counts().faces,

@@ -19,6 +19,7 @@
 #include <trisect/bsp/hierarchies/motion/space_time_boxes.h>
 #include <trisect/bsp/interference/boxes/broad_phase.h>
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
 #include <trisect/bsp/interference/scene/broad_phases.h>
 #include <trisect/bsp/interference/scene/chain_boxes.h>
@@ -102,7 +103,7 @@ Swarm swarm_of(const scenes::SwarmScene& scene, std::size_t most_frames) {
     std::vector<detail::BodyBounds> bounds;
     for (const PolygonMesh& m : scene.shapes) {
         models.emplace_back(Solid::from_mesh(m));
-        bounds.emplace_back(models.back().data());
+        bounds.emplace_back(trisect::detail::data_of(models.back()));
     }
     for (const std::size_t shape : scene.shape_of) s.bodies.push_back(models[shape]);
     for (std::size_t f = 0; f < std::min(most_frames, scene.frames.size()); ++f) {

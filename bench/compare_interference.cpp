@@ -32,6 +32,7 @@
 #include <trisect/bsp/interference/interference_query.h>
 #include <trisect/bsp/interference/relation/boundary_pairs.h>
 #include <trisect/bsp/interference/relation/distance_search.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
@@ -88,7 +89,8 @@ public:
     [[nodiscard]] std::string name() const override { return "Trisect"; }
     [[nodiscard]] double build_seconds() const override { return build_; }
     [[nodiscard]] bool collide(std::size_t i) override {
-        BoundaryPairs pairs(a_.data(), home_, b_.data(), poses_[i], stack_);
+        BoundaryPairs pairs(trisect::detail::data_of(a_), home_, trisect::detail::data_of(b_),
+                            poses_[i], stack_);
         const bool meet = pairs.any().has_value();
         counters += pairs.counters();
         return meet;
@@ -97,7 +99,8 @@ public:
         return trisect::interfere(a_, home_, b_, poses_[i]).relation;
     }
     [[nodiscard]] std::optional<std::size_t> contacts(std::size_t i) override {
-        BoundaryPairs pairs(a_.data(), home_, b_.data(), poses_[i], stack_);
+        BoundaryPairs pairs(trisect::detail::data_of(a_), home_, trisect::detail::data_of(b_),
+                            poses_[i], stack_);
         std::size_t n = 0;
         pairs.all([&n](const BoundaryPairs::Meeting&) {
             ++n;
@@ -107,7 +110,8 @@ public:
         return n;
     }
     [[nodiscard]] std::optional<double> distance(std::size_t i) override {
-        DistanceSearch search(a_.data(), home_, b_.data(), poses_[i]);
+        DistanceSearch search(trisect::detail::data_of(a_), home_, trisect::detail::data_of(b_),
+                              poses_[i]);
         search.run();
         counters.node_tests += search.counters().node_tests;
         counters.triangle_pairs += search.counters().triangle_pairs;
@@ -141,7 +145,8 @@ public:
                 kept[i] = std::min(kept[i], now() - start);
                 different += answer == again ? 0 : 1;
                 ObbWalk::Stack stack;
-                (void)trisect::detail::quick_relation(a_.data(), home_, b_.data(), path_[i], stack,
+                (void)trisect::detail::quick_relation(trisect::detail::data_of(a_), home_,
+                                                      trisect::detail::data_of(b_), path_[i], stack,
                                                       &walks);
             }
             query_counters = query.counters();

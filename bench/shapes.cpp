@@ -204,17 +204,6 @@ PolygonMesh menger_bars(int level, std::size_t axis) {
     return mesh;
 }
 
-void append(PolygonMesh& mesh, const PolygonMesh& other) {
-    const auto offset = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
-    std::vector<std::uint32_t> loop;
-    for (std::size_t f = 0; f < other.face_count(); ++f) {
-        loop.clear();
-        for (const std::uint32_t v : other.face(f)) loop.push_back(v + offset);
-        mesh.add_face(loop);
-    }
-}
-
 double Random::uniform() {
     state_ += 0x9E3779B97F4A7C15U;
     std::uint64_t z = state_;

@@ -35,7 +35,7 @@ namespace shapes {
 [[nodiscard]] trisect::PolygonMesh menger_bars(int level, std::size_t axis);
 
 /// Both meshes in one, without connecting them.
-void append(trisect::PolygonMesh& mesh, const trisect::PolygonMesh& other);
+using trisect::append;
 
 using Matrix = std::array<trisect::Point3d, 3>;
 

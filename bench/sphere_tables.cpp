@@ -14,6 +14,7 @@
 #include <trisect/bsp/hierarchies/volumes/sphere_trees.h>
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "hierarchy_tables.h"
 
@@ -33,7 +34,8 @@ constexpr std::array ways{Way{SphereConstruction::Octree, "sphere-octree"},
 void print_tightness(const char* name, const InterferenceModel& model) {
     const double of_solid = trisect::volume(model.brep());
     for (const Way& way : ways) {
-        const SphereTree tree = build_sphere_tree(model.data(), way.construction);
+        const SphereTree tree =
+            build_sphere_tree(trisect::detail::data_of(model), way.construction);
         unsigned level = 0;
         for (const SphereLevel& l : tightness(model, tree, 1200))
             std::printf("| %s | %s | %u | %zu | %.2f | %.4f | %.4f |\n", name, way.name, level++,

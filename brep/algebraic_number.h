@@ -15,7 +15,8 @@ namespace trisect {
 
 namespace detail {
 class RealRoot;
-}
+struct AlgebraicNumberAccess;
+}  // namespace detail
 
 /// A rational number, or a root of a polynomial together with an interval that holds no other root.
 ///
@@ -27,7 +28,6 @@ public:
     /// Zero.
     AlgebraicNumber();
     AlgebraicNumber(const ExactRational& v);  // NOLINT(google-explicit-constructor)
-    explicit AlgebraicNumber(const detail::RealRoot& root);
     AlgebraicNumber(const AlgebraicNumber& o);
     AlgebraicNumber(AlgebraicNumber&& o) noexcept;
     AlgebraicNumber& operator=(const AlgebraicNumber& o);
@@ -57,9 +57,11 @@ public:
     }
     friend std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b);
 
-    [[nodiscard]] const detail::RealRoot& root() const { return *root_; }
-
 private:
+    friend struct detail::AlgebraicNumberAccess;
+
+    explicit AlgebraicNumber(const detail::RealRoot& root);
+
     std::unique_ptr<detail::RealRoot> root_;  // never null
 };
 

@@ -2,7 +2,10 @@
 
 #include <trisect/brep/brep.h>
 
+#include <string>
+
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect {
 
@@ -71,7 +74,12 @@ IdRange<HalfedgeId> Brep::halfedges(FaceId f) const {
     return {loops_[faces_[f.index].first_loop].first, loop_end(face_end(f.index) - 1)};
 }
 
-std::span<const FaceId> Brep::faces(ShellId s) const { return shells_.group(s.index); }
+std::span<const FaceId> Brep::faces(ShellId s) const {
+    if (s.index >= shell_count())
+        throw UsageError("a B-rep of " + std::to_string(shell_count()) + " shells has no shell " +
+                         (s.is_valid() ? std::to_string(s.index) : "without a number"));
+    return shells_.group(s.index);
+}
 
 std::span<const VertexId> Brep::copies(VertexId v) const {
     return vertex_copies_.group(at(vertices_, v).group);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/kernel/contract.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
@@ -114,6 +115,9 @@ struct BrepCounts {
 /// the boundary stays connected at both.
 ///
 /// The two faces of an edge may be the same one. The empty Brep bounds the empty set.
+///
+/// \pre of everything that takes an id: it is below the count of its kind. Audit builds check it
+/// (kernel/contract.h); what walks a shell always does, and throws UsageError.
 ///
 /// Immutable; made by BrepBuilder. Copying is O(size). Safe to read from many threads.
 class Brep {
@@ -221,6 +225,7 @@ private:
 
     template <class T, class Id>
     static const T& at(const std::vector<T>& array, Id id) {
+        TRISECT_AUDIT_CHECK(id.index < array.size(), "an id of no entity of this B-rep");
         return array[id.index];
     }
     [[nodiscard]] std::uint32_t loop_end(std::size_t l) const {

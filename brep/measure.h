@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_mesh.h>
+#include <trisect/brep/exact_point.h>
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
@@ -24,11 +26,13 @@ namespace trisect {
 /// solid with n of them has about n times their bits; it is summed by a balanced tree.
 [[nodiscard]] ExactRational exact_volume(const Brep& brep);
 [[nodiscard]] ExactRational exact_volume(const Brep& brep, ShellId shell);
+[[nodiscard]] ExactRational exact_volume(const ExactMesh& mesh);
 [[nodiscard]] ExactRational exact_volume(const LatticeMesh& mesh);
 
 /// The exact volume, correctly rounded. Linear.
 [[nodiscard]] double volume(const Brep& brep);
 [[nodiscard]] double volume(const Brep& brep, ShellId shell);
+[[nodiscard]] double volume(const ExactMesh& mesh);
 [[nodiscard]] double volume(const LatticeMesh& mesh);
 
 /// -1 for a shell that bounds a cavity, 1 for one that bounds material.
@@ -44,23 +48,30 @@ struct Area {
 };
 [[nodiscard]] Area area(const Brep& brep);
 [[nodiscard]] Area area(const Brep& brep, FaceId face);
+[[nodiscard]] Area area(const ExactMesh& mesh);
 [[nodiscard]] Area area(const LatticeMesh& mesh);
 
 /// The centre of mass of the solid, or nothing when its volume is 0.
-[[nodiscard]] std::optional<std::array<ExactRational, 3>> exact_centroid(const Brep& brep);
-[[nodiscard]] std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& mesh);
+[[nodiscard]] std::optional<ExactPoint> exact_centroid(const Brep& brep);
+[[nodiscard]] std::optional<ExactPoint> exact_centroid(const ExactMesh& mesh);
+[[nodiscard]] std::optional<ExactPoint> exact_centroid(const LatticeMesh& mesh);
 /// The same, correctly rounded.
 [[nodiscard]] std::optional<Point3d> centroid(const Brep& brep);
+[[nodiscard]] std::optional<Point3d> centroid(const ExactMesh& mesh);
 [[nodiscard]] std::optional<Point3d> centroid(const LatticeMesh& mesh);
 
 /// An axis-aligned box. Its ends are the solid's extremes, correctly rounded.
 struct Bounds {
-    Point3d lower{};
-    Point3d upper{};
+    Point3d lo{};
+    Point3d hi{};
     friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 /// Nothing for the empty set.
 [[nodiscard]] std::optional<Bounds> bounds(const Brep& brep);
+/// Of all points.
+[[nodiscard]] std::optional<Bounds> bounds(const ExactMesh& mesh);
+/// Of the points that faces use, as they are.
+[[nodiscard]] std::optional<Bounds> bounds(const PolygonMesh& mesh);
 /// Of the points that triangles use.
 [[nodiscard]] std::optional<Bounds> bounds(const LatticeMesh& mesh);
 

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace trisect {
+#include <trisect/kernel/point3d.h>
 
-using Point3d = std::array<double, 3>;
+namespace trisect {
 
 /// Indexed polygons with one loop each.
 ///
@@ -38,5 +38,8 @@ struct PolygonMesh {
     }
     friend bool operator==(const PolygonMesh&, const PolygonMesh&) = default;
 };
+
+/// Adds the points and faces of another mesh after its own. What they have in common is not joined.
+void append(PolygonMesh& mesh, const PolygonMesh& other);
 
 }  // namespace trisect

@@ -8,13 +8,11 @@
 #include <array>
 #include <optional>
 
+#include <trisect/brep/exact_point.h>
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/lattice_mesh.h>
 
 namespace trisect {
-
-/// A point with rational coordinates in the user's units.
-using ExactPoint = std::array<ExactRational, 3>;
 
 /// How often the triangles wind around the point, counter-clockwise seen from outside counting 1;
 /// nothing when the point lies on a triangle. Exact. The mesh may intersect and overlap itself. For

@@ -15,17 +15,21 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_point.h>
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/lattice_point.h>
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/plane_on_lattice.h>
 #include <trisect/kernel/point.h>
+#include <trisect/kernel/point3d.h>
 
 namespace trisect {
 
@@ -83,14 +87,14 @@ struct Place {
 /// The points origin + t · direction, t >= 0, in the user's units. The direction need not have
 /// length 1.
 struct Ray {
-    std::array<double, 3> origin{};
-    std::array<double, 3> direction{};
+    Point3d origin{};
+    Point3d direction{};
 };
 
 /// The points from + t · (to - from), 0 <= t <= 1, in the user's units; from != to.
 struct Segment {
-    std::array<double, 3> from{};
-    std::array<double, 3> to{};
+    Point3d from{};
+    Point3d to{};
 };
 
 /// The t of a point of a ray or segment: exact, comparable.
@@ -130,8 +134,8 @@ private:
     double error_ = 0;
     Form form_ = Form::Number;
     int exponent_ = 0;
-    std::array<double, 3> origin_{};
-    std::array<double, 3> towards_{};  // direction, or the segment's end
+    Point3d origin_{};
+    Point3d towards_{};  // direction, or the segment's end
     Plane plane_;
 };
 
@@ -169,8 +173,8 @@ enum class PlaneRelation : std::uint8_t {
 
 /// A closed polygon in a plane, without repetition of its first corner.
 struct SectionLoop {
-    std::vector<Point> points;                   ///< exact, in lattice units
-    std::vector<std::array<double, 3>> rounded;  ///< the nearest doubles, in the user's units
+    std::vector<Point> points;     ///< exact, in lattice units
+    std::vector<Point3d> rounded;  ///< the nearest doubles, in the user's units
 };
 
 /// A connected piece of a section: its outline, counter-clockwise about the plane's normal, and its
@@ -182,9 +186,9 @@ struct SectionRegion {
 
 /// The nearest point of the boundary, or of its edges or vertices.
 struct Nearest {
-    Place place;                         ///< of that point
-    std::array<ExactRational, 3> point;  ///< in the user's units
-    ExactRational squared_distance;      ///< in the user's units
+    Place place;                     ///< of that point
+    ExactPoint point;                ///< in the user's units
+    ExactRational squared_distance;  ///< in the user's units
     /// The double nearest to the squared distance, and the one nearest to the distance.
     double squared_rounded = 0;
     double distance = 0;
@@ -217,8 +221,8 @@ struct BoxEntities {
 
 /// A leaf of the index.
 struct IndexCell {
-    std::array<double, 3> lo{};  ///< lattice units; may be infinite
-    std::array<double, 3> hi{};
+    Point3d lo{};  ///< lattice units; may be infinite
+    Point3d hi{};
     std::uint32_t polygons = 0;  ///< 0: homogeneous
     bool inside = false;         ///< of a homogeneous cell
 };
@@ -273,18 +277,23 @@ public:
 
     // Points -------------------------------------------------------------------------------------
     /// \throw UsageError when a coordinate is not finite.
-    [[nodiscard]] Place locate(const std::array<double, 3>& point) const;
+    ///
+    /// Vertices of a file that import rounded are not at their places in the file any more: see
+    /// nearest_vertex(), or round points like them (to_lattice()) and ask with a LatticePoint.
+    [[nodiscard]] Place locate(const Point3d& point) const;
+    /// The same for `locate({0, 0, 1})`, which must have three numbers.
+    [[nodiscard]] Place locate(std::initializer_list<double> point) const;
     [[nodiscard]] Place locate(const LatticePoint& point) const;
     [[nodiscard]] Place locate(const Point& point) const;
     /// Rationals in the user's units.
-    [[nodiscard]] Place locate(const std::array<ExactRational, 3>& point) const;
-    /// Many points at once, visited in an order that is kind to the caches. Several threads where
-    /// `threads` is not 1 (0: as many as there are).
-    [[nodiscard]] std::vector<Place> locate(std::span<const std::array<double, 3>> points,
-                                            unsigned threads = 1) const;
+    [[nodiscard]] Place locate(const ExactPoint& point) const;
+    /// Many points at once, visited in an order that is kind to the caches. `threads`: how many may
+    /// take part, 0 means one for every processor.
+    [[nodiscard]] std::vector<Place> locate(std::span<const Point3d> points,
+                                            std::uint32_t threads = 0) const;
     /// The same without names, which saves the memory of places. \pre as many results as points.
-    void classify(std::span<const std::array<double, 3>> points, std::span<Location> results,
-                  unsigned threads = 1) const;
+    void classify(std::span<const Point3d> points, std::span<Location> results,
+                  std::uint32_t threads = 0) const;
 
     // Rays and segments --------------------------------------------------------------------------
     /// \throw UsageError for coordinates that are not finite and directions of length 0.
@@ -299,24 +308,28 @@ public:
 
     // Distances ----------------------------------------------------------------------------------
     /// Of several nearest points the lexicographically smallest; nothing when there is no boundary.
-    [[nodiscard]] std::optional<Nearest> nearest(const std::array<double, 3>& point) const;
+    [[nodiscard]] std::optional<Nearest> nearest(const Point3d& point) const;
     /// The nearest point that is on an edge or vertex; the nearest that is a vertex.
-    [[nodiscard]] std::optional<Nearest> nearest_edge(const std::array<double, 3>& point) const;
-    [[nodiscard]] std::optional<Nearest> nearest_vertex(const std::array<double, 3>& point) const;
+    [[nodiscard]] std::optional<Nearest> nearest_edge(const Point3d& point) const;
+    [[nodiscard]] std::optional<Nearest> nearest_vertex(const Point3d& point) const;
     /// Without the exact point: no rational number is made.
-    [[nodiscard]] std::optional<NearestBounds> distance(const std::array<double, 3>& point) const;
-    [[nodiscard]] std::optional<SignedDistance> signed_distance(
-        const std::array<double, 3>& point) const;
+    [[nodiscard]] std::optional<NearestBounds> distance(const Point3d& point) const;
+    [[nodiscard]] std::optional<SignedDistance> signed_distance(const Point3d& point) const;
 
     // Planes and boxes ---------------------------------------------------------------------------
     /// The solid's points in a plane, up to loose edges and points: the closure of what is interior
     /// in the plane. A face in the plane belongs to it, on whichever side of it the solid is.
     /// \throw UnsupportedError when the section is unbounded.
-    [[nodiscard]] std::vector<SectionRegion> section(const Plane& plane) const;
-    [[nodiscard]] PlaneRelation relation_to(const Plane& plane) const;
+    ///
+    /// The plane a x + b y + c z + d = 0 in the user's units, exactly; its normal is (a, b, c).
+    /// \throw as plane_on_lattice
+    [[nodiscard]] std::vector<SectionRegion> section(const std::array<double, 4>& plane) const;
+    [[nodiscard]] PlaneRelation relation_to(const std::array<double, 4>& plane) const;
+    /// The same for a plane in units of a lattice. \throw UsageError unless it is the solid's.
+    [[nodiscard]] std::vector<SectionRegion> section(const Plane& plane, Lattice lattice) const;
+    [[nodiscard]] PlaneRelation relation_to(const Plane& plane, Lattice lattice) const;
     /// Closed box in the user's units, lo <= hi.
-    [[nodiscard]] BoxEntities in_box(const std::array<double, 3>& lo,
-                                     const std::array<double, 3>& hi) const;
+    [[nodiscard]] BoxEntities in_box(const Point3d& lo, const Point3d& hi) const;
 
     // Entities and cells -------------------------------------------------------------------------
     /// The leaves that an entity reaches into. \pre has_brep()
@@ -324,7 +337,7 @@ public:
     [[nodiscard]] std::vector<IndexCell> cells(EdgeId edge) const;
     [[nodiscard]] std::vector<IndexCell> cells(VertexId vertex) const;
     /// The leaf that a point is in (one of them, when it is on a splitting plane).
-    [[nodiscard]] IndexCell cell_at(const std::array<double, 3>& point) const;
+    [[nodiscard]] IndexCell cell_at(const Point3d& point) const;
 
 private:
     explicit BrepIndex(std::shared_ptr<const detail::IndexCore> core) : core_(std::move(core)) {}
@@ -335,10 +348,5 @@ private:
 
     std::shared_ptr<const detail::IndexCore> core_;
 };
-
-/// The plane a x + b y + c z + d = 0 of doubles in the user's units, exactly, on a lattice.
-/// \throw UsageError when it is no plane, LimitError when its coefficients span too many bits for
-/// a Plane (they fit when they have at most about 80 significant bits in common units).
-[[nodiscard]] Plane plane_on_lattice(const std::array<double, 4>& coefficients, Lattice lattice);
 
 }  // namespace trisect

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/point3d.h>
 
 namespace trisect {
 
@@ -33,8 +34,8 @@ struct CellTreeStats {
 
 /// A leaf of the partition.
 struct CellLeaf {
-    std::array<double, 3> lower{};  ///< user's units, rounded; infinite where nothing bounds it
-    std::array<double, 3> upper{};
+    Point3d lo{};  ///< user's units, rounded; infinite where nothing bounds it
+    Point3d hi{};
     std::size_t polygons = 0;  ///< 0: homogeneous
     std::size_t depth = 0;
     bool is_inside = false;    ///< of a homogeneous leaf
@@ -42,11 +43,10 @@ struct CellLeaf {
 };
 
 /// The leaves that meet a closed box in the user's units, whose ends may be infinite and may be
-/// equal: lower.z == upper.z gives a slice. Leaves are in the order of the splitting planes, below
+/// equal: lo.z == hi.z gives a slice. Leaves are in the order of the splitting planes, below
 /// first. O(splitting planes that the box meets).
-/// \throw UsageError when an end is not a number or lower > upper.
-[[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid,
-                                                     const std::array<double, 3>& lower,
-                                                     const std::array<double, 3>& upper);
+/// \throw UsageError when an end is not a number or lo > hi.
+[[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const Point3d& lo,
+                                                     const Point3d& hi);
 
 }  // namespace trisect

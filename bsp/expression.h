@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,29 +16,18 @@
 
 namespace trisect {
 
+namespace detail {
+struct ExpressionNode;
+struct ExpressionAccess;
+}  // namespace detail
+
 /// Immutable value; copying shares. Operators follow set notation:
 ///   a | b union, a & b intersection, a - b difference, a ^ b symmetric difference, ~a complement.
 /// All results are regularised: the closure of the interior. A formula that was moved from is that
 /// of the empty set.
 class Expression {
 public:
-    enum class Kind : std::uint8_t { Leaf, Not, And, Or, Xor };
-    struct Node {
-        Kind kind = Kind::Leaf;
-        Solid solid;  ///< of a leaf
-        std::vector<std::shared_ptr<const Node>> children;
-        Node() = default;
-        Node(const Node&) = delete;
-        Node& operator=(const Node&) = delete;
-        ~Node();  // iterative: chains may be long
-    };
-
     Expression(const Solid& solid);  // NOLINT(google-explicit-constructor): a solid is a formula
-
-    /// Never null.
-    [[nodiscard]] const std::shared_ptr<const Node>& root() const {
-        return root_ != nullptr ? root_ : empty_root();
-    }
 
     friend Expression operator|(const Expression& a, const Expression& b);
     friend Expression operator&(const Expression& a, const Expression& b);
@@ -48,12 +38,18 @@ public:
     /// The union, or intersection, of any number of formulas in one node.
     [[nodiscard]] static Expression any_of(std::span<const Expression> terms);
     [[nodiscard]] static Expression all_of(std::span<const Expression> terms);
+    [[nodiscard]] static Expression any_of(std::initializer_list<Expression> terms);
+    [[nodiscard]] static Expression all_of(std::initializer_list<Expression> terms);
+    [[nodiscard]] static Expression any_of(std::span<const Solid> solids);
+    [[nodiscard]] static Expression all_of(std::span<const Solid> solids);
 
 private:
-    explicit Expression(std::shared_ptr<const Node> root) : root_(std::move(root)) {}
-    static Expression combine(Kind kind, std::span<const Expression> terms);
-    [[nodiscard]] static const std::shared_ptr<const Node>& empty_root();
-    std::shared_ptr<const Node> root_;
+    friend struct detail::ExpressionAccess;
+
+    explicit Expression(std::shared_ptr<const detail::ExpressionNode> root)
+        : root_(std::move(root)) {}
+
+    std::shared_ptr<const detail::ExpressionNode> root_;  // null: the empty set
 };
 
 // Declared for the namespace as well, so that operators on plain solids are found.

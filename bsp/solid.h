@@ -4,11 +4,14 @@
 // It is the value type of the library.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/kernel/lattice.h>
@@ -18,7 +21,10 @@ namespace trisect {
 
 namespace detail {
 struct SolidState;
-}
+struct SolidAccess;
+}  // namespace detail
+
+class Expression;
 
 /// Treatment of self-intersection of an imported boundary.
 enum class Embedding : std::uint8_t {
@@ -32,9 +38,17 @@ enum class Embedding : std::uint8_t {
     Check
 };
 
+/// What happens to a boundary whose volume is negative. Under the positive winding rule it bounds
+/// nothing, or next to nothing.
+enum class InsideOut : std::uint8_t {
+    Refuse,
+    Accept  ///< for EvaluateOptions::Winding::NonZero; not together with Embedding::Assume
+};
+
 struct SolidOptions {
-    ImportOptions import;
+    ImportOptions import = {};
     Embedding embedding = Embedding::Assume;
+    InsideOut inside_out = InsideOut::Refuse;
 };
 
 struct AssembleOptions {
@@ -54,11 +68,18 @@ class Solid {
 public:
     /// The empty set.
     Solid();
+    /// A formula is no solid yet: `Solid c = evaluate(a - b);`
+    Solid(const Expression& formula) = delete;  // NOLINT(google-explicit-constructor)
+
     [[nodiscard]] static Solid whole_space();
-    /// The points below the plane.
-    [[nodiscard]] static Solid half_space(const Plane& plane, Lattice lattice = {});
+    /// The points with a x + b y + c z + d <= 0, in the user's units, exactly.
+    /// \throw UsageError when that is no plane, LimitError when the coefficients span more than
+    /// some 80 bits.
+    [[nodiscard]] static Solid half_space(const std::array<double, 4>& plane);
+    /// The points below a plane in units of a lattice.
+    [[nodiscard]] static Solid half_space(const Plane& plane, Lattice lattice);
     /// \throw InvalidSolid when the mesh is not closed and oriented; Error InvalidSolid when it is
-    /// inside out and its embedding is assumed.
+    /// inside out, unless the options accept that.
     [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
     /// Of an exact boundary, to the last bit: one that to_brep() or read_exact() returned. Where
     /// all corners are lattice points it becomes a mesh of triangles; other corners stay what they
@@ -66,13 +87,15 @@ public:
     /// neighbours. Faces of results name the boundary's by their numbers.
     ///
     /// A boundary with other corners is resolved under Embedding::Check.
-    /// \throw Error (InvalidSolid) when it is inside out and its embedding is assumed;
+    /// \throw Error (InvalidSolid) when it is inside out, unless that is accepted;
     /// UnsupportedError for an edge between two faces of one plane that is not between lattice
     /// points and on no plane that names its ends (assemble with maximal faces); LimitError.
-    [[nodiscard]] static Solid from_brep(const Brep& brep, Embedding embedding = Embedding::Assume);
-    /// The same for a mesh that was imported before. \throw InvalidSolid when it is not closed.
+    [[nodiscard]] static Solid from_brep(const Brep& brep, Embedding embedding = Embedding::Assume,
+                                         InsideOut inside_out = InsideOut::Refuse);
+    /// The same for a mesh that was imported before. \throw as from_mesh
     [[nodiscard]] static Solid from_import(ImportedMesh imported,
-                                           Embedding embedding = Embedding::Assume);
+                                           Embedding embedding = Embedding::Assume,
+                                           InsideOut inside_out = InsideOut::Refuse);
     /// \pre the mesh is closed and oriented, corner by corner.
     [[nodiscard]] static Solid from_lattice_mesh(LatticeMesh mesh,
                                                  Embedding embedding = Embedding::Assume);
@@ -104,14 +127,20 @@ public:
     /// \throw UnsupportedError when the set is unbounded: whole space would be read back as the
     /// empty set, and a complement as a mesh that is inside out.
     [[nodiscard]] PolygonMesh to_mesh(std::uint32_t threads = 0) const;
+    /// The same, and which face of which operand each triangle is part of; `map.face` stays empty,
+    /// since there is no B-rep. What was joined carries the name of its first face.
+    [[nodiscard]] PolygonMesh to_mesh(MeshMap& map, std::uint32_t threads = 0) const;
+    /// The same before coordinates are rounded. Also of a complement, with its faces turned over.
+    /// \throw UnsupportedError when the boundary is unbounded.
+    [[nodiscard]] ExactMesh to_exact_mesh(std::uint32_t threads = 0) const;
 
-    /// Never null.
+private:
+    friend struct detail::SolidAccess;
+
+    explicit Solid(std::shared_ptr<const detail::SolidState> state) : state_(std::move(state)) {}
     [[nodiscard]] const std::shared_ptr<const detail::SolidState>& state() const {
         return state_ != nullptr ? state_ : empty_state();
     }
-    explicit Solid(std::shared_ptr<const detail::SolidState> state) : state_(std::move(state)) {}
-
-private:
     [[nodiscard]] static const std::shared_ptr<const detail::SolidState>& empty_state();
 
     std::shared_ptr<const detail::SolidState> state_;  // null: the empty set

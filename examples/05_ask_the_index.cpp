@@ -63,8 +63,7 @@ int main() {
     // Distance, and the section half way up.
     const auto distance = index.signed_distance({1.75, 1.75, 1});
     std::cout << "signed distance: " << distance->distance() << '\n';
-    const auto plane = trisect::plane_on_lattice({0, 0, 1, -1}, index.solid().lattice());
-    const auto section = index.section(plane);
+    const auto section = index.section({0, 0, 1, -1});
     expect(section.size() == 1 && section[0].holes.size() == 1, "a square with a hole");
     std::cout << "section: " << section[0].outer.points.size() << " corners outside, "
               << section[0].holes[0].points.size() << " in the hole\n";

@@ -4,7 +4,6 @@
 
 #include <iostream>
 
-#include <trisect/brep/measure.h>
 #include <trisect/trisect.h>
 
 int main(int argc, char** argv) {
@@ -13,15 +12,16 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        const auto a = trisect::Solid::from_mesh(trisect::read_mesh(argv[1]));
-        const auto b = trisect::Solid::from_mesh(trisect::read_mesh(argv[2]));
+        // Finds out whether a mesh meets itself; by default it is taken not to.
+        const trisect::SolidOptions options{.embedding = trisect::Embedding::Check};
+        const auto a = trisect::Solid::from_mesh(trisect::read_mesh(argv[1]), options);
+        const auto b = trisect::Solid::from_mesh(trisect::read_mesh(argv[2]), options);
 
         const trisect::Solid both = trisect::evaluate(a | b);  // also a & b, a - b, a ^ b, ~a
 
         trisect::write_mesh(argv[3], both.to_mesh());
-        const trisect::Brep boundary = both.to_brep();
-        std::cout << boundary.counts().faces << " faces, volume " << trisect::volume(boundary)
-                  << '\n';
+        std::cout << trisect::counts(both).triangles << " triangles, volume "
+                  << trisect::volume(both) << '\n';
     } catch (const trisect::Error& error) {
         std::cerr << error.what() << '\n';
         return static_cast<int>(error.code());

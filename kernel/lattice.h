@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/point3d.h>
 
 namespace trisect {
 
@@ -38,14 +39,13 @@ inline constexpr int growth_bits = 8;
 /// if there is none, the finest that leaves them. Non-finite values are the caller's error.
 /// O(n). An empty or all-zero set gets exponent 0. `threads`: how many may take part, 0 means one
 /// for every processor; the outcome does not depend on it.
-[[nodiscard]] Lattice choose_lattice(std::span<const std::array<double, 3>> points,
-                                     std::uint32_t threads = 1);
+[[nodiscard]] Lattice choose_lattice(std::span<const Point3d> points, std::uint32_t threads = 0);
 
 /// Rounds to the nearest lattice point (ties to even) and reports.
 /// \throw LimitError when a coordinate is not finite or leaves the lattice's range; Error
 /// (InvalidSolid) when it is rounded beyond the largest double.
-[[nodiscard]] std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points,
-                                                   Lattice lattice, LatticeReport& report,
-                                                   std::uint32_t threads = 1);
+[[nodiscard]] std::vector<LatticePoint> to_lattice(std::span<const Point3d> points, Lattice lattice,
+                                                   LatticeReport& report,
+                                                   std::uint32_t threads = 0);
 
 }  // namespace trisect

@@ -8,6 +8,7 @@
 #include <compare>
 #include <memory>
 
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
@@ -39,7 +40,7 @@ public:
     [[nodiscard]] const Approximation& approximation() const { return approximation_; }
     [[nodiscard]] HomogeneousPoint homogeneous() const;
     /// Correctly rounded coordinates in lattice units.
-    [[nodiscard]] std::array<double, 3> nearest() const;
+    [[nodiscard]] Point3d nearest() const;
 
     /// Exact equality of the points, however they are named.
     friend bool operator==(const Point& a, const Point& b);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect {
@@ -45,8 +46,17 @@ public:
     /// \throw UsageError for (0, 0, 0, 0), for components beyond 2^53 and translations that are not
     /// finite, LimitError as above.
     [[nodiscard]] static Pose from_quaternion(const std::array<std::int64_t, 4>& q,
-                                              const std::array<double, 3>& translation = {});
-    [[nodiscard]] static Pose from_translation(const std::array<double, 3>& by);
+                                              const Point3d& translation = {});
+    /// A translation by doubles, as they are: 0.1 is not a tenth, so boxes of ten that are placed
+    /// at 0.1 and 10.1 overlap by 2^-50. from_integers() has tenths.
+    [[nodiscard]] static Pose from_translation(const Point3d& by);
+    /// A rotation about an axis through the origin, counter-clockwise seen from its tip, by an
+    /// angle near the given one: an exact rotation, by a quaternion of integers below 2^bits. A
+    /// turn of less than 2^(3 - bits) radians takes it to the one asked for: half a thousandth of a
+    /// degree for 20 bits. None for multiples of 90 degrees about coordinate axes, and of 120
+    /// about (1, 1, 1). Predicates under a pose of fewer bits are faster. \throw UsageError for a
+    /// zero axis, numbers that are not finite, or bits beyond 4 to 52.
+    [[nodiscard]] static Pose rotation_near(const Point3d& axis, double degrees, int bits = 20);
     /// (M x + t) / S. \throw UsageError when M is singular or S = 0.
     [[nodiscard]] static Pose from_integers(std::span<const Number, 9> m,
                                             std::span<const Number, 3> t, const Number& s);

@@ -37,7 +37,7 @@ std::string answer_text(const ValidationReport& report, std::span<const FileRema
         out += fmt::format("remark: {} {}\n  {}\n", remark.count, name_of(remark.kind),
                            remark.sentence);
     }
-    out += report.to_string();
+    if (!report.empty()) out += report.to_string();
     if (!out.empty() && out.back() != '\n') out += '\n';
     return out + fmt::format("{}: {}; {} errors, {} warnings, {} remarks\n", name,
                              report.is_solid() ? "a solid" : "not a solid",
@@ -77,7 +77,7 @@ Findings check_exact(Session& session, const std::string& name, const ValidateOp
         ValidationReport report = validate(brep, options);
         if (!brep.is_empty() && !winds_once(session, brep))
             report.add(DefectKind::SelfIntersection, [&] {
-                const Point3d place = bounds(brep)->lower;
+                const Point3d place = bounds(brep)->lo;
                 return Defect{DefectKind::SelfIntersection,
                               {},
                               {},

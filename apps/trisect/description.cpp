@@ -116,8 +116,8 @@ void measure(const Boundary& boundary, DescriptionOptions options, Description& 
 Json bounds_json(const std::optional<Bounds>& bounds) {
     if (!bounds) return {};
     Json out;
-    out["lower"] = bounds->lower;
-    out["upper"] = bounds->upper;
+    out["lower"] = bounds->lo;
+    out["upper"] = bounds->hi;
     return out;
 }
 
@@ -194,7 +194,7 @@ std::string to_text(const Description& d) {
     if (d.volume_exact) out += line("", d.volume_exact->to_string());
     out += line("area", number_text(d.area));
     if (d.bounds) {
-        out += line("bounds", place_text(d.bounds->lower) + " to " + place_text(d.bounds->upper));
+        out += line("bounds", place_text(d.bounds->lo) + " to " + place_text(d.bounds->hi));
     }
     out += line("lattice", lattice_text(d.lattice));
     return out;

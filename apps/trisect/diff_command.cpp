@@ -40,8 +40,8 @@ std::string answer_text(const Description& both, const Description& first,
                            d.shells);
         if (d.volume_exact) out += fmt::format("{:<9}{}\n", "", d.volume_exact->to_string());
         if (d.bounds) {
-            out += fmt::format("{:<9}{} to {}\n", "", place_text(d.bounds->lower),
-                               place_text(d.bounds->upper));
+            out += fmt::format("{:<9}{} to {}\n", "", place_text(d.bounds->lo),
+                               place_text(d.bounds->hi));
         }
     };
     line("xor", both);

@@ -64,7 +64,10 @@ Operand exact_operand(const Session& session, const std::string& name,
     facts["faces"] = brep.faces().size();
     facts["lattice"] = lattice_json(LatticeReport{brep.lattice()});
     try {
-        return {Solid::from_brep(brep, embedding_of(options)), std::move(facts)};
+        const InsideOut inside_out = options.winding == EvaluateOptions::Winding::NonZero
+                                         ? InsideOut::Accept
+                                         : InsideOut::Refuse;
+        return {Solid::from_brep(brep, embedding_of(options), inside_out), std::move(facts)};
     } catch (const Error& e) {
         throw OperandError(e.code(), name, e.what());
     }

@@ -34,7 +34,7 @@ PlaneRequest PlaneRequest::from_text(std::string_view text, std::string_view opt
 double PlaneRequest::position(const Bounds& bounds) const {
     const auto k = static_cast<std::size_t>(axis_.value());
     if (position_) return *position_;
-    return bounds.lower[k] / 2 + bounds.upper[k] / 2;
+    return bounds.lo[k] / 2 + bounds.hi[k] / 2;
 }
 
 std::array<double, 4> PlaneRequest::coefficients(const Bounds& bounds) const {

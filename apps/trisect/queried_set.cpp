@@ -56,8 +56,8 @@ std::optional<Bounds> bounds_of(const std::vector<Point3d>& points) {
     Bounds bounds{points.front(), points.front()};
     for (const Point3d& point : points) {
         for (std::size_t k = 0; k < 3; ++k) {
-            bounds.lower[k] = std::min(bounds.lower[k], point[k]);
-            bounds.upper[k] = std::max(bounds.upper[k], point[k]);
+            bounds.lo[k] = std::min(bounds.lo[k], point[k]);
+            bounds.hi[k] = std::max(bounds.hi[k], point[k]);
         }
     }
     return bounds;

@@ -70,19 +70,16 @@ void check_sample_count(const PictureStyle& style) {
 Solid cut_open(Session& session, const RenderOptions& options, const QueriedSet& set) {
     if (!options.section) return set.solid;
     const Bounds bounds = bounds_of(corners_of(set.solid)).value_or(Bounds());
-    const Plane plane =
-        plane_on_lattice(options.section->coefficients(bounds), set.solid.lattice());
+    const auto plane = options.section->coefficients(bounds);
     const EvaluateOptions evaluation = session.evaluation_options(options.set.operands);
-    return session.interruptible_stage("cut", [&] {
-        return evaluate(set.solid & Solid::half_space(plane, set.solid.lattice()), evaluation);
-    });
+    return session.interruptible_stage(
+        "cut", [&] { return evaluate(set.solid & Solid::half_space(plane), evaluation); });
 }
 
 double diameter_of(const std::optional<Bounds>& bounds) {
     if (!bounds) return 1;
-    const Eigen::Vector3d extent(bounds->upper[0] - bounds->lower[0],
-                                 bounds->upper[1] - bounds->lower[1],
-                                 bounds->upper[2] - bounds->lower[2]);
+    const Eigen::Vector3d extent(bounds->hi[0] - bounds->lo[0], bounds->hi[1] - bounds->lo[1],
+                                 bounds->hi[2] - bounds->lo[2]);
     return extent.norm() > 0 ? extent.norm() : 1;
 }
 

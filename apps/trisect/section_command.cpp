@@ -93,9 +93,8 @@ Outcome run_section(Session& session, const SectionOptions& options) {
     const auto coefficients =
         options.plane.coefficients(bounds_of(corners_of(set.solid)).value_or(Bounds()));
     const PlaneFrame frame(coefficients);
-    const std::vector<SectionRegion> regions = session.stage("section", [&] {
-        return index.section(plane_on_lattice(coefficients, index.solid().lattice()));
-    });
+    const std::vector<SectionRegion> regions =
+        session.stage("section", [&] { return index.section(coefficients); });
     if (!options.output.empty()) {
         session.stage("write",
                       [&] { session.write_output(options.output, drawing_of(regions, frame)); });

@@ -90,8 +90,7 @@ public:
     }
     [[nodiscard]] std::vector<std::vector<DrawingPoint>> section(const BrepIndex& index) const {
         std::vector<std::vector<DrawingPoint>> out;
-        const Plane plane = plane_on_lattice(coefficients_, index.solid().lattice());
-        for (const SectionRegion& region : index.section(plane)) {
+        for (const SectionRegion& region : index.section(coefficients_)) {
             for (auto& loop : frame_.loops(region)) out.push_back(std::move(loop));
         }
         return out;
@@ -113,7 +112,7 @@ private:
 
 SliceCell slice_cell(const CellLeaf& leaf, const Cut& cut) {
     SliceCell cell;
-    cell.box = cut.rectangle(leaf.lower, leaf.upper);
+    cell.box = cut.rectangle(leaf.lo, leaf.hi);
     cell.polygons = leaf.polygons;
     if (leaf.polygons == 0) {
         cell.kind = leaf.is_inside ? SliceCell::Kind::Inside : SliceCell::Kind::Outside;
@@ -139,7 +138,7 @@ Slice slice_of(const QueriedSet& set, const BrepIndex& index, const Cut& cut) {
 
 DrawingFrame frame_of(const Cut& cut, const Bounds& bounds, const Slice& slice) {
     DrawingFrame frame = DrawingFrame::empty();
-    const Svg::Rectangle box = cut.rectangle(bounds.lower, bounds.upper);
+    const Svg::Rectangle box = cut.rectangle(bounds.lo, bounds.hi);
     frame.add(box.lower);
     frame.add(box.upper);
     for (const SliceOutline& operand : slice.operands) {

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/measure/face_sets.h>
 
 namespace trisect {
 
@@ -117,12 +118,27 @@ FaceArea face_area(const Brep& brep, FaceId f) {
     return {abs(doubled_projection(brep, f, k)) / divisor, std::move(square)};
 }
 
+// Of a triangle: half the length of (q - p) × (r - p), whose components are determinants of the
+// homogeneous coordinates over w_p w_q w_r.
+FaceArea triangle_area(const Corner& p, const Corner& q, const Corner& r) {
+    mpz_class square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t u = (i + 1) % 3;
+        const std::size_t v = (i + 2) % 3;
+        const mpz_class twice = p.w * (q.x[u] * r.x[v] - q.x[v] * r.x[u]) +
+                                q.w * (r.x[u] * p.x[v] - r.x[v] * p.x[u]) +
+                                r.w * (p.x[u] * q.x[v] - p.x[v] * q.x[u]);
+        square += twice * twice;
+    }
+    return {fraction(1, 2 * abs(p.w * q.w * r.w)), std::move(square)};
+}
+
 class AreaSum {
 public:
     explicit AreaSum(Lattice lattice) : lattice_(lattice) {}
 
     void add(const Brep& brep, FaceId f) {
-        if (!is_lattice_face(brep, f)) {
+        if (!is_lattice_face(BrepFaces(brep), f.index)) {
             faces_.push_back(face_area(brep, f));
             return;
         }
@@ -137,6 +153,14 @@ public:
         a.add_edge(q, r);
         a.add_edge(r, p);
         add(a);
+    }
+
+    void add(const Point& p, const Point& q, const Point& r) {
+        if (p.is_lattice() && q.is_lattice() && r.is_lattice()) {
+            add(p.lattice(), q.lattice(), r.lattice());
+        } else {
+            faces_.push_back(triangle_area(corner_at(p), corner_at(q), corner_at(r)));
+        }
     }
 
     Area result() const {
@@ -265,6 +289,13 @@ Area area(const Brep& brep) {
 Area area(const Brep& brep, FaceId face) {
     AreaSum sum(brep.lattice());
     sum.add(brep, face);
+    return sum.result();
+}
+
+Area area(const ExactMesh& mesh) {
+    AreaSum sum(mesh.lattice);
+    for (const auto& t : mesh.triangles)
+        sum.add(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     return sum.result();
 }
 

@@ -14,16 +14,17 @@ public:
     void add(const std::array<double, 3>& p) {
         if (!box_) box_ = Bounds{p, p};
         for (std::size_t i = 0; i < 3; ++i) {
-            box_->lower[i] = std::min(box_->lower[i], p[i]);
-            box_->upper[i] = std::max(box_->upper[i], p[i]);
+            box_->lo[i] = std::min(box_->lo[i], p[i]);
+            box_->hi[i] = std::max(box_->hi[i], p[i]);
         }
     }
+    [[nodiscard]] const std::optional<Bounds>& box() const { return box_; }
     std::optional<Bounds> in_units_of(Lattice lattice) const {
         if (!box_) return std::nullopt;
         Bounds b = *box_;
         for (std::size_t i = 0; i < 3; ++i) {
-            b.lower[i] = lattice.to_double(b.lower[i]);
-            b.upper[i] = lattice.to_double(b.upper[i]);
+            b.lo[i] = lattice.to_double(b.lo[i]);
+            b.hi[i] = lattice.to_double(b.hi[i]);
         }
         return b;
     }
@@ -38,6 +39,18 @@ std::optional<Bounds> bounds(const Brep& brep) {
     BoundsCollector box;
     for (const Point& p : brep.points()) box.add(p.nearest());
     return box.in_units_of(brep.lattice());
+}
+
+std::optional<Bounds> bounds(const ExactMesh& mesh) {
+    BoundsCollector box;
+    for (const Point& p : mesh.points) box.add(p.nearest());
+    return box.in_units_of(mesh.lattice);
+}
+
+std::optional<Bounds> bounds(const PolygonMesh& mesh) {
+    BoundsCollector box;
+    for (const std::uint32_t v : mesh.corners) box.add(mesh.points[v]);
+    return box.box();
 }
 
 std::optional<Bounds> bounds(const LatticeMesh& mesh) {

@@ -73,12 +73,6 @@ inline mpq_class fraction(const mpz_class& numerator, const mpz_class& denominat
     return q;
 }
 
-inline bool is_lattice_face(const Brep& brep, FaceId f) {
-    for (const HalfedgeId h : brep.halfedges(f))
-        if (!brep.point(brep.origin(h)).is_lattice()) return false;
-    return true;
-}
-
 // A number known to lie in [low, low + width] units of 2^-bits.
 struct Enclosure {
     mpz_class low;

@@ -22,25 +22,26 @@ namespace trisect::detail {
 // The corners of the faces that have a plane point.
 class ExactCorners {
 public:
-    ExactCorners(const Brep& brep, std::span<const FaceId> faces) {
-        number_.assign(brep.counts().vertices, EntityId<Corner>::none);
+    // `boundary` as in face_sets.h.
+    template <class Boundary>
+    ExactCorners(const Boundary& boundary, std::span<const std::uint32_t> faces) {
+        number_.assign(boundary.vertex_count(), EntityId<Corner>::none);
         std::map<mpz_class, std::uint32_t> numbers;
         numbers.emplace(1, 0U);
-        for (const FaceId f : faces) {
-            for (const HalfedgeId h : brep.halfedges(f)) {
-                const VertexId v = brep.origin(h);
-                if (number_[v.index] != EntityId<Corner>::none) continue;
-                number_[v.index] = static_cast<std::uint32_t>(corners_.size());
-                corners_.push_back(corner_at(brep.point(v)));
+        for (const std::uint32_t f : faces) {
+            boundary.for_each_corner(f, [&](std::uint32_t v) {
+                if (number_[v] != EntityId<Corner>::none) return;
+                number_[v] = static_cast<std::uint32_t>(corners_.size());
+                corners_.push_back(corner_at(boundary.point(v)));
                 Corner& c = corners_.back();
                 const auto next = static_cast<std::uint32_t>(numbers.size());
                 c.denominator = numbers.try_emplace(c.w, next).first->second;
-            }
+            });
         }
         denominators_.resize(numbers.size());
         for (const auto& [w, number] : numbers) denominators_[number] = w;
     }
-    const Corner& operator[](VertexId v) const { return corners_[number_[v.index]]; }
+    const Corner& operator[](std::uint32_t v) const { return corners_[number_[v]]; }
     const mpz_class& denominator(std::uint32_t number) const { return denominators_[number]; }
 
 private:

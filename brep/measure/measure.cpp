@@ -32,6 +32,7 @@
 #include <vector>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/measure/face_sets.h>
 #include <trisect/brep/measure/fraction_tree.h>
 
 namespace trisect {
@@ -77,32 +78,24 @@ private:
     Sums<WideInt<4>> sums_;
 };
 
-// Calls visit(o, p, q) for the fan triangles of all loops, leaving out the flat ones at the apex.
-template <class Visit>
-void for_each_fan_triangle(const Brep& brep, FaceId f, const Visit& visit) {
-    const VertexId o = brep.origin(brep.halfedges(f)[0]);
-    for (const HalfedgeId h : brep.halfedges(f)) {
-        const VertexId p = brep.origin(h);
-        const VertexId q = brep.target(h);
-        if (p != o && q != o) visit(o, p, q);
-    }
-}
-
 mpz_class shifted_quotient(const mpz_class& n, const mpz_class& d, unsigned long bits) {
     mpz_class q = n << bits;
     mpz_fdiv_q(q.get_mpz_t(), q.get_mpz_t(), d.get_mpz_t());
     return q;
 }
 
-// Volume and moments of some faces of a Brep.
+// Volume and moments of some faces.
+template <class Boundary>
 class SolidMeasure {
 public:
-    SolidMeasure(const Brep& brep, std::span<const FaceId> faces, Want want)
-        : brep_(brep),
+    SolidMeasure(Boundary boundary, Want want)
+        : boundary_(boundary),
           want_(want),
           lattice_(want),
-          exact_faces_(faces_with_plane_points(faces)),
-          corners_(brep, exact_faces_) {}
+          exact_faces_(faces_with_plane_points()),
+          corners_(boundary_, exact_faces_) {}
+
+    [[nodiscard]] Lattice lattice() const { return boundary_.lattice(); }
 
     ExactRational volume6() const {
         ExactRational r(lattice_.sums().volume6);
@@ -148,18 +141,19 @@ public:
     }
 
 private:
-    std::vector<FaceId> faces_with_plane_points(std::span<const FaceId> faces) {
-        std::vector<FaceId> exact;
-        for (const FaceId f : faces) {
-            if (!is_lattice_face(brep_, f)) {
+    std::vector<std::uint32_t> faces_with_plane_points() {
+        std::vector<std::uint32_t> exact;
+        boundary_.for_each_face([&](std::uint32_t f) {
+            if (!is_lattice_face(boundary_, f)) {
                 exact.push_back(f);
-                continue;
+                return;
             }
-            for_each_fan_triangle(brep_, f, [this](VertexId o, VertexId p, VertexId q) {
-                lattice_.add(brep_.point(o).lattice(), brep_.point(p).lattice(),
-                             brep_.point(q).lattice());
-            });
-        }
+            boundary_.for_each_triangle(
+                f, [this](std::uint32_t o, std::uint32_t p, std::uint32_t q) {
+                    lattice_.add(boundary_.point(o).lattice(), boundary_.point(p).lattice(),
+                                 boundary_.point(q).lattice());
+                });
+        });
         return exact;
     }
 
@@ -170,8 +164,8 @@ private:
     }
 
     template <class Visit>
-    void for_each_exact_triangle(FaceId f, const Visit& visit) const {
-        for_each_fan_triangle(brep_, f, [&](VertexId o, VertexId p, VertexId q) {
+    void for_each_exact_triangle(std::uint32_t f, const Visit& visit) const {
+        boundary_.for_each_triangle(f, [&](std::uint32_t o, std::uint32_t p, std::uint32_t q) {
             const Corner& a = corners_[o];
             const Corner& b = corners_[p];
             const Corner& c = corners_[q];
@@ -180,14 +174,14 @@ private:
     }
     template <class Visit>
     void for_each_exact_triangle(const Visit& visit) const {
-        for (const FaceId f : exact_faces_) for_each_exact_triangle(f, visit);
+        for (const std::uint32_t f : exact_faces_) for_each_exact_triangle(f, visit);
     }
 
     // `degree` is the number of coordinates multiplied in a term.
     template <class Term>
     ExactRational exact_sum(unsigned degree, const Term& term) const {
         FractionTree tree(corners_);
-        for (const FaceId f : exact_faces_) {
+        for (const std::uint32_t f : exact_faces_) {
             mpq_class sum = 0;
             for_each_exact_triangle(
                 f, [&](const mpz_class& det, const mpz_class& w, const Corner& o, const Corner& p,
@@ -200,10 +194,10 @@ private:
 
     // A term multiplies the coordinates of three different corners, and one of them twice when
     // the degree is 4: a denominator appears at most that often.
-    Denominators denominators(FaceId f, unsigned degree) const {
+    Denominators denominators(std::uint32_t f, unsigned degree) const {
         std::vector<std::uint32_t> numbers;
-        for (const HalfedgeId h : brep_.halfedges(f))
-            numbers.push_back(corners_[brep_.origin(h)].denominator);
+        boundary_.for_each_corner(
+            f, [&](std::uint32_t v) { numbers.push_back(corners_[v].denominator); });
         std::sort(numbers.begin(), numbers.end());
         Denominators powers;
         for (std::size_t i = 0; i < numbers.size();) {
@@ -218,19 +212,12 @@ private:
         return powers;
     }
 
-    const Brep& brep_;
+    Boundary boundary_;
     Want want_;
     LatticeSums lattice_;
-    std::vector<FaceId> exact_faces_;
+    std::vector<std::uint32_t> exact_faces_;
     ExactCorners corners_;
 };
-
-std::vector<FaceId> all_faces(const Brep& brep) {
-    std::vector<FaceId> faces;
-    faces.reserve(brep.counts().faces);
-    for (const FaceId f : brep.faces()) faces.push_back(f);
-    return faces;
-}
 
 ExactRational volume_from(const ExactRational& volume6, Lattice lattice) {
     return (volume6 / ExactRational(6)).scaled(3 * lattice.exponent);
@@ -241,15 +228,22 @@ ExactRational coordinate_from(const ExactRational& moment24, const ExactRational
     return (moment24 / (volume6 * ExactRational(4))).scaled(lattice.exponent);
 }
 
-double rounded_volume(const SolidMeasure& m, Lattice lattice) {
+template <class Boundary>
+ExactRational exact_volume_of(Boundary boundary) {
+    return volume_from(SolidMeasure(boundary, Want::Volume).volume6(), boundary.lattice());
+}
+
+template <class Boundary>
+double rounded_volume(Boundary boundary) {
+    const SolidMeasure m(boundary, Want::Volume);
     if (!m.is_exact()) {
         for (const unsigned long bits : precisions) {
             const Enclosure e = m.enclose(bits).first;
-            const double low = volume_from(e.lower_end(), lattice).to_double();
-            if (low != 0 && low == volume_from(e.upper_end(), lattice).to_double()) return low;
+            const double low = volume_from(e.lower_end(), m.lattice()).to_double();
+            if (low != 0 && low == volume_from(e.upper_end(), m.lattice()).to_double()) return low;
         }
     }
-    return volume_from(m.volume6(), lattice).to_double();
+    return volume_from(m.volume6(), m.lattice()).to_double();
 }
 
 // The double that the quotient of the enclosed numbers rounds to, if it is unique.
@@ -267,7 +261,8 @@ std::optional<double> rounded_coordinate(const Enclosure& moment24, const Enclos
     return common;
 }
 
-std::optional<Point3d> rounded_centroid(const SolidMeasure& m, Lattice lattice) {
+template <class Boundary>
+std::optional<Point3d> rounded_centroid(const SolidMeasure<Boundary>& m) {
     if (m.is_exact()) return std::nullopt;
     for (const unsigned long bits : precisions) {
         const auto [volume6, moments] = m.enclose(bits);
@@ -276,7 +271,7 @@ std::optional<Point3d> rounded_centroid(const SolidMeasure& m, Lattice lattice) 
         Point3d out{};
         bool known = true;
         for (std::size_t i = 0; i < axes && known; ++i) {
-            const auto c = rounded_coordinate(moments[i], volume6, lattice);
+            const auto c = rounded_coordinate(moments[i], volume6, m.lattice());
             known = c.has_value();
             if (known) out[i] = *c;
         }
@@ -290,6 +285,23 @@ std::optional<Point3d> rounded(const std::optional<std::array<ExactRational, 3>>
     return Point3d{(*c)[0].to_double(), (*c)[1].to_double(), (*c)[2].to_double()};
 }
 
+template <class Boundary>
+std::optional<std::array<ExactRational, 3>> exact_centroid_of(const SolidMeasure<Boundary>& m) {
+    const ExactRational v = m.volume6();
+    if (v.sign() == 0) return std::nullopt;
+    const auto coordinate = [&](std::size_t i) {
+        return coordinate_from(m.moment24(i), v, m.lattice());
+    };
+    return std::array{coordinate(0), coordinate(1), coordinate(2)};
+}
+
+template <class Boundary>
+std::optional<Point3d> centroid_of(Boundary boundary) {
+    const SolidMeasure m(boundary, Want::VolumeAndMoments);
+    if (const auto c = rounded_centroid(m)) return c;
+    return rounded(exact_centroid_of(m));
+}
+
 LatticeSums sums_of(const LatticeMesh& mesh, Want want) {
     LatticeSums sums(want);
     for (const auto& t : mesh.triangles)
@@ -299,31 +311,28 @@ LatticeSums sums_of(const LatticeMesh& mesh, Want want) {
 
 }  // namespace
 
-ExactRational exact_volume(const Brep& brep) {
-    return volume_from(SolidMeasure(brep, all_faces(brep), Want::Volume).volume6(), brep.lattice());
-}
+ExactRational exact_volume(const Brep& brep) { return exact_volume_of(BrepFaces(brep)); }
 
 ExactRational exact_volume(const Brep& brep, ShellId shell) {
-    return volume_from(SolidMeasure(brep, brep.faces(shell), Want::Volume).volume6(),
-                       brep.lattice());
+    return exact_volume_of(ShellFaces(brep, shell));
 }
+
+ExactRational exact_volume(const ExactMesh& mesh) { return exact_volume_of(MeshFaces(mesh)); }
 
 ExactRational exact_volume(const LatticeMesh& mesh) {
     return volume_from(ExactRational(sums_of(mesh, Want::Volume).sums().volume6), mesh.lattice);
 }
 
-double volume(const Brep& brep) {
-    return rounded_volume(SolidMeasure(brep, all_faces(brep), Want::Volume), brep.lattice());
-}
+double volume(const Brep& brep) { return rounded_volume(BrepFaces(brep)); }
 
-double volume(const Brep& brep, ShellId shell) {
-    return rounded_volume(SolidMeasure(brep, brep.faces(shell), Want::Volume), brep.lattice());
-}
+double volume(const Brep& brep, ShellId shell) { return rounded_volume(ShellFaces(brep, shell)); }
+
+double volume(const ExactMesh& mesh) { return rounded_volume(MeshFaces(mesh)); }
 
 double volume(const LatticeMesh& mesh) { return exact_volume(mesh).to_double(); }
 
 int sign_of_volume(const Brep& brep, ShellId shell) {
-    const SolidMeasure m(brep, brep.faces(shell), Want::Volume);
+    const SolidMeasure m(ShellFaces(brep, shell), Want::Volume);
     if (!m.is_exact()) {
         for (const unsigned long bits : precisions) {
             const Enclosure e = m.enclose(bits).first;
@@ -335,12 +344,11 @@ int sign_of_volume(const Brep& brep, ShellId shell) {
 }
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const Brep& brep) {
-    const SolidMeasure m(brep, all_faces(brep), Want::VolumeAndMoments);
-    const ExactRational v = m.volume6();
-    if (v.sign() == 0) return std::nullopt;
-    return std::array{coordinate_from(m.moment24(0), v, brep.lattice()),
-                      coordinate_from(m.moment24(1), v, brep.lattice()),
-                      coordinate_from(m.moment24(2), v, brep.lattice())};
+    return exact_centroid_of(SolidMeasure(BrepFaces(brep), Want::VolumeAndMoments));
+}
+
+std::optional<std::array<ExactRational, 3>> exact_centroid(const ExactMesh& mesh) {
+    return exact_centroid_of(SolidMeasure(MeshFaces(mesh), Want::VolumeAndMoments));
 }
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& mesh) {
@@ -353,11 +361,9 @@ std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& me
     return std::array{coordinate(0), coordinate(1), coordinate(2)};
 }
 
-std::optional<Point3d> centroid(const Brep& brep) {
-    const SolidMeasure m(brep, all_faces(brep), Want::VolumeAndMoments);
-    if (const auto c = rounded_centroid(m, brep.lattice())) return c;
-    return rounded(exact_centroid(brep));
-}
+std::optional<Point3d> centroid(const Brep& brep) { return centroid_of(BrepFaces(brep)); }
+
+std::optional<Point3d> centroid(const ExactMesh& mesh) { return centroid_of(MeshFaces(mesh)); }
 
 std::optional<Point3d> centroid(const LatticeMesh& mesh) { return rounded(exact_centroid(mesh)); }
 

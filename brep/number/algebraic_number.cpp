@@ -105,7 +105,7 @@ std::vector<AlgebraicNumber> roots_between(std::span<const ExactRational> coeffi
     std::vector<AlgebraicNumber> result;
     for (const detail::RealRoot& r :
          detail::isolate_roots(p, detail::to_gmp(from), detail::to_gmp(to)))
-        result.emplace_back(r);
+        result.push_back(detail::number_of(r));
     return result;
 }
 

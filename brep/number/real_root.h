@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include <trisect/brep/algebraic_number.h>
 #include <trisect/brep/number/integer_polynomial.h>
 
 namespace trisect::detail {
@@ -68,5 +69,16 @@ private:
 /// nothing is known and the answer is 0.
 [[nodiscard]] int constant_sign(const IntegerPolynomial& p, const mpq_class& from,
                                 const mpq_class& to);
+
+struct AlgebraicNumberAccess {
+    [[nodiscard]] static AlgebraicNumber make(const RealRoot& root) {
+        return AlgebraicNumber(root);
+    }
+};
+
+/// The root as a number of the public interface.
+[[nodiscard]] inline AlgebraicNumber number_of(const RealRoot& root) {
+    return AlgebraicNumberAccess::make(root);
+}
 
 }  // namespace trisect::detail

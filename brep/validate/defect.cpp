@@ -86,6 +86,7 @@ bool ValidationReport::empty() const {
 }
 
 std::string ValidationReport::to_string(std::size_t places) const {
+    if (empty()) return "no defects\n";
     std::string s;
     for (std::size_t k = 0; k < defect_kind_count; ++k) {
         if (counts_[k] == 0) continue;

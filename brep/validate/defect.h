@@ -77,7 +77,8 @@ public:
     [[nodiscard]] bool empty() const;
     /// No defect of severity Error.
     [[nodiscard]] bool is_solid() const { return count(Severity::Error) == 0; }
-    /// One line per kind: name, number, and the sentences of the first `places` of each.
+    /// One line per kind: name, number, and the sentences of the first `places` of each; "no
+    /// defects" for a good mesh. docs/invalid_solid.md says what to do.
     [[nodiscard]] std::string to_string(std::size_t places = 3) const;
 
     /// Counts a defect; `make()` returns it and is called only when it will be listed.

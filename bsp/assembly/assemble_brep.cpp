@@ -31,9 +31,7 @@ namespace trisect::detail {
 
 namespace {
 
-FaceSource source_of(const BoundaryFacet& f) {
-    return {static_cast<std::uint32_t>(f.source->serial()), f.source->face_of(f.facet)};
-}
+FaceSource source_of(const BoundaryFacet& f) { return f.source->name_of(f.facet); }
 
 // Gives the builder faces in the order of facets.
 class FaceWriter {

@@ -105,6 +105,41 @@ public:
         return std::move(mesh_);
     }
 
+    /// The face that each triangle is part of. \pre written
+    [[nodiscard]] std::vector<FaceSource> names() const {
+        std::vector<FaceSource> out;
+        auto next = worked_facets_.begin();
+        const auto add_worked_before = [&](std::size_t t, std::uint64_t place) {
+            for (; next->place < std::pair(t, place); ++next) {
+                const auto facet = static_cast<std::uint32_t>(next->place.second / 2);
+                out.insert(out.end(), ((next + 1)->begin - next->begin) / 3,
+                           parts_.sources[next->place.first].source()->name_of(facet));
+            }
+        };
+        for (std::size_t t = 0; t < tables_.size(); ++t) {
+            const FacetMarks& marks = parts_.sources[t];
+            marks.for_each_whole([&](std::uint32_t facet, bool flipped) {
+                add_worked_before(t, place_of(facet, flipped));
+                out.push_back(marks.source()->name_of(facet));
+            });
+            add_worked_before(t, no_place);
+        }
+        return out;
+    }
+
+    /// The vertices, in lattice units. \pre written; `count` of them
+    [[nodiscard]] std::vector<Point> exact_points(std::size_t count) const {
+        std::vector<Point> out(count);
+        for (std::size_t t = 0; t < tables_.size(); ++t) {
+            const auto& points = parts_.sources[t].source()->mesh().points;
+            for (std::size_t v = 0; v < tables_[t].size(); ++v)
+                if (tables_[t][v] != no_number) out[tables_[t][v]] = points[v];
+        }
+        for (std::size_t p = 0; p < number_.size(); ++p)
+            if (number_[p] != no_number) out[number_[p]] = bench_.point(static_cast<PointId>(p));
+        return out;
+    }
+
 private:
     // A facet that does not pass through: its triangles are in worked_, from `begin` on.
     struct Worked {
@@ -436,8 +471,14 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
     return out;
 }
 
+// What is said of a mesh besides.
+struct MeshDetails {
+    std::vector<FaceSource>* names = nullptr;
+    std::vector<Point>* points = nullptr;
+};
+
 PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_planes,
-                     std::uint32_t threads) {
+                     std::uint32_t threads, const MeshDetails& details) {
     BoundaryParts parts;
     gather_parts(solid, parts, by_planes, threads);
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
@@ -464,7 +505,11 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         find_corners();
     }
     if (stats != nullptr) *stats = parts.stats;
-    return MeshWriter(solid, parts, std::move(tables), threads).write(edges);
+    MeshWriter writer(solid, parts, std::move(tables), threads);
+    PolygonMesh mesh = writer.write(edges);
+    if (details.names != nullptr) *details.names = writer.names();
+    if (details.points != nullptr) *details.points = writer.exact_points(mesh.points.size());
+    return mesh;
 }
 
 // How many facets a form lists.
@@ -478,14 +523,32 @@ struct ListedFacets {
     }
 };
 
+PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, bool by_planes,
+                                std::uint32_t threads, const MeshDetails& details) {
+    // No arena for what no step would divide.
+    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
+    return on_threads(small ? 1 : threads, [&](std::uint32_t n) {
+        return assemble(solid, stats, by_planes, n, details);
+    });
+}
+
 }  // namespace
 
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
-                          std::uint32_t threads) {
-    // No arena for what no step would divide.
-    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
-    return on_threads(small ? 1 : threads,
-                      [&](std::uint32_t n) { return assemble(solid, stats, by_planes, n); });
+                          std::uint32_t threads, std::vector<FaceSource>* names) {
+    return assemble_on_threads(solid, stats, by_planes, threads, {names, nullptr});
+}
+
+ExactMesh assemble_exact_mesh(const SolidState& solid, std::uint32_t threads) {
+    ExactMesh out;
+    out.lattice = solid.lattice;
+    const PolygonMesh mesh =
+        assemble_on_threads(solid, nullptr, true, threads, {&out.source, &out.points});
+    out.triangles.reserve(mesh.face_count());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        out.triangles.push_back(
+            {mesh.corners[3 * f], mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]});
+    return out;
 }
 
 }  // namespace trisect::detail

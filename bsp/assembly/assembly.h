@@ -3,6 +3,10 @@
 // Assembly: construction of a connected boundary from the leaves of a tree.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
+#include <trisect/brep/exact_mesh.h>
 #include <trisect/bsp/assembly/parts/assembly_stats.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/solid.h>
@@ -16,8 +20,13 @@ namespace trisect::detail {
 
 /// The boundary as triangles; facets that nothing touched are copied. Without `by_planes` all
 /// others go the general path (gather_parts()); the set, the vertices and the number of triangles
-/// are the same. `threads` as in ParallelParts.
+/// are the same. `threads` as in ParallelParts. `names`: for each triangle the face that it is part
+/// of; where coplanar neighbours were joined, the first of them.
 [[nodiscard]] PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats = nullptr,
-                                        bool by_planes = true, std::uint32_t threads = 1);
+                                        bool by_planes = true, std::uint32_t threads = 1,
+                                        std::vector<FaceSource>* names = nullptr);
+
+/// The same mesh before its coordinates are rounded.
+[[nodiscard]] ExactMesh assemble_exact_mesh(const SolidState& solid, std::uint32_t threads = 1);
 
 }  // namespace trisect::detail

@@ -41,7 +41,7 @@ private:
 
 /// The state of a solid as a tree: for all but what writes triangles.
 [[nodiscard]] inline const std::shared_ptr<const SolidState>& cut_state(const Solid& solid) {
-    const auto& state = solid.state();
+    const auto& state = detail::state_of(solid);
     const auto tree = state->lazy_tree();
     return tree != nullptr ? tree->cut() : state;
 }

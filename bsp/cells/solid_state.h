@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/solid.h>
 
 namespace trisect::detail {
 
@@ -86,5 +88,24 @@ using SolidStates = std::vector<std::shared_ptr<const SolidState>>;
 /// SolidState::far_out of the value of a formula over these.
 [[nodiscard]] std::int8_t far_out_of(const Residual& formula,
                                      std::span<const std::shared_ptr<const SolidState>> solids);
+
+/// The way from a Solid to its state and back.
+struct SolidAccess {
+    [[nodiscard]] static const std::shared_ptr<const SolidState>& state(const Solid& solid) {
+        return solid.state();
+    }
+    /// Null is the empty set.
+    [[nodiscard]] static Solid make(std::shared_ptr<const SolidState> state) {
+        return Solid(std::move(state));
+    }
+};
+
+/// Never null.
+[[nodiscard]] inline const std::shared_ptr<const SolidState>& state_of(const Solid& solid) {
+    return SolidAccess::state(solid);
+}
+[[nodiscard]] inline Solid solid_of(std::shared_ptr<const SolidState> state) {
+    return SolidAccess::make(std::move(state));
+}
 
 }  // namespace trisect::detail

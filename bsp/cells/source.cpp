@@ -2,12 +2,15 @@
 
 #include <trisect/bsp/cells/source.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/bounded_int.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -23,6 +26,7 @@ std::uint64_t next_serial() {
 
 std::shared_ptr<const Source> Source::share(Source* source) {
     source->serial_ = next_serial();
+    source->operand_ = static_cast<std::uint32_t>(source->serial_);
     source->retain();
     return {source, [](const Source* s) { s->release(); }};
 }
@@ -69,16 +73,59 @@ Plane Source::support(std::uint32_t facet) const {
 // The normal of the plane along axis k is (b - a) × e_k, and the third corner c is at
 // ((b - a) × e_k) · (c - a) = -n_k, n being the support's normal: below when n_k > 0.
 Plane Source::edge_plane(std::uint32_t facet, int i, const Plane& support) const {
-    const int k = support.dominant_axis();
+    const int k = edge_axis(support);
     const LatticePoint& a = corner(facet, i);
     const LatticePoint& b = corner(facet, (i + 1) % 3);
     return support.normal(k) > 0 ? Plane::along_axis(a, b, k) : Plane::along_axis(b, a, k);
 }
 
-std::shared_ptr<const Source> Source::numbered(std::shared_ptr<const Source> source,
-                                               std::uint64_t serial) {
-    const_cast<Source&>(*source).serial_ = serial;  // it is not shared yet
+int Source::edge_axis(const Plane& support) const {
+    const auto size = [&](int i) {
+        const Int128 n = support.normal(i);
+        return n < 0 ? -n : n;
+    };
+    int best = axes_[0];
+    for (const int i : {axes_[1], axes_[2]})
+        if (size(i) > size(best)) best = i;
+    return best;
+}
+
+// The source is not shared yet.
+std::shared_ptr<const Source> Source::renamed_as_this(std::shared_ptr<const Source> source) const {
+    auto& made = const_cast<Source&>(*source);
+    made.operand_ = operand_;
+    made.names_ = names_;
+    made.axes_ = axes_;
     return source;
+}
+
+std::shared_ptr<const Source> Source::named(std::shared_ptr<const Source> source,
+                                            std::vector<FaceSource> names) {
+    auto& made = const_cast<Source&>(*source);
+    made.names_ = std::make_shared<const std::vector<FaceSource>>(std::move(names));
+    return source;
+}
+
+std::shared_ptr<const Source> Source::moved(const LatticeMove& move) const {
+    std::shared_ptr<const Source> out;
+    if (is_half_space()) {
+        std::vector<Plane> planes;
+        planes.reserve(planes_.size());
+        for (const Plane& p : planes_) planes.push_back(move.applied(p));
+        out = Source::planes(std::move(planes), mesh_.lattice,
+                             is_unbounded() ? box_ : move.applied(box_));
+    } else {
+        LatticeMesh mesh = mesh_;
+        for (LatticePoint& p : mesh.points) p = move.applied(p);
+        if (move.is_mirror())
+            for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+        out = make(std::move(mesh));
+    }
+    out = renamed_as_this(std::move(out));
+    for (std::size_t i = 0; i < 3; ++i)
+        const_cast<Source&>(*out).axes_[i] =
+            static_cast<std::uint8_t>(move.image_of_axis(axes_[i]));
+    return out;
 }
 
 std::shared_ptr<const Source> Source::refined(int exponent) const {
@@ -98,7 +145,37 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
         }
         p = {p.x << shift, p.y << shift, p.z << shift};
     }
-    return numbered(make(std::move(fine)), serial_);
+    auto out = renamed_as_this(make(std::move(fine)));
+    const_cast<Source&>(*out).serial_ = serial_;
+    return out;
+}
+
+// n · x + d with x = X 2^k: the normal or the offset takes up the power of two.
+std::shared_ptr<const Source> Source::half_space_on(int exponent) const {
+    constexpr int normal_bits = 109;  // see plane.h
+    constexpr int offset_bits = 162;
+    const Plane& p = planes_[0];
+    const int power = exponent - mesh_.lattice.exponent;
+    std::array<BoundedInt, 4> n{p.normal(0), p.normal(1), p.normal(2), p.offset()};
+    const auto shift_of = [&](std::size_t i) {
+        return (i < 3) == (power > 0) ? std::abs(power) : 0;
+    };
+    int common = std::numeric_limits<int>::max();  // power of two
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!n[i].is_zero()) common = std::min(common, n[i].trailing_zeros() + shift_of(i));
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (n[i].is_zero()) continue;
+        const int by = shift_of(i) - common;
+        if (n[i].bit_length() + by > (i < 3 ? normal_bits : offset_bits))
+            throw LimitError("a half-space of unit 2^" + std::to_string(mesh_.lattice.exponent) +
+                             " cannot move to the lattice of unit 2^" + std::to_string(exponent));
+        n[i] = by >= 0 ? n[i].shifted_left(by) : n[i].shifted_right(-by);
+    }
+    auto out = renamed_as_this(
+        half_space(Plane(n[0].to_int128(), n[1].to_int128(), n[2].to_int128(), n[3].to_wide<3>()),
+                   Lattice{exponent}));
+    const_cast<Source&>(*out).serial_ = serial_;
+    return out;
 }
 
 std::shared_ptr<const Source> Source::refined_planes(int exponent, int shift) const {
@@ -116,7 +193,9 @@ std::shared_ptr<const Source> Source::refined_planes(int exponent, int shift) co
             box.lo[k] *= std::int64_t{1} << shift;
             box.hi[k] *= std::int64_t{1} << shift;
         }
-    return numbered(planes(std::move(fine), Lattice{exponent}, box), serial_);
+    auto out = renamed_as_this(planes(std::move(fine), Lattice{exponent}, box));
+    const_cast<Source&>(*out).serial_ = serial_;
+    return out;
 }
 
 }  // namespace trisect::detail

@@ -12,8 +12,10 @@
 #include <span>
 #include <vector>
 
+#include <trisect/brep/brep.h>
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/bsp/cells/cell.h>
+#include <trisect/bsp/cells/lattice_move.h>
 #include <trisect/kernel/plane.h>
 
 namespace trisect::detail {
@@ -40,6 +42,14 @@ public:
     }
 
     [[nodiscard]] std::uint64_t serial() const { return serial_; }
+    /// What results call a face of this source. Its own serial and number, unless the source was
+    /// made of named faces.
+    [[nodiscard]] FaceSource name_of(std::uint32_t facet) const {
+        if (names_ == nullptr) return {operand_, face_of(facet)};
+        return (*names_)[face_of(facet)];
+    }
+    /// What results call the operand that corners come from.
+    [[nodiscard]] std::uint32_t operand() const { return operand_; }
     /// Whether the facets are planes, without corners and edges.
     [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
     /// Whether the box says nothing.
@@ -73,7 +83,7 @@ public:
 
     [[nodiscard]] Plane support(std::uint32_t facet) const;
     /// The plane through edge i (corner i to corner i+1) that is parallel to the dominant axis of
-    /// the support; the facet lies below it.
+    /// the support (of several, the first one before the source was moved); the facet lies below.
     [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i) const {
         return edge_plane(facet, i, support(facet));
     }
@@ -84,19 +94,36 @@ public:
     /// finer. Names keep their meaning. \throw LimitError when coordinates leave the lattice's
     /// range.
     [[nodiscard]] std::shared_ptr<const Source> refined(int exponent) const;
+    /// A half-space under the same serial on a lattice of any exponent. \throw LimitError when its
+    /// coefficients become too long.
+    [[nodiscard]] std::shared_ptr<const Source> half_space_on(int exponent) const;
+    /// The same facets under a new serial, moved without rounding. Names of faces and corners
+    /// stay. A mirror turns each triangle over: its second and third corner change places.
+    /// \throw LimitError when coordinates leave the lattice's range.
+    [[nodiscard]] std::shared_ptr<const Source> moved(const LatticeMove& move) const;
+    /// A mesh, or planes, whose faces have the names of others. \pre one name for each face, and
+    /// the source is new
+    static std::shared_ptr<const Source> named(std::shared_ptr<const Source> source,
+                                               std::vector<FaceSource> names);
 
 private:
     Source() = default;
     ~Source() = default;
     static std::shared_ptr<const Source> share(Source* source);
     [[nodiscard]] std::shared_ptr<const Source> refined_planes(int exponent, int shift) const;
-    static std::shared_ptr<const Source> numbered(std::shared_ptr<const Source> source,
-                                                  std::uint64_t serial);
+    [[nodiscard]] int edge_axis(const Plane& support) const;
+
+    [[nodiscard]] std::shared_ptr<const Source> renamed_as_this(
+        std::shared_ptr<const Source> source) const;
 
     LatticeMesh mesh_;
     std::vector<Plane> planes_;
     Box box_;
     std::uint64_t serial_ = 0;
+    std::uint32_t operand_ = 0;
+    std::shared_ptr<const std::vector<FaceSource>> names_;  // by face; null: its own
+    /// Where components of a normal are equal, the first of these axes counts as the largest one.
+    std::array<std::uint8_t, 3> axes_{0, 1, 2};
     mutable std::atomic<std::uint32_t> count_{0};
 };
 

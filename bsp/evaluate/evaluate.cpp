@@ -79,7 +79,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
     state->lattice = lattice.lattice;
     made.lattice = lattice;
     if (stats != nullptr) *stats = made;
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return detail::solid_of(std::move(state));
 }
 
 }  // namespace trisect

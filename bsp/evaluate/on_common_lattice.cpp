@@ -22,6 +22,8 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -200,7 +202,7 @@ Boundary boundary_of(const std::shared_ptr<const SolidState>& state) {
         for (const auto& t : mesh.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
         return out;
     }
-    const Brep brep = Solid(state).to_brep();
+    const Brep brep = solid_of(state).to_brep();
     Boundary out{to_polygon_mesh(brep), exact_volume(brep).sign() < 0};
     if (out.unbounded)
         for (std::size_t f = 0; f < out.mesh.face_count(); ++f)
@@ -227,7 +229,7 @@ std::shared_ptr<const SolidState> rounded(const std::shared_ptr<const SolidState
     report.max_move = std::max(report.max_move, imported.report.lattice.max_move);
     report.flipped_faces += imported.report.lattice.flipped_faces;
     auto out = std::make_shared<SolidState>(
-        *Solid::from_import(std::move(imported), Embedding::Resolve).state());
+        *state_of(Solid::from_import(std::move(imported), Embedding::Resolve, InsideOut::Accept)));
     CellRef& root = std::get<CellTree>(out->form).root;
     root.complemented = root.complemented != boundary.unbounded;
     out->far_out = boundary.unbounded ? 1 : 0;
@@ -256,24 +258,30 @@ LatticeReport move_to_common_lattice(std::vector<std::shared_ptr<const SolidStat
                                      EvaluateOptions::Lattices policy) {
     LatticeReport report;
     int finest = std::numeric_limits<int>::max();
-    int coarsest = std::numeric_limits<int>::min();
+    // A half-space has a place on every lattice.
+    const bool all_are_half_spaces = std::ranges::all_of(
+        states, [](const auto& s) { return !s->lattice_matters || is_half_space(*s); });
+    const auto is_free = [&](const SolidState& s) {
+        return !s.lattice_matters || (!all_are_half_spaces && is_half_space(s));
+    };
     for (const auto& s : states) {
-        if (!s->lattice_matters) continue;
+        if (is_free(*s)) continue;
         finest = std::min(finest, s->lattice.exponent);
-        coarsest = std::max(coarsest, s->lattice.exponent);
     }
-    if (finest > coarsest) return report;
+    if (finest == std::numeric_limits<int>::max()) return report;
     report.lattice.exponent = finest;
-    if (finest == coarsest) return report;
-
     int& common = report.lattice.exponent;
     for (const auto& s : states)
-        if (s->lattice_matters && s->lattice.exponent != finest)
+        if (!is_free(*s) && s->lattice.exponent != finest)
             common = std::max(common,
                               finest_for(largest_coordinate(sources_of(*s)), s->lattice.exponent));
     if (common != finest && policy == EvaluateOptions::Lattices::Refuse) refuse(finest, common);
     for (auto& s : states) {
         if (!s->lattice_matters || s->lattice.exponent == common) continue;
+        if (is_half_space(*s)) {
+            s = half_space_on(*s, report.lattice);
+            continue;
+        }
         if (s->lattice.exponent > common) {
             s = refined(s, report.lattice);
             continue;

@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/evaluate/expression_node.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/flat_map.h>
 
@@ -58,8 +59,8 @@ std::uint64_t key_of(const Source& mesh) {
 class Translator {
 public:
     Translation translate(const Expression& expression) {
-        count_parents(*expression.root());
-        open(*expression.root());
+        count_parents(*root_of(expression));
+        open(*root_of(expression));
         while (true) {
             Frame& f = frames_.back();
             if (f.pending.empty()) {
@@ -73,17 +74,17 @@ public:
                 frames_.back().done.push_back(done);
                 continue;
             }
-            const Expression::Node* next = f.pending.back();
+            const ExpressionNode* next = f.pending.back();
             f.pending.pop_back();
             if (const auto known = translated_.find(next); known != translated_.end()) {
                 f.done.push_back(known->second);
             } else if (next->kind == f.kind && !is_shared(next) &&
-                       f.kind != Expression::Kind::Not) {
+                       f.kind != ExpressionNode::Kind::Not) {
                 f.pending.insert(f.pending.end(), next->children.size(), nullptr);
                 std::transform(next->children.rbegin(), next->children.rend(),
                                f.pending.end() - static_cast<std::ptrdiff_t>(next->children.size()),
                                [](const auto& c) { return c.get(); });
-            } else if (next->kind == Expression::Kind::Leaf) {
+            } else if (next->kind == ExpressionNode::Kind::Leaf) {
                 f.done.push_back(slot_of(next->solid));
             } else {
                 open(*next);
@@ -93,35 +94,35 @@ public:
 
 private:
     struct Frame {
-        const Expression::Node* node = nullptr;
-        Expression::Kind kind = Expression::Kind::Leaf;
-        std::vector<const Expression::Node*> pending;  // last first
+        const ExpressionNode* node = nullptr;
+        ExpressionNode::Kind kind = ExpressionNode::Kind::Leaf;
+        std::vector<const ExpressionNode*> pending;  // last first
         std::vector<Residual::Ref> done;
     };
 
-    void count_parents(const Expression::Node& root) {
-        std::vector<const Expression::Node*> pending{&root};
+    void count_parents(const ExpressionNode& root) {
+        std::vector<const ExpressionNode*> pending{&root};
         while (!pending.empty()) {
-            const Expression::Node& n = *pending.back();
+            const ExpressionNode& n = *pending.back();
             pending.pop_back();
             for (const auto& c : n.children)
                 if (c.use_count() == 1 || ++parents_[c.get()] == 1) pending.push_back(c.get());
         }
     }
 
-    bool is_shared(const Expression::Node* node) const {
+    bool is_shared(const ExpressionNode* node) const {
         const auto at = parents_.find(node);
         return at != parents_.end() && at->second > 1;
     }
 
-    void open(const Expression::Node& node) {
+    void open(const ExpressionNode& node) {
         // Simplification and evaluation of formulas recurse over alternating operations.
         if (frames_.size() >= 4096)
             throw LimitError("the formula nests more than 4096 alternating operations");
         Frame f;
         f.node = &node;
         f.kind = node.kind;
-        if (node.kind == Expression::Kind::Leaf) f.done.push_back(slot_of(node.solid));
+        if (node.kind == ExpressionNode::Kind::Leaf) f.done.push_back(slot_of(node.solid));
         for (auto c = node.children.rbegin(); c != node.children.rend(); ++c)
             f.pending.push_back(c->get());
         frames_.push_back(std::move(f));
@@ -129,15 +130,15 @@ private:
 
     static Residual::Ref close(const Frame& f) {
         switch (f.kind) {
-            case Expression::Kind::Leaf:
+            case ExpressionNode::Kind::Leaf:
                 return f.done[0];
-            case Expression::Kind::Not:
+            case ExpressionNode::Kind::Not:
                 return Residual::negation(f.done[0]);
-            case Expression::Kind::And:
+            case ExpressionNode::Kind::And:
                 return Residual::combination(Residual::Kind::And, f.done);
-            case Expression::Kind::Or:
+            case ExpressionNode::Kind::Or:
                 return Residual::combination(Residual::Kind::Or, f.done);
-            case Expression::Kind::Xor:
+            case ExpressionNode::Kind::Xor:
                 return Residual::combination(Residual::Kind::Xor, f.done);
         }
         return {};
@@ -145,9 +146,9 @@ private:
 
     Residual::Ref slot_of(const Solid& solid) {
         const auto next = static_cast<std::int32_t>(out_.slots.size());
-        const auto [at, inserted] = slots_.insert({solid.state().get(), next});
+        const auto [at, inserted] = slots_.insert({detail::state_of(solid).get(), next});
         if (inserted) {
-            at->second = slot_of_equal_mesh(*solid.state(), next);
+            at->second = slot_of_equal_mesh(*detail::state_of(solid), next);
             if (at->second == next) {
                 out_.slots.push_back(solid);
                 residuals_.push_back(Residual::of_slot(next));
@@ -164,8 +165,8 @@ private:
         const std::uint64_t key = key_of(*mesh);
         const auto [begin, end] = meshes_.equal_range(key);
         for (auto known = begin; known != end; ++known)
-            if (are_equal_meshes(*out_.slots[static_cast<std::size_t>(known->second)].state(),
-                                 solid))
+            if (are_equal_meshes(
+                    *detail::state_of(out_.slots[static_cast<std::size_t>(known->second)]), solid))
                 return known->second;
         meshes_.emplace(key, next);
         return next;
@@ -175,8 +176,8 @@ private:
     std::unordered_map<const SolidState*, std::int32_t> slots_;
     std::unordered_multimap<std::uint64_t, std::int32_t> meshes_;  // slots of imported meshes
     std::vector<Residual::Ref> residuals_;                         // of the slots
-    std::unordered_map<const Expression::Node*, std::uint32_t> parents_;
-    std::unordered_map<const Expression::Node*, Residual::Ref> translated_;
+    std::unordered_map<const ExpressionNode*, std::uint32_t> parents_;
+    std::unordered_map<const ExpressionNode*, Residual::Ref> translated_;
     Translation out_;
 };
 

@@ -11,6 +11,7 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -26,8 +27,8 @@ struct BoundaryDistance {
     double upper = 0;
     BoundaryEntity a;
     BoundaryEntity b;
-    std::array<double, 3> on_a{};  ///< near to the closest points, in the world
-    std::array<double, 3> on_b{};
+    Point3d on_a{};  ///< near to the closest points, in the world
+    Point3d on_b{};
 };
 
 /// Nothing when one of the models is empty. Of a solid inside of another it is the clearance to its

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include <trisect/bsp/interference/interference_certificate.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/motion.h>
+#include <trisect/bsp/interference/refusal.h>
 
 namespace trisect {
 
@@ -93,11 +95,11 @@ struct ContactCertificate {
                                                        const Motion& motion_b,
                                                        std::size_t max_nodes = 200000);
 
-/// Why a certificate does not hold for these boundaries and motions; empty when it does. Uses the
+/// Why a certificate does not hold for these boundaries and motions; nothing when it does. Uses the
 /// boundaries, the polynomials of the motions and fractions alone: roots are counted by Sturm's
 /// theorem. An incomplete certificate holds when all it contains does.
-[[nodiscard]] std::string check_contact_certificate(const ContactCertificate& certificate,
-                                                    const Brep& a, const Motion& motion_a,
-                                                    const Brep& b, const Motion& motion_b);
+[[nodiscard]] std::optional<Refusal> check(const ContactCertificate& certificate, const Brep& a,
+                                           const Motion& motion_a, const Brep& b,
+                                           const Motion& motion_b);
 
 }  // namespace trisect

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/interference/interference_certificate.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/refusal.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -21,7 +23,7 @@ namespace trisect {
 /// normal·x is `below` at most for one set of points and `above` at least for another: they are
 /// (above - below) / |normal| apart.
 struct Slab {
-    RationalPoint normal;
+    ExactPoint normal;
     ExactRational below;
     ExactRational above;
 };
@@ -38,7 +40,7 @@ struct SlabNode {
 /// A point of the world on a face.
 struct PointOnFace {
     FaceId face;
-    RationalPoint point;
+    ExactPoint point;
 };
 
 /// That the square of the distance of two boundaries is `squared`: two points that are as near as
@@ -63,11 +65,10 @@ struct DistanceCertificate {
                                                    const InterferenceModel& b, const Pose& pose_b,
                                                    std::size_t max_nodes = 1000000);
 
-/// Why a certificate does not hold for these boundaries in these poses; empty when it does. Uses
+/// Why a certificate does not hold for these boundaries in these poses; nothing when it does. Uses
 /// the boundaries and fractions alone. An incomplete certificate holds when all it contains does.
 /// O(vertices) for each node.
-[[nodiscard]] std::string check_distance_certificate(const DistanceCertificate& certificate,
-                                                     const Brep& a, const Pose& pose_a,
-                                                     const Brep& b, const Pose& pose_b);
+[[nodiscard]] std::optional<Refusal> check(const DistanceCertificate& certificate, const Brep& a,
+                                           const Pose& pose_a, const Brep& b, const Pose& pose_b);
 
 }  // namespace trisect

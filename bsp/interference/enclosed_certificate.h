@@ -16,6 +16,7 @@
 #include <trisect/bsp/interference/enclosed_motion.h>
 #include <trisect/bsp/interference/interference_certificate.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/refusal.h>
 
 namespace trisect {
 
@@ -48,7 +49,7 @@ struct EnclosedCertificate {
     bool is_complete = false;
     EnclosedContact answer;
     std::vector<FreeSpan> free;  ///< ascending
-    std::optional<RationalPoint> in_both;
+    std::optional<ExactPoint> in_both;
     /// In the order of the trees' ranges; they fill all faces.
     std::vector<CertifiedTriangle> triangles_a;
     std::vector<CertifiedTriangle> triangles_b;
@@ -63,11 +64,11 @@ struct EnclosedCertificate {
     const EnclosedMotion& motion_b, const EnclosedContactOptions& options = {},
     std::size_t max_nodes = 200000);
 
-/// Why a certificate does not hold for these boundaries and motions; empty when it does. Trusts the
-/// motions' enclosures and uses the boundaries, polynomials and fractions alone. An incomplete
+/// Why a certificate does not hold for these boundaries and motions; nothing when it does. Trusts
+/// the motions' enclosures and uses the boundaries, polynomials and fractions alone. An incomplete
 /// certificate holds when all it contains does; its answer is not looked at then.
-[[nodiscard]] std::string check_enclosed_certificate(const EnclosedCertificate& certificate,
-                                                     const Brep& a, const EnclosedMotion& motion_a,
-                                                     const Brep& b, const EnclosedMotion& motion_b);
+[[nodiscard]] std::optional<Refusal> check(const EnclosedCertificate& certificate, const Brep& a,
+                                           const EnclosedMotion& motion_a, const Brep& b,
+                                           const EnclosedMotion& motion_b);
 
 }  // namespace trisect

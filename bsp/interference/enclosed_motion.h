@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <trisect/bsp/interference/motion.h>
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -41,16 +42,16 @@ public:
 struct KeyFrame {
     double time = 0;
     std::array<double, 4> rotation{1, 0, 0, 0};
-    std::array<double, 3> position{};
+    Point3d position{};
 };
 
 /// A turn of constant angular speed with a straight shift of constant speed: a screw if the shift
 /// is along the axis.
 struct ConstantTurn {
-    std::array<double, 3> axis{0, 0, 1};  ///< of any length
-    double angle = 0;                     ///< radians over the whole duration, any number of turns
-    std::array<double, 3> center{};       ///< a point of the axis
-    std::array<double, 3> shift{};        ///< over the whole duration
+    Point3d axis{0, 0, 1};  ///< of any length
+    double angle = 0;       ///< radians over the whole duration, any number of turns
+    Point3d center{};       ///< a point of the axis
+    Point3d shift{};        ///< over the whole duration
 };
 
 /// A motion given by a function. Its twelve numbers (the 3x4 matrix, row by row) must be

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_point.h>
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -78,9 +80,9 @@ struct Contact {
 
 /// A point of a contact region, in the world and in the user's units.
 struct ContactPoint {
-    std::array<ExactRational, 3> exact;
+    ExactPoint exact;
     /// The doubles nearest to the exact coordinates.
-    std::array<double, 3> nearest{};
+    Point3d nearest{};
 };
 
 /// A part of the common points of two boundaries, as large as it can be within a pair of entities:

@@ -11,19 +11,18 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_point.h>
 #include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/refusal.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
 
-/// A point of the world in the user's units.
-using RationalPoint = std::array<ExactRational, 3>;
-
 /// normal·x + offset is negative or 0 for one set of points, positive or 0 for another.
 struct SeparatingPlane {
-    RationalPoint normal;
+    ExactPoint normal;
     ExactRational offset;
 };
 
@@ -51,7 +50,7 @@ struct CertifiedCell {
     Kind kind = Kind::Split;
     std::uint32_t other = 0;  ///< of Split: the child above the plane; the one below is next
     SeparatingPlane plane;    ///< of Split
-    RationalPoint point;      ///< of the others
+    ExactPoint point;         ///< of the others
 };
 
 /// What proves a relation:
@@ -69,10 +68,10 @@ struct CertifiedCell {
 struct InterferenceCertificate {
     Relation relation = Relation::Disjoint;
     bool is_complete = false;
-    std::optional<RationalPoint> in_both;
-    std::optional<RationalPoint> only_in_a;
-    std::optional<RationalPoint> only_in_b;
-    std::optional<RationalPoint> on_both;
+    std::optional<ExactPoint> in_both;
+    std::optional<ExactPoint> only_in_a;
+    std::optional<ExactPoint> only_in_b;
+    std::optional<ExactPoint> on_both;
     std::optional<SeparatingPlane> plane;
     /// In the order of the tree's ranges; they fill all faces.
     std::vector<CertifiedTriangle> triangles_a;
@@ -84,16 +83,18 @@ struct InterferenceCertificate {
 /// Decides the relation and looks for a certificate. It is complete unless cells were too many
 /// (20,000: large boundaries that touch all over). Costs some milliseconds; cells, all in
 /// fractions, some 0.1 ms each.
-[[nodiscard]] InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
-                                              const InterferenceModel& b, const Pose& pose_b);
+[[nodiscard]] InterferenceCertificate certify_relation(const InterferenceModel& a,
+                                                       const Pose& pose_a,
+                                                       const InterferenceModel& b,
+                                                       const Pose& pose_b);
 
-/// Why a certificate does not hold for these boundaries in these poses; empty when it does. Uses
+/// Why a certificate does not hold for these boundaries in these poses; nothing when it does. Uses
 /// the boundaries and fractions alone, no tree, no predicate and no index of the library: rays
 /// against all faces, planes against all vertices. An incomplete certificate holds when all it
 /// contains does. O(faces) for each point, O(vertices) for each node of `apart`; each cell clips
 /// the triangles that reach into it.
-[[nodiscard]] std::string check_certificate(const InterferenceCertificate& certificate,
-                                            const Brep& a, const Pose& pose_a, const Brep& b,
-                                            const Pose& pose_b);
+[[nodiscard]] std::optional<Refusal> check(const InterferenceCertificate& certificate,
+                                           const Brep& a, const Pose& pose_a, const Brep& b,
+                                           const Pose& pose_b);
 
 }  // namespace trisect

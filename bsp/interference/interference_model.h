@@ -16,7 +16,8 @@ namespace trisect {
 
 namespace detail {
 struct InterferenceModelData;
-}
+struct InterferenceModelAccess;
+}  // namespace detail
 
 /// What a model is like.
 struct InterferenceModelStats {
@@ -61,12 +62,12 @@ public:
     /// first call, which others wait for.
     [[nodiscard]] const BrepIndex& index() const;
 
-    /// For algorithms of the library: bsp/interference/relation/interference_model_data.h.
+private:
+    friend struct detail::InterferenceModelAccess;
+
     [[nodiscard]] const detail::InterferenceModelData& data() const {
         return data_ != nullptr ? *data_ : *empty_data();
     }
-
-private:
     [[nodiscard]] static const std::shared_ptr<const detail::InterferenceModelData>& empty_data();
 
     std::shared_ptr<const detail::InterferenceModelData> data_;

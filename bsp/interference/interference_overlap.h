@@ -12,10 +12,11 @@ namespace trisect {
 
 /// A ∩ B of two placed solids.
 struct Overlap {
-    /// In A's own frame (as if A were not placed), enlarged by `scale`. For poses of doubles,
-    /// quarter turns and translations the scale is 1; a rotation by a fraction with an odd
-    /// denominator needs the denominator, because corners of solids are multiples of powers of two.
-    Solid solid;
+    /// In A's own frame (as if A were not placed), enlarged by `scale`: no operand for A unless
+    /// that is 1. For poses of doubles, quarter turns and translations the scale is 1; a rotation
+    /// by a fraction with an odd denominator needs the denominator, because corners of solids are
+    /// multiples of powers of two.
+    Solid scaled_solid;
     ExactRational scale = 1;
     /// Whether the solid is the overlap exactly. Otherwise corners were rounded to a lattice first:
     /// where a corner is no lattice point because a boolean made it, or the corners of both solids
@@ -23,7 +24,7 @@ struct Overlap {
     bool is_exact = true;
     /// How far rounding moved a coordinate at most, in A's frame and the user's units.
     double max_move = 0;
-    /// Of the overlap in the world, in the user's units; exact for what `solid` is.
+    /// Of the overlap in the world, in the user's units; exact for what `scaled_solid` is.
     ExactRational volume;
 };
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -32,10 +33,10 @@ public:
     /// coordinate axis r is the tangent of half the angle. A denominator 0 is half a turn.
     /// \throw UsageError for the axis (0, 0, 0) and a point that is not finite, LimitError for axes
     /// with components beyond 2^53.
-    [[nodiscard]] static Joint revolute(const std::array<double, 3>& point,
+    [[nodiscard]] static Joint revolute(const Point3d& point,
                                         const std::array<std::int64_t, 3>& axis);
     /// Slides along the direction: by r times it. \throw UsageError when it is not finite.
-    [[nodiscard]] static Joint prismatic(const std::array<double, 3>& direction);
+    [[nodiscard]] static Joint prismatic(const Point3d& direction);
 
     [[nodiscard]] Kind kind() const { return kind_; }
 
@@ -60,7 +61,7 @@ private:
     void expect_revolute() const;
 
     Kind kind_ = Kind::Fixed;
-    std::array<double, 3> vector_{};      // the point, or the direction
+    Point3d vector_{};                    // the point, or the direction
     std::array<std::int64_t, 3> axis_{};  // without common factor
 };
 

@@ -11,13 +11,15 @@
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
+#include <trisect/kernel/point3d.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
 
 namespace detail {
 struct MotionPiece;
-}
+struct MotionAccess;
+}  // namespace detail
 
 /// A turn about an axis with a shift along the way: (R(s) (x - center) + center) + s · shift, where
 /// R(s) is the rotation by the quaternion (q0, s q1, s q2, s q3).
@@ -28,8 +30,8 @@ struct MotionPiece;
 /// pitch is a chain of short ones, each of which has its pitch at both ends exactly.
 struct Screw {
     std::array<std::int64_t, 4> turn{1, 0, 0, 0};  ///< the whole rotation; turn[0] > 0
-    std::array<double, 3> center{};                ///< a point of the axis
-    std::array<double, 3> shift{};                 ///< over the whole motion
+    Point3d center{};                              ///< a point of the axis
+    Point3d shift{};                               ///< over the whole motion
 };
 
 /// Pieces of rational motions, one after the other: piece i runs while the parameter goes from i to
@@ -46,7 +48,7 @@ public:
 
     /// From a pose, every point moves by this vector with constant velocity.
     /// \throw UsageError when a number is not finite.
-    [[nodiscard]] static Motion translation(const Pose& start, const std::array<double, 3>& by);
+    [[nodiscard]] static Motion translation(const Pose& start, const Point3d& by);
     /// Every point moves on a straight line, from its place under one pose to that under the
     /// other. Solids keep their shape at both ends only, unless the poses differ by a translation.
     /// \throw UnsupportedError when the solid would be flat on the way.
@@ -78,11 +80,9 @@ public:
     /// The pose nearest to double precision, row by row; for pictures.
     [[nodiscard]] std::array<double, 12> approximate_pose_at(double s) const;
 
-    /// For algorithms of the library: bsp/interference/motion/motion_piece.h.
-    [[nodiscard]] static Motion of_piece(const detail::MotionPiece& piece);
-    [[nodiscard]] const detail::MotionPiece& piece(std::size_t i) const;
-
 private:
+    friend struct detail::MotionAccess;
+
     using Pieces = std::vector<detail::MotionPiece>;
     explicit Motion(Pieces pieces);
     [[nodiscard]] const Pieces& pieces() const { return pieces_ ? *pieces_ : still_pieces(); }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include <trisect/bsp/interference/interference_certificate.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/motion.h>
+#include <trisect/bsp/interference/refusal.h>
 
 namespace trisect {
 
@@ -31,9 +33,9 @@ struct SupportingPlane {
     };
     Kind kind = Kind::OfA;
     SeparatingPlane plane;
-    RationalPoint along_a;
-    RationalPoint along_b;
-    RationalPoint through;
+    ExactPoint along_a;
+    ExactPoint along_b;
+    ExactPoint through;
 };
 
 /// A range of time, a part of A and a range of B's triangles; divided, or kept apart by one plane
@@ -50,8 +52,8 @@ struct ClearanceNode {
 /// Tetrahedra within A and within B, before motions. Their interiors meet at all times after the
 /// event, up to `until`.
 struct OverlapWitness {
-    std::array<RationalPoint, 4> in_a;
-    std::array<RationalPoint, 4> in_b;
+    std::array<ExactPoint, 4> in_a;
+    std::array<ExactPoint, 4> in_b;
     ExactRational until;  ///< within the piece
 };
 
@@ -94,11 +96,11 @@ struct OverlapCertificate {
                                                        const Motion& motion_b,
                                                        std::size_t max_nodes = 20000);
 
-/// Why a certificate does not hold for these boundaries and motions; empty when it does. Uses the
+/// Why a certificate does not hold for these boundaries and motions; nothing when it does. Uses the
 /// boundaries, the polynomials of the motions and fractions alone. An incomplete certificate holds
 /// when its start does.
-[[nodiscard]] std::string check_overlap_certificate(const OverlapCertificate& certificate,
-                                                    const Brep& a, const Motion& motion_a,
-                                                    const Brep& b, const Motion& motion_b);
+[[nodiscard]] std::optional<Refusal> check(const OverlapCertificate& certificate, const Brep& a,
+                                           const Motion& motion_a, const Brep& b,
+                                           const Motion& motion_b);
 
 }  // namespace trisect

@@ -3,11 +3,11 @@
 #include <trisect/bsp/brep_index.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -34,7 +34,7 @@ using detail::PolygonId;
 
 // A boundary that may cross itself is made free of that first.
 Solid resolved(const Solid& solid) {
-    return solid.state()->embedded ? solid : evaluate(Expression(solid));
+    return detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
 }
 
 // All facets of one source in one leaf: then facets keep their numbers.
@@ -51,6 +51,12 @@ const detail::Source* only_source(const Solid& solid) {
     if (source == nullptr || source->is_half_space() || next != source->facet_count())
         return nullptr;
     return source;
+}
+
+void require_same(Lattice lattice, const Solid& solid) {
+    if (detail::state_of(solid)->lattice_matters && lattice != solid.lattice())
+        throw UsageError("a plane in units of 2^" + std::to_string(lattice.exponent) +
+                         " for a solid in units of 2^" + std::to_string(solid.lattice().exponent));
 }
 
 // Of a point on these polygons.
@@ -163,6 +169,10 @@ Place BrepIndex::locate(const std::array<double, 3>& point) const {
     return located(core(), IndexPoint::from_user(point, solid().lattice()), on);
 }
 
+Place BrepIndex::locate(std::initializer_list<double> point) const {
+    if (point.size() != 3) throw UsageError("a point of other than three coordinates");
+    return locate(Point3d{point.begin()[0], point.begin()[1], point.begin()[2]});
+}
 Place BrepIndex::locate(const LatticePoint& point) const {
     std::vector<PolygonId> on;
     return located(core(), IndexPoint(point), on);
@@ -244,10 +254,18 @@ std::optional<SignedDistance> BrepIndex::signed_distance(const std::array<double
     return SignedDistance{sign, std::move(*found)};
 }
 
-std::vector<SectionRegion> BrepIndex::section(const Plane& plane) const {
+std::vector<SectionRegion> BrepIndex::section(const std::array<double, 4>& plane) const {
+    return detail::section(core(), plane_on_lattice(plane, solid().lattice()));
+}
+std::vector<SectionRegion> BrepIndex::section(const Plane& plane, Lattice lattice) const {
+    require_same(lattice, solid());
     return detail::section(core(), plane);
 }
-PlaneRelation BrepIndex::relation_to(const Plane& plane) const {
+PlaneRelation BrepIndex::relation_to(const std::array<double, 4>& plane) const {
+    return detail::relation_to(core(), plane_on_lattice(plane, solid().lattice()));
+}
+PlaneRelation BrepIndex::relation_to(const Plane& plane, Lattice lattice) const {
+    require_same(lattice, solid());
     return detail::relation_to(core(), plane);
 }
 
@@ -340,41 +358,6 @@ std::vector<IndexCell> BrepIndex::cells(VertexId vertex) const {
 
 IndexCell BrepIndex::cell_at(const std::array<double, 3>& point) const {
     return detail::cell_at(*core().base, IndexPoint::from_user(point, solid().lattice()));
-}
-
-Plane plane_on_lattice(const std::array<double, 4>& coefficients, Lattice lattice) {
-    // a x + b y + c z + d with x = X 2^e: integers times a common power of two.
-    std::array<std::int64_t, 4> mantissa{};
-    std::array<int, 4> exponent{};
-    int least = std::numeric_limits<int>::max();
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (!std::isfinite(coefficients[i]))
-            throw UsageError("a plane with a coefficient that is not finite");
-        if (coefficients[i] == 0) continue;
-        int e = 0;
-        const double m = std::ldexp(std::frexp(coefficients[i], &e), 53);
-        const auto v = static_cast<std::int64_t>(m);
-        const int zeros = std::countr_zero(static_cast<std::uint64_t>(v));
-        mantissa[i] = v >> zeros;
-        exponent[i] = e - 53 + zeros + (i < 3 ? lattice.exponent : 0);
-        least = std::min(least, exponent[i]);
-    }
-    if (mantissa[0] == 0 && mantissa[1] == 0 && mantissa[2] == 0)
-        throw UsageError("a plane whose normal is 0");
-    std::array<Plane::Offset, 4> n;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (mantissa[i] == 0) continue;
-        const int shift = exponent[i] - least;
-        const int limit = i < 3 ? 109 : 162;
-        const Plane::Offset m(mantissa[i]);
-        if (shift > limit || m.bit_length() + shift >= limit)
-            throw LimitError("the coefficients of the plane span too many bits for the lattice");
-        n[i] = m.shifted_left(shift);
-    }
-    const auto narrow = [](const Plane::Offset& v) {
-        return static_cast<Int128>((Uint128{v.limb(1)} << 64) | v.limb(0));
-    };
-    return {narrow(n[0]), narrow(n[1]), narrow(n[2]), n[3]};
 }
 
 }  // namespace trisect

@@ -115,8 +115,8 @@ double user_position(std::int64_t position, Lattice lattice) {
 CellLeaf leaf_of(const Visit& visit, Lattice lattice) {
     CellLeaf leaf;
     for (std::size_t k = 0; k < 3; ++k) {
-        leaf.lower[k] = user_position(visit.cell.lo[k], lattice);
-        leaf.upper[k] = user_position(visit.cell.hi[k], lattice);
+        leaf.lo[k] = user_position(visit.cell.lo[k], lattice);
+        leaf.hi[k] = user_position(visit.cell.hi[k], lattice);
     }
     leaf.polygons = visit.node->polygons().size();
     leaf.depth = visit.depth;

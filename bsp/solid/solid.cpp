@@ -2,6 +2,9 @@
 
 #include <trisect/bsp/solid.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,6 +15,9 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/refine_leaf.h>
+#include <trisect/bsp/evaluate/half_space.h>
+#include <trisect/bsp/solid/inside_out.h>
+#include <trisect/kernel/plane_on_lattice.h>
 
 namespace trisect {
 
@@ -44,7 +50,7 @@ bool is_constant(const SolidState& s, bool inside) {
 // Only sets made of half-spaces alone do not store it; the boundary decides. What it leaves to
 // whole space and the empty set their trees decide.
 bool is_unbounded(const Solid& solid) {
-    if (solid.state()->far_out >= 0) return solid.state()->far_out != 0;
+    if (detail::state_of(solid)->far_out >= 0) return detail::state_of(solid)->far_out != 0;
     const Brep brep = solid.to_brep();
     return brep.is_empty() ? solid.is_whole_space() : exact_volume(brep).sign() < 0;
 }
@@ -66,28 +72,47 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     state->form = tree_of(CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false));
     state->embedded = embedded;
     state->source = source->serial();
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return detail::solid_of(std::move(state));
 }
 
-Solid of_import(ImportedMesh imported, Embedding embedding, std::uint32_t threads) {
+Solid of_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out,
+                std::uint32_t threads) {
     if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
-    if (imported.report.inside_out && embedding == Embedding::Assume)
-        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
+    if (imported.report.inside_out) detail::require_accepted(embedding, inside_out);
     if (imported.mesh.triangles.empty()) return {};
     const bool t_edges = imported.report.t_edges != 0;
     Solid s = of_lattice_mesh(std::move(imported.mesh), embedding, threads);
     if (!t_edges) return s;
     // Corners inside edges: every facet may have vertices in its edges.
-    auto state = std::make_shared<SolidState>(*s.state());
-    const CellNode& n = *s.state()->root().node;
+    auto state = std::make_shared<SolidState>(*detail::state_of(s));
+    const CellNode& n = *detail::state_of(s)->root().node;
     std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
     for (detail::PolygonRef& r : refs) r.touched = true;
     state->form =
         tree_of(CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true));
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return detail::solid_of(std::move(state));
+}
+
+// One on which the plane is some 2^24 units from the origin, so that points near its foot have
+// coordinates of middle size. Any would do: a half-space moves to the lattice of what it cuts.
+Lattice lattice_for(const std::array<double, 4>& plane) {
+    const double size = std::max({std::fabs(plane[0]), std::fabs(plane[1]), std::fabs(plane[2])});
+    if (plane[3] == 0 || size == 0 || !std::isfinite(size) || !std::isfinite(plane[3]))
+        return {-24};
+    const int magnitude = std::ilogb(plane[3]) - std::ilogb(size);
+    return {8 * static_cast<int>(std::floor(magnitude / 8.0)) - 24};
 }
 
 }  // namespace
+
+void detail::require_accepted(Embedding embedding, InsideOut inside_out) {
+    if (embedding == Embedding::Assume)
+        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
+    if (inside_out == InsideOut::Refuse)
+        throw Error(ErrorCode::InvalidSolid,
+                    "the boundary is inside out: its volume is negative; turn its faces over, or "
+                    "accept it (SolidOptions::inside_out) and evaluate with Winding::NonZero");
+}
 
 const std::shared_ptr<const SolidState>& Solid::empty_state() {
     // Never destroyed, nor is whole space: solids may be made after main().
@@ -102,23 +127,19 @@ Solid Solid::whole_space() {
     return Solid(whole);
 }
 
+Solid Solid::half_space(const std::array<double, 4>& plane) {
+    const Lattice lattice = lattice_for(plane);
+    return half_space(plane_on_lattice(plane, lattice), lattice);
+}
+
 Solid Solid::half_space(const Plane& plane, Lattice lattice) {
     if (!plane.is_valid()) throw UsageError("half-space of a plane without normal");
     const auto source = detail::Source::half_space(plane, lattice);
-    // Some point that is not on the plane.
-    FinePoint p;
-    int s = 0;
-    for (std::int64_t k = 1; s == 0; ++k) {
-        p.c = {2 * k, 6 * k * k, 10 * k * k * k};
-        s = sign_of(side_of({{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
-                             WideInt<6>(detail::wall_scale)},
-                            plane));
-    }
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
-    state->form = tree_of(CellNode::fresh(*source, p, s < 0 ? 1 : 0, false));
+    state->form = detail::CellTree{detail::half_space_root(*source), {}, nullptr};
     state->far_out = -1;
-    return Solid(std::shared_ptr<const SolidState>(std::move(state)));
+    return detail::solid_of(std::move(state));
 }
 
 Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
@@ -128,11 +149,12 @@ Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
 Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
     ImportOptions import = options.import;
     import.require_closed = true;
-    return of_import(import_mesh(mesh, import), options.embedding, import.threads);
+    return of_import(import_mesh(mesh, import), options.embedding, options.inside_out,
+                     import.threads);
 }
 
-Solid Solid::from_import(ImportedMesh imported, Embedding embedding) {
-    return of_import(std::move(imported), embedding, 1);
+Solid Solid::from_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out) {
+    return of_import(std::move(imported), embedding, inside_out, 1);
 }
 
 void Solid::refine(std::uint32_t threads) const {
@@ -150,10 +172,34 @@ Brep Solid::to_brep(const AssembleOptions& options) const {
                                  options);
 }
 
-PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
-    if (is_unbounded(*this))
+namespace {
+
+void require_bounded(const Solid& solid) {
+    if (is_unbounded(solid))
         throw UnsupportedError("the set is unbounded: its mesh would be read as another set");
+}
+
+// With the names of maximal faces.
+const SolidState& named_state(const Solid& solid) {
+    const SolidState& own = *detail::state_of(solid);
+    return has_all_of_brep(own, {}) ? own : *detail::cut_state(solid);
+}
+
+}  // namespace
+
+PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
+    require_bounded(*this);
     return detail::assemble_mesh(*state(), nullptr, true, threads);
+}
+
+PolygonMesh Solid::to_mesh(MeshMap& map, std::uint32_t threads) const {
+    require_bounded(*this);
+    map.face.clear();
+    return detail::assemble_mesh(named_state(*this), nullptr, true, threads, &map.source);
+}
+
+ExactMesh Solid::to_exact_mesh(std::uint32_t threads) const {
+    return detail::assemble_exact_mesh(named_state(*this), threads);
 }
 
 }  // namespace trisect

@@ -19,6 +19,8 @@
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/msp/msp_soup.h>
+#include <trisect/bsp/solid/inside_out.h>
+#include <trisect/bsp/solid/named_boundary.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -77,7 +79,7 @@ public:
         source_ = Source::planes(soup_.geometry.planes(), brep.lattice(), box_);
     }
 
-    [[nodiscard]] const Source& source() const { return *source_; }
+    [[nodiscard]] const std::shared_ptr<const Source>& source() const { return source_; }
     [[nodiscard]] const Box& box() const { return box_; }
     [[nodiscard]] PolygonList polygons() {
         std::vector<PolygonRef> refs;
@@ -128,23 +130,45 @@ private:
     std::shared_ptr<const Source> source_;
 };
 
+using SourcePtr = std::shared_ptr<const Source>;
+
+Solid solid_from(const SourcePtr& source, PolygonList polygons, const Box& box, bool mixed,
+                 bool embedded) {
+    auto state = std::make_shared<detail::SolidState>();
+    state->lattice = source->lattice();
+    state->form = detail::CellTree{
+        {CellNode::leaf(std::move(polygons), detail::point_beyond(box), 0, mixed), false},
+        {},
+        nullptr};
+    state->embedded = embedded;
+    state->source = source->serial();
+    return detail::solid_of(std::move(state));
+}
+
 }  // namespace
 
-Solid Solid::from_brep(const Brep& brep, Embedding embedding) {
+Solid Solid::from_brep(const Brep& brep, Embedding embedding, InsideOut inside_out) {
     if (brep.is_empty()) return {};
-    if (embedding == Embedding::Assume && !(volume(brep) > 0))
-        throw Error(ErrorCode::InvalidSolid, "the boundary is inside out: its volume is negative");
+    const bool accepts_all = embedding != Embedding::Assume && inside_out == InsideOut::Accept;
+    if (!accepts_all && !(volume(brep) > 0)) detail::require_accepted(embedding, inside_out);
     if (is_on_the_lattice(brep)) return from_lattice_mesh(triangles_of(brep), embedding);
     FragmentMaker maker(brep);
-    auto state = std::make_shared<detail::SolidState>();
-    state->lattice = brep.lattice();
-    state->form = detail::CellTree{
-        {CellNode::leaf(maker.polygons(), detail::point_beyond(maker.box()), 0, true), false},
-        {},
-        {}};
-    state->embedded = embedding == Embedding::Assume;
-    state->source = maker.source().serial();
-    return Solid(std::shared_ptr<const detail::SolidState>(std::move(state)));
+    return solid_from(maker.source(), maker.polygons(), maker.box(), true,
+                      embedding == Embedding::Assume);
+}
+
+Solid detail::named_solid(const Brep& brep) {
+    std::vector<FaceSource> names;
+    for (const FaceId f : brep.faces()) names.push_back(brep.source(f));
+    if (is_on_the_lattice(brep)) {
+        const SourcePtr source = Source::named(Source::make(triangles_of(brep)), std::move(names));
+        return solid_from(source, PolygonList::all_facets(*source), source->box(), false, true);
+    }
+    FragmentMaker maker(brep);
+    // Planes after those of the faces only bound parts of faces.
+    names.resize(maker.source()->facet_count());
+    const SourcePtr source = Source::named(maker.source(), std::move(names));
+    return solid_from(source, maker.polygons(), maker.box(), true, true);
 }
 
 }  // namespace trisect

@@ -12,7 +12,6 @@ install(
         trisect_brep
         trisect_bsp
         trisect_interference
-        trisect_hierarchies
     EXPORT trisect_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
 )
@@ -20,15 +19,52 @@ if(TARGET trisect_cli)
     install(TARGETS trisect_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-foreach(layer IN ITEMS kernel brep bsp)
-    install(
-        DIRECTORY ${PROJECT_SOURCE_DIR}/${layer}/
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/${layer}
-        FILES_MATCHING
-        PATTERN "*.h"
-        PATTERN "trisect.h" EXCLUDE
+# Headers of the public rooms (tests/layering/rooms.txt) without subfolders, but for those that only
+# sources of the library include. The comparison library and its headers stay in the build tree.
+set(private_headers
+    brep/curved/control_net.h
+    brep/primitives/cap.h
+    brep/primitives/circle.h
+    brep/validate/checked_mesh.h
+    brep/validate/oriented_box.h
+    brep/validate/region_outline.h
+    brep/validate/sheets.h
+    brep/validate/triangle_contact.h
+    brep/validate/triangle_tree.h
+    bsp/trisect.h
+    kernel/triangle_pair.h
+)
+# Two headers that need nothing else: cmake --install BUILD --component predicate_suite
+set(predicate_suite kernel/predicate_suite.h kernel/predicate_suite_side.h)
+foreach(
+    room IN
+    ITEMS
+        kernel
+        brep
+        brep/curved
+        brep/interop
+        brep/io
+        brep/primitives
+        brep/validate
+        bsp
+        bsp/interference
+)
+    file(
+        GLOB headers
+        RELATIVE ${PROJECT_SOURCE_DIR}
+        CONFIGURE_DEPENDS
+        ${PROJECT_SOURCE_DIR}/${room}/*.h
     )
+    list(REMOVE_ITEM headers ${private_headers} ${predicate_suite})
+    list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/)
+    install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/${room})
 endforeach()
+install(
+    FILES ${predicate_suite}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/kernel
+    COMPONENT predicate_suite
+    EXCLUDE_FROM_ALL
+)
 install(
     FILES ${PROJECT_SOURCE_DIR}/bsp/trisect.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect

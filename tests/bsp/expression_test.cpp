@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <trisect/brep/measure.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/expression_node.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
@@ -22,6 +24,9 @@
 namespace {
 
 using solids::volume;
+using trisect::detail::ExpressionNode;
+using trisect::detail::root_of;
+
 using trisect::evaluate;
 using trisect::Expression;
 using trisect::Solid;
@@ -62,13 +67,14 @@ TEST_F(Operators, ComplementOfABoundedSetIsMinusItsVolumeAndNotEmpty) {
 
 TEST_F(Operators, KindsAndChildrenAreAsWritten) {
     const Expression e = a | b;
-    EXPECT_EQ(e.root()->kind, Expression::Kind::Or);
-    ASSERT_EQ(e.root()->children.size(), 2U);
-    EXPECT_EQ(e.root()->children[1]->kind, Expression::Kind::Leaf);
-    EXPECT_EQ(e.root()->children[1]->solid.state(), b.state());
-    EXPECT_EQ((~e).root()->children[0], e.root());
+    EXPECT_EQ(root_of(e)->kind, ExpressionNode::Kind::Or);
+    ASSERT_EQ(root_of(e)->children.size(), 2U);
+    EXPECT_EQ(root_of(e)->children[1]->kind, ExpressionNode::Kind::Leaf);
+    EXPECT_EQ(trisect::detail::state_of(root_of(e)->children[1]->solid),
+              trisect::detail::state_of(b));
+    EXPECT_EQ(root_of(~e)->children[0], root_of(e));
     const Expression copy = e;
-    EXPECT_EQ(copy.root(), e.root());
+    EXPECT_EQ(root_of(copy), root_of(e));
 }
 
 TEST_F(Operators, ManyTermsInOneNode) {
@@ -84,7 +90,7 @@ TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
     static_assert(std::is_nothrow_move_constructible_v<Expression>);
     Expression e = a | b;
     const Expression taken = std::move(e);
-    ASSERT_NE(e.root(), nullptr);  // NOLINT(bugprone-use-after-move): that is the test
+    ASSERT_NE(root_of(e), nullptr);  // NOLINT(bugprone-use-after-move): that is the test
     EXPECT_TRUE(evaluate(e).is_empty());
     EXPECT_EQ(volume(taken - e), volume(taken));
     EXPECT_EQ(volume(taken & ~e), volume(taken));
@@ -138,7 +144,7 @@ TEST_F(LongChains, AreBuiltCopiedAndDestroyed) {
         e = i % 3 == 0 ? e - b : (i % 3 == 1 ? e | c : b ^ e);
         if (i % 1000 == 0) kept.push_back(e);
     }
-    EXPECT_NE(e.root(), nullptr);
+    EXPECT_NE(root_of(e), nullptr);
     // Destroyed from the middle outwards: each piece frees what only it holds.
     while (!kept.empty()) kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(kept.size() / 2));
 }
@@ -146,7 +152,7 @@ TEST_F(LongChains, AreBuiltCopiedAndDestroyed) {
 TEST_F(LongChains, SharedSubformulasAreDestroyedOnce) {
     Expression e = a;
     for (int i = 0; i < 200; ++i) e = e | e;  // 2^200 leaves when written out
-    EXPECT_EQ(e.root()->children[0], e.root()->children[1]);
+    EXPECT_EQ(root_of(e)->children[0], root_of(e)->children[1]);
 }
 
 TEST_F(LongChains, ManyTermsAtOnce) {
@@ -220,6 +226,16 @@ TEST_F(Operators, PrefixesThatAreKeptDoNotMakeAChainDeep) {
     std::vector<Expression> prefixes{a};
     for (int i = 0; i < chain_length; ++i) prefixes.push_back(prefixes.back() | (i % 2 ? b : c));
     EXPECT_EQ(volume(prefixes.back()), "16");
+}
+
+TEST(Operators, UniteSolidsAsTheyAre) {
+    const std::vector<Solid> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})};
+    EXPECT_EQ(volume(Expression::any_of(solids)), "15");
+    EXPECT_EQ(volume(Expression::all_of(solids)), "1");
+    EXPECT_EQ(volume(Expression::any_of({solids[0], solids[1] - solids[0]})), "15");
+    // `Solid c = a - b;` names a deleted constructor whose comment has the cure.
+    static_assert(!std::is_convertible_v<Expression, Solid>);
+    static_assert(std::is_convertible_v<Solid, Expression>);
 }
 
 }  // namespace

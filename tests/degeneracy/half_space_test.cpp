@@ -26,7 +26,7 @@ using trisect::Plane;
 using trisect::Solid;
 
 Solid below(std::int64_t nx, std::int64_t ny, std::int64_t nz, std::int64_t d) {
-    return Solid::half_space(Plane(nx, ny, nz, Plane::Offset(d)));
+    return Solid::half_space(Plane(nx, ny, nz, Plane::Offset(d)), {});
 }
 
 Figures of(const Expression& e) { return figures(evaluate(e).to_brep()); }

@@ -128,13 +128,22 @@ TEST(LatticeMix, ResultsAreRoundedByTheirBoundary) {
     EXPECT_EQ(volume((outside | wide) & box_on(-8, {-256, -256, -256}, {256, 256, 256})), "1");
 }
 
-TEST(LatticeMix, HalfSpacesAreNotRounded) {
+TEST(LatticeMix, HalfSpacesHaveAPlaceOnEveryLattice) {
+    // x <= 2^-16, and no room for that unit: the half-space moves, exactly.
     const Solid half =
         Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{-16});
-    EXPECT_THROW((void)evaluate(half & large_cube(0, 44)), trisect::LimitError);
+    const Solid cut = evaluate(half & large_cube(0, 44));
+    EXPECT_EQ(cut.lattice(), Lattice{0});
+    EXPECT_EQ(trisect::exact_volume(cut.to_brep()), trisect::ExactRational(1).scaled(88 - 16));
     const Solid coarse =
         Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{48});
-    EXPECT_THROW((void)evaluate(coarse & box_on(-8, {0, 0, 0}, {1, 1, 1})), trisect::LimitError);
+    EXPECT_EQ(volume(coarse & box_on(-8, {0, 0, 0}, {256, 256, 256})), "1");
+    EXPECT_EQ(volume(box_on(-8, {0, 0, 0}, {256, 256, 256}) - coarse), "0");
+    // In the user's units.
+    EXPECT_EQ(volume(Solid::half_space({0, 2, 0, -1}) & box_on(-8, {0, 0, 0}, {256, 256, 256})),
+              "1/2");
+    EXPECT_THROW((void)evaluate(Solid::half_space({1, 0, 0, -0x1p-300}) & large_cube(0, 44)),
+                 trisect::LimitError);
 }
 
 TEST(LatticeMix, WhatWouldVanishIsRefused) {

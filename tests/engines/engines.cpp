@@ -194,7 +194,7 @@ bool are_equal(const std::optional<trisect::PolygonMesh>& a,
 }  // namespace
 
 trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid) {
-    return trisect::detail::assemble_mesh(*solid.state(), nullptr, true, 0);
+    return trisect::detail::assemble_mesh(*trisect::detail::state_of(solid), nullptr, true, 0);
 }
 
 std::optional<std::string> undivided_difference(const trisect::Expression& expression,
@@ -202,7 +202,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     using namespace trisect::detail;
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
-    for (const trisect::Solid& s : t.slots) states.push_back(s.state());
+    for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
     trisect::EvaluateStats stats;
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
                                     return are_two_large_meshes(formula, solids, with, 1);
@@ -212,7 +212,8 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;
     dividing.max_work = std::uint64_t{1} << 60;  // a limit is counted by cells
-    const auto expected = mesh_of(*trisect::evaluate(expression, dividing).state());
+    const auto expected =
+        mesh_of(*trisect::detail::state_of(trisect::evaluate(expression, dividing)));
     if (!are_equal(mesh_of(*state), expected)) return "another mesh";
     if (!expected) return std::string();
     if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";

@@ -160,7 +160,7 @@ TEST(GeneralPosition, TracedOutlinesAreThoseOfThePieces) {
         const trisect::Expression expression =
             seed % 2 == 0 ? ~(terms[0] | terms[1]) : terms[0] - terms[1];
         const trisect::Solid result = trisect::evaluate(expression, options);
-        trisect::detail::SolidState without = *result.state();
+        trisect::detail::SolidState without = *trisect::detail::state_of(result);
         std::get<trisect::detail::CellTree>(without.form).crossings.reset();
         trisect::detail::AssemblyStats stats;
         trisect::PolygonMesh expected;
@@ -169,12 +169,14 @@ TEST(GeneralPosition, TracedOutlinesAreThoseOfThePieces) {
         } catch (const trisect::UnsupportedError&) {
             continue;  // unbounded
         }
-        const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*result.state(), &stats);
+        const trisect::PolygonMesh mesh =
+            trisect::detail::assemble_mesh(*trisect::detail::state_of(result), &stats);
         traced += stats.traced_facets;
         worked += stats.worked_facets;
         EXPECT_EQ(mesh.corners, expected.corners);
         EXPECT_TRUE(mesh.points == expected.points);
-        const trisect::Brep brep = trisect::detail::assemble_brep(*result.state(), {});
+        const trisect::Brep brep =
+            trisect::detail::assemble_brep(*trisect::detail::state_of(result), {});
         const trisect::Brep joined = trisect::detail::assemble_brep(without, {});
         EXPECT_EQ(brep.vertices().size(), joined.vertices().size());
         EXPECT_EQ(brep.faces().size(), joined.faces().size());

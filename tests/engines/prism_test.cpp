@@ -100,7 +100,7 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
     const auto formula = trisect::detail::translate(engines::formula(expression, solids));
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
-    for (const trisect::Solid& s : formula.slots) states.push_back(s.state());
+    for (const trisect::Solid& s : formula.slots) states.push_back(trisect::detail::state_of(s));
     trisect::EvaluateOptions options;
     options.leaf_polygons = 0;
     trisect::EvaluateStats stats;
@@ -111,7 +111,7 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     ++leaves.prisms;
     const auto expected =
         reference::canonical_boundary(reference::evaluate(operands, expression).cells);
-    const trisect::Solid result(outlined);
+    const trisect::Solid result = trisect::detail::solid_of(outlined);
     EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*outlined, {}), expected), "");
     const double volume =
@@ -163,7 +163,7 @@ TEST(Prisms, StepsAfterOutlines) {
         for (const auto& o : operands)
             solids.push_back(engines::solid(o, trisect::Embedding::Assume));
         const trisect::Solid engraved = trisect::evaluate(solids[0] - solids[1], options);
-        outlined += engraved.state()->lazy_tree() != nullptr ? 1 : 0;
+        outlined += trisect::detail::state_of(engraved)->lazy_tree() != nullptr ? 1 : 0;
         EXPECT_FALSE(engraved.is_empty());
         const trisect::Solid turned = trisect::evaluate(~engraved);
         const trisect::Solid both = trisect::evaluate(engraved | solids[2]);
@@ -291,7 +291,7 @@ bool outlines_bars(std::int64_t count, bool turned) {
         solids.push_back(engines::solid(o, trisect::Embedding::Assume));
     const auto formula = trisect::detail::translate(trisect::Expression(solids[0]) - solids[1]);
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
-    for (const trisect::Solid& s : formula.slots) states.push_back(s.state());
+    for (const trisect::Solid& s : formula.slots) states.push_back(trisect::detail::state_of(s));
     trisect::EvaluateStats stats;
     return trisect::detail::evaluate_by(by_outlines, formula.formula, states, {}, stats) != nullptr;
 }

@@ -38,8 +38,8 @@ trisect::Solid evaluate(const std::vector<Operand>& operands, const Expression& 
 
 // The same mesh, corner by corner, whether facets are traced or put together from pieces.
 void expect_same_as_pieces(const trisect::Solid& result, Count& count) {
-    ASSERT_NE(result.state()->tree().crossings, nullptr);
-    trisect::detail::SolidState without = *result.state();
+    ASSERT_NE(trisect::detail::state_of(result)->tree().crossings, nullptr);
+    trisect::detail::SolidState without = *trisect::detail::state_of(result);
     std::get<trisect::detail::CellTree>(without.form).crossings.reset();
     trisect::PolygonMesh expected;
     try {
@@ -48,7 +48,8 @@ void expect_same_as_pieces(const trisect::Solid& result, Count& count) {
         return;  // unbounded
     }
     trisect::detail::AssemblyStats stats;
-    const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*result.state(), &stats);
+    const trisect::PolygonMesh mesh =
+        trisect::detail::assemble_mesh(*trisect::detail::state_of(result), &stats);
     count.traced += stats.traced_facets;
     count.worked += stats.worked_facets;
     ++count.bounded;

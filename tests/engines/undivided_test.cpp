@@ -106,15 +106,15 @@ TEST(Undivided, LargeMeshesByAnyNumberOfThreads) {
         const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
         trisect::EvaluateOptions options;
         const trisect::Solid divided = trisect::evaluate(a - b, dividing(options));
-        ASSERT_EQ(divided.state()->lazy_tree(), nullptr);
+        ASSERT_EQ(trisect::detail::state_of(divided)->lazy_tree(), nullptr);
         const trisect::PolygonMesh expected = engines::boundary_mesh(divided);
         for (const std::uint32_t threads : {1U, 2U, 8U}) {
             options.threads = threads;
             const trisect::Solid result = trisect::evaluate(a - b, options);
-            ASSERT_NE(result.state()->lazy_tree(), nullptr);
+            ASSERT_NE(trisect::detail::state_of(result)->lazy_tree(), nullptr);
             const trisect::PolygonMesh mesh = engines::boundary_mesh(result);
             EXPECT_EQ(engines::open_edge(mesh), "");
-            EXPECT_FALSE(result.state()->lazy_tree()->is_cut());
+            EXPECT_FALSE(trisect::detail::state_of(result)->lazy_tree()->is_cut());
             EXPECT_EQ(mesh.corners, expected.corners);
             EXPECT_TRUE(mesh.points == expected.points);
         }
@@ -141,14 +141,14 @@ TEST(Undivided, MeshesOfDifferentLattices) {
     const trisect::Solid fine = on_lattice(rounded, -40);
     const trisect::Solid b = on_lattice(moved, -40);
     const trisect::Solid mixed = trisect::evaluate(coarse - b);
-    EXPECT_NE(mixed.state()->lazy_tree(), nullptr);
+    EXPECT_NE(trisect::detail::state_of(mixed)->lazy_tree(), nullptr);
     const trisect::PolygonMesh mesh = engines::boundary_mesh(mixed);
     const trisect::PolygonMesh expected =
         engines::boundary_mesh(trisect::evaluate(fine - b, dividing({})));
     EXPECT_EQ(mesh.corners, expected.corners);
     EXPECT_TRUE(mesh.points == expected.points);
-    EXPECT_NE(trisect::evaluate(b - coarse).state()->lazy_tree(), nullptr);
-    EXPECT_NE(trisect::evaluate(~coarse | ~b).state()->lazy_tree(), nullptr);
+    EXPECT_NE(trisect::detail::state_of(trisect::evaluate(b - coarse))->lazy_tree(), nullptr);
+    EXPECT_NE(trisect::detail::state_of(trisect::evaluate(~coarse | ~b))->lazy_tree(), nullptr);
 }
 
 // Who has an index asks it, and who is so much larger gets one: the price of a small cut does not
@@ -159,11 +159,11 @@ TEST(Undivided, NotWhereOneMeshIsIndexedOrMuchLarger) {
     import.import.lattice = trisect::Lattice{-40};
     const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
     const trisect::Solid larger = trisect::Solid::from_mesh(trisect::make_icosphere(1, 5), import);
-    EXPECT_EQ(trisect::evaluate(larger - b).state()->lazy_tree(), nullptr);
+    EXPECT_EQ(trisect::detail::state_of(trisect::evaluate(larger - b))->lazy_tree(), nullptr);
     const trisect::Solid same = trisect::Solid::from_mesh(trisect::make_icosphere(1, 4), import);
-    EXPECT_NE(trisect::evaluate(same - b).state()->lazy_tree(), nullptr);
+    EXPECT_NE(trisect::detail::state_of(trisect::evaluate(same - b))->lazy_tree(), nullptr);
     same.refine();
-    EXPECT_EQ(trisect::evaluate(same - b).state()->lazy_tree(), nullptr);
+    EXPECT_EQ(trisect::detail::state_of(trisect::evaluate(same - b))->lazy_tree(), nullptr);
 }
 
 // Faces, edges and corners coincide.

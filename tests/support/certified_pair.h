@@ -9,6 +9,7 @@
 #include <trisect/bsp/interference/overlap_certificate.h>
 
 #include "moving_pair.h"
+#include "support/reason.h"
 
 namespace moving {
 
@@ -17,7 +18,7 @@ struct ContactPair : Pair {
         return certify_first_contact(a, motion_a, b, motion_b);
     }
     [[nodiscard]] std::string check(const trisect::ContactCertificate& c) const {
-        return check_contact_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
+        return refusals::reason(trisect::check(c, a.brep(), motion_a, b.brep(), motion_b));
     }
 };
 
@@ -26,7 +27,7 @@ struct OverlapPair : Pair {
         return certify_first_overlap(a, motion_a, b, motion_b);
     }
     [[nodiscard]] std::string check(const trisect::OverlapCertificate& c) const {
-        return check_overlap_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
+        return refusals::reason(trisect::check(c, a.brep(), motion_a, b.brep(), motion_b));
     }
 };
 

@@ -110,7 +110,7 @@ struct PosedTriangles {
     std::vector<Bounds> bounds;
 
     PosedTriangles(const InterferenceModel& model, const PosedBrep& posed) {
-        for (const auto& t : model.data().triangles) {
+        for (const auto& t : trisect::detail::data_of(model).triangles) {
             triangles.push_back(
                 {posed.at(t.vertex[0]), posed.at(t.vertex[1]), posed.at(t.vertex[2])});
             faces.push_back(t.face);

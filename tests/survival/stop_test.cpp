@@ -131,7 +131,7 @@ TEST(Stop, CuttingOfAnOutlinedOperand) {
     trisect::EvaluateOptions options;
     options.leaf_polygons = 0;
     const Solid part = evaluate(plate - pocket, options);
-    const auto outlined = part.state()->lazy_tree();
+    const auto outlined = trisect::detail::state_of(part)->lazy_tree();
     ASSERT_NE(outlined, nullptr);
     const std::atomic<bool> cancel = true;
     options.cancel = &cancel;

@@ -175,7 +175,7 @@ private:
 }  // namespace
 
 std::vector<ConvexPart> convex_parts(const InterferenceModel& model) {
-    return Grower(model.data()).run();
+    return Grower(trisect::detail::data_of(model)).run();
 }
 
 }  // namespace trisect::hierarchies

@@ -29,7 +29,8 @@ public:
         : PairStructure(a, b) {
         const auto start = std::chrono::steady_clock::now();
         tree_a_.emplace(a, options);
-        if (&a.data() != &b.data()) tree_b_.emplace(b, options);
+        if (&trisect::detail::data_of(a) != &trisect::detail::data_of(b))
+            tree_b_.emplace(b, options);
         const HullTree& other = tree_b();
         build_.bytes = tree_a_->bytes() + (tree_b_ ? tree_b_->bytes() : 0);
         build_.volumes = tree_a_->nodes().size() + (tree_b_ ? tree_b_->nodes().size() : 0);

@@ -261,7 +261,7 @@ HullTree::HullTree(const InterferenceModel& model, const HullTreeOptions& option
     if (options.leaf_triangles < 1) throw UsageError("a leaf of a tree of hulls has no triangle");
     const std::vector<ConvexPart> parts = convex_parts(model);
     part_count_ = parts.size();
-    Builder(*this, model.data(), options).run(parts);
+    Builder(*this, trisect::detail::data_of(model), options).run(parts);
 }
 
 std::size_t HullTree::bytes() const {

@@ -26,7 +26,7 @@ struct Farther {
 };
 
 void expect_single_triangles(const InterferenceModel& model, const HullTree& tree) {
-    if (!model.data().all_lattice)
+    if (!trisect::detail::data_of(model).all_lattice)
         throw UnsupportedError("hulls are tracked exactly only around lattice points");
     for (const HullTree::Node& n : tree.nodes())
         if (n.is_leaf() && n.triangle_count != 1)

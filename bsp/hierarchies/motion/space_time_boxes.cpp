@@ -25,6 +25,7 @@
 
 #include <trisect/bsp/hierarchies/motion/space_time_boxes.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
 #include <trisect/kernel/number/infinity.h>
 
@@ -166,12 +167,13 @@ void unite(std::vector<SpaceTimePair>& pairs) {
 std::uint32_t SpaceTimeBoxes::add(const InterferenceModel& model, const Motion& motion) {
     std::vector<SpaceTimeBox> boxes;
     if (!model.is_empty()) {
-        const BodyBounds body(model.data());
+        const BodyBounds body(trisect::detail::data_of(model));
         for (std::size_t i = 0; i < motion.piece_count(); ++i)
-            append_boxes(motion.piece(i), body, static_cast<double>(i), boxes);
+            append_boxes(trisect::detail::piece_of(motion, i), body, static_cast<double>(i), boxes);
         // Where it comes to rest.
         const auto end = static_cast<double>(motion.piece_count());
-        const Bounded rest = bounds_over(motion.piece(motion.piece_count() - 1), body, 1, 1);
+        const Bounded rest =
+            bounds_over(trisect::detail::piece_of(motion, motion.piece_count() - 1), body, 1, 1);
         boxes.push_back({rest.space, end, std::numeric_limits<double>::infinity()});
     }
     bodies_.push_back(std::move(boxes));

@@ -14,6 +14,7 @@
 #include <trisect/bsp/interference/boxes/cost.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/pose.h>
 #include <trisect/kernel/support/function_ref.h>
 
@@ -95,8 +96,12 @@ protected:
     }
     virtual std::optional<Relation> find_early_relation(CostCounters&) { return std::nullopt; }
 
-    [[nodiscard]] const detail::InterferenceModelData& data_a() const { return a_.data(); }
-    [[nodiscard]] const detail::InterferenceModelData& data_b() const { return b_.data(); }
+    [[nodiscard]] const detail::InterferenceModelData& data_a() const {
+        return trisect::detail::data_of(a_);
+    }
+    [[nodiscard]] const detail::InterferenceModelData& data_b() const {
+        return trisect::detail::data_of(b_);
+    }
 
 private:
     InterferenceModel a_;

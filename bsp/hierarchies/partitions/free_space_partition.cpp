@@ -33,9 +33,9 @@ namespace {
 class FreeSpacePartition final : public PairStructure {
 public:
     FreeSpacePartition(const InterferenceModel& a, const InterferenceModel& b)
-        : PairStructure(a, b), fixed_(a.data()) {
+        : PairStructure(a, b), fixed_(trisect::detail::data_of(a)) {
         const auto start = std::chrono::steady_clock::now();
-        obstacles_ = ObstacleMesh(a.data());
+        obstacles_ = ObstacleMesh(trisect::detail::data_of(a));
         tetrahedron_stamps_.assign(obstacles_.mesh().tetrahedra().size(), 0);
         triangle_stamps_.assign(fixed_.size(), 0);
         seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

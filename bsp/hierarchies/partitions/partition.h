@@ -9,6 +9,7 @@
 
 #include <trisect/bsp/hierarchies/pairs/pair_structure.h>
 #include <trisect/bsp/hierarchies/pairs/triangle_boxes.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 namespace trisect::hierarchies {
 
@@ -21,7 +22,7 @@ namespace trisect::hierarchies {
 class Partition : public PairStructure {
 public:
     Partition(const InterferenceModel& a, const InterferenceModel& b)
-        : PairStructure(a, b), fixed_(a.data()), stamps_(fixed_.size(), 0) {}
+        : PairStructure(a, b), fixed_(trisect::detail::data_of(a)), stamps_(fixed_.size(), 0) {}
 
 protected:
     /// Calls `offer` for the triangles of A in the cells that the box meets, until it returns true.

@@ -48,8 +48,8 @@ std::size_t steep_axis(const IntegerPlane& plane) {
 }
 
 // Of a point and a triangle.
-ExactRational squared_distance(const RationalPoint& p, const std::array<RationalPoint, 3>& t) {
-    const RationalPoint n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+ExactRational squared_distance(const ExactPoint& p, const std::array<ExactPoint, 3>& t) {
+    const ExactPoint n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
     const ExactRational nn = dot(n, n);
     bool above = nn.sign() != 0;
     for (std::size_t i = 0; above && i < 3; ++i)
@@ -60,12 +60,12 @@ ExactRational squared_distance(const RationalPoint& p, const std::array<Rational
     }
     std::optional<ExactRational> least;
     for (std::size_t i = 0; i < 3; ++i) {
-        const RationalPoint d = minus(t[(i + 1) % 3], t[i]);
-        const RationalPoint w = minus(p, t[i]);
+        const ExactPoint d = minus(t[(i + 1) % 3], t[i]);
+        const ExactPoint w = minus(p, t[i]);
         const ExactRational dd = dot(d, d);
         ExactRational part = dd.sign() == 0 ? ExactRational() : dot(w, d) / dd;
         part = std::clamp(part, ExactRational(), ExactRational(1));
-        const RationalPoint way{w[0] - part * d[0], w[1] - part * d[1], w[2] - part * d[2]};
+        const ExactPoint way{w[0] - part * d[0], w[1] - part * d[1], w[2] - part * d[2]};
         const ExactRational squared = dot(way, way);
         if (!least || squared < *least) least = squared;
     }
@@ -73,7 +73,7 @@ ExactRational squared_distance(const RationalPoint& p, const std::array<Rational
 }
 
 // The six planes of a cube around a point: above one of them is out of the cube.
-std::array<IntegerPlane, 6> planes_around(const RationalPoint& p, const ExactRational& radius) {
+std::array<IntegerPlane, 6> planes_around(const ExactPoint& p, const ExactRational& radius) {
     std::array<IntegerPlane, 6> r;
     for (std::size_t k = 0; k < 6; ++k) {
         SeparatingPlane plane;
@@ -127,7 +127,7 @@ IntegerPlane Boundary::plane_of(FaceId f) const {
     return plane;
 }
 
-Where Boundary::locate(const RationalPoint& point) const {
+Where Boundary::locate(const ExactPoint& point) const {
     const IntegerPoint p(point);
     for (const FaceId f : brep_->faces())
         if (planes_[f.index].side_of(p) == 0 && in_face(f, p) != Where::Outside)
@@ -145,7 +145,7 @@ Where Boundary::locate(const RationalPoint& point) const {
     return Where::Unknown;
 }
 
-bool Boundary::is_on_face(FaceId f, const RationalPoint& point) const {
+bool Boundary::is_on_face(FaceId f, const ExactPoint& point) const {
     if (f.index >= brep_->faces().size()) return false;
     const IntegerPoint p(point);
     return planes_[f.index].side_of(p) == 0 && in_face(f, p) != Where::Outside;
@@ -190,7 +190,7 @@ Where Boundary::along_ray(const IntegerPoint& p, const IntegerVector& d) const {
     return inside ? Where::Inside : Where::Outside;
 }
 
-bool Boundary::is_deep_inside(const RationalPoint& p, const ExactRational& radius,
+bool Boundary::is_deep_inside(const ExactPoint& p, const ExactRational& radius,
                               const std::vector<CertifiedTriangle>& triangles) const {
     const std::array<IntegerPlane, 6> around = planes_around(p, radius);
     for (const CertifiedTriangle& t : triangles) {

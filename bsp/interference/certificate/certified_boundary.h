@@ -30,16 +30,16 @@ public:
     /// By vertex.
     [[nodiscard]] const std::vector<IntegerPoint>& points() const { return points_; }
     /// \pre there is such a vertex
-    [[nodiscard]] RationalPoint at(VertexId v) const { return points_[v.index].rational(); }
+    [[nodiscard]] ExactPoint at(VertexId v) const { return points_[v.index].rational(); }
 
     /// By the parity of a ray's crossings with faces; a ray that meets an edge is given up for
     /// another one.
-    [[nodiscard]] Where locate(const RationalPoint& p) const;
+    [[nodiscard]] Where locate(const ExactPoint& p) const;
     /// Whether a point is in a face or on its outline; false when there is no such face.
-    [[nodiscard]] bool is_on_face(FaceId f, const RationalPoint& p) const;
+    [[nodiscard]] bool is_on_face(FaceId f, const ExactPoint& p) const;
     /// Whether a point is inside, and farther than `radius` from all triangles. They must fill the
     /// faces for that to mean anything.
-    [[nodiscard]] bool is_deep_inside(const RationalPoint& p, const ExactRational& radius,
+    [[nodiscard]] bool is_deep_inside(const ExactPoint& p, const ExactRational& radius,
                                       const std::vector<CertifiedTriangle>& triangles) const;
     /// Whether triangles fill all faces: in each face their sides, cancelled, are its halfedges.
     /// Two bounded chains in a plane with one boundary are the same.

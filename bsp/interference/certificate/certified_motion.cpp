@@ -19,7 +19,7 @@ Polynomial converted(const IntegerPolynomial& p) {
 }  // namespace
 
 Piece piece_of(const Motion& motion, std::size_t i) {
-    const MotionPiece& p = motion.piece(std::min(i, motion.piece_count() - 1));
+    const MotionPiece& p = detail::piece_of(motion, std::min(i, motion.piece_count() - 1));
     Piece r;
     for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t j = 0; j < 3; ++j) r.m[k][j] = converted(p.matrix[k][j]);
@@ -78,7 +78,7 @@ ControlMaps::ControlMaps(const Piece& piece, const ExactRational& from, const Ex
 }
 
 std::vector<IntegerPlane> ControlMaps::planes(const SeparatingPlane& plane,
-                                              const RationalPoint& resting) const {
+                                              const ExactPoint& resting) const {
     std::vector<IntegerPlane> r;
     for (const Map& map : maps_) {
         SeparatingPlane pulled;

@@ -21,12 +21,8 @@ struct Piece {
     PolynomialVector t;
     Polynomial w;
 
-    [[nodiscard]] PolynomialVector point(const RationalPoint& x) const {
-        return m * constant(x) + t;
-    }
-    [[nodiscard]] PolynomialVector direction(const RationalPoint& v) const {
-        return m * constant(v);
-    }
+    [[nodiscard]] PolynomialVector point(const ExactPoint& x) const { return m * constant(x) + t; }
+    [[nodiscard]] PolynomialVector direction(const ExactPoint& v) const { return m * constant(v); }
 };
 
 /// Of a motion with fewer pieces, which stands still, the last one.
@@ -46,12 +42,12 @@ public:
     /// The planes that the point x must be strictly above, all of them, to stay above a plane; or
     /// to stay where the plane's value plus resting·x is positive.
     [[nodiscard]] std::vector<IntegerPlane> planes(const SeparatingPlane& plane,
-                                                   const RationalPoint& resting = {}) const;
+                                                   const ExactPoint& resting = {}) const;
 
 private:
     struct Map {
-        std::array<RationalPoint, 3> m;
-        RationalPoint t;
+        std::array<ExactPoint, 3> m;
+        ExactPoint t;
         ExactRational w;
     };
     std::vector<Map> maps_;

@@ -17,24 +17,24 @@
 
 namespace trisect::detail::certified {
 
-inline RationalPoint minus(const RationalPoint& u, const RationalPoint& v) {
+inline ExactPoint minus(const ExactPoint& u, const ExactPoint& v) {
     return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
 }
-inline RationalPoint cross(const RationalPoint& u, const RationalPoint& v) {
+inline ExactPoint cross(const ExactPoint& u, const ExactPoint& v) {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
-inline ExactRational dot(const RationalPoint& u, const RationalPoint& v) {
+inline ExactRational dot(const ExactPoint& u, const ExactPoint& v) {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
-inline bool is_zero(const RationalPoint& v) {
+inline bool is_zero(const ExactPoint& v) {
     return v[0].sign() == 0 && v[1].sign() == 0 && v[2].sign() == 0;
 }
-inline ExactRational sum_of_magnitudes(const RationalPoint& v) {
+inline ExactRational sum_of_magnitudes(const ExactPoint& v) {
     ExactRational r;
     for (const ExactRational& c : v) r += c.sign() < 0 ? -c : c;
     return r;
 }
-inline ExactRational value_at(const SeparatingPlane& plane, const RationalPoint& p) {
+inline ExactRational value_at(const SeparatingPlane& plane, const ExactPoint& p) {
     return dot(plane.normal, p) + plane.offset;
 }
 
@@ -64,13 +64,13 @@ struct IntegerPoint {
         for (mpz_class& c : x) c /= common;
         w /= common;
     }
-    explicit IntegerPoint(const RationalPoint& p) {
+    explicit IntegerPoint(const ExactPoint& p) {
         const std::array<mpq_class, 3> c{to_gmp(p[0]), to_gmp(p[1]), to_gmp(p[2])};
         const auto n = common_numerators(c, w);
         x = {n[0], n[1], n[2]};
     }
-    [[nodiscard]] RationalPoint rational() const {
-        RationalPoint r;
+    [[nodiscard]] ExactPoint rational() const {
+        ExactPoint r;
         for (std::size_t i = 0; i < 3; ++i) {
             mpq_class q(x[i], w);
             q.canonicalize();

@@ -11,7 +11,7 @@ std::vector<Polygon> beside(const std::vector<Polygon>& polygons, const Separati
     std::vector<Polygon> r;
     for (const Polygon& p : polygons) {
         std::vector<ExactRational> values;
-        for (const RationalPoint& v : p) values.push_back(value_at(plane, v));
+        for (const ExactPoint& v : p) values.push_back(value_at(plane, v));
         if (std::ranges::none_of(values,
                                  [side](const ExactRational& v) { return v.sign() == side; }))
             continue;
@@ -21,7 +21,7 @@ std::vector<Polygon> beside(const std::vector<Polygon>& polygons, const Separati
             if (values[i].sign() != -side) q.push_back(p[i]);
             if (values[i].sign() * values[j].sign() >= 0) continue;
             const ExactRational t = values[i] / (values[i] - values[j]);
-            const RationalPoint d = minus(p[j], p[i]);
+            const ExactPoint d = minus(p[j], p[i]);
             q.push_back({p[i][0] + t * d[0], p[i][1] + t * d[1], p[i][2] + t * d[2]});
         }
     }

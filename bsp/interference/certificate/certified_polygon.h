@@ -10,7 +10,7 @@
 
 namespace trisect::detail::certified {
 
-using Polygon = std::vector<RationalPoint>;  // convex
+using Polygon = std::vector<ExactPoint>;  // convex
 
 /// What of the polygons is strictly on a side of a plane, 1 or -1; closed again.
 [[nodiscard]] std::vector<Polygon> beside(const std::vector<Polygon>& polygons,

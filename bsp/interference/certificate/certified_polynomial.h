@@ -131,6 +131,6 @@ inline PolynomialVector cross(const PolynomialVector& a, const PolynomialVector&
 inline PolynomialVector operator*(const Rows& m, const PolynomialVector& v) {
     return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
 }
-inline PolynomialVector constant(const RationalPoint& v) { return {v[0], v[1], v[2]}; }
+inline PolynomialVector constant(const ExactPoint& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace trisect::detail::certified

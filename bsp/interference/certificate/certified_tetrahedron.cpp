@@ -18,10 +18,8 @@ constexpr std::array<std::array<std::size_t, 2>, 6> edges{
 constexpr std::array<std::array<std::size_t, 4>, 4> faces{
     {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}}};
 
-RationalPoint edge_of(const Tetrahedron& t, std::size_t i, std::size_t j) {
-    return minus(t[j], t[i]);
-}
-RationalPoint normal_of(const Tetrahedron& t, const std::array<std::size_t, 4>& face) {
+ExactPoint edge_of(const Tetrahedron& t, std::size_t i, std::size_t j) { return minus(t[j], t[i]); }
+ExactPoint normal_of(const Tetrahedron& t, const std::array<std::size_t, 4>& face) {
     return cross(edge_of(t, face[0], face[1]), edge_of(t, face[0], face[2]));
 }
 bool is_flat(const Tetrahedron& t) {
@@ -32,7 +30,7 @@ bool is_flat(const Tetrahedron& t) {
 std::array<SeparatingPlane, 4> planes_of(const Tetrahedron& t) {
     std::array<SeparatingPlane, 4> r;
     for (std::size_t i = 0; i < 4; ++i) {
-        RationalPoint n = normal_of(t, faces[i]);
+        ExactPoint n = normal_of(t, faces[i]);
         if (dot(n, edge_of(t, faces[i][0], faces[i][3])).sign() < 0)
             for (ExactRational& c : n) c = -c;
         r[i] = {n, -dot(n, t[faces[i][0]])};
@@ -62,7 +60,7 @@ bool is_within(const Tetrahedron& t, const Boundary& boundary,
         });
         if (!is_outside && reaches_in(triangle)) return false;
     }
-    RationalPoint middle;
+    ExactPoint middle;
     for (std::size_t k = 0; k < 3; ++k)
         middle[k] = (t[0][k] + t[1][k] + t[2][k] + t[3][k]) / ExactRational(4);
     return boundary.locate(middle) == Where::Inside;

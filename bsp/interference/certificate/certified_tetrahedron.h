@@ -13,7 +13,7 @@
 
 namespace trisect::detail::certified {
 
-using Tetrahedron = std::array<RationalPoint, 4>;
+using Tetrahedron = std::array<ExactPoint, 4>;
 
 /// Whether the interior is there, and inside of a solid: no triangle reaches into it, and a point
 /// of it is inside. The triangles must fill the solid's faces.

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/interference/certificate/certified_boundary.h>
@@ -42,7 +43,7 @@ public:
     }
 
 private:
-    static bool is(const Boundary& boundary, const std::optional<RationalPoint>& p, Where where) {
+    static bool is(const Boundary& boundary, const std::optional<ExactPoint>& p, Where where) {
         return !p || boundary.locate(*p) == where;
     }
     std::string wrong_points() const {
@@ -158,9 +159,12 @@ private:
 
 namespace trisect {
 
-std::string check_certificate(const InterferenceCertificate& certificate, const Brep& a,
-                              const Pose& pose_a, const Brep& b, const Pose& pose_b) {
-    return detail::certified::RelationChecker(certificate, a, pose_a, b, pose_b).run();
+std::optional<Refusal> check(const InterferenceCertificate& certificate, const Brep& a,
+                             const Pose& pose_a, const Brep& b, const Pose& pose_b) {
+    std::string reason =
+        detail::certified::RelationChecker(certificate, a, pose_a, b, pose_b).run();
+    if (reason.empty()) return std::nullopt;
+    return Refusal{std::move(reason)};
 }
 
 }  // namespace trisect

@@ -35,9 +35,8 @@ public:
     std::string run() {
         const Pose pose_a = motion_a_.pose_at(0);
         const Pose pose_b = motion_b_.pose_at(0);
-        if (std::string w = check_certificate(c_.at_start, a_.brep(), pose_a, b_.brep(), pose_b);
-            !w.empty())
-            return "at the start: " + w;
+        if (const auto refusal = check(c_.at_start, a_.brep(), pose_a, b_.brep(), pose_b))
+            return "at the start: " + refusal->reason;
         const bool starts_apart = c_.at_start.relation == Relation::Disjoint;
         if (!c_.is_complete) return {};
         if (!c_.at_start.is_complete) return "the start is not proved";
@@ -118,24 +117,24 @@ private:
     // Whether x / w is on the triangle.
     [[nodiscard]] bool is_on(const PolynomialVector& x, const Polynomial& w,
                              const CertifiedTriangle& t, const Boundary& boundary) const {
-        std::array<RationalPoint, 3> c;
+        std::array<ExactPoint, 3> c;
         for (std::size_t i = 0; i < 3; ++i) c[i] = boundary.at(t.vertex[i]);
-        const RationalPoint n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+        const ExactPoint n = cross(minus(c[1], c[0]), minus(c[2], c[0]));
         if (is_zero(n)) return false;
         const auto from = [&](std::size_t i) { return x - w * constant(c[i]); };
         if (!time_.is_root_of(dot(constant(n), from(0)))) return false;
         for (std::size_t i = 0; i < 3; ++i) {
-            const RationalPoint inward = cross(n, minus(c[(i + 1) % 3], c[i]));
+            const ExactPoint inward = cross(n, minus(c[(i + 1) % 3], c[i]));
             const int s = time_.sign_of(dot(constant(inward), from(i)));
             if (s != 0 && s != 1) return false;
         }
         return true;
     }
     [[nodiscard]] bool edges_cross(const CommonPoint& p) const {
-        const RationalPoint a0 = a_.at(p.edge_a[0]);
-        const RationalPoint a1 = a_.at(p.edge_a[1]);
-        const RationalPoint b0 = b_.at(p.edge_b[0]);
-        const RationalPoint b1 = b_.at(p.edge_b[1]);
+        const ExactPoint a0 = a_.at(p.edge_a[0]);
+        const ExactPoint a1 = a_.at(p.edge_a[1]);
+        const ExactPoint b0 = b_.at(p.edge_b[0]);
+        const ExactPoint b1 = b_.at(p.edge_b[1]);
         const PolynomialVector u = constant(minus(a1, a0));
         const PolynomialVector v = to_a_.direction(minus(b1, b0));
         const PolynomialVector n = cross(u, v);
@@ -212,9 +211,9 @@ private:
             if (v.index >= a_.points().size()) return false;
         for (const VertexId v : s.edge_b)
             if (v.index >= b_.points().size()) return false;
-        const RationalPoint a0 = a_.at(s.edge_a[0]);
-        const RationalPoint u = minus(a_.at(s.edge_a[1]), a0);
-        const RationalPoint v = minus(b_.at(s.edge_b[1]), b_.at(s.edge_b[0]));
+        const ExactPoint a0 = a_.at(s.edge_a[0]);
+        const ExactPoint u = minus(a_.at(s.edge_a[1]), a0);
+        const ExactPoint v = minus(b_.at(s.edge_b[1]), b_.at(s.edge_b[0]));
         PolynomialVector n = cross(constant(u), to_a_.direction(v));
         if (s.flipped) n = PolynomialVector{} - n;
         return std::ranges::all_of(of_a,
@@ -247,10 +246,12 @@ private:
 
 namespace trisect {
 
-std::string check_contact_certificate(const ContactCertificate& certificate, const Brep& a,
-                                      const Motion& motion_a, const Brep& b,
-                                      const Motion& motion_b) {
-    return detail::certified::ContactChecker(certificate, a, motion_a, b, motion_b).run();
+std::optional<Refusal> check(const ContactCertificate& certificate, const Brep& a,
+                             const Motion& motion_a, const Brep& b, const Motion& motion_b) {
+    std::string reason =
+        detail::certified::ContactChecker(certificate, a, motion_a, b, motion_b).run();
+    if (reason.empty()) return std::nullopt;
+    return Refusal{std::move(reason)};
 }
 
 }  // namespace trisect

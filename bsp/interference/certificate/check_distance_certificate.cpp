@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/interference/certificate/certified_boundary.h>
@@ -29,7 +30,7 @@ public:
         if (!a_.is_on_face(c_.on_a.face, c_.on_a.point) ||
             !b_.is_on_face(c_.on_b.face, c_.on_b.point))
             return "a point is not on its face";
-        const RationalPoint way = detail::certified::minus(c_.on_b.point, c_.on_a.point);
+        const ExactPoint way = detail::certified::minus(c_.on_b.point, c_.on_a.point);
         if (c_.squared < dot(way, way)) return "the points are farther apart";
         if (c_.squared.sign() == 0) return {};
         if (c_.slabs.empty()) return c_.is_complete ? "there are no slabs" : "";
@@ -53,7 +54,7 @@ private:
                    : "triangles reach into a slab";
     }
     // At a height or beyond it.
-    static bool is_beyond(const RationalPoint& normal, const ExactRational& height,
+    static bool is_beyond(const ExactPoint& normal, const ExactRational& height,
                           const Boundary& boundary, const std::vector<std::uint32_t>& corners,
                           int side) {
         const IntegerPlane plane(SeparatingPlane{normal, -height});
@@ -72,9 +73,12 @@ private:
 
 namespace trisect {
 
-std::string check_distance_certificate(const DistanceCertificate& certificate, const Brep& a,
-                                       const Pose& pose_a, const Brep& b, const Pose& pose_b) {
-    return detail::certified::DistanceChecker(certificate, a, pose_a, b, pose_b).run();
+std::optional<Refusal> check(const DistanceCertificate& certificate, const Brep& a,
+                             const Pose& pose_a, const Brep& b, const Pose& pose_b) {
+    std::string reason =
+        detail::certified::DistanceChecker(certificate, a, pose_a, b, pose_b).run();
+    if (reason.empty()) return std::nullopt;
+    return Refusal{std::move(reason)};
 }
 
 }  // namespace trisect

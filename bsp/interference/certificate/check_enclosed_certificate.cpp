@@ -44,7 +44,7 @@ struct Enclosed {
         constant = ExactRational::from_double(e.constant);
         controls.emplace(piece, 0, 1);
     }
-    [[nodiscard]] ExactRational deviation(const RationalPoint& x) const {
+    [[nodiscard]] ExactRational deviation(const ExactPoint& x) const {
         return by_length * sum_of_magnitudes(x) + constant;
     }
 };
@@ -56,8 +56,8 @@ std::size_t octant_of(const IntegerPoint& p) {
     for (std::size_t k = 0; k < 3; ++k) r |= static_cast<std::size_t>(sgn(p.x[k]) < 0) << k;
     return r;
 }
-RationalPoint signs_in(std::size_t octant) {
-    RationalPoint r;
+ExactPoint signs_in(std::size_t octant) {
+    ExactPoint r;
     for (std::size_t k = 0; k < 3; ++k) r[k] = ExactRational((octant >> k & 1U) != 0 ? -1 : 1);
     return r;
 }
@@ -150,11 +150,10 @@ private:
             return "a span is not within the motion";
         if (s.at_start.relation != Relation::Disjoint || !s.at_start.is_complete)
             return "the start of a span is not proved";
-        if (std::string w = check_certificate(
-                s.at_start, a_.brep(), motion_a_.enclose(from, from).motion.pose_at(0), b_.brep(),
-                motion_b_.enclose(from, from).motion.pose_at(0));
-            !w.empty())
-            return "at the start of a span: " + w;
+        if (const auto refusal =
+                check(s.at_start, a_.brep(), motion_a_.enclose(from, from).motion.pose_at(0),
+                      b_.brep(), motion_b_.enclose(from, from).motion.pose_at(0)))
+            return "at the start of a span: " + refusal->reason;
         if (std::string w = wrong_tree(s.start, {from, from}); !w.empty()) return w;
         return wrong_tree(s.freedom, s.span);
     }
@@ -201,7 +200,7 @@ private:
             const IntegerPoint& corner = boundary.points()[v];
             const std::size_t octant = octant_of(corner);
             if (planes[octant].empty()) {
-                RationalPoint margin = signs_in(octant);
+                ExactPoint margin = signs_in(octant);
                 for (ExactRational& c : margin) c *= -(length * e.by_length);
                 planes[octant] = e.controls->planes(shifted, margin);
             }
@@ -209,7 +208,7 @@ private:
                     return p.side_of(corner) > 0;
                 }))
                 return true;
-            const RationalPoint x = corner.rational();
+            const ExactPoint x = corner.rational();
             const Polynomial height = dot(constant(plane.normal), e.piece.point(x)) +
                                       Polynomial(plane.offset) * e.piece.w;
             return is_positive_on_unit(height - Polynomial(length * e.deviation(x)) * e.piece.w);
@@ -232,10 +231,13 @@ private:
 
 namespace trisect {
 
-std::string check_enclosed_certificate(const EnclosedCertificate& certificate, const Brep& a,
-                                       const EnclosedMotion& motion_a, const Brep& b,
-                                       const EnclosedMotion& motion_b) {
-    return detail::certified::EnclosedChecker(certificate, a, motion_a, b, motion_b).run();
+std::optional<Refusal> check(const EnclosedCertificate& certificate, const Brep& a,
+                             const EnclosedMotion& motion_a, const Brep& b,
+                             const EnclosedMotion& motion_b) {
+    std::string reason =
+        detail::certified::EnclosedChecker(certificate, a, motion_a, b, motion_b).run();
+    if (reason.empty()) return std::nullopt;
+    return Refusal{std::move(reason)};
 }
 
 }  // namespace trisect

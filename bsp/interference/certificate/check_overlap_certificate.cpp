@@ -28,10 +28,9 @@ public:
         : c_(c), motion_a_(motion_a), motion_b_(motion_b), a_(a), b_(b) {}
 
     std::string run() {
-        if (std::string w = check_certificate(c_.at_start, a_.brep(), motion_a_.pose_at(0),
-                                              b_.brep(), motion_b_.pose_at(0));
-            !w.empty())
-            return "at the start: " + w;
+        if (const auto refusal = check(c_.at_start, a_.brep(), motion_a_.pose_at(0), b_.brep(),
+                                       motion_b_.pose_at(0)))
+            return "at the start: " + refusal->reason;
         if (!c_.is_complete) return {};
         if (!c_.at_start.is_complete) return "the start is not proved";
         if (interiors_meet(c_.at_start.relation))
@@ -106,10 +105,12 @@ private:
 
 namespace trisect {
 
-std::string check_overlap_certificate(const OverlapCertificate& certificate, const Brep& a,
-                                      const Motion& motion_a, const Brep& b,
-                                      const Motion& motion_b) {
-    return detail::certified::OverlapChecker(certificate, a, motion_a, b, motion_b).run();
+std::optional<Refusal> check(const OverlapCertificate& certificate, const Brep& a,
+                             const Motion& motion_a, const Brep& b, const Motion& motion_b) {
+    std::string reason =
+        detail::certified::OverlapChecker(certificate, a, motion_a, b, motion_b).run();
+    if (reason.empty()) return std::nullopt;
+    return Refusal{std::move(reason)};
 }
 
 }  // namespace trisect

@@ -7,6 +7,7 @@
 #include <trisect/bsp/interference/coherent/coherent_walk.h>
 #include <trisect/bsp/interference/coherent/pose_reserve.h>
 #include <trisect/bsp/interference/relation/boundary_flags.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 namespace trisect {
@@ -15,7 +16,10 @@ using detail::CoherentWalk;
 
 struct InterferenceQuery::State {
     State(const InterferenceModel& one, const InterferenceModel& other)
-        : a(one), b(other), walk(a.data(), b.data()), reserve(a.data(), b.data()) {}
+        : a(one),
+          b(other),
+          walk(detail::data_of(a), detail::data_of(b)),
+          reserve(detail::data_of(a), detail::data_of(b)) {}
 
     [[nodiscard]] Relation ask(const Pose& pose_a, const Pose& pose_b);
     [[nodiscard]] Relation ask_walk(const Pose& pose_a, const Pose& pose_b);
@@ -64,7 +68,8 @@ Relation InterferenceQuery::State::ask_walk(const Pose& pose_a, const Pose& pose
         } else if (last_apart && walk.is_unmoved()) {
             ++counters.kept;
         } else {
-            last_apart = detail::relation_of_apart(a.data(), pose_a, b.data(), pose_b, map);
+            last_apart = detail::relation_of_apart(detail::data_of(a), pose_a, detail::data_of(b),
+                                                   pose_b, map);
         }
         if (last_apart) return keep(*last_apart);
     }

@@ -79,9 +79,9 @@ public:
           b_(b),
           motion_b_(motion_b),
           width_(width),
-          reach_a_(reach_of(a.data())),
-          reach_b_(reach_of(b.data())),
-          walk_(a.data().boxes, b.data().boxes) {}
+          reach_a_(reach_of(detail::data_of(a))),
+          reach_b_(reach_of(detail::data_of(b))),
+          walk_(detail::data_of(a).boxes, detail::data_of(b).boxes) {}
 
     EnclosedContact run(std::span<const double> breaks) {
         const double duration = breaks.back();
@@ -101,17 +101,18 @@ private:
     [[nodiscard]] SweptView view(double from, double to) const {
         const MotionEnclosure ea = motion_a_.enclose(from, to);
         const MotionEnclosure eb = motion_b_.enclose(from, to);
-        const MotionPiece points = detail::relative_points(ea.motion.piece(0), a_.lattice(),
-                                                           eb.motion.piece(0), b_.lattice());
-        if (!BallMotion::fits(points) || !BallMotion::fits(ea.motion.piece(0)))
+        const MotionPiece points =
+            detail::relative_points(detail::piece_of(ea.motion, 0), a_.lattice(),
+                                    detail::piece_of(eb.motion, 0), b_.lattice());
+        if (!BallMotion::fits(points) || !BallMotion::fits(detail::piece_of(ea.motion, 0)))
             throw UnsupportedError("the relative motion of two enclosures has a degree above " +
                                    std::to_string(detail::BallPolynomial::max_degree));
         SweptView r{BallMotion::of_points(points), {}, 0};
-        r.swept = detail::swept_map(r.motion, b_.data().lo, b_.data().hi);
+        r.swept = detail::swept_map(r.motion, detail::data_of(b_).lo, detail::data_of(b_).hi);
         const double deviation =
             ea.by_length * reach_a_ + ea.constant + eb.by_length * reach_b_ + eb.constant;
         if (deviation != 0) {
-            const BallMotion of_a = BallMotion::of_points(ea.motion.piece(0));
+            const BallMotion of_a = BallMotion::of_points(detail::piece_of(ea.motion, 0));
             r.margin =
                 std::ldexp(deviation * detail::inverse_stretch(of_a), -a_.lattice().exponent) *
                 (1 + 0x1p-40);
@@ -129,7 +130,8 @@ private:
             return false;
         }
         const double sweep = view.swept.sweep + view.margin;
-        const ObbPose pose(a_.data().boxes, b_.data().boxes, view.swept.map, sweep);
+        const ObbPose pose(detail::data_of(a_).boxes, detail::data_of(b_).boxes, view.swept.map,
+                           sweep);
         if (pose.is_apart()) return true;
         Pairs leaves;
         walk_.refine(pose, sweep, front, leaves, rest);
@@ -142,13 +144,13 @@ private:
     }
 
     void keep_what_may_meet(const SweptView& view, Pairs& leaves, Pairs& rest) {
-        const detail::ObbTree& ta = a_.data().boxes;
-        const detail::ObbTree& tb = b_.data().boxes;
+        const detail::ObbTree& ta = detail::data_of(a_).boxes;
+        const detail::ObbTree& tb = detail::data_of(b_).boxes;
         std::sort(leaves.begin(), leaves.end(), [](const auto& p, const auto& q) {
             return p.b.index != q.b.index ? p.b.index < q.b.index : p.a.index < q.a.index;
         });
-        detail::SweptSeparation separation(a_.data(), b_.data(), view.motion, view.swept,
-                                           view.margin);
+        detail::SweptSeparation separation(detail::data_of(a_), detail::data_of(b_), view.motion,
+                                           view.swept, view.margin);
         const auto are_apart = [&](detail::ObbChild la, detail::ObbChild lb) {
             for (std::uint32_t j = 0; j < lb.count(); ++j)
                 for (std::uint32_t i = 0; i < la.count(); ++i) {
@@ -217,13 +219,14 @@ private:
         if (now.margin == HUGE_VAL) return false;
         detail::ApproximateMap map = now.swept.map;
         map.t_error = (now.swept.sweep + now.margin) * (1 + 0x1p-40);
-        ObbWalk walk(a_.data().boxed(), b_.data().boxed(), map, stack_);
+        ObbWalk walk(detail::data_of(a_).boxed(), detail::data_of(b_).boxed(), map, stack_);
         bool any = false;
         result_.witnesses.clear();
         const bool crossing = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
             any = true;
             if (verdict != PairVerdict::Crossing) return false;
-            result_.witnesses.push_back({a_.data().triangles[i].face, b_.data().triangles[j].face});
+            result_.witnesses.push_back(
+                {detail::data_of(a_).triangles[i].face, detail::data_of(b_).triangles[j].face});
             return true;
         });
         return crossing || (any && is_deep(map));
@@ -232,8 +235,8 @@ private:
     // Whether a point of B certainly lies in A. Tried are points of the middle of what the boxes
     // have in common: solids that are aligned have no crossing faces, but a point well inside both.
     bool is_deep(const detail::ApproximateMap& map) const {
-        const InterferenceModelData& a = a_.data();
-        const InterferenceModelData& b = b_.data();
+        const InterferenceModelData& a = detail::data_of(a_);
+        const InterferenceModelData& b = detail::data_of(b_);
         // The box of B, moved, and then what it has in common with that of A.
         std::array<double, 3> lo{};
         std::array<double, 3> hi{};
@@ -267,12 +270,12 @@ private:
         };
         for (const double v : in_b)
             if (!(std::abs(v) < 0x1p60)) return false;
-        const InterferenceModelData& b = b_.data();
+        const InterferenceModelData& b = detail::data_of(b_);
         if (b.index().locate(in_user_units(in_b, b_.lattice().exponent)).location ==
             Location::Outside)
             return false;
         const std::array<double, 3> image = in_user_units(map(in_b), a_.lattice().exponent);
-        const BrepIndex& index = a_.data().index();
+        const BrepIndex& index = detail::data_of(a_).index();
         if (index.locate(image).location != Location::Inside) return false;
         const double largest = std::max({std::abs(in_b[0]), std::abs(in_b[1]), std::abs(in_b[2])});
         const double error = std::ldexp(2 * map.error_below(largest, 0), a_.lattice().exponent);

@@ -67,7 +67,7 @@ public:
         const std::size_t i = part_of(breaks_, from);
         NearPiece near = near_piece(parts_[i], fraction_of(from, breaks_[i], breaks_[i + 1]),
                                     fraction_of(to, breaks_[i], breaks_[i + 1]));
-        return {Motion::of_piece(near.piece), near.by_length, near.constant};
+        return {detail::motion_of(near.piece), near.by_length, near.constant};
     }
 
 private:
@@ -151,7 +151,7 @@ public:
         }
         piece.weight = denominator;
         // Nine and three numbers, each off by `each`.
-        return {Motion::of_piece(piece), 3 * each, 2 * each};
+        return {detail::motion_of(piece), 3 * each, 2 * each};
     }
 
 private:
@@ -165,10 +165,10 @@ public:
     MotionEnclosure enclose(double from, double to) const override {
         const double last = static_cast<double>(motion_.piece_count());
         const auto i = static_cast<std::size_t>(std::min(from, last - 1));
-        const MotionPiece& piece = motion_.piece(i);
+        const MotionPiece& piece = detail::piece_of(motion_, i);
         const mpq_class f = mpq_class(from) - static_cast<unsigned long>(i);
         const mpq_class t = mpq_class(to) - static_cast<unsigned long>(i);
-        return {Motion::of_piece(detail::part_of(piece, f, t)), 0, 0};
+        return {detail::motion_of(detail::part_of(piece, f, t)), 0, 0};
     }
 
 private:
@@ -236,7 +236,7 @@ EnclosedMotion EnclosedMotion::turning(const Pose& start, const ConstantTurn& tu
     expect(std::abs(turn.angle) <= 0x1p20, "the angle of a turn must be within 2^20 radians");
     expect(turn.axis != std::array<double, 3>{0, 0, 0}, "the axis of a turn must not be 0");
     Turning t;
-    t.start = Motion(start).piece(0);
+    t.start = detail::piece_of(Motion(start), 0);
     t.axis = unit_vector(integers(turn.axis));
     t.half_angle = mpq_class(turn.angle) / 2;
     t.center = fractions(turn.center);

@@ -84,8 +84,8 @@ public:
           motion_a_(motion_a),
           b_(b),
           motion_b_(motion_b),
-          events_a_(a.data()),
-          events_b_(b.data()) {}
+          events_a_(detail::data_of(a)),
+          events_b_(detail::data_of(b)) {}
 
     FirstContact run(const FirstContactOptions& options) {
         const ContactEvent event = options.event;
@@ -170,8 +170,8 @@ private:
 
     void enter_piece(std::size_t i) {
         motion_ = std::make_unique<detail::RelativeMotion>(
-            motion_a_.piece(index_of(motion_a_, i)), a_.lattice(),
-            motion_b_.piece(index_of(motion_b_, i)), b_.lattice());
+            detail::piece_of(motion_a_, index_of(motion_a_, i)), a_.lattice(),
+            detail::piece_of(motion_b_, index_of(motion_b_, i)), b_.lattice());
         pairs_ = std::make_unique<detail::PairEvents>(events_a_, events_b_, *motion_);
         filter_.reset();
         if (detail::BallMotion::fits(*motion_))
@@ -194,9 +194,10 @@ private:
     }
 
     void answer(std::size_t piece, const detail::EventsAtATime& events) {
-        result_.time = AlgebraicNumber(events.time.shifted(static_cast<unsigned long>(piece)));
+        result_.time = detail::number_of(events.time.shifted(static_cast<unsigned long>(piece)));
         for (const detail::FeaturePair& p : events.pairs)
-            result_.witnesses.push_back({entity_of(p.a, a_.data()), entity_of(p.b, b_.data())});
+            result_.witnesses.push_back(
+                {entity_of(p.a, detail::data_of(a_)), entity_of(p.b, detail::data_of(b_))});
         sort_witnesses();
     }
 

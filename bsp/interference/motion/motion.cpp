@@ -185,7 +185,7 @@ Motion Motion::through(std::span<const Pose> poses) {
     if (poses.size() < 2) throw UsageError("a motion through poses needs two of them");
     Pieces pieces;
     for (std::size_t i = 1; i < poses.size(); ++i)
-        pieces.push_back(blend(poses[i - 1], poses[i]).piece(0));
+        pieces.push_back(blend(poses[i - 1], poses[i]).pieces()[0]);
     return Motion(std::move(pieces));
 }
 
@@ -253,9 +253,5 @@ std::array<double, 12> Motion::approximate_pose_at(double s) const {
     }
     return r;
 }
-
-Motion Motion::of_piece(const MotionPiece& piece) { return Motion(Pieces{piece}); }
-
-const detail::MotionPiece& Motion::piece(std::size_t i) const { return pieces()[i]; }
 
 }  // namespace trisect

@@ -10,6 +10,7 @@
 #include <cstddef>
 
 #include <trisect/brep/number/integer_polynomial.h>
+#include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/interference/motion/feature_contact.h>
 #include <trisect/kernel/lattice.h>
 
@@ -77,5 +78,22 @@ struct RelativeMotion {
     PolynomialMatrix line_moment;
     PolynomialMatrix line_lever;
 };
+
+/// The way from a Motion to its pieces and back.
+struct MotionAccess {
+    [[nodiscard]] static const MotionPiece& piece(const Motion& motion, std::size_t i) {
+        return motion.pieces()[i];
+    }
+    [[nodiscard]] static Motion make(const MotionPiece& piece) {
+        return Motion(Motion::Pieces{piece});
+    }
+};
+
+[[nodiscard]] inline const MotionPiece& piece_of(const Motion& motion, std::size_t i) {
+    return MotionAccess::piece(motion, i);
+}
+[[nodiscard]] inline Motion motion_of(const MotionPiece& piece) {
+    return MotionAccess::make(piece);
+}
 
 }  // namespace trisect::detail

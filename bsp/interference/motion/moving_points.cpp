@@ -90,7 +90,7 @@ std::optional<AlgebraicNumber> first_contact_exactly(const A& a, const B& b) {
     const std::optional<RealRoot> s = detail::first_meeting(coplanar, a, b, {0, 1});
     if (!s) return std::nullopt;
     ++counters.contacts;
-    return AlgebraicNumber(*s);
+    return detail::number_of(*s);
 }
 
 }  // namespace

@@ -47,16 +47,16 @@ std::array<double, 3> point_of(const InterferenceModelData& m, const Pose& pose,
 std::optional<BoundaryDistance> boundary_distance(const InterferenceModel& a, const Pose& pose_a,
                                                   const InterferenceModel& b, const Pose& pose_b) {
     if (a.is_empty() || b.is_empty()) return std::nullopt;
-    DistanceSearch search(a.data(), pose_a, b.data(), pose_b);
+    DistanceSearch search(detail::data_of(a), pose_a, detail::data_of(b), pose_b);
     search.run();
     const DistanceSearch::Candidate& best = search.candidates().front();
     BoundaryDistance r;
     r.lower = search.lower();
     r.upper = search.upper();
-    r.a = entity_of(a.data(), best.a, feature_of(best.closest.on_p));
-    r.b = entity_of(b.data(), best.b, feature_of(best.closest.on_q));
-    r.on_a = point_of(a.data(), pose_a, best.a, best.closest.on_p);
-    r.on_b = point_of(b.data(), pose_b, best.b, best.closest.on_q);
+    r.a = entity_of(detail::data_of(a), best.a, feature_of(best.closest.on_p));
+    r.b = entity_of(detail::data_of(b), best.b, feature_of(best.closest.on_q));
+    r.on_a = point_of(detail::data_of(a), pose_a, best.a, best.closest.on_p);
+    r.on_b = point_of(detail::data_of(b), pose_b, best.b, best.closest.on_q);
     return r;
 }
 
@@ -64,13 +64,13 @@ std::optional<ExactRational> exact_squared_distance(const InterferenceModel& a, 
                                                     const InterferenceModel& b,
                                                     const Pose& pose_b) {
     if (a.is_empty() || b.is_empty()) return std::nullopt;
-    DistanceSearch search(a.data(), pose_a, b.data(), pose_b);
+    DistanceSearch search(detail::data_of(a), pose_a, detail::data_of(b), pose_b);
     search.run();
     std::optional<ExactRational> least;
     for (const DistanceSearch::Candidate& c : search.candidates()) {
         if (c.crossing) return ExactRational();
-        const ExactRational d =
-            detail::exact_squared_distance(a.data(), pose_a, c.a, b.data(), pose_b, c.b);
+        const ExactRational d = detail::exact_squared_distance(detail::data_of(a), pose_a, c.a,
+                                                               detail::data_of(b), pose_b, c.b);
         if (!least || d < *least) least = d;
         if (least->sign() == 0) break;
     }
@@ -82,14 +82,14 @@ bool are_nearer_than(const InterferenceModel& a, const Pose& pose_a, const Inter
     if (!std::isfinite(distance) || distance < 0)
         throw UsageError("a distance must be finite and not negative");
     if (a.is_empty() || b.is_empty() || distance == 0) return false;
-    DistanceSearch search(a.data(), pose_a, b.data(), pose_b);
+    DistanceSearch search(detail::data_of(a), pose_a, detail::data_of(b), pose_b);
     search.run(distance, true);
     if (search.upper() < distance) return true;
     const ExactRational limit = ExactRational::from_double(distance);
     for (const DistanceSearch::Candidate& c : search.candidates())
         if (c.bounds.lower < distance &&
-            detail::exact_squared_distance(a.data(), pose_a, c.a, b.data(), pose_b, c.b) <
-                limit * limit)
+            detail::exact_squared_distance(detail::data_of(a), pose_a, c.a, detail::data_of(b),
+                                           pose_b, c.b) < limit * limit)
             return true;
     return false;
 }

@@ -140,7 +140,7 @@ namespace {
 // a while.
 bool is_same_in_place(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
                       const Pose& pose_b) {
-    if (&a.data() != &b.data()) return false;
+    if (&detail::data_of(a) != &detail::data_of(b)) return false;
     const RelativePose r = detail::relative_pose(pose_a, a.lattice(), pose_b, b.lattice());
     return r.is_translation() &&
            std::ranges::all_of(r.translation(), [](const auto& t) { return t.is_zero(); });
@@ -180,13 +180,14 @@ InterferenceResult interfere(const InterferenceModel& a, const Pose& pose_a,
     if (!all) {
         detail::ObbWalk::Stack stack;
         stack.reserve(256);
-        if (const auto quick = detail::quick_relation(a.data(), pose_a, b.data(), pose_b, stack,
-                                                      nullptr, &candidates)) {
+        if (const auto quick =
+                detail::quick_relation(detail::data_of(a), pose_a, detail::data_of(b), pose_b,
+                                       stack, nullptr, &candidates)) {
             result.relation = *quick;
             return result;
         }
     }
-    const PosedModels models{a.data(), b.data(),
+    const PosedModels models{detail::data_of(a), detail::data_of(b),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
     detail::MeetingCollector collect(models, all);
     if (all)

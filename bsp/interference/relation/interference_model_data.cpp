@@ -75,7 +75,7 @@ Brep boundary_of(const Solid& solid) {
 
 // A boundary that may cross itself is made free of that first.
 Solid resolved(const Solid& solid) {
-    return solid.state()->embedded ? solid : evaluate(Expression(solid));
+    return detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
 }
 
 }  // namespace

@@ -118,4 +118,14 @@ private:
     mutable InsideBalls balls_;
 };
 
+struct InterferenceModelAccess {
+    [[nodiscard]] static const InterferenceModelData& data(const InterferenceModel& model) {
+        return model.data();
+    }
+};
+
+[[nodiscard]] inline const InterferenceModelData& data_of(const InterferenceModel& model) {
+    return InterferenceModelAccess::data(model);
+}
+
 }  // namespace trisect::detail

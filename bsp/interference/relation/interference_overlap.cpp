@@ -60,13 +60,13 @@ class Overlapping {
 public:
     Overlapping(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
                 const Pose& pose_b)
-        : a_(a.data()),
-          b_(b.data()),
+        : a_(detail::data_of(a)),
+          b_(detail::data_of(b)),
           to_a_(detail::relative_pose(pose_a, a.lattice(), pose_b, b.lattice())) {}
 
     Overlap run(const Pose& pose_a) {
         if (!try_exact()) round();
-        result_.volume = exact_volume(result_.solid.to_brep());
+        result_.volume = exact_volume(result_.scaled_solid.to_brep());
         for (int i = 0; i < 3; ++i) result_.volume /= result_.scale;
         // Into the world: times |det M| / S^3.
         std::array<IntVector, 3> m;
@@ -165,7 +165,7 @@ private:
         LatticeMesh mesh_b = mesh_of(b_, lattice, std::move(points_b));
         if (to_a_.is_mirror())
             for (auto& t : mesh_b.triangles) std::swap(t[1], t[2]);
-        result_.solid =
+        result_.scaled_solid =
             evaluate(Expression(Solid::from_lattice_mesh(std::move(mesh_a), embedding)) &
                      Expression(Solid::from_lattice_mesh(std::move(mesh_b), embedding)));
     }

@@ -23,6 +23,7 @@
 
 #include <trisect/bsp/interference/boxes/broad_phase.h>
 #include <trisect/bsp/interference/interference_query.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/broad_phases.h>
 #include <trisect/bsp/interference/scene/chain_boxes.h>
 #include <trisect/bsp/interference/scene/scene_bodies.h>
@@ -235,10 +236,11 @@ Relation Scene::Implementation::relation(Answer& answer, const SceneBody& a, con
     if (a.model.triangle_count() + b.model.triangle_count() < worth_remembering)
         return interfere(a.model, a.pose, b.model, b.pose).relation;
     // Another body may have come into the slot of one that was removed.
-    if (!answer.query || answer.query_a != &a.model.data() || answer.query_b != &b.model.data()) {
+    if (!answer.query || answer.query_a != &detail::data_of(a.model) ||
+        answer.query_b != &detail::data_of(b.model)) {
         answer.query = std::make_unique<InterferenceQuery>(a.model, b.model);
-        answer.query_a = &a.model.data();
-        answer.query_b = &b.model.data();
+        answer.query_a = &detail::data_of(a.model);
+        answer.query_b = &detail::data_of(b.model);
     }
     return answer.query->relation(a.pose, b.pose);
 }

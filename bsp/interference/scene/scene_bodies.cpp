@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect::detail {
@@ -63,7 +64,7 @@ std::vector<BodyId> SceneBodies::all() const {
 }
 
 BodyId SceneBodies::put(SceneBody body) {
-    if (!body.model.is_empty()) body.bounds.emplace(body.model.data());
+    if (!body.model.is_empty()) body.bounds.emplace(detail::data_of(body.model));
     body.placement = ++placements_;
     if (free_.empty()) {
         free_.reserve(slots_.size() + 1);  // so that remove() cannot fail

@@ -184,10 +184,7 @@ std::vector<Point> IndexPolygons::corners(Id id) const {
     return out;
 }
 
-FaceSource IndexPolygons::face_source(Id id) const {
-    const Source& s = source(id);
-    return {static_cast<std::uint32_t>(s.serial()), s.face_of(facet(id))};
-}
+FaceSource IndexPolygons::face_source(Id id) const { return source(id).name_of(facet(id)); }
 
 std::size_t IndexPolygons::bytes() const {
     return sizeof(*this) + records_.capacity() * sizeof(Record) +

@@ -120,8 +120,7 @@ Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on, const 
             if (static_cast<double>(c.x) != point[0] || static_cast<double>(c.y) != point[1] ||
                 static_cast<double>(c.z) != point[2])
                 continue;
-            const CornerSource name{static_cast<std::uint32_t>(s.serial()),
-                                    s.corner_index(polygons.facet(id), i)};
+            const CornerSource name{s.operand(), s.corner_index(polygons.facet(id), i)};
             if (!place.corner.is_valid() || name < place.corner) place.corner = name;
         }
     }

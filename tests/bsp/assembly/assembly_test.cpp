@@ -19,6 +19,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -38,7 +39,7 @@ using trisect::detail::AssemblyStats;
 
 AssemblyStats stats_of(const Solid& solid) {
     AssemblyStats stats;
-    (void)trisect::detail::assemble_mesh(*solid.state(), &stats);
+    (void)trisect::detail::assemble_mesh(*trisect::detail::state_of(solid), &stats);
     return stats;
 }
 
@@ -109,10 +110,13 @@ TEST(AssemblyWork, FewLeavesAreReadWherePlanesHaveFacetsThatPassThrough) {
 TEST(AssemblyWork, OnlyCoplanarNeighboursAreJoined) {
     AssemblyStats stats;
     // Two facets for each side of a box.
-    EXPECT_EQ(trisect::detail::assemble_brep(*box(0, 1).state(), {}, &stats).counts().faces, 6U);
+    EXPECT_EQ(trisect::detail::assemble_brep(*trisect::detail::state_of(box(0, 1)), {}, &stats)
+                  .counts()
+                  .faces,
+              6U);
     EXPECT_EQ(stats.joined_facets, 12U);
     const Solid sphere = Solid::from_mesh(trisect::make_icosphere(1, 3));
-    (void)trisect::detail::assemble_brep(*sphere.state(), {}, &stats);
+    (void)trisect::detail::assemble_brep(*trisect::detail::state_of(sphere), {}, &stats);
     EXPECT_EQ(stats.joined_facets, 0U);
 }
 
@@ -204,8 +208,9 @@ TEST(CoplanarFacetsOfAMesh, WhatIsFarFromAPocketKeepsItsVertices) {
 
 // Planes that are outlined as a whole against facets that are put together one by one.
 void expect_general_way_agrees(const Solid& solid) {
-    PolygonMesh quick = trisect::detail::assemble_mesh(*solid.state());
-    PolygonMesh general = trisect::detail::assemble_mesh(*solid.state(), nullptr, false);
+    PolygonMesh quick = trisect::detail::assemble_mesh(*trisect::detail::state_of(solid));
+    PolygonMesh general =
+        trisect::detail::assemble_mesh(*trisect::detail::state_of(solid), nullptr, false);
     EXPECT_EQ(quick.face_count(), general.face_count());
     expect_matching_edges(general);
     std::ranges::sort(quick.points);
@@ -263,14 +268,16 @@ TEST(PlanesAcrossAxes, NothingIsCutBeforeSomebodyAsks) {
         expect_matching_edges(mesh);
         EXPECT_EQ(mesh, meshes[0]) << leaf;
         const Solid complement = evaluate(~Expression(solid));
-        const PolygonMesh inside_out = trisect::detail::assemble_mesh(*complement.state());
+        const PolygonMesh inside_out =
+            trisect::detail::assemble_mesh(*trisect::detail::state_of(complement));
         expect_general_way_agrees(complement);
         // The first use of the facets cuts them.
         const Solid halved = evaluate(solid - box({5, 5, 5}, {30, 30, 15}));
         EXPECT_EQ(halved.to_mesh(), evaluate(formula - box({5, 5, 5}, {30, 30, 15})).to_mesh());
         expect_general_way_agrees(solid);
         EXPECT_EQ(solid.to_mesh(), mesh);
-        EXPECT_EQ(trisect::detail::assemble_mesh(*complement.state()), inside_out);
+        EXPECT_EQ(trisect::detail::assemble_mesh(*trisect::detail::state_of(complement)),
+                  inside_out);
     }
 }
 
@@ -310,16 +317,6 @@ void random_boxes(int rounds, bool coincident) {
         }
     }
     EXPECT_GT(outlined, 300U);
-}
-
-void append(PolygonMesh& mesh, const PolygonMesh& other) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
-    for (std::size_t f = 0; f < other.face_count(); ++f) {
-        std::vector<std::uint32_t> loop;
-        for (const std::uint32_t v : other.face(f)) loop.push_back(first + v);
-        mesh.add_face(loop);
-    }
 }
 
 // Bars side by side along one axis, apart from each other, as one mesh.

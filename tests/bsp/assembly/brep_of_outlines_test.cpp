@@ -51,8 +51,8 @@ std::multiset<FaceKey> faces_of(const Brep& brep) {
 }
 
 void expect_what_the_tree_gives(const Solid& solid) {
-    ASSERT_NE(solid.state()->lazy_tree(), nullptr);
-    const auto tree = solid.state()->lazy_tree()->cut();
+    ASSERT_NE(trisect::detail::state_of(solid)->lazy_tree(), nullptr);
+    const auto tree = trisect::detail::state_of(solid)->lazy_tree()->cut();
     for (const bool maximal : {true, false}) {
         const AssembleOptions options{maximal};
         const Brep brep = solid.to_brep(options);
@@ -69,7 +69,7 @@ int expect_for_all_operations(const Solid& a, const Solid& b, const EvaluateOpti
     int outlined = 0;
     for (const Expression& e : {Expression(a) | b, Expression(a) & b, Expression(a) - b}) {
         const Solid solid = evaluate(e, options);
-        if (solid.state()->lazy_tree() == nullptr) continue;
+        if (trisect::detail::state_of(solid)->lazy_tree() == nullptr) continue;
         ++outlined;
         expect_what_the_tree_gives(solid);
     }
@@ -163,7 +163,8 @@ TEST(BrepOfOutlines, PocketsInOrderOrNot) {
         }
         const Solid solid =
             evaluate((parts[0] | parts[1] | parts[2]) - parts[3] - parts[4], outlined());
-        if (solid.state()->lazy_tree() != nullptr) expect_what_the_tree_gives(solid);
+        if (trisect::detail::state_of(solid)->lazy_tree() != nullptr)
+            expect_what_the_tree_gives(solid);
     }
 }
 

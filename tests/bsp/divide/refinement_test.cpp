@@ -82,7 +82,7 @@ protected:
 TEST_F(Refinement, LeavesListWhatMeetsTheirCells) {
     const Solid part = Solid::from_mesh(balls());
     part.refine(1);
-    root_ = part.state()->root().node.get();
+    root_ = trisect::detail::state_of(part)->root().node.get();
     all_.assign(root_->polygons().begin(), root_->polygons().end());
     check(*root_, Cell{});
     EXPECT_GT(leaves_, 16U);

@@ -35,7 +35,7 @@ void collect(const CellNode* node, Nodes& out) {
 
 Nodes nodes_of(const Solid& s) {
     Nodes out;
-    collect(s.state()->root().node.get(), out);
+    collect(trisect::detail::state_of(s)->root().node.get(), out);
     return out;
 }
 
@@ -137,13 +137,16 @@ TEST(CellSharing, ComplementsShareTheTree) {
     const Solid a = refined_ball();
     const Solid outside = evaluate(~a);
     EXPECT_EQ(shared_nodes(a, outside), nodes_of(a).size());
-    EXPECT_EQ(evaluate(~outside).state()->root().node, a.state()->root().node);
+    EXPECT_EQ(trisect::detail::state_of(evaluate(~outside))->root().node,
+              trisect::detail::state_of(a)->root().node);
 }
 
 TEST(CellSharing, UnionWithTheEmptySetIsTheSameTree) {
     const Solid a = refined_ball();
-    EXPECT_EQ(evaluate(a | Solid()).state()->root().node, a.state()->root().node);
-    EXPECT_EQ(evaluate(a & Solid::whole_space()).state()->root().node, a.state()->root().node);
+    EXPECT_EQ(trisect::detail::state_of(evaluate(a | Solid()))->root().node,
+              trisect::detail::state_of(a)->root().node);
+    EXPECT_EQ(trisect::detail::state_of(evaluate(a & Solid::whole_space()))->root().node,
+              trisect::detail::state_of(a)->root().node);
     EXPECT_TRUE(evaluate(a & Solid()).is_empty());
 }
 

@@ -125,7 +125,7 @@ TEST(NeedleFans, GenericCutsNeedNoWideIntegers) {
     trisect::predicate_counters() = {};
     EvaluateStats stats;
     const Solid joined = evaluate(a | b, {}, &stats);
-    arrange_leaves(*joined.state()->root().node);
+    arrange_leaves(*trisect::detail::state_of(joined)->root().node);
     const auto counters = trisect::predicate_counters();
     EXPECT_GT(stats.pairs_cutting, 20U);
     EXPECT_GE(stats.pairs_boxes, stats.pairs_touching);

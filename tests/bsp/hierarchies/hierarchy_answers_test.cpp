@@ -39,8 +39,11 @@ std::vector<FacePair> brute_faces(const Placed& s) {
     std::vector<FacePair> r;
     for (std::uint32_t i = 0; i < s.a.triangle_count(); ++i)
         for (std::uint32_t j = 0; j < s.b.triangle_count(); ++j)
-            if (test(posed_triangle(s.a.data(), i), posed_triangle(s.b.data(), j)).meets())
-                r.emplace_back(s.a.data().triangles[i].face, s.b.data().triangles[j].face);
+            if (test(posed_triangle(trisect::detail::data_of(s.a), i),
+                     posed_triangle(trisect::detail::data_of(s.b), j))
+                    .meets())
+                r.emplace_back(trisect::detail::data_of(s.a).triangles[i].face,
+                               trisect::detail::data_of(s.b).triangles[j].face);
     std::ranges::sort(r);
     r.erase(std::unique(r.begin(), r.end()), r.end());
     return r;
@@ -51,13 +54,15 @@ ClosestFeatures brute_closest(const Placed& s) {
     bool any = false;
     for (std::uint32_t i = 0; i < s.a.triangle_count(); ++i)
         for (std::uint32_t j = 0; j < s.b.triangle_count(); ++j) {
-            const auto c = detail::exact_closest(s.a.data(), s.pose_a, i, s.b.data(), s.pose_b, j);
+            const auto c = detail::exact_closest(trisect::detail::data_of(s.a), s.pose_a, i,
+                                                 trisect::detail::data_of(s.b), s.pose_b, j);
             if (c.squared.sign() == 0) return {};
             if (any && best.squared < c.squared) continue;
             if (!any || c.squared < best.squared) best = {c.squared, {}};
             any = true;
             for (const auto& f : c.features) {
-                const std::pair names{entity_of(s.a.data(), i, f.a), entity_of(s.b.data(), j, f.b)};
+                const std::pair names{entity_of(trisect::detail::data_of(s.a), i, f.a),
+                                      entity_of(trisect::detail::data_of(s.b), j, f.b)};
                 if (!best.features || names < *best.features) best.features = names;
             }
         }

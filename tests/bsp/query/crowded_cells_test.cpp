@@ -184,19 +184,19 @@ TEST_F(SpindleAndBall, PlanesBetweenAndThroughThem) {
     const auto level = [](std::int64_t z) {
         return Plane::through(LatticePoint{0, 0, z}, LatticePoint{1, 0, z}, LatticePoint{0, 1, z});
     };
-    EXPECT_EQ(index.relation_to(level(far + radius + 1)), PlaneRelation::Below);
-    EXPECT_EQ(index.relation_to(level(far + radius)), PlaneRelation::TouchingBelow);
-    EXPECT_EQ(index.relation_to(level(far + radius - 1)), PlaneRelation::Straddling);
-    EXPECT_EQ(index.relation_to(level(far / 2)), PlaneRelation::Straddling);
-    EXPECT_EQ(index.relation_to(level(-radius)), PlaneRelation::TouchingAbove);
-    EXPECT_EQ(index.relation_to(level(-radius - 1)), PlaneRelation::Above);
-    EXPECT_TRUE(index.section(level(far / 2)).empty());
+    EXPECT_EQ(index.relation_to(level(far + radius + 1), {}), PlaneRelation::Below);
+    EXPECT_EQ(index.relation_to(level(far + radius), {}), PlaneRelation::TouchingBelow);
+    EXPECT_EQ(index.relation_to(level(far + radius - 1), {}), PlaneRelation::Straddling);
+    EXPECT_EQ(index.relation_to(level(far / 2), {}), PlaneRelation::Straddling);
+    EXPECT_EQ(index.relation_to(level(-radius), {}), PlaneRelation::TouchingAbove);
+    EXPECT_EQ(index.relation_to(level(-radius - 1), {}), PlaneRelation::Above);
+    EXPECT_TRUE(index.section(level(far / 2), {}).empty());
     for (const std::int64_t at : {std::int64_t{0}, far}) {
-        const auto rim = index.section(level(at));
+        const auto rim = index.section(level(at), {});
         ASSERT_EQ(rim.size(), 1U);
         EXPECT_EQ(rim[0].outer.points.size(), at == 0 ? sides : ball_sides);
         EXPECT_TRUE(rim[0].holes.empty());
-        EXPECT_EQ(index.section(level(at + radius - 1)).size(), 1U);
+        EXPECT_EQ(index.section(level(at + radius - 1), {}).size(), 1U);
     }
 }
 

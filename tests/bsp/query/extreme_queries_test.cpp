@@ -117,19 +117,19 @@ TEST(ExtremeQueries, OfHalfSpaces) {
     const Plane slanted =
         Plane::through(LatticePoint{0, 0, 0}, LatticePoint{1, 0, 1}, LatticePoint{0, 1, 0});
     for (const bool turned : {false, true}) {
-        const BrepIndex index(Solid::half_space(turned ? reversed(5) : level(5)));
+        const BrepIndex index(Solid::half_space(turned ? reversed(5) : level(5), {}));
         EXPECT_EQ(location(index, {1e200, -3, 5}), Location::OnFace);
         const Location below = location(index, {7, 7, 4});
         EXPECT_NE(below, location(index, {7, 7, 6}));
-        EXPECT_EQ(index.relation_to(level(6)), PlaneRelation::Below);
-        EXPECT_EQ(index.relation_to(reversed(6)), PlaneRelation::Above);
-        EXPECT_EQ(index.relation_to(level(4)), PlaneRelation::Above);
-        EXPECT_EQ(index.relation_to(slanted), PlaneRelation::Straddling);
+        EXPECT_EQ(index.relation_to(level(6), {}), PlaneRelation::Below);
+        EXPECT_EQ(index.relation_to(reversed(6), {}), PlaneRelation::Above);
+        EXPECT_EQ(index.relation_to(level(4), {}), PlaneRelation::Above);
+        EXPECT_EQ(index.relation_to(slanted, {}), PlaneRelation::Straddling);
         // It touches its own plane from the side on which it is.
         const bool is_below = below == Location::Inside;
-        EXPECT_EQ(index.relation_to(level(5)),
+        EXPECT_EQ(index.relation_to(level(5), {}),
                   is_below ? PlaneRelation::TouchingBelow : PlaneRelation::TouchingAbove);
-        EXPECT_EQ(index.relation_to(reversed(5)),
+        EXPECT_EQ(index.relation_to(reversed(5), {}),
                   is_below ? PlaneRelation::TouchingAbove : PlaneRelation::TouchingBelow);
         EXPECT_EQ(index.in_box({0, 0, 0}, {9, 9, 9}).faces.size(), 1U);
         EXPECT_EQ(index.in_box({0, 0, 5}, {9, 9, 9}).faces.size(), 1U);
@@ -152,9 +152,9 @@ TEST(ExtremeQueries, OfHalfSpaces) {
         EXPECT_EQ(location(index, {1e30, -1e30, 5}), Location::OnFace);
         EXPECT_EQ(location(index, {1e30, -1e30, 4}), below);
     }
-    EXPECT_EQ(BrepIndex(Solid::whole_space()).relation_to(level(0)), PlaneRelation::Empty);
+    EXPECT_EQ(BrepIndex(Solid::whole_space()).relation_to(level(0), {}), PlaneRelation::Empty);
     EXPECT_EQ(location(BrepIndex(Solid::whole_space()), {9, 9, 9}), Location::Inside);
-    EXPECT_EQ(BrepIndex(Solid()).relation_to(level(0)), PlaneRelation::Empty);
+    EXPECT_EQ(BrepIndex(Solid()).relation_to(level(0), {}), PlaneRelation::Empty);
 
     const BrepIndex around(
         evaluate(~Expression(Solid::from_mesh(trisect::make_box({0, 0, 0}, {4, 4, 4})))));

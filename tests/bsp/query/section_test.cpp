@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/kernel/error.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
@@ -64,7 +66,7 @@ bool is_on_loop(const trisect::SectionLoop& loop, const brute::Point3& p) {
 // (except for loose parts), and outside when it is not.
 void expect_section(const BrepIndex& index, const brute::Boundary& boundary, const Plane& plane,
                     reference::Random& random, std::uint64_t seed) {
-    const auto regions = index.section(plane);
+    const auto regions = index.section(plane, {});
     const auto axis = static_cast<std::size_t>(plane.dominant_axis());
     const int turned = plane.normal(static_cast<int>(axis)) > 0 ? 1 : -1;
     const auto at = [&](std::size_t k) {
@@ -155,18 +157,18 @@ TEST(Section, OfACubeInItsOwnFacesIsTheFace) {
         for (const bool flipped : {false, true}) {
             Plane plane = Plane::axis_aligned(2, 1, z);
             if (flipped) plane = plane.flipped();
-            const auto regions = index.section(plane);
+            const auto regions = index.section(plane, {});
             ASSERT_EQ(regions.size(), 1U);
             EXPECT_EQ(regions[0].outer.points.size(), 4U);
             EXPECT_TRUE(regions[0].holes.empty());
         }
     }
-    EXPECT_TRUE(index.section(Plane::axis_aligned(2, 1, 5)).empty());
+    EXPECT_TRUE(index.section(Plane::axis_aligned(2, 1, 5), {}).empty());
 }
 
 TEST(Section, OfABoxWithACavityHasAHole) {
     const BrepIndex index(evaluate(cube(0, 8) - cube(2, 6)));
-    const auto regions = index.section(Plane::axis_aligned(0, 1, 4));
+    const auto regions = index.section(Plane::axis_aligned(0, 1, 4), {});
     ASSERT_EQ(regions.size(), 1U);
     EXPECT_EQ(regions[0].outer.points.size(), 4U);
     ASSERT_EQ(regions[0].holes.size(), 1U);
@@ -174,18 +176,38 @@ TEST(Section, OfABoxWithACavityHasAHole) {
 }
 
 TEST(Section, OfAHalfSpaceIsUnbounded) {
-    const BrepIndex index(Solid::half_space(Plane::axis_aligned(2, 1, 0)));
-    EXPECT_THROW((void)index.section(Plane::axis_aligned(0, 1, 0)), trisect::UnsupportedError);
+    const BrepIndex index(Solid::half_space(Plane::axis_aligned(2, 1, 0), {}));
+    EXPECT_THROW((void)index.section(Plane::axis_aligned(0, 1, 0), {}), trisect::UnsupportedError);
 }
 
 TEST(RelationToPlane, OfACube) {
     const BrepIndex index(cube(0, 4));
-    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 5)), PlaneRelation::Below);
-    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 4)), PlaneRelation::TouchingBelow);
-    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 3)), PlaneRelation::Straddling);
-    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 0)), PlaneRelation::TouchingAbove);
-    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, -1)), PlaneRelation::Above);
-    EXPECT_EQ(BrepIndex(Solid()).relation_to(Plane::axis_aligned(2, 1, 0)), PlaneRelation::Empty);
+    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 5), {}), PlaneRelation::Below);
+    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 4), {}), PlaneRelation::TouchingBelow);
+    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 3), {}), PlaneRelation::Straddling);
+    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, 0), {}), PlaneRelation::TouchingAbove);
+    EXPECT_EQ(index.relation_to(Plane::axis_aligned(2, 1, -1), {}), PlaneRelation::Above);
+    EXPECT_EQ(BrepIndex(Solid()).relation_to(Plane::axis_aligned(2, 1, 0), {}),
+              PlaneRelation::Empty);
+}
+
+TEST(Section, OfPlanesInTheUsersUnitsAndOnALattice) {
+    // Sizes of a tenth need a fine lattice.
+    const Solid box = Solid::from_mesh(trisect::make_box({1.1, 1.1, 1.1}));
+    const BrepIndex index(box);
+    ASSERT_NE(index.solid().lattice(), trisect::Lattice{});
+    const auto regions = index.section({0, 0, 1, -0.5});
+    ASSERT_EQ(regions.size(), 1U);
+    EXPECT_EQ(regions[0].outer.rounded[0][2], 0.5);
+    EXPECT_EQ(index.relation_to({0, 0, 1, -0.5}), PlaneRelation::Straddling);
+    EXPECT_EQ(index.relation_to({0, 0, 1, -2}), PlaneRelation::Below);
+    const Plane plane = trisect::plane_on_lattice({0, 0, 1, -0.5}, {});
+    EXPECT_THROW((void)index.section(plane, {}), trisect::UsageError);
+    EXPECT_THROW((void)index.relation_to(plane, {}), trisect::UsageError);
+    EXPECT_THROW((void)index.section({0, 0, 0, 1}), trisect::UsageError);
+    EXPECT_EQ(index.locate({0, 0, 0}).location, trisect::Location::OnVertex);
+    EXPECT_EQ(index.locate({0.5, 0.5, 0.5}).location, trisect::Location::Inside);
+    EXPECT_THROW((void)index.locate({0, 0}), trisect::UsageError);
 }
 
 }  // namespace

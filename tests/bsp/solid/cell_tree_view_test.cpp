@@ -32,7 +32,7 @@ constexpr std::array<double, 3> nowhere_above{infinity, infinity, infinity};
 
 bool contains(const CellLeaf& leaf, const std::array<double, 3>& p) {
     for (std::size_t k = 0; k < 3; ++k) {
-        if (p[k] <= leaf.lower[k] || p[k] >= leaf.upper[k]) return false;
+        if (p[k] <= leaf.lo[k] || p[k] >= leaf.hi[k]) return false;
     }
     return true;
 }
@@ -86,8 +86,8 @@ TEST_F(DifferenceOfBalls, HomogeneousCellsTellTheTruth) {
         if (leaf.polygons != 0) continue;
         std::array<double, 3> p{};
         for (std::size_t k = 0; k < 3; ++k) {
-            p[k] = std::clamp(leaf.lower[k] / 2 + leaf.upper[k] / 2, -9.0, 9.0);
-            if (std::isinf(leaf.lower[k]) && std::isinf(leaf.upper[k])) p[k] = 0;
+            p[k] = std::clamp(leaf.lo[k] / 2 + leaf.hi[k] / 2, -9.0, 9.0);
+            if (std::isinf(leaf.lo[k]) && std::isinf(leaf.hi[k])) p[k] = 0;
         }
         if (!contains(leaf, p)) continue;
         const double from_first = std::hypot(p[0], p[1], p[2]);
@@ -104,7 +104,7 @@ TEST_F(DifferenceOfBalls, SliceHasTheCellsThatReachIntoIt) {
     for (const double z : {-0.75, 0.0, 0.123, 0.5, 2.0}) {
         std::size_t expected = 0;
         for (const CellLeaf& leaf : all) {
-            expected += leaf.lower[2] <= z && z <= leaf.upper[2] ? 1 : 0;
+            expected += leaf.lo[2] <= z && z <= leaf.hi[2] ? 1 : 0;
         }
         const auto slice =
             cell_tree_leaves(solid, {-infinity, -infinity, z}, {infinity, infinity, z});
@@ -122,8 +122,8 @@ TEST(CellTreeView, ImportIsOneLeafThatListsEverything) {
     EXPECT_EQ(stats.fragments, 0U);
     const auto leaves = cell_tree_leaves(box, {5, 5, 5}, {5, 5, 5});
     ASSERT_EQ(leaves.size(), 1U);
-    EXPECT_EQ(leaves[0].lower[0], -infinity);
-    EXPECT_EQ(leaves[0].upper[2], infinity);
+    EXPECT_EQ(leaves[0].lo[0], -infinity);
+    EXPECT_EQ(leaves[0].hi[2], infinity);
 }
 
 TEST(CellTreeView, EmptySetAndWholeSpaceAreOneHomogeneousLeaf) {

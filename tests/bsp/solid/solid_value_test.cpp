@@ -15,6 +15,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/defect.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
@@ -45,7 +46,7 @@ TEST(SolidValue, WholeSpaceHasNoBoundaryAndIsNotEmpty) {
 TEST(SolidValue, CopiesShareTheirState) {
     const Solid a = unit_box();
     Solid b = a;  // NOLINT(performance-unnecessary-copy-initialization): that is the test
-    EXPECT_EQ(a.state(), b.state());
+    EXPECT_EQ(trisect::detail::state_of(a), trisect::detail::state_of(b));
     EXPECT_EQ(a.source_id(), b.source_id());
     b = Solid();
     EXPECT_TRUE(b.is_empty());
@@ -67,7 +68,7 @@ TEST(SolidValue, MovedFromIsTheEmptySet) {
     Solid a = unit_box();
     const Solid taken = std::move(a);
     EXPECT_TRUE(a.is_empty());  // NOLINT(bugprone-use-after-move): that is the test
-    EXPECT_NE(a.state(), nullptr);
+    EXPECT_NE(trisect::detail::state_of(a), nullptr);
     EXPECT_EQ(a.source_id(), 0U);
     EXPECT_EQ(a.to_mesh().face_count(), 0U);
     EXPECT_TRUE(a.to_brep().is_empty());
@@ -78,7 +79,7 @@ TEST(SolidValue, MovedFromIsTheEmptySet) {
 }
 
 TEST(SolidValue, OfANullStateIsTheEmptySet) {
-    const Solid s(std::shared_ptr<const trisect::detail::SolidState>(nullptr));
+    const Solid s = trisect::detail::solid_of(nullptr);
     EXPECT_TRUE(s.is_empty());
     EXPECT_FALSE(s.is_whole_space());
     EXPECT_TRUE(evaluate(~s).is_whole_space());
@@ -104,8 +105,8 @@ TEST(SolidValue, OnTheirBoundaryDependsWhetherHalfSpacesAreBounded) {
     // The unit box and its complement, of half-spaces alone.
     trisect::Expression box = Solid::whole_space();
     for (int axis = 0; axis < 3; ++axis) {
-        box = box & Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 1));
-        box = box - Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 0));
+        box = box & Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 1), {});
+        box = box - Solid::half_space(trisect::Plane::axis_aligned(axis, 1, 0), {});
     }
     EXPECT_EQ(evaluate(box).to_mesh().face_count(), 12U);
     EXPECT_THROW((void)evaluate(~box).to_mesh(), trisect::UnsupportedError);
@@ -163,7 +164,7 @@ TEST(SolidValue, OpenMeshesAreRefused) {
 }
 
 TEST(SolidValue, HalfSpacesWithoutNormalAreRefused) {
-    EXPECT_THROW((void)Solid::half_space(trisect::Plane()), trisect::UsageError);
+    EXPECT_THROW((void)Solid::half_space(trisect::Plane(), {}), trisect::UsageError);
 }
 
 TEST(SolidValue, EmptyMeshesAreTheEmptySet) {

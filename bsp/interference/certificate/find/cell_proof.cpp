@@ -209,7 +209,7 @@ std::optional<std::vector<CertifiedCell>> CellProof::run(Polygons a, Polygons b)
 
 std::optional<CertifiedCell::Kind> CellProof::verdict(const Polygons& a, const Polygons& b,
                                                       const GmpVector& point) {
-    const RationalPoint p = rational(point);
+    const ExactPoint p = rational(point);
     if (visit_) {
         if (!a.empty() || !b.empty()) return std::nullopt;
         stopped_ = visit_(p, in_a_(p), in_b_(p));

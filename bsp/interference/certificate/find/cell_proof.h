@@ -32,7 +32,7 @@ struct CellGoal {
 };
 
 /// Location of a point of the world that is on no boundary.
-using IsInside = std::function<bool(const RationalPoint&)>;
+using IsInside = std::function<bool(const ExactPoint&)>;
 
 /// A tree of cells in which every leaf is done with, in preorder; nothing when the goal cannot be
 /// reached or the limit is. Triangles are given in the world. `visit`, if given, is called with a
@@ -41,7 +41,7 @@ using IsInside = std::function<bool(const RationalPoint&)>;
 /// true.
 class CellProof {
 public:
-    using Visit = std::function<bool(const RationalPoint&, bool in_a, bool in_b)>;
+    using Visit = std::function<bool(const ExactPoint&, bool in_a, bool in_b)>;
 
     CellProof(IsInside in_a, IsInside in_b, CellGoal goal, Visit visit = {})
         : in_a_(std::move(in_a)), in_b_(std::move(in_b)), goal_(goal), visit_(std::move(visit)) {}

@@ -79,11 +79,11 @@ private:
 };
 
 // Integers without a common factor, which keeps numbers short.
-RationalPoint shortened(const RationalPoint& v) {
+ExactPoint shortened(const ExactPoint& v) {
     const certified::IntegerPoint p(v);
     const mpz_class common = gcd(gcd(p.x[0], p.x[1]), p.x[2]);
     if (sgn(common) == 0) return v;
-    RationalPoint r;
+    ExactPoint r;
     for (std::size_t k = 0; k < 3; ++k) r[k] = from_gmp(mpq_class(mpz_class(p.x[k] / common)));
     return r;
 }
@@ -274,8 +274,8 @@ std::vector<ClearanceFinder::Candidate> ClearanceFinder::candidates(const Range&
     if (r.part->triangles().size() > 2 * few_triangles || r.b1 - r.b0 > 2 * few_triangles)
         return all;
     const auto& points = r.part->points();
-    const auto add = [&all](Kind kind, const RationalPoint& normal) {
-        for (const RationalPoint& n : {normal, opposite(normal)}) {
+    const auto add = [&all](Kind kind, const ExactPoint& normal) {
+        for (const ExactPoint& n : {normal, opposite(normal)}) {
             Candidate& x = all.emplace_back();
             x.plane.kind = kind;
             x.plane.plane.normal = n;
@@ -292,8 +292,8 @@ std::vector<ClearanceFinder::Candidate> ClearanceFinder::candidates(const Range&
     Directions faces_b;
     for (std::size_t i = r.b0; i < r.b1; ++i) {
         const auto& v = b_.triangles[i].vertex;
-        const RationalPoint n = cross(minus(b_.points[v[1].index], b_.points[v[0].index]),
-                                      minus(b_.points[v[2].index], b_.points[v[0].index]));
+        const ExactPoint n = cross(minus(b_.points[v[1].index], b_.points[v[0].index]),
+                                   minus(b_.points[v[2].index], b_.points[v[0].index]));
         if (faces_b.is_new(approximate(n))) add(Kind::OfB, shortened(n));
     }
     if (r.b1 - r.b0 > 1) return all;
@@ -304,11 +304,11 @@ std::vector<ClearanceFinder::Candidate> ClearanceFinder::candidates(const Range&
             const std::uint32_t p = t[i];
             const std::uint32_t q = t[(i + 1) % 3];
             if (!edges_a.is_new(minus(c.of_a[q], c.of_a[p]))) continue;
-            const RationalPoint u = shortened(minus(points[q].rational(), points[p].rational()));
+            const ExactPoint u = shortened(minus(points[q].rational(), points[p].rational()));
             for (std::size_t j = 0; j < 3; ++j) {
-                const RationalPoint w =
+                const ExactPoint w =
                     shortened(minus(b_.points[v[(j + 1) % 3].index], b_.points[v[j].index]));
-                for (const RationalPoint& along : {u, opposite(u)}) {
+                for (const ExactPoint& along : {u, opposite(u)}) {
                     Candidate& x = all.emplace_back();
                     x.plane.kind = Kind::Edges;
                     x.plane.along_a = along;
@@ -325,21 +325,21 @@ std::vector<ClearanceFinder::Candidate> ClearanceFinder::candidates(const Range&
 void ClearanceFinder::add_sliding(const Range& r, const Corners& c,
                                   std::vector<Candidate>& all) const {
     const certified::Piece& to_a = clearance_.to_a();
-    const auto place = [&to_a](const RationalPoint& x, const ExactRational& s) {
-        RationalPoint y;
+    const auto place = [&to_a](const ExactPoint& x, const ExactRational& s) {
+        ExactPoint y;
         const ExactRational w = to_a.w.value_at(s);
         const certified::PolynomialVector p = to_a.point(x);
         for (std::size_t k = 0; k < 3; ++k) y[k] = p[k].value_at(s) / w;
         return y;
     };
-    std::array<RationalPoint, 3> at_first;
-    std::array<RationalPoint, 3> at_last;
+    std::array<ExactPoint, 3> at_first;
+    std::array<ExactPoint, 3> at_last;
     for (std::size_t i = 0; i < 3; ++i) {
-        const RationalPoint& x = b_.points[b_.triangles[r.b0].vertex[i].index];
+        const ExactPoint& x = b_.points[b_.triangles[r.b0].vertex[i].index];
         at_first[i] = place(x, r.from);
         at_last[i] = place(x, r.to);
     }
-    std::vector<RationalPoint> along;
+    std::vector<ExactPoint> along;
     Directions edges;
     const auto& points = r.part->points();
     for (const auto& t : r.part->triangles())
@@ -349,12 +349,12 @@ void ClearanceFinder::add_sliding(const Range& r, const Corners& c,
     for (std::size_t i = 0; i < 3; ++i) along.push_back(minus(at_first[(i + 1) % 3], at_first[i]));
     Directions normals;
     for (std::size_t i = 0; i < 3; ++i) {
-        const RationalPoint way = minus(at_last[i], at_first[i]);
-        for (const RationalPoint& u : along) {
-            const RationalPoint n = cross(u, way);
+        const ExactPoint way = minus(at_last[i], at_first[i]);
+        for (const ExactPoint& u : along) {
+            const ExactPoint n = cross(u, way);
             if (!normals.is_new(approximate(n))) continue;
-            const RationalPoint s = shortened(n);
-            for (const RationalPoint& m : {s, opposite(s)}) {
+            const ExactPoint s = shortened(n);
+            for (const ExactPoint& m : {s, opposite(s)}) {
                 Candidate& x = all.emplace_back();
                 x.plane.plane.normal = m;
                 x.normal = approximate(m);
@@ -385,7 +385,7 @@ bool ClearanceFinder::is_plausible(const Candidate& x, const Corners& c, const M
 void ClearanceFinder::complete(Candidate& x, const Range& r, const Corners& c) const {
     using Kind = SupportingPlane::Kind;
     const auto& points = r.part->points();
-    const RationalPoint& n = x.plane.plane.normal;
+    const ExactPoint& n = x.plane.plane.normal;
     if (x.plane.kind == Kind::OfA) {
         ExactRational highest = dot(n, points.front().rational());
         for (const certified::IntegerPoint& p : points)
@@ -486,8 +486,8 @@ std::optional<SeparatingPlane> ClearanceFinder::plane_to_divide(const Range& r,
     }
     if (!best) return std::nullopt;
     const auto& t = triangles[*best];
-    const RationalPoint p = points[t[0]].rational();
-    const RationalPoint n =
+    const ExactPoint p = points[t[0]].rational();
+    const ExactPoint n =
         shortened(cross(minus(points[t[1]].rational(), p), minus(points[t[2]].rational(), p)));
     return SeparatingPlane{n, -dot(n, p)};
 }

@@ -199,13 +199,13 @@ ContactCertificate certify_first_contact(const InterferenceModel& a, const Motio
     ContactCertificate c;
     const FirstContact contact = first_contact(a, motion_a, b, motion_b);
     c.is_contact = contact.exists();
-    c.at_start = certify(a, motion_a.pose_at(0), b, motion_b.pose_at(0));
+    c.at_start = certify_relation(a, motion_a.pose_at(0), b, motion_b.pose_at(0));
     if (c.at_start.relation != Relation::Disjoint || a.is_empty() || b.is_empty()) {
         c.is_complete = c.at_start.is_complete;
         return c;
     }
-    ProofBody body_a(a.data());
-    ProofBody body_b(b.data());
+    ProofBody body_a(detail::data_of(a));
+    ProofBody body_b(detail::data_of(b));
     std::size_t pieces = std::max(motion_a.piece_count(), motion_b.piece_count());
     std::optional<detail::BracketedTime> last;
     if (c.is_contact) {
@@ -221,7 +221,7 @@ ContactCertificate certify_first_contact(const InterferenceModel& a, const Motio
         pieces = c.piece + 1;
     }
     const auto piece_of = [](const Motion& m, std::size_t i) -> const MotionPiece& {
-        return m.piece(std::min(i, m.piece_count() - 1));
+        return detail::piece_of(m, std::min(i, m.piece_count() - 1));
     };
     for (std::size_t i = 0; i < pieces; ++i) {
         const bool is_last = c.is_contact && i + 1 == pieces;

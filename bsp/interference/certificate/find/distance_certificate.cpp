@@ -40,7 +40,7 @@ using detail::ProofBody;
 using detail::proof::Approximate;
 using detail::proof::exact;
 using detail::proof::opposite;
-using RationalCorners = std::array<RationalPoint, 3>;
+using RationalCorners = std::array<ExactPoint, 3>;
 
 // Of size about 1, in multiples of 2^-52, which keeps products short. Zero stays zero.
 Approximate scaled(const Approximate& v) {
@@ -51,7 +51,7 @@ Approximate scaled(const Approximate& v) {
     return r;
 }
 // A fraction's size may be beyond doubles.
-Approximate scaled(const RationalPoint& v) {
+Approximate scaled(const ExactPoint& v) {
     ExactRational largest;
     for (const ExactRational& x : v) largest = std::max(largest, x.sign() < 0 ? -x : x);
     if (largest.sign() == 0) return {};
@@ -74,11 +74,11 @@ std::array<ExactRational, 3> on_side(std::size_t i, const ExactRational& t) {
 }
 
 // The weights of the point in a triangle's plane that is nearest to x, or 0 where it is x.
-std::array<ExactRational, 3> weights_of(const RationalPoint& x, const RationalCorners& t) {
-    const RationalPoint u = minus(t[1], t[0]);
-    const RationalPoint v = minus(t[2], t[0]);
-    const RationalPoint w = minus(x, t[0]);
-    const RationalPoint n = cross(u, v);
+std::array<ExactRational, 3> weights_of(const ExactPoint& x, const RationalCorners& t) {
+    const ExactPoint u = minus(t[1], t[0]);
+    const ExactPoint v = minus(t[2], t[0]);
+    const ExactPoint w = minus(x, t[0]);
+    const ExactPoint n = cross(u, v);
     const ExactRational nn = dot(n, n);
     std::array<ExactRational, 3> r;
     r[1] = dot(cross(w, v), n) / nn;
@@ -87,14 +87,13 @@ std::array<ExactRational, 3> weights_of(const RationalPoint& x, const RationalCo
     return r;
 }
 
-ExactRational part_along(const RationalPoint& x, const RationalPoint& from,
-                         const RationalPoint& to) {
-    const RationalPoint d = minus(to, from);
+ExactRational part_along(const ExactPoint& x, const ExactPoint& from, const ExactPoint& to) {
+    const ExactPoint d = minus(to, from);
     return dot(minus(x, from), d) / dot(d, d);
 }
 
 // Of the point of a feature that is closest to x.
-std::array<ExactRational, 3> nearest(const RationalPoint& x, const RationalCorners& t, Feature f) {
+std::array<ExactRational, 3> nearest(const ExactPoint& x, const RationalCorners& t, Feature f) {
     if (f.is_interior()) return weights_of(x, t);
     if (f.is_side()) return on_side(f.index(), part_along(x, t[f.index()], t[(f.index() + 1) % 3]));
     return on_side(f.index(), ExactRational());
@@ -108,9 +107,9 @@ PointsOfPair points_of(const RationalCorners& p, Feature on_p, const RationalCor
     if (on_q.is_corner()) return {nearest(q[on_q.index()], p, on_p), on_side(on_q.index(), {})};
     const std::size_t i = on_p.index();
     const std::size_t j = on_q.index();
-    const RationalPoint u = minus(p[(i + 1) % 3], p[i]);
-    const RationalPoint v = minus(q[(j + 1) % 3], q[j]);
-    const RationalPoint r = minus(p[i], q[j]);
+    const ExactPoint u = minus(p[(i + 1) % 3], p[i]);
+    const ExactPoint v = minus(q[(j + 1) % 3], q[j]);
+    const ExactPoint r = minus(p[i], q[j]);
     const ExactRational uu = dot(u, u);
     const ExactRational vv = dot(v, v);
     const ExactRational uv = dot(u, v);
@@ -128,8 +127,8 @@ RationalCorners corners_of(const InterferenceModelData& m, const Pose& pose,
     return r;
 }
 
-RationalPoint weighted(const std::array<ExactRational, 3>& weights, const RationalCorners& c) {
-    RationalPoint r;
+ExactPoint weighted(const std::array<ExactRational, 3>& weights, const RationalCorners& c) {
+    ExactPoint r;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) r[k] += weights[i] * c[i][k];
     return r;
@@ -148,7 +147,7 @@ std::optional<Closest> common_point(const InterferenceModelData& a, const Pose& 
     for (const detail::MeetingPair& pair : meeting_pairs(models, true, flags))
         for (const detail::MeetingPoint& m : pair.contact.corners()) {
             if (m.a.is_interior() && m.b.is_interior()) continue;
-            const RationalPoint x = in_world(place_of(models, pair, m), a.brep.lattice(), pose_a);
+            const ExactPoint x = in_world(place_of(models, pair, m), a.brep.lattice(), pose_a);
             return Closest{{a.triangles[pair.a].face, x}, {b.triangles[pair.b].face, x}};
         }
     return std::nullopt;
@@ -234,7 +233,7 @@ private:
         return e.lowest - e.highest < e.goal - 8 * e.error - 0x1p-20 * e.goal;
     }
     // In fractions.
-    [[nodiscard]] std::optional<Slab> slab_along(const RationalPoint& d, Indices of_a,
+    [[nodiscard]] std::optional<Slab> slab_along(const ExactPoint& d, Indices of_a,
                                                  Indices of_b) const {
         ExactRational highest = highest_along(d, of_a, a_);
         ExactRational lowest = lowest_along(d, of_b, b_);
@@ -266,7 +265,7 @@ private:
             q[k] = b_.points[b_.triangles[j].vertex[k].index];
         }
         std::optional<Slab> slab;
-        const auto works = [&](const RationalPoint& d) {
+        const auto works = [&](const ExactPoint& d) {
             const Approximate near = scaled(d);
             if (near == Approximate{}) return false;
             const Extent e = extent(near, of_a, of_b);
@@ -277,17 +276,15 @@ private:
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t l = 0; l < 3; ++l)
                 if (works(minus(q[l], p[k]))) return slab;
-        const auto both_ways = [&](const RationalPoint& d) {
-            return works(d) || works(opposite(d));
-        };
+        const auto both_ways = [&](const ExactPoint& d) { return works(d) || works(opposite(d)); };
         if (both_ways(cross(minus(p[1], p[0]), minus(p[2], p[0])))) return slab;
         if (both_ways(cross(minus(q[1], q[0]), minus(q[2], q[0])))) return slab;
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t l = 0; l < 3; ++l) {
-                const RationalPoint u = minus(p[(k + 1) % 3], p[k]);
-                const RationalPoint v = minus(q[(l + 1) % 3], q[l]);
+                const ExactPoint u = minus(p[(k + 1) % 3], p[k]);
+                const ExactPoint v = minus(q[(l + 1) % 3], q[l]);
                 if (both_ways(cross(u, v))) return slab;
-                const RationalPoint w = minus(q[l], p[k]);
+                const ExactPoint w = minus(q[l], p[k]);
                 if (works(square_to(w, u)) || works(square_to(w, v))) return slab;
                 // The other way round: a corner of A and a side of B that does not begin there.
                 if (works(square_to(minus(q[l], p[(k + 1) % 3]), v))) return slab;
@@ -296,17 +293,17 @@ private:
         return std::nullopt;
     }
     // What of w is square to u, times a positive number.
-    static RationalPoint square_to(const RationalPoint& w, const RationalPoint& u) {
+    static ExactPoint square_to(const ExactPoint& w, const ExactPoint& u) {
         const ExactRational uu = dot(u, u);
         const ExactRational wu = dot(w, u);
-        RationalPoint r;
+        ExactPoint r;
         for (std::size_t k = 0; k < 3; ++k) r[k] = uu * w[k] - wu * u[k];
         return r;
     }
 
     const ProofBody& a_;
     const ProofBody& b_;
-    RationalPoint way_;
+    ExactPoint way_;
     ExactRational squared_;
     Approximate near_way_{};
     double distance_ = 0;
@@ -320,16 +317,16 @@ DistanceCertificate certify_distance(const InterferenceModel& a, const Pose& pos
                                      std::size_t max_nodes) {
     DistanceCertificate c;
     if (a.is_empty() || b.is_empty()) return c;
-    auto closest = closest_points(a.data(), pose_a, b.data(), pose_b);
+    auto closest = closest_points(detail::data_of(a), pose_a, detail::data_of(b), pose_b);
     if (!closest) return c;
-    const RationalPoint way = minus(closest->on_b.point, closest->on_a.point);
+    const ExactPoint way = minus(closest->on_b.point, closest->on_a.point);
     c.squared = dot(way, way);
     c.on_a = closest->on_a;
     c.on_b = closest->on_b;
     c.is_complete = true;
     if (c.squared.sign() == 0) return c;
-    ProofBody body_a(a.data(), pose_a);
-    ProofBody body_b(b.data(), pose_b);
+    ProofBody body_a(detail::data_of(a), pose_a);
+    ProofBody body_b(detail::data_of(b), pose_b);
     auto slabs = SlabBuilder(body_a, body_b, *closest, max_nodes).build();
     if (!slabs) {
         c.is_complete = false;

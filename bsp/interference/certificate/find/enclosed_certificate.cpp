@@ -52,7 +52,7 @@ struct EnclosedView {
     double constant;
 
     explicit EnclosedView(const MotionEnclosure& e)
-        : motion(BallMotion::of_points(e.motion.piece(0))),
+        : motion(BallMotion::of_points(detail::piece_of(e.motion, 0))),
           by_length(e.by_length),
           constant(e.constant) {}
 
@@ -238,7 +238,7 @@ std::vector<TimeSpan> free_spans(const EnclosedContact& answer, double duration)
 }
 
 // Whether a point is inside a solid, deeper than its enclosure deviates at a moment.
-bool is_deep_inside(const RationalPoint& p, const InterferenceModel& m, const MotionEnclosure& e,
+bool is_deep_inside(const ExactPoint& p, const InterferenceModel& m, const MotionEnclosure& e,
                     const std::vector<CertifiedTriangle>& triangles) {
     ExactRational reach;
     const detail::certified::Boundary modelled(m.brep());
@@ -256,7 +256,8 @@ bool prove_contact(EnclosedCertificate& c, double time, const InterferenceModel&
                    const EnclosedMotion& motion_b) {
     const MotionEnclosure ea = motion_a.enclose(time, time);
     const MotionEnclosure eb = motion_b.enclose(time, time);
-    const InterferenceCertificate s = certify(a, ea.motion.pose_at(0), b, eb.motion.pose_at(0));
+    const InterferenceCertificate s =
+        certify_relation(a, ea.motion.pose_at(0), b, eb.motion.pose_at(0));
     if (!s.in_both || !is_deep_inside(*s.in_both, a, ea, c.triangles_a) ||
         !is_deep_inside(*s.in_both, b, eb, c.triangles_b))
         return false;
@@ -275,8 +276,8 @@ EnclosedCertificate certify_enclosed_contact(
         c.is_complete = true;
         return c;
     }
-    ProofBody body_a(a.data());
-    ProofBody body_b(b.data());
+    ProofBody body_a(detail::data_of(a));
+    ProofBody body_b(detail::data_of(b));
     c.triangles_a = body_a.triangles;
     c.triangles_b = body_b.triangles;
     const double duration = motion_a.is_still() ? motion_b.duration() : motion_a.duration();
@@ -290,8 +291,8 @@ EnclosedCertificate certify_enclosed_contact(
         if (!start || !freedom) return c;
         s.start = std::move(*start);
         s.freedom = std::move(*freedom);
-        s.at_start = certify(a, motion_a.enclose(span.from, span.from).motion.pose_at(0), b,
-                             motion_b.enclose(span.from, span.from).motion.pose_at(0));
+        s.at_start = certify_relation(a, motion_a.enclose(span.from, span.from).motion.pose_at(0),
+                                      b, motion_b.enclose(span.from, span.from).motion.pose_at(0));
         if (!s.at_start.is_complete || s.at_start.relation != Relation::Disjoint) return c;
         c.free.push_back(std::move(s));
     }

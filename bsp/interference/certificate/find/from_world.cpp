@@ -9,7 +9,7 @@ namespace trisect::detail {
 // Columns of the inverse are cross products of the rows.
 FromWorld::FromWorld(const InterferenceModelData& model, const Pose& pose)
     : model_(&model), pose_(&pose) {
-    std::array<RationalPoint, 3> rows;
+    std::array<ExactPoint, 3> rows;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) rows[i][j] = ExactRational(pose.matrix(i, j));
     const ExactRational determinant = dot(rows[0], cross(rows[1], rows[2]));
@@ -19,8 +19,8 @@ FromWorld::FromWorld(const InterferenceModelData& model, const Pose& pose)
     }
 }
 
-RationalPoint FromWorld::moved_back(const RationalPoint& p) const {
-    RationalPoint x;
+ExactPoint FromWorld::moved_back(const ExactPoint& p) const {
+    ExactPoint x;
     for (std::size_t j = 0; j < 3; ++j) {
         const ExactRational y =
             p[j] * ExactRational(pose_->denominator()) - ExactRational(pose_->translation(j));
@@ -29,7 +29,7 @@ RationalPoint FromWorld::moved_back(const RationalPoint& p) const {
     return x;
 }
 
-bool FromWorld::is_inside(const RationalPoint& p) const {
+bool FromWorld::is_inside(const ExactPoint& p) const {
     return model_->index().locate(moved_back(p)).location == Location::Inside;
 }
 

@@ -18,14 +18,14 @@ public:
     FromWorld(const InterferenceModelData& model, const Pose& pose);
 
     /// Where a point was before the pose, in the user's units.
-    [[nodiscard]] RationalPoint moved_back(const RationalPoint& p) const;
+    [[nodiscard]] ExactPoint moved_back(const ExactPoint& p) const;
     /// \pre not on the boundary
-    [[nodiscard]] bool is_inside(const RationalPoint& p) const;
+    [[nodiscard]] bool is_inside(const ExactPoint& p) const;
 
 private:
     const InterferenceModelData* model_;
     const Pose* pose_;
-    std::array<RationalPoint, 3> columns_;  // of the inverse matrix
+    std::array<ExactPoint, 3> columns_;  // of the inverse matrix
 };
 
 }  // namespace trisect::detail

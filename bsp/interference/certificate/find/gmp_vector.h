@@ -20,7 +20,7 @@ using proof::opposite;
 inline bool is_zero(const GmpVector& v) {
     return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0;
 }
-inline RationalPoint rational(const GmpVector& v) {
+inline ExactPoint rational(const GmpVector& v) {
     return {from_gmp(v[0]), from_gmp(v[1]), from_gmp(v[2])};
 }
 

@@ -64,20 +64,20 @@ private:
         for (ExactRational& c : x) c = c.scaled(model.brep.lattice().exponent);
         return model.index().locate(x).location;
     }
-    static ExactPlace shifted(const ExactPlace& p, const RationalPoint& by,
+    static ExactPlace shifted(const ExactPlace& p, const ExactPoint& by,
                               const ExactRational& factor) {
         ExactPlace r;
         for (std::size_t k = 0; k < 3; ++k) r.c[k] = p.c[k] + factor * by[k];
         return r;
     }
     // The number of the size of v, as a power of two.
-    static int magnitude(const RationalPoint& v) {
+    static int magnitude(const ExactPoint& v) {
         double m = 0;
         for (const ExactRational& x : v) m = std::max(m, std::abs(x.to_double()));
         return m == 0 ? 0 : std::ilogb(m);
     }
 
-    static RationalPoint of_size_one(RationalPoint v) {
+    static ExactPoint of_size_one(ExactPoint v) {
         const int size = magnitude(v);
         for (ExactRational& x : v) x = x.scaled(-size);
         return v;
@@ -88,12 +88,12 @@ private:
         const auto& c = pair.contact;
         const ExactPlace p = place_of(models_, pair, c.points[0]);
         const ExactPlace q = place_of(models_, pair, c.points[1]);
-        const RationalPoint along = minus(q.c, p.c);
+        const ExactPoint along = minus(q.c, p.c);
         const ExactPlace middle = shifted(p, along, ExactRational(1) / ExactRational(2));
         // Of one size, or the point would be much nearer to one of the faces.
-        const RationalPoint n =
+        const ExactPoint n =
             of_size_one(normal(models_.a.brep.plane(models_.a.triangles[pair.a].face)));
-        const RationalPoint m =
+        const ExactPoint m =
             of_size_one(normal_of_b(models_.b.brep.plane(models_.b.triangles[pair.b].face)));
         // d = x n + y m with d·n = s n·n and d·m = t m·m, by Cramer's rule without the division.
         const ExactRational nn = dot(n, n);
@@ -102,23 +102,23 @@ private:
         for (const auto& [s, t] : {std::pair{-1, -1}, std::pair{-1, 1}, std::pair{1, -1}}) {
             const ExactRational x = ExactRational(s) * nn * mm - ExactRational(t) * mm * nm;
             const ExactRational y = ExactRational(t) * mm * nn - ExactRational(s) * nn * nm;
-            RationalPoint d;
+            ExactPoint d;
             for (std::size_t k = 0; k < 3; ++k) d[k] = x * n[k] + y * m[k];
             const int start = magnitude(along) - magnitude(d);
             for (int k = 0; k < 12; ++k)
                 look_at(shifted(middle, d, ExactRational(1).scaled(start - 3 * k)));
         }
     }
-    static RationalPoint normal(const Plane& plane) {
+    static ExactPoint normal(const Plane& plane) {
         return {ExactRational(WideInt<2>(plane.normal(0))),
                 ExactRational(WideInt<2>(plane.normal(1))),
                 ExactRational(WideInt<2>(plane.normal(2)))};
     }
     // Seen in A's lattice: the transposed map from A to B.
-    [[nodiscard]] RationalPoint normal_of_b(const Plane& plane) const {
+    [[nodiscard]] ExactPoint normal_of_b(const Plane& plane) const {
         const ExactPlace origin = moved(ExactPlace{}, models_.poses.to_b);
-        const RationalPoint n = normal(plane);
-        RationalPoint r;
+        const ExactPoint n = normal(plane);
+        ExactPoint r;
         for (std::size_t k = 0; k < 3; ++k) {
             ExactPlace unit;
             unit.c[k] = ExactRational(1);
@@ -135,7 +135,7 @@ private:
                                            models_.a.position(t.vertex[1])[k]));
         const int start = size > 0 ? std::ilogb(size) - 8 : 0;
         for (int k = 0; k < 24 && !is_done(); ++k) {
-            RationalPoint d;
+            ExactPoint d;
             for (ExactRational& x : d)
                 x = ExactRational(static_cast<std::int64_t>(random_() % 129) - 64);
             for (const int down : {0, 6, 14})

@@ -47,7 +47,7 @@ using detail::proof::opposite;
 
 // A plane with `below` strictly on its lower side and `above` on the upper one; or weakly, when
 // that is enough.
-std::optional<SeparatingPlane> plane_along(const RationalPoint& direction,
+std::optional<SeparatingPlane> plane_along(const ExactPoint& direction,
                                            std::span<const std::uint32_t> below, const ProofBody& a,
                                            std::span<const std::uint32_t> above, const ProofBody& b,
                                            bool strict) {
@@ -58,24 +58,24 @@ std::optional<SeparatingPlane> plane_along(const RationalPoint& direction,
 }
 
 // The directions of separating planes of two triangles or convex sets are among these.
-std::vector<RationalPoint> directions_of(const ProofBody& a, const CertifiedTriangle& s,
-                                         const ProofBody& b, const CertifiedTriangle& t) {
+std::vector<ExactPoint> directions_of(const ProofBody& a, const CertifiedTriangle& s,
+                                      const ProofBody& b, const CertifiedTriangle& t) {
     const auto sides = [](const ProofBody& p, const CertifiedTriangle& x) {
-        std::array<RationalPoint, 3> e;
+        std::array<ExactPoint, 3> e;
         for (std::size_t i = 0; i < 3; ++i)
             e[i] = minus(p.points[x.vertex[(i + 1) % 3].index], p.points[x.vertex[i].index]);
         return e;
     };
     const auto u = sides(a, s);
     const auto v = sides(b, t);
-    const RationalPoint n = cross(u[0], u[1]);
-    const RationalPoint m = cross(v[0], v[1]);
-    std::vector<RationalPoint> out{n, m};
-    for (const RationalPoint& e : u)
-        for (const RationalPoint& f : v) out.push_back(cross(e, f));
-    for (const RationalPoint& e : u) out.push_back(cross(e, n));
-    for (const RationalPoint& f : v) out.push_back(cross(f, m));
-    std::erase_if(out, [](const RationalPoint& d) { return dot(d, d).sign() == 0; });
+    const ExactPoint n = cross(u[0], u[1]);
+    const ExactPoint m = cross(v[0], v[1]);
+    std::vector<ExactPoint> out{n, m};
+    for (const ExactPoint& e : u)
+        for (const ExactPoint& f : v) out.push_back(cross(e, f));
+    for (const ExactPoint& e : u) out.push_back(cross(e, n));
+    for (const ExactPoint& f : v) out.push_back(cross(f, m));
+    std::erase_if(out, [](const ExactPoint& d) { return dot(d, d).sign() == 0; });
     return out;
 }
 
@@ -102,8 +102,8 @@ private:
     std::optional<SeparatingPlane> exact_plane(std::size_t i, std::size_t j,
                                                std::span<const std::uint32_t> below,
                                                std::span<const std::uint32_t> above) const {
-        for (const RationalPoint& d : directions_of(a_, a_.triangles[i], b_, b_.triangles[j]))
-            for (const RationalPoint& v : {d, opposite(d)})
+        for (const ExactPoint& d : directions_of(a_, a_.triangles[i], b_, b_.triangles[j]))
+            for (const ExactPoint& v : {d, opposite(d)})
                 if (auto plane = plane_along(v, below, a_, above, b_, true)) return plane;
         return std::nullopt;
     }
@@ -145,8 +145,8 @@ std::optional<SeparatingPlane> touching_plane(const ProofBody& a, const ProofBod
         if (++tried > 64) break;
         const auto& s = models.a.triangles[pair.a];
         const auto& t = models.b.triangles[pair.b];
-        for (const RationalPoint& d : directions_of(a, {s.face, s.vertex}, b, {t.face, t.vertex}))
-            for (const RationalPoint& v : {d, opposite(d)})
+        for (const ExactPoint& d : directions_of(a, {s.face, s.vertex}, b, {t.face, t.vertex}))
+            for (const ExactPoint& v : {d, opposite(d)})
                 if (auto plane = plane_along(v, below, a, above, b, false)) return plane;
     }
     return std::nullopt;
@@ -157,7 +157,7 @@ std::vector<detail::ConvexPolygon> polygons_of(const ProofBody& placed) {
     for (const CertifiedTriangle& t : placed.triangles) {
         detail::ConvexPolygon& p = r.emplace_back();
         for (const VertexId v : t.vertex) {
-            const RationalPoint& x = placed.points[v.index];
+            const ExactPoint& x = placed.points[v.index];
             p.push_back({detail::to_gmp(x[0]), detail::to_gmp(x[1]), detail::to_gmp(x[2])});
         }
     }
@@ -185,7 +185,7 @@ public:
     }
     // Points inside and outside, where nothing else has found them.
     void find_points(InterferenceCertificate& c) {
-        const auto note = [&c](const RationalPoint& p, bool in_a, bool in_b) {
+        const auto note = [&c](const ExactPoint& p, bool in_a, bool in_b) {
             if (in_a && in_b && !c.in_both) c.in_both = p;
             if (in_a && !in_b && !c.only_in_a) c.only_in_a = p;
             if (!in_a && in_b && !c.only_in_b) c.only_in_b = p;
@@ -199,9 +199,8 @@ public:
 
 private:
     detail::CellProof proof(const detail::CellGoal& goal, detail::CellProof::Visit visit) {
-        return {[this](const RationalPoint& p) { return in_a_.is_inside(p); },
-                [this](const RationalPoint& p) { return in_b_.is_inside(p); }, goal,
-                std::move(visit)};
+        return {[this](const ExactPoint& p) { return in_a_.is_inside(p); },
+                [this](const ExactPoint& p) { return in_b_.is_inside(p); }, goal, std::move(visit)};
     }
 
     ProofBody a_;
@@ -226,15 +225,15 @@ void complete(InterferenceCertificate& c, MakeCells&& cells) {
 
 }  // namespace
 
-InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
-                                const InterferenceModel& b, const Pose& pose_b) {
+InterferenceCertificate certify_relation(const InterferenceModel& a, const Pose& pose_a,
+                                         const InterferenceModel& b, const Pose& pose_b) {
     InterferenceCertificate c;
     c.relation = interfere(a, pose_a, b, pose_b).relation;
     if (a.is_empty() || b.is_empty()) {
         c.is_complete = true;
         return c;
     }
-    const PosedModels models{a.data(), b.data(),
+    const PosedModels models{detail::data_of(a), detail::data_of(b),
                              detail::PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
     detail::BoundaryFlags flags;
     const std::vector<MeetingPair> pairs = meeting_pairs(models, true, flags);
@@ -245,8 +244,8 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
                     c.on_both = in_world(place_of(models, pair, p), a.lattice(), pose_a);
     };
     if (pairs.empty()) {
-        ProofBody pa(a.data(), pose_a);
-        ProofBody pb(b.data(), pose_b);
+        ProofBody pa(detail::data_of(a), pose_a);
+        ProofBody pb(detail::data_of(b), pose_b);
         if (auto tree = Separation(pa, pb).tree()) {
             c.apart = std::move(*tree);
             c.triangles_a = std::move(pa.triangles);
@@ -259,9 +258,9 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
             break;
         case Relation::Touching: {
             note_common_point();
-            c.plane = touching_plane(ProofBody(a.data(), pose_a), ProofBody(b.data(), pose_b),
-                                     models, pairs);
-            if (!c.plane) Cells(a.data(), pose_a, b.data(), pose_b).prove(c);
+            c.plane = touching_plane(ProofBody(detail::data_of(a), pose_a),
+                                     ProofBody(detail::data_of(b), pose_b), models, pairs);
+            if (!c.plane) Cells(detail::data_of(a), pose_a, detail::data_of(b), pose_b).prove(c);
             c.is_complete = c.on_both && (c.plane || !c.cells.empty());
             break;
         }
@@ -273,7 +272,8 @@ InterferenceCertificate certify(const InterferenceModel& a, const Pose& pose_a,
         case Relation::Inside:
         case Relation::Contains:
             detail::find_inside_points(models, pairs, pose_a, c);
-            complete(c, [&] { return Cells(a.data(), pose_a, b.data(), pose_b); });
+            complete(c,
+                     [&] { return Cells(detail::data_of(a), pose_a, detail::data_of(b), pose_b); });
             break;
     }
     return c;

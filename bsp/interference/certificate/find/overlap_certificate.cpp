@@ -46,8 +46,8 @@ bool name_event(OverlapCertificate& c, const AlgebraicNumber& time) {
 // Trees for all pieces up to the event.
 bool prove_clearance(OverlapCertificate& c, const InterferenceModel& a, const Motion& motion_a,
                      const InterferenceModel& b, const Motion& motion_b, std::size_t max_nodes) {
-    const detail::ProofBody body_a(a.data());
-    const detail::ProofBody body_b(b.data());
+    const detail::ProofBody body_a(detail::data_of(a));
+    const detail::ProofBody body_b(detail::data_of(b));
     c.triangles_a = body_a.triangles;
     c.triangles_b = body_b.triangles;
     const Boundary boundary_a(a.brep());
@@ -84,7 +84,7 @@ OverlapCertificate certify_first_overlap(const InterferenceModel& a, const Motio
     options.event = ContactEvent::Overlap;
     const FirstContact overlap = first_contact(a, motion_a, b, motion_b, options);
     c.is_overlap = overlap.exists();
-    c.at_start = certify(a, motion_a.pose_at(0), b, motion_b.pose_at(0));
+    c.at_start = certify_relation(a, motion_a.pose_at(0), b, motion_b.pose_at(0));
     if (!c.at_start.is_complete) {
         c.missing = "the proof of the start";
         return c;

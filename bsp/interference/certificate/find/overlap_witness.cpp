@@ -38,7 +38,7 @@ using certified::Tetrahedron;
 constexpr std::size_t largest_part = 8;
 
 // In multiples of a power of two near 2^-30 of a length: short numbers.
-RationalPoint rounded(const Approximate& x, double size) {
+ExactPoint rounded(const Approximate& x, double size) {
     const double unit = std::ldexp(1., std::ilogb(size) - 30);
     Approximate r{};
     for (std::size_t k = 0; k < 3; ++k) r[k] = std::round(x[k] / unit) * unit;
@@ -63,7 +63,7 @@ Approximate some_normal_to(const Approximate& d) {
 }
 
 // The way to a point from the nearest one in the span of a corner, of two or of three.
-Approximate way_from(std::span<const RationalPoint> feature, const Approximate& x) {
+Approximate way_from(std::span<const ExactPoint> feature, const Approximate& x) {
     const Approximate p = approximate(feature[0]);
     Approximate way = minus(x, p);
     if (feature.size() == 1) return way;
@@ -75,7 +75,7 @@ Approximate way_from(std::span<const RationalPoint> feature, const Approximate& 
 
 // From one to three corners to a neighbourhood of a point; `width` is its size, as a part of the
 // distance.
-std::optional<Tetrahedron> around(const RationalPoint& p, std::span<const RationalPoint> feature,
+std::optional<Tetrahedron> around(const ExactPoint& p, std::span<const ExactPoint> feature,
                                   double width) {
     const Approximate x = approximate(p);
     const Approximate way = way_from(feature, x);
@@ -106,18 +106,18 @@ std::optional<Tetrahedron> around(const RationalPoint& p, std::span<const Ration
 class Side {
 public:
     Side(const InterferenceModel& model, const std::vector<CertifiedTriangle>& triangles,
-         const Pose& pose, const RationalPoint& inside)
+         const Pose& pose, const ExactPoint& inside)
         : model_(model),
           triangles_(triangles),
           boundary_(model.brep()),
-          point_(FromWorld(model.data(), pose).moved_back(inside)) {}
+          point_(FromWorld(detail::data_of(model), pose).moved_back(inside)) {}
 
     // Inside the solid, from features of the nearest triangles, each once.
     [[nodiscard]] std::vector<Tetrahedron> tetrahedra() const {
         std::set<std::vector<std::uint32_t>> seen;
         std::vector<Tetrahedron> r;
         for (const std::uint32_t t : nearest_triangles()) {
-            const auto& v = model_.data().triangles[t].vertex;
+            const auto& v = detail::data_of(model_).triangles[t].vertex;
             for (std::size_t i = 0; i < 3; ++i) {
                 add({v[i]}, seen, r);
                 add({v[i], v[(i + 1) % 3]}, seen, r);
@@ -131,10 +131,10 @@ private:
     [[nodiscard]] std::vector<std::uint32_t> nearest_triangles() const {
         const Approximate p = approximate(point_);
         std::vector<std::pair<double, std::uint32_t>> all;
-        for (std::uint32_t t = 0; t < model_.data().triangles.size(); ++t) {
+        for (std::uint32_t t = 0; t < detail::data_of(model_).triangles.size(); ++t) {
             TriangleCorners c;
             for (std::size_t i = 0; i < 3; ++i)
-                c[i] = approximate(boundary_.at(model_.data().triangles[t].vertex[i]));
+                c[i] = approximate(boundary_.at(detail::data_of(model_).triangles[t].vertex[i]));
             all.emplace_back(closest_points({p, p, p}, c).squared, t);
         }
         std::ranges::sort(all);
@@ -147,7 +147,7 @@ private:
              std::vector<Tetrahedron>& all) const {
         std::ranges::sort(feature);
         std::vector<std::uint32_t> key;
-        std::vector<RationalPoint> corners;
+        std::vector<ExactPoint> corners;
         for (const VertexId v : feature) {
             key.push_back(v.index);
             corners.push_back(boundary_.at(v));
@@ -164,7 +164,7 @@ private:
     const InterferenceModel& model_;
     const std::vector<CertifiedTriangle>& triangles_;
     Boundary boundary_;
-    RationalPoint point_;
+    ExactPoint point_;
 };
 
 class WitnessSearch {
@@ -180,7 +180,7 @@ public:
     std::optional<OverlapWitness> at(const ExactRational& until) const {
         const Pose pose_a = pose_of(motion_a_, until);
         const Pose pose_b = pose_of(motion_b_, until);
-        const InterferenceCertificate s = certify(a_, pose_a, b_, pose_b);
+        const InterferenceCertificate s = certify_relation(a_, pose_a, b_, pose_b);
         if (!s.in_both) return std::nullopt;
         const Side side_a(a_, c_.triangles_a, pose_a, *s.in_both);
         const Side side_b(b_, c_.triangles_b, pose_b, *s.in_both);

@@ -24,7 +24,7 @@ std::vector<CertifiedTriangle> triangles_of(const InterferenceModelData& model) 
 
 ProofBody::ProofBody(const InterferenceModelData& model) : triangles(triangles_of(model)) {
     for (const Point& p : model.brep.points()) {
-        RationalPoint x = exact_place(p).c;
+        ExactPoint x = exact_place(p).c;
         for (ExactRational& c : x) c = c.scaled(model.brep.lattice().exponent);
         add(std::move(x));
     }
@@ -38,7 +38,7 @@ ProofBody::ProofBody(const InterferenceModelData& model, const Pose& pose)
     order(0, triangles.size());
 }
 
-void ProofBody::add(RationalPoint point) {
+void ProofBody::add(ExactPoint point) {
     near.push_back({point[0].to_double(), point[1].to_double(), point[2].to_double()});
     points.push_back(std::move(point));
 }
@@ -103,7 +103,7 @@ void ProofBody::order(std::size_t from, std::size_t to) {
     order(middle, to);
 }
 
-ExactRational lowest_along(const RationalPoint& direction, std::span<const std::uint32_t> vertices,
+ExactRational lowest_along(const ExactPoint& direction, std::span<const std::uint32_t> vertices,
                            const ProofBody& body) {
     ExactRational lowest = dot(direction, body.points[vertices.front()]);
     for (const std::uint32_t v : vertices.subspan(1))
@@ -111,7 +111,7 @@ ExactRational lowest_along(const RationalPoint& direction, std::span<const std::
     return lowest;
 }
 
-ExactRational highest_along(const RationalPoint& direction, std::span<const std::uint32_t> vertices,
+ExactRational highest_along(const ExactPoint& direction, std::span<const std::uint32_t> vertices,
                             const ProofBody& body) {
     return -lowest_along(proof::opposite(direction), vertices, body);
 }

@@ -19,7 +19,7 @@ namespace trisect::detail {
 /// Corners of a boundary in the user's units, exactly and as the nearest doubles, and its
 /// triangles: halving a range of them, again and again, halves the longest extent of the centres.
 struct ProofBody {
-    std::vector<RationalPoint> points;  ///< by vertex
+    std::vector<ExactPoint> points;  ///< by vertex
     std::vector<std::array<double, 3>> near;
     std::vector<CertifiedTriangle> triangles;
 
@@ -36,17 +36,17 @@ struct ProofBody {
     [[nodiscard]] std::vector<std::uint32_t> corners(std::size_t from, std::size_t to) const;
 
 private:
-    void add(RationalPoint point);
+    void add(ExactPoint point);
     void order(std::size_t from, std::size_t to);
     [[nodiscard]] double centre(const CertifiedTriangle& t, std::size_t axis) const;
 };
 
 /// The least and the greatest product of a direction with some of a body's vertices.
 /// \pre there are any.
-[[nodiscard]] ExactRational lowest_along(const RationalPoint& direction,
+[[nodiscard]] ExactRational lowest_along(const ExactPoint& direction,
                                          std::span<const std::uint32_t> vertices,
                                          const ProofBody& body);
-[[nodiscard]] ExactRational highest_along(const RationalPoint& direction,
+[[nodiscard]] ExactRational highest_along(const ExactPoint& direction,
                                           std::span<const std::uint32_t> vertices,
                                           const ProofBody& body);
 

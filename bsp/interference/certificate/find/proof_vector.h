@@ -18,11 +18,11 @@ template <class Number>
     return {-v[0], -v[1], -v[2]};
 }
 
-inline RationalPoint exact(const Approximate& v) {
+inline ExactPoint exact(const Approximate& v) {
     return {ExactRational::from_double(v[0]), ExactRational::from_double(v[1]),
             ExactRational::from_double(v[2])};
 }
-inline Approximate approximate(const RationalPoint& v) {
+inline Approximate approximate(const ExactPoint& v) {
     return {v[0].to_double(), v[1].to_double(), v[2].to_double()};
 }
 

@@ -16,6 +16,7 @@
 #include <trisect/bsp/assembly/assembly_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/vertex_turn.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -61,7 +62,7 @@ void compare(const Workbench& bench, const BoundaryFacet& f, const BoundaryEdge&
 // All edges that follow each other, where one leaves a vertex of a facet.
 void compare_all(const Solid& solid, Count& count) {
     BoundaryParts parts;
-    trisect::detail::gather_parts(*solid.state(), parts, false);
+    trisect::detail::gather_parts(*trisect::detail::state_of(solid), parts, false);
     std::vector<BoundaryEdge> edges = parts.edges;
     trisect::detail::join_facets(parts, edges);
     for (std::size_t i = 0; i < edges.size();) {

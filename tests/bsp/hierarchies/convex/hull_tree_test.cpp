@@ -28,9 +28,9 @@ void expect_parts(const InterferenceModel& m, const std::vector<ConvexPart>& par
     for (const ConvexPart& part : parts)
         for (const std::uint32_t t : part.triangles) {
             ++used[t];
-            const Plane& plane = m.brep().plane(m.data().triangles[t].face);
+            const Plane& plane = m.brep().plane(trisect::detail::data_of(m).triangles[t].face);
             for (const std::uint32_t u : part.triangles)
-                for (const VertexId v : m.data().triangles[u].vertex)
+                for (const VertexId v : trisect::detail::data_of(m).triangles[u].vertex)
                     EXPECT_NE(side_of(m.brep().point(v), plane), Side::Above);
         }
     EXPECT_TRUE(std::all_of(used.begin(), used.end(), [](int n) { return n == 1; }));
@@ -39,7 +39,7 @@ void expect_parts(const InterferenceModel& m, const std::vector<ConvexPart>& par
 void expect_tree(const InterferenceModel& m, const HullTree& tree) {
     for (const HullTree::Node& n : tree.nodes())
         for (const std::uint32_t t : tree.triangles(n))
-            for (const VertexId v : m.data().triangles[t].vertex)
+            for (const VertexId v : trisect::detail::data_of(m).triangles[t].vertex)
                 for (std::size_t f = 0; f < n.hull.face_count(); ++f)
                     ASSERT_NE(side_of(m.brep().point(v), n.hull.plane(f)), Side::Above);
     EXPECT_EQ(tree.triangles(tree.nodes().front()).size(), m.triangle_count());

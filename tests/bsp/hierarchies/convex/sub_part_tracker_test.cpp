@@ -41,7 +41,8 @@ TEST(SubPartTracker, RandomSolidsOnASmallGridWithAllBranchings) {
         reference::Random random(seed);
         const InterferenceModel a(engines::solid(reference::random_embedded_solid(random)));
         const InterferenceModel b(engines::solid(reference::random_embedded_solid(random)));
-        if (a.is_empty() || b.is_empty() || !a.data().all_lattice || !b.data().all_lattice)
+        if (a.is_empty() || b.is_empty() || !trisect::detail::data_of(a).all_lattice ||
+            !trisect::detail::data_of(b).all_lattice)
             continue;
         const HullTreeOptions options{2U << seed % 4, 1};
         const HullTree ta(a, options);

@@ -10,6 +10,7 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
 
 #include "reference/random_solids.h"
@@ -63,7 +64,7 @@ Pose pose_at(const Motion& m, double s) {
 TEST(SpaceTimeBoxes, ContainTheBodyAtAllTimesAndFollowEachOther) {
     Random random(1);
     const InterferenceModel model = bar();
-    const trisect::detail::BodyBounds body(model.data());
+    const trisect::detail::BodyBounds body(trisect::detail::data_of(model));
     for (int i = 0; i < 60; ++i) {
         const Motion motion = random_motion(random);
         SpaceTimeBoxes boxes;

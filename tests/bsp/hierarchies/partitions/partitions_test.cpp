@@ -53,7 +53,9 @@ Pairs meeting(const InterferenceModel& a, const Pose& pose_a, const Interference
     Pairs r;
     for (std::uint32_t i = 0; i < a.triangle_count(); ++i)
         for (std::uint32_t j = 0; j < b.triangle_count(); ++j)
-            if (test(posed_triangle(a.data(), i), posed_triangle(b.data(), j)).meets())
+            if (test(posed_triangle(trisect::detail::data_of(a), i),
+                     posed_triangle(trisect::detail::data_of(b), j))
+                    .meets())
                 r.emplace(i, j);
     return r;
 }
@@ -71,8 +73,8 @@ Pairs candidates(PairStructure& s, CostCounters& counters) {
 
 /// The least distance of candidates in doubles, A's lattice the world's.
 double nearest(PairStructure& s, CostCounters& counters) {
-    const auto& a = s.model_a().data();
-    const auto& b = s.model_b().data();
+    const auto& a = trisect::detail::data_of(s.model_a());
+    const auto& b = trisect::detail::data_of(s.model_b());
     const trisect::detail::ApproximateMap map = trisect::detail::approximate_map(
         s.pose_a(), s.model_a().lattice(), s.pose_b(), s.model_b().lattice());
     double least = std::numeric_limits<double>::infinity();
@@ -138,7 +140,8 @@ TEST_P(Partitions, ClosestTrianglesOfSolidsOnASmallGrid) {
         CostCounters counters;
         structure->place(Pose(), pose_b, counters);
         const double found = nearest(*structure, counters);
-        trisect::detail::DistanceSearch search(a.data(), structure->pose_a(), b.data(), pose_b);
+        trisect::detail::DistanceSearch search(trisect::detail::data_of(a), structure->pose_a(),
+                                               trisect::detail::data_of(b), pose_b);
         search.run();
         // The search's distance is in the user's units.
         const double unit = std::ldexp(1.0, a.lattice().exponent);
@@ -163,7 +166,8 @@ TEST_P(Partitions, InterlockedToriAreApartAndTouchNothingOfEachOther) {
     EXPECT_LE(counters.updates, a.triangle_count() + 1);
     CostCounters near_counters;
     const double found = nearest(*structure, near_counters);
-    trisect::detail::DistanceSearch search(a.data(), Pose(), a.data(), turned);
+    trisect::detail::DistanceSearch search(trisect::detail::data_of(a), Pose(),
+                                           trisect::detail::data_of(a), turned);
     search.run();
     EXPECT_NEAR(std::ldexp(found, a.lattice().exponent), search.upper(), 1e-9);
     EXPECT_LT(near_counters.primitive_tests, a.triangle_count() * a.triangle_count() / 20);

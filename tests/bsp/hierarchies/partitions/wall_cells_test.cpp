@@ -15,6 +15,7 @@
 #include <trisect/bsp/hierarchies/partitions/inner_balls.h>
 #include <trisect/bsp/hierarchies/partitions/plane_tree.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 namespace {
 
@@ -23,7 +24,7 @@ using namespace trisect::hierarchies;
 
 TEST(WallCells, ATorusInCellsOfThirtyTwoPolygons) {
     const InterferenceModel torus(Solid::from_mesh(make_torus(1, 0.25, 40, 20)));
-    const WallCells walls = WallCells::over(torus.data(), 32);
+    const WallCells walls = WallCells::over(trisect::detail::data_of(torus), 32);
     EXPECT_EQ(walls.cells.size(), walls.walls.size() + 1);
     std::set<std::uint32_t> triangles;
     for (const WallCells::Cell& cell : walls.cells) {
@@ -57,7 +58,7 @@ TEST(WallCells, AFanAroundACornerIsNotDividedForever) {
         cone.add_triangle(1, 2 + (i + 1) % n, 2 + i);
     }
     const InterferenceModel model(Solid::from_mesh(cone));
-    const WallCells walls = WallCells::over(model.data(), 4);
+    const WallCells walls = WallCells::over(trisect::detail::data_of(model), 4);
     std::size_t polygons = 0;
     for (const WallCells::Cell& cell : walls.cells) polygons += cell.polygons.size();
     EXPECT_LE(polygons, 12 * model.triangle_count());
@@ -67,15 +68,17 @@ TEST(WallCells, TreesOfConvexSolidsAreShallow) {
     const InterferenceModel ball(Solid::from_mesh(make_uv_sphere(1, 64, 32)));
     const InterferenceModel box(Solid::from_mesh(make_box({0, 0, 0}, {4, 4, 4})));
     for (const auto make : {PlaneTree::classic, PlaneTree::multidimensional}) {
-        const PlaneTree tree = make(ball.data());
+        const PlaneTree tree = make(trisect::detail::data_of(ball));
         // Walls do not part the 64 triangles around a pole.
         EXPECT_LE(tree.depth(), 80U);
         EXPECT_EQ(tree.stray_count(), 0U);
         // The largest balls are those of a box whose planes leave one leaf inside.
-        const PlaneTree one = make(box.data());
-        const auto balls = one.inner_balls({box.data().lo, box.data().hi}, 8);
+        const PlaneTree one = make(trisect::detail::data_of(box));
+        const auto balls = one.inner_balls(
+            {trisect::detail::data_of(box).lo, trisect::detail::data_of(box).hi}, 8);
         ASSERT_EQ(balls.size(), 1U);
-        const double half = 0.5 * (box.data().hi[0] - box.data().lo[0]);
+        const double half =
+            0.5 * (trisect::detail::data_of(box).hi[0] - trisect::detail::data_of(box).lo[0]);
         EXPECT_GT(balls[0].radius, 0.9 * half);
         EXPECT_LE(balls[0].radius, half);
     }

@@ -12,6 +12,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/interference/boundary_distance.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/solid.h>
 
 namespace {
@@ -48,7 +49,7 @@ bool contains(const SphereTree& tree, std::uint32_t node, const std::array<doubl
 
 TEST(SphereTrees, EverySphereContainsTheTrianglesBelowIt) {
     const InterferenceModel model(Solid::from_mesh(make_torus(4, 1, 24, 12)));
-    const auto& data = model.data();
+    const auto& data = trisect::detail::data_of(model);
     for (const SphereConstruction c : constructions) {
         const SphereTree tree = build_sphere_tree(data, c);
         std::vector<std::uint32_t> seen(data.triangles.size(), 0);
@@ -77,7 +78,7 @@ TEST(SphereTrees, EverySphereContainsTheTrianglesBelowIt) {
 TEST(SphereTrees, DeeperLevelsAreTighter) {
     const InterferenceModel model(Solid::from_mesh(trisect::make_icosphere(3, 4)));
     for (const SphereConstruction c : constructions) {
-        const SphereTree tree = build_sphere_tree(model.data(), c);
+        const SphereTree tree = build_sphere_tree(trisect::detail::data_of(model), c);
         const auto levels = tightness(model, tree, 1500);
         ASSERT_GE(levels.size(), 3U);
         EXPECT_EQ(levels.front().spheres, 1U);

@@ -130,7 +130,7 @@ template <class Kind>
 void expect_containment(std::int64_t most_triangles = 9) {
     Random random(11);
     const InterferenceModel whole(Solid::from_mesh(make_torus(3, 1, 16, 9)));
-    const auto& m = whole.data();
+    const auto& m = trisect::detail::data_of(whole);
     const TreeFrame frame(m);
     for (int round = 0; round < 60; ++round) {
         std::vector<std::array<double, 3>> corners;
@@ -208,9 +208,9 @@ TEST(VolumeContainment, HullsOfBoxesHaveTheGapOfTheBoxes) {
 // Turned slabs are as tight as they can be where a quarter turn brings directions onto others.
 TEST(VolumeContainment, TurnedByQuartersNothingGrows) {
     const InterferenceModel whole(Solid::from_mesh(make_torus(3, 1, 16, 9)));
-    const TreeFrame frame(whole.data());
+    const TreeFrame frame(trisect::detail::data_of(whole));
     std::vector<std::array<double, 3>> corners;
-    for (const auto& p : whole.data().positions) corners.push_back(frame(p));
+    for (const auto& p : trisect::detail::data_of(whole).positions) corners.push_back(frame(p));
     const KDop<26> volume = OfSlabs<26>::fit(corners, frame.error);
     detail::ApproximateMap quarter;
     quarter.m = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};

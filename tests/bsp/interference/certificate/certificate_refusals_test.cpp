@@ -17,6 +17,7 @@
 #include "support/models.h"
 #include "support/numbers.h"
 #include "support/placed_pair.h"
+#include "support/reason.h"
 
 namespace {
 
@@ -27,18 +28,18 @@ using refusals::of_triangles;
 using refusals::turn_over;
 using trisect::ApartNode;
 using trisect::CertifiedCell;
+using trisect::ExactPoint;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
 using trisect::Pose;
-using trisect::RationalPoint;
 using trisect::Relation;
 using trisect::Solid;
 
 struct RelationCase : brute::PlacedPair {
     using Certificate = trisect::InterferenceCertificate;
-    [[nodiscard]] Certificate certificate() const { return certify(a, pose_a, b, pose_b); }
+    [[nodiscard]] Certificate certificate() const { return certify_relation(a, pose_a, b, pose_b); }
     [[nodiscard]] std::string check(const Certificate& c) const {
-        return check_certificate(c, a.brep(), pose_a, b.brep(), pose_b);
+        return refusals::reason(trisect::check(c, a.brep(), pose_a, b.brep(), pose_b));
     }
 };
 using Relations = trisect::InterferenceCertificate;
@@ -47,12 +48,12 @@ struct DistanceCase : brute::PlacedPair {
     using Certificate = trisect::DistanceCertificate;
     [[nodiscard]] Certificate certificate() const { return certify_distance(a, pose_a, b, pose_b); }
     [[nodiscard]] std::string check(const Certificate& c) const {
-        return check_distance_certificate(c, a.brep(), pose_a, b.brep(), pose_b);
+        return refusals::reason(trisect::check(c, a.brep(), pose_a, b.brep(), pose_b));
     }
 };
 using Distances = trisect::DistanceCertificate;
 
-RationalPoint at(double x, double y, double z) {
+ExactPoint at(double x, double y, double z) {
     return {ExactRational::from_double(x), ExactRational::from_double(y),
             ExactRational::from_double(z)};
 }

@@ -358,7 +358,7 @@ TEST(ContactRefusals, MotionsThatFlattenASolid) {
     ASSERT_EQ(c.check(right), "");
     auto piece = trisect::detail::MotionPiece::still();
     piece.matrix[2][2] = trisect::detail::IntegerPolynomial({1, -2});
-    const Motion turning_over = Motion::of_piece(piece);
+    const Motion turning_over = trisect::detail::motion_of(piece);
     EXPECT_EQ((Case{{c.a, turning_over, c.b, Motion()}}.check(right)), "a solid becomes flat");
     EXPECT_EQ((Case{{c.a, Motion(), c.b, turning_over}}.check(right)), "a solid becomes flat");
 }

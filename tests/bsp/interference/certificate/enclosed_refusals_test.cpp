@@ -21,6 +21,7 @@
 
 #include "refusals.h"
 #include "support/models.h"
+#include "support/reason.h"
 
 namespace enclosed_refusals_test {
 namespace {
@@ -58,7 +59,7 @@ struct Case {
         return certify_enclosed_contact(a, motion_a, b, motion_b, {});
     }
     [[nodiscard]] std::string check(const EnclosedCertificate& c) const {
-        return check_enclosed_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
+        return refusals::reason(trisect::check(c, a.brep(), motion_a, b.brep(), motion_b));
     }
 };
 
@@ -247,7 +248,7 @@ TEST(EnclosedRefusals, MotionsThatAreNotKnown) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     auto piece = trisect::detail::MotionPiece::still();
     piece.weight = trisect::detail::IntegerPolynomial({1, -2});
-    const Motion without_end = Motion::of_piece(piece);
+    const Motion without_end = trisect::detail::motion_of(piece);
     const std::vector<std::function<void(MotionEnclosure&)>> changes{
         [](MotionEnclosure& e) { e.by_length = infinity; },
         [](MotionEnclosure& e) { e.constant = infinity; },

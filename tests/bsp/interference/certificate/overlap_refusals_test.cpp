@@ -30,12 +30,12 @@ using numbers::exact;
 using refusals::expect_refused;
 using refusals::of_triangles;
 using trisect::ClearanceNode;
+using trisect::ExactPoint;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
 using trisect::Motion;
 using trisect::OverlapCertificate;
 using trisect::Pose;
-using trisect::RationalPoint;
 using trisect::Relation;
 using trisect::Solid;
 using trisect::SupportingPlane;
@@ -47,7 +47,7 @@ constexpr const char* not_separate = "a plane does not separate";
 constexpr const char* not_within = "a tetrahedron is not within its solid";
 constexpr const char* no_overlap = "the tetrahedra do not overlap right after the event";
 
-RationalPoint at(double x, double y, double z) { return {exact(x), exact(y), exact(z)}; }
+ExactPoint at(double x, double y, double z) { return {exact(x), exact(y), exact(z)}; }
 
 ClearanceNode leaf_of(SupportingPlane plane) {
     ClearanceNode n;
@@ -57,8 +57,8 @@ ClearanceNode leaf_of(SupportingPlane plane) {
 ClearanceNode horizontal(SupportingPlane::Kind kind, double height) {
     return leaf_of({kind, {at(0, 0, 1), exact(-height)}, {}, {}, {}});
 }
-ClearanceNode by_edges(const RationalPoint& along_a, const RationalPoint& along_b,
-                       const RationalPoint& through) {
+ClearanceNode by_edges(const ExactPoint& along_a, const ExactPoint& along_b,
+                       const ExactPoint& through) {
     return leaf_of({SupportingPlane::Kind::Edges, {}, along_a, along_b, through});
 }
 
@@ -245,7 +245,7 @@ TEST(OverlapRefusals, TooFewNodesAreIncompleteAndSayWhy) {
 TEST(OverlapRefusals, MotionsThatFlattenASolid) {
     auto piece = trisect::detail::MotionPiece::still();
     piece.matrix[2][2] = trisect::detail::IntegerPolynomial({1, -2});
-    const Motion turning_over = Motion::of_piece(piece);
+    const Motion turning_over = trisect::detail::motion_of(piece);
     const Case apart{{box(0, 0, 0, 1, 1, 1), Motion(), box(3, 0, 0, 4, 1, 1), Motion()}};
     const OverlapCertificate never = apart.certificate();
     ASSERT_EQ(apart.check(never), "");

@@ -8,6 +8,7 @@
 
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/support/due_list.h>
 
 #include "reference/random_solids.h"
@@ -43,7 +44,7 @@ TEST(PoseReserve, NoVertexMovesFartherThanACoveredReserve) {
     const InterferenceModel a(Solid::from_mesh(trisect::make_box({1, 2, 3}, {2, 3, 5})));
     const InterferenceModel b(Solid::from_mesh(trisect::make_torus(1, 0.25, 16, 8)));
     Random random(91);
-    PoseReserve reserve(a.data(), b.data());
+    PoseReserve reserve(trisect::detail::data_of(a), trisect::detail::data_of(b));
     int covered = 0;
     double most = 0;
     for (int trial = 0; trial < 3000; ++trial) {
@@ -66,7 +67,7 @@ TEST(PoseReserve, NoVertexMovesFartherThanACoveredReserve) {
         EXPECT_TRUE(reserve.covers(pose_a, pose_b));
         if (!reserve.covers(next_a, next_b)) continue;
         ++covered;
-        for (const auto& x : b.data().positions) {
+        for (const auto& x : trisect::detail::data_of(b).positions) {
             const auto p = map(x);
             const auto q = next(x);
             const double way = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);

@@ -15,6 +15,7 @@
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/boxes/obb_walk.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
@@ -52,7 +53,8 @@ std::uint64_t fresh_node_tests(const InterferenceModel& a, const InterferenceMod
                                const Pose& pose, Relation expected) {
     trisect::detail::ObbWalk::Stack stack;
     trisect::detail::WalkCounters counters;
-    EXPECT_EQ(trisect::detail::quick_relation(a.data(), Pose(), b.data(), pose, stack, &counters),
+    EXPECT_EQ(trisect::detail::quick_relation(trisect::detail::data_of(a), Pose(),
+                                              trisect::detail::data_of(b), pose, stack, &counters),
               expected);
     return counters.node_tests;
 }
@@ -113,7 +115,7 @@ TEST(InterferenceQuery, OverlapInDepthIsKeptWhileBodiesMoveLess) {
     const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(0.5, 3)));
     const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.03, 1)));
     for (const InterferenceModel* m : {&torus, &ball, &speck})
-        for (int i = 0; i < 1100; ++i) (void)m->data().balls_in_time();
+        for (int i = 0; i < 1100; ++i) (void)trisect::detail::data_of(*m).balls_in_time();
     std::map<Relation, int> seen;
     for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&torus, &torus),
                                std::pair(&torus, &speck), std::pair(&speck, &ball)}) {
@@ -171,7 +173,8 @@ TEST(InterferenceQuery, RandomWalksInShallowContact) {
     const InterferenceModel rough(
         evaluate(trisect::Expression(Solid::from_mesh(trisect::make_icosphere(0.5, 3))) -
                  Solid::from_mesh(trisect::make_torus(0.4, 0.125, 24, 12))));
-    for (const InterferenceModel* m : {&torus, &ball, &rough}) (void)m->data().balls();
+    for (const InterferenceModel* m : {&torus, &ball, &rough})
+        (void)trisect::detail::data_of(*m).balls();
     std::map<Relation, int> seen;
     for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&rough, &ball),
                                std::pair(&torus, &torus), std::pair(&rough, &rough)}) {

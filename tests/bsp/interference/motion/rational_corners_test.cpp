@@ -59,7 +59,8 @@ struct CutBox {
         // Through the points where it meets the axes, 6 times as far away as the level says.
         const std::int64_t d = by * level;
         const Plane plane(normal[0], normal[1], normal[2], Plane::Offset(-d));
-        return evaluate(trisect::Expression(box) & trisect::Expression(Solid::half_space(plane)));
+        return evaluate(trisect::Expression(box) &
+                        trisect::Expression(Solid::half_space(plane, {})));
     }
     [[nodiscard]] InterferenceModel model() const { return InterferenceModel(solid(1)); }
     // Of triangles with lattice corners.

@@ -12,6 +12,7 @@
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/relation/boundary_pairs.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
@@ -70,14 +71,15 @@ std::vector<Triangle3> placed(const Pose& pose, const InterferenceModelData& m) 
 std::size_t expect_right(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
                          const Pose& pose_b) {
     ObbWalk::Stack stack;
-    BoundaryPairs pairs(a.data(), pose_a, b.data(), pose_b, stack);
+    BoundaryPairs pairs(trisect::detail::data_of(a), pose_a, trisect::detail::data_of(b), pose_b,
+                        stack);
     std::set<std::pair<std::uint32_t, std::uint32_t>> found;
     EXPECT_FALSE(pairs.all([&](const BoundaryPairs::Meeting& m) {
         EXPECT_TRUE(found.insert({m.a, m.b}).second);
         return false;
     }));
-    const auto p = placed(pose_a, a.data());
-    const auto q = placed(pose_b, b.data());
+    const auto p = placed(pose_a, trisect::detail::data_of(a));
+    const auto q = placed(pose_b, trisect::detail::data_of(b));
     for (std::uint32_t i = 0; i < p.size(); ++i)
         for (std::uint32_t j = 0; j < q.size(); ++j)
             EXPECT_EQ(brute::meet(p[i], q[j]), found.count({i, j}) != 0) << i << ' ' << j;

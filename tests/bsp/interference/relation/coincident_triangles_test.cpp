@@ -12,6 +12,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
@@ -32,7 +33,8 @@ using trisect::detail::PosedPair;
 
 PosedModels posed(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
                   const Pose& pose_b) {
-    return {a.data(), b.data(), PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
+    return {trisect::detail::data_of(a), trisect::detail::data_of(b),
+            PosedPair(pose_a, a.lattice(), pose_b, b.lattice())};
 }
 
 std::size_t coincident(const PosedModels& models) {
@@ -135,10 +137,12 @@ TEST(CoincidentTriangles, OfRoughSurfacesThatFallTogetherInParts) {
 bool goes_by_coincidence(const InterferenceModel& a, const InterferenceModel& b, const Pose& pose) {
     trisect::detail::ObbWalk::Stack stack;
     trisect::detail::CandidatePairs candidates;
-    const auto quick = trisect::detail::quick_relation(a.data(), pose, b.data(), pose, stack,
+    const auto quick = trisect::detail::quick_relation(trisect::detail::data_of(a), pose,
+                                                       trisect::detail::data_of(b), pose, stack,
                                                        nullptr, &candidates);
     return !quick && !candidates.is_complete && candidates.may_coincide &&
-           !a.data().touches_itself() && !b.data().touches_itself();
+           !trisect::detail::data_of(a).touches_itself() &&
+           !trisect::detail::data_of(b).touches_itself();
 }
 
 Solid ball() { return Solid::from_mesh(trisect::make_icosphere(2, 3)); }

@@ -35,8 +35,8 @@ ExactRational brute(const InterferenceModel& a, const Pose& pa, const Interferen
     std::optional<ExactRational> least;
     for (std::uint32_t i = 0; i < a.triangle_count(); ++i)
         for (std::uint32_t j = 0; j < b.triangle_count(); ++j) {
-            const auto d =
-                trisect::detail::exact_squared_distance(a.data(), pa, i, b.data(), pb, j);
+            const auto d = trisect::detail::exact_squared_distance(
+                trisect::detail::data_of(a), pa, i, trisect::detail::data_of(b), pb, j);
             if (!least || d < *least) least = d;
         }
     return *least;
@@ -140,7 +140,8 @@ TEST(BoundaryDistance, TouchingCrossingNestedAndEmpty) {
 TEST(BoundaryDistance, FewBoxesAreOpenedAndFewerFromAStart) {
     const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 64, 32)));
     const Pose away = Pose::from_quaternion({10, 1, 2, 3}, {2.75, 0.25, 0.125});
-    DistanceSearch search(torus.data(), Pose(), torus.data(), away);
+    DistanceSearch search(trisect::detail::data_of(torus), Pose(), trisect::detail::data_of(torus),
+                          away);
     search.run();
     EXPECT_GT(search.lower(), 0.1);
     EXPECT_LT(search.upper() - search.lower(), 1e-12);

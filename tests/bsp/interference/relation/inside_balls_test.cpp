@@ -15,6 +15,7 @@
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
@@ -42,13 +43,14 @@ InterferenceModel hollow_box() {
 
 std::optional<Relation> by_balls(const InterferenceModel& a, const InterferenceModel& b,
                                  const Pose& pose) {
-    return relation_by_balls(a.data(), a.data().balls(), b.data(), b.data().balls(),
+    return relation_by_balls(trisect::detail::data_of(a), trisect::detail::data_of(a).balls(),
+                             trisect::detail::data_of(b), trisect::detail::data_of(b).balls(),
                              approximate_map(Pose(), a.lattice(), pose, b.lattice()));
 }
 
 // A ball's centre is inside, and no corner or other point of a triangle is in the ball.
 void expect_inside(const InterferenceModel& model, const InsideBall& ball, Random& random) {
-    const auto& data = model.data();
+    const auto& data = trisect::detail::data_of(model);
     std::array<double, 3> user = ball.center;
     for (double& c : user) c = std::ldexp(c, model.lattice().exponent);
     EXPECT_EQ(data.index().locate(user).location, trisect::Location::Inside);
@@ -77,7 +79,7 @@ TEST(InsideBalls, NoPointOfTheBoundaryIsInThem) {
         InterferenceModel(Solid::from_mesh(trisect::make_torus(1, 0.25, 40, 24))), hollow_box(),
         InterferenceModel(Solid::from_mesh(trisect::make_icosphere(1, 3))), box(0, 1)};
     for (const InterferenceModel& model : models) {
-        const InsideBalls& balls = model.data().balls();
+        const InsideBalls& balls = trisect::detail::data_of(model).balls();
         ASSERT_GT(balls.size(), 0U);
         for (std::size_t i = 0; i < balls.size(); ++i)
             expect_inside(model, {balls.center(i), balls.radius(i)}, random);
@@ -90,7 +92,7 @@ TEST(InsideBalls, NoPointOfTheBoundaryIsInThem) {
         const auto count = static_cast<std::uint32_t>(model.triangle_count());
         EXPECT_EQ(balls.region_of(count - 1) + 1, balls.along_boundary().size());
         for (std::uint32_t t = 0; t < count; t += 1 + count / 50)
-            if (const auto ball = touching_ball(model.data(), t)) {
+            if (const auto ball = touching_ball(trisect::detail::data_of(model), t)) {
                 expect_inside(model, *ball, random);
                 ++found;
             }
@@ -127,14 +129,15 @@ TEST(InsideBalls, RelationsOnASmallGridAreTheExactOnes) {
 TEST(InsideBalls, DeepOverlapAndContainmentLookAtNoFace) {
     const InterferenceModel ball(Solid::from_mesh(trisect::make_icosphere(1, 4)));
     const InterferenceModel speck(Solid::from_mesh(trisect::make_icosphere(0.125, 3)));
-    (void)ball.data().balls();
-    (void)speck.data().balls();
+    (void)trisect::detail::data_of(ball).balls();
+    (void)trisect::detail::data_of(speck).balls();
     const auto ask = [](const InterferenceModel& a, const InterferenceModel& b, const Pose& pose,
                         Relation expected) {
         trisect::detail::ObbWalk::Stack stack;
         trisect::detail::WalkCounters counters;
         EXPECT_EQ(
-            trisect::detail::quick_relation(a.data(), Pose(), b.data(), pose, stack, &counters),
+            trisect::detail::quick_relation(trisect::detail::data_of(a), Pose(),
+                                            trisect::detail::data_of(b), pose, stack, &counters),
             expected);
         return counters;
     };

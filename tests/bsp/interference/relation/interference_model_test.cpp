@@ -111,13 +111,13 @@ TEST(InterferenceModel, BoxHasTwoTrianglesAFaceAndOneDiagonal) {
     const InterferenceModel m(box(0, 0, 0, 1, 2, 3));
     EXPECT_EQ(m.triangle_count(), 12U);
     EXPECT_EQ(m.stats().faces, 6U);
-    EXPECT_TRUE(m.data().all_lattice);
-    EXPECT_EQ(m.data().position_error, 0);
+    EXPECT_TRUE(trisect::detail::data_of(m).all_lattice);
+    EXPECT_EQ(trisect::detail::data_of(m).position_error, 0);
     int diagonals = 0;
-    for (const auto& t : m.data().triangles)
+    for (const auto& t : trisect::detail::data_of(m).triangles)
         for (const EdgeId e : t.edge) diagonals += e.is_valid() ? 0 : 1;
     EXPECT_EQ(diagonals, 12);
-    expect_sound(m.data());
+    expect_sound(trisect::detail::data_of(m));
 }
 
 TEST(InterferenceModel, EmptySolidAndDefaultModelAreEmpty) {
@@ -125,7 +125,7 @@ TEST(InterferenceModel, EmptySolidAndDefaultModelAreEmpty) {
         EXPECT_TRUE(m.is_empty());
         EXPECT_EQ(m.triangle_count(), 0U);
         EXPECT_EQ(m.index().stats().polygons, 0U);
-        expect_sound(m.data());
+        expect_sound(trisect::detail::data_of(m));
     }
 }
 
@@ -134,14 +134,14 @@ TEST(InterferenceModel, UnboundedSolidsAreRefused) {
     EXPECT_THROW(InterferenceModel{evaluate(~Expression(box(0, 0, 0, 1, 1, 1)))},
                  trisect::UnsupportedError);
     const auto below = trisect::Plane::axis_aligned(2, 1, 0);
-    EXPECT_THROW(InterferenceModel{Solid::half_space(below)}, trisect::UnsupportedError);
+    EXPECT_THROW(InterferenceModel{Solid::half_space(below, {})}, trisect::UnsupportedError);
 }
 
 TEST(InterferenceModel, BlockWithHoleBoredThroughIt) {
     const InterferenceModel m(evaluate(Expression(box(0, 0, 0, 4, 4, 4)) - box(1, 1, -1, 3, 3, 5)));
     EXPECT_EQ(m.stats().faces, 10U);
     EXPECT_EQ(m.triangle_count(), 8U * 2 + 2 * 8);
-    expect_sound(m.data());
+    expect_sound(trisect::detail::data_of(m));
 }
 
 TEST(InterferenceModel, BoxesThatShareAnEdgeHaveCopiesOfItWithOnePlace) {
@@ -149,39 +149,42 @@ TEST(InterferenceModel, BoxesThatShareAnEdgeHaveCopiesOfItWithOnePlace) {
     EXPECT_EQ(m.stats().shells, 2U);
     EXPECT_EQ(m.brep().edge_contact_count(), 1U);
     std::size_t shared = 0;
-    for (const VertexId v : m.brep().vertices()) shared += place(m.data(), v) == v ? 0 : 1;
+    for (const VertexId v : m.brep().vertices())
+        shared += place(trisect::detail::data_of(m), v) == v ? 0 : 1;
     EXPECT_EQ(shared, 2U);
-    expect_sound(m.data());
+    expect_sound(trisect::detail::data_of(m));
 }
 
 TEST(InterferenceModel, FaceWhoseHoleTouchesItsOutline) {
     // Two holes that touch each other and the side of the block in single lines.
     const InterferenceModel m(evaluate(
         (Expression(box(0, 0, 0, 6, 6, 2)) - box(1, 1, -1, 3, 3, 3)) - box(3, 3, -1, 6, 5, 3)));
-    expect_sound(m.data());
+    expect_sound(trisect::detail::data_of(m));
 }
 
 TEST(InterferenceModel, HollowBoxHasTwoShells) {
     const InterferenceModel m(evaluate(Expression(box(0, 0, 0, 4, 4, 4)) - box(1, 1, 1, 3, 3, 3)));
     EXPECT_EQ(m.stats().shells, 2U);
     EXPECT_EQ(m.triangle_count(), 24U);
-    expect_sound(m.data());
+    expect_sound(trisect::detail::data_of(m));
 }
 
 TEST(InterferenceModel, CutPointsOffTheLatticeHaveACertifiedPosition) {
     const InterferenceModel m(
         evaluate(Expression(Solid::from_mesh(trisect::make_torus(1, 0.25, 12, 8))) -
                  Solid::from_mesh(trisect::make_torus(1.125, 0.25, 10, 9))));
-    EXPECT_FALSE(m.data().all_lattice);
-    EXPECT_GT(m.data().position_error, 0);
-    expect_sound(m.data());
+    EXPECT_FALSE(trisect::detail::data_of(m).all_lattice);
+    EXPECT_GT(trisect::detail::data_of(m).position_error, 0);
+    expect_sound(trisect::detail::data_of(m));
     for (const VertexId v : m.brep().vertices()) {
         const auto h = m.brep().point(v).homogeneous();
         const trisect::ExactRational w(h.w);
-        const auto error = trisect::ExactRational::from_double(m.data().position_error);
+        const auto error =
+            trisect::ExactRational::from_double(trisect::detail::data_of(m).position_error);
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto off = trisect::ExactRational(h.xyz[k]) / w -
-                             trisect::ExactRational::from_double(m.data().position(v)[k]);
+            const auto off =
+                trisect::ExactRational(h.xyz[k]) / w -
+                trisect::ExactRational::from_double(trisect::detail::data_of(m).position(v)[k]);
             EXPECT_LE(off, error);
             EXPECT_LE(-off, error);
         }
@@ -209,7 +212,7 @@ TEST(InterferenceModel, RandomSolidsThatTouchThemselves) {
             evaluate(Expression(engines::solid(reference::random_operand(random))) |
                      engines::solid(reference::random_operand(random))));
         SCOPED_TRACE(seed);
-        expect_sound(m.data());
+        expect_sound(trisect::detail::data_of(m));
     }
 }
 

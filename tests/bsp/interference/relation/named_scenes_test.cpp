@@ -114,11 +114,11 @@ TEST(NamedScenes, AlignedWalls) {  // IfcOpenShell#4594
 Relation by_separating_axes(const InterferenceModel& a, const Pose& pose_a,
                             const InterferenceModel& b, const Pose& pose_b) {
     struct Body {
-        std::vector<oracle::RationalPoint> points;
-        std::vector<oracle::RationalPoint> edges;
-        std::vector<oracle::RationalPoint> normals;
+        std::vector<oracle::ExactPoint> points;
+        std::vector<oracle::ExactPoint> edges;
+        std::vector<oracle::ExactPoint> normals;
     };
-    using Vector = oracle::RationalPoint;
+    using Vector = oracle::ExactPoint;
     const auto minus = [](const Vector& u, const Vector& v) {
         return Vector{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
     };
@@ -366,7 +366,7 @@ TEST(NamedScenes, EdgeOfATunnelInTheFloorOfItsBlock) {
     const auto block = solids::of_mesh(make_box({3, 3, 0}, {13, 12, 5})) -
                        solids::of_mesh(trisect::make_prism({{5, 3}, {12, 8}, {7, 10}}, 5));
     const auto tunnelled = model(block);
-    EXPECT_TRUE(tunnelled.data().touches_itself());
+    EXPECT_TRUE(trisect::detail::data_of(tunnelled).touches_itself());
     const auto slab = [&](double low, double high) { return box({3, low, -1}, {8, high, 4}); };
     for (const Pose& frame : frames()) {
         EXPECT_EQ(relation(tunnelled, slab(2, 3), frame, frame), Relation::Touching);
@@ -383,7 +383,7 @@ TEST(NamedScenes, TetrahedronStandingWithAnEdgeInABlocksFace) {
     const auto channel = solids::of_mesh(make_box({2, 1, -1}, {5, 3, 5}));
     const auto whole = model(block | tent);
     const auto cut = model((block | tent) - channel);
-    EXPECT_TRUE(whole.data().touches_itself());
+    EXPECT_TRUE(trisect::detail::data_of(whole).touches_itself());
     for (const Pose& frame : frames()) {
         EXPECT_EQ(relation(cut, whole, frame, frame), Relation::Inside);
         EXPECT_EQ(relation(whole, cut, frame, frame), Relation::Contains);

@@ -34,11 +34,11 @@ TEST(Overlaps, OfBoxesAreBoxes) {
     EXPECT_TRUE(o.is_exact);
     EXPECT_EQ(o.scale, ExactRational(1));
     EXPECT_EQ(o.volume, fraction(1, 2));
-    EXPECT_EQ(trisect::exact_volume(o.solid.to_brep()), fraction(1, 2));
+    EXPECT_EQ(trisect::exact_volume(o.scaled_solid.to_brep()), fraction(1, 2));
     // Touching and disjoint solids overlap in nothing.
-    EXPECT_TRUE(overlap(a, Pose(), b, Pose::from_translation({4, 0, 0})).solid.is_empty());
-    EXPECT_TRUE(overlap(a, Pose(), b, Pose::from_translation({9, 0, 0})).solid.is_empty());
-    EXPECT_TRUE(overlap(a, Pose(), InterferenceModel(), Pose()).solid.is_empty());
+    EXPECT_TRUE(overlap(a, Pose(), b, Pose::from_translation({4, 0, 0})).scaled_solid.is_empty());
+    EXPECT_TRUE(overlap(a, Pose(), b, Pose::from_translation({9, 0, 0})).scaled_solid.is_empty());
+    EXPECT_TRUE(overlap(a, Pose(), InterferenceModel(), Pose()).scaled_solid.is_empty());
 }
 
 // A square and the same turned about its middle by the angle of the 3-4-5 triangle share
@@ -71,7 +71,7 @@ TEST(Overlaps, SayWhenCornersWereRounded) {
     EXPECT_GT(o.max_move, 0);
     EXPECT_LT(o.max_move, 1e-10);
     EXPECT_NEAR(o.volume.to_double(), overlap(ball, turn, ball, Pose()).volume.to_double(), 1e-9);
-    EXPECT_FALSE(o.solid.is_empty());
+    EXPECT_FALSE(o.scaled_solid.is_empty());
 }
 
 TEST(Overlaps, OfRandomScenesFitTheirRelations) {

@@ -9,6 +9,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 
 #include "reference/random_solids.h"
@@ -55,7 +56,8 @@ TEST(QuickRelation, AgreesWithTheFullWalkInGeneralPosition) {
                 full.contacts = true;
                 const Relation expected = interfere(*a, pa, *b, pb, full).relation;
                 ObbWalk::Stack stack;
-                const auto quick = quick_relation(a->data(), pa, b->data(), pb, stack);
+                const auto quick = quick_relation(trisect::detail::data_of(*a), pa,
+                                                  trisect::detail::data_of(*b), pb, stack);
                 ++asked;
                 certain += quick ? 1 : 0;
                 EXPECT_EQ(quick.value_or(expected), expected);
@@ -80,7 +82,7 @@ TEST(QuickRelation, CrossingsOfAFaceInWhichAnEdgeLies) {
         tent.add_triangle(i, j, k);
     const Solid block = Solid::from_mesh(trisect::make_box({0, 0, 0}, {4, 4, 4}));
     const InterferenceModel whole(evaluate(Expression(block) | Solid::from_mesh(tent)));
-    ASSERT_TRUE(whole.data().touches_itself());
+    ASSERT_TRUE(trisect::detail::data_of(whole).touches_itself());
     const InterferenceModel bar(
         Solid::from_mesh(trisect::make_box({-0.25, -0.25, -1}, {0.25, 0.25, 1})));
     Random random(43);
@@ -97,7 +99,8 @@ TEST(QuickRelation, CrossingsOfAFaceInWhichAnEdgeLies) {
         const Relation expected = interfere(whole, Pose(), bar, pose, full).relation;
         EXPECT_EQ(interfere(whole, Pose(), bar, pose).relation, expected) << i;
         ObbWalk::Stack stack;
-        const auto quick = quick_relation(whole.data(), Pose(), bar.data(), pose, stack);
+        const auto quick = quick_relation(trisect::detail::data_of(whole), Pose(),
+                                          trisect::detail::data_of(bar), pose, stack);
         EXPECT_EQ(quick.value_or(expected), expected) << i;
         told += quick == Relation::Overlapping ? 1 : 0;
     }
@@ -111,10 +114,11 @@ TEST(QuickRelation, ContactIsNotDecidedByDoubles) {
     ObbWalk::Stack stack;
     for (const std::array<double, 3>& by :
          {std::array<double, 3>{2, 0, 0}, {2, 2, 2}, {2, 2, 0}, {0, 0, 0}})
-        EXPECT_FALSE(quick_relation(box.data(), Pose(), box.data(), Pose::from_translation(by),
+        EXPECT_FALSE(quick_relation(trisect::detail::data_of(box), Pose(),
+                                    trisect::detail::data_of(box), Pose::from_translation(by),
                                     stack, &counters));
-    EXPECT_EQ(quick_relation(box.data(), Pose(), box.data(), Pose::from_translation({2.001, 0, 0}),
-                             stack, &counters),
+    EXPECT_EQ(quick_relation(trisect::detail::data_of(box), Pose(), trisect::detail::data_of(box),
+                             Pose::from_translation({2.001, 0, 0}), stack, &counters),
               Relation::Disjoint);
     EXPECT_GT(counters.unknown, 0U);
 }

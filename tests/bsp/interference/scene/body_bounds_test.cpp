@@ -4,6 +4,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
 #include <trisect/bsp/solid.h>
 
@@ -78,7 +79,7 @@ TEST(BodyBounds, ContainTurnedBodiesAndAreNotMuchLarger) {
         const Solid solid = Solid::from_mesh(mesh);
         const std::vector<trisect::Point3d> points = solid.to_mesh().points;  // as imported
         const InterferenceModel model(solid);
-        const BodyBounds bounds(model.data());
+        const BodyBounds bounds(trisect::detail::data_of(model));
         for (int i = 0; i < 50; ++i) {
             const Pose pose = random_pose(random);
             const BodyBox box = bounds.under(pose);
@@ -96,9 +97,9 @@ TEST(BodyBounds, ContainTurnedBodiesAndAreNotMuchLarger) {
 TEST(BodyBounds, OfCutSolidsContainVerticesOffTheLattice) {
     // The corner is cut off obliquely: vertices with thirds as coordinates, off the lattice.
     const Solid cube = Solid::from_mesh(trisect::make_box({0, 0, 0}, {1, 1, 1}));
-    const Solid below = Solid::half_space(trisect::Plane(3, 7, 11, -13));
+    const Solid below = Solid::half_space(trisect::Plane(3, 7, 11, -13), {});
     const InterferenceModel model(trisect::evaluate(cube & below));
-    const BodyBounds bounds(model.data());
+    const BodyBounds bounds(trisect::detail::data_of(model));
     reference::Random random(4);
     for (int i = 0; i < 20; ++i) {
         const Pose pose = random_pose(random);
@@ -120,8 +121,8 @@ TEST(BodyBounds, OfCutSolidsContainVerticesOffTheLattice) {
 TEST(BodyBounds, NumbersBeyondTheDoublesGiveUnboundedBoxes) {
     const InterferenceModel model(
         Solid::from_mesh(trisect::make_box({0, 0, 0}, {1e300, 1e300, 1e300})));
-    const BodyBox box =
-        BodyBounds(model.data()).under(Pose::from_doubles({1e20, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+    const BodyBox box = BodyBounds(trisect::detail::data_of(model))
+                            .under(Pose::from_doubles({1e20, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
     EXPECT_EQ(box.lo[0], -HUGE_VAL);
     EXPECT_EQ(box.hi[0], HUGE_VAL);
     EXPECT_GE(box.hi[1], 1e300);

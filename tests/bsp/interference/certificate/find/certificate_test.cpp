@@ -16,17 +16,17 @@
 #include <trisect/bsp/expression.h>
 
 #include "support/placed_pair.h"
+#include "support/reason.h"
 
 namespace {
 
 using trisect::ApartNode;
-using trisect::certify;
-using trisect::check_certificate;
+using trisect::certify_relation;
+using trisect::ExactPoint;
 using trisect::ExactRational;
 using trisect::InterferenceCertificate;
 using trisect::InterferenceModel;
 using trisect::Pose;
-using trisect::RationalPoint;
 using trisect::Relation;
 using trisect::Solid;
 
@@ -37,10 +37,10 @@ struct Case : brute::PlacedPair {
         return brute::placed_pair(random);
     }
     [[nodiscard]] InterferenceCertificate certificate() const {
-        return certify(a, pose_a, b, pose_b);
+        return certify_relation(a, pose_a, b, pose_b);
     }
     [[nodiscard]] std::string check(const InterferenceCertificate& c) const {
-        return check_certificate(c, a.brep(), pose_a, b.brep(), pose_b);
+        return refusals::reason(trisect::check(c, a.brep(), pose_a, b.brep(), pose_b));
     }
 };
 
@@ -61,7 +61,7 @@ TEST(Certificates, OfRandomScenesAreAccepted) {
                                                 std::to_string(count));
 }
 
-RationalPoint far_away(RationalPoint p) {
+ExactPoint far_away(ExactPoint p) {
     p[1] += ExactRational(1000000);
     return p;
 }
@@ -197,11 +197,11 @@ TEST(Certificates, OfTouchingThatNoPlaneSeparates) {
         const InterferenceModel ma(evaluate(a));
         const InterferenceModel mb(evaluate(b));
         for (const Pose& pose : {Pose(), Pose::from_quaternion({3, 1, -2, 1}, {0.1, 7, 1e-3})}) {
-            const InterferenceCertificate c = certify(ma, pose, mb, pose);
+            const InterferenceCertificate c = certify_relation(ma, pose, mb, pose);
             EXPECT_EQ(c.relation, Relation::Touching);
             EXPECT_TRUE(c.is_complete);
             EXPECT_FALSE(c.cells.empty());
-            EXPECT_EQ(check_certificate(c, ma.brep(), pose, mb.brep(), pose), "");
+            EXPECT_EQ(refusals::reason(trisect::check(c, ma.brep(), pose, mb.brep(), pose)), "");
         }
     }
 }
@@ -221,18 +221,18 @@ TEST(Certificates, OfContainmentWithContact) {
         const InterferenceModel ma = solid(a);
         const InterferenceModel mb = solid(b);
         const Pose pose = Pose::from_quaternion({2, 1, 0, -1}, {0.25, 0, 1});
-        const InterferenceCertificate inside = certify(ma, pose, mb, pose);
+        const InterferenceCertificate inside = certify_relation(ma, pose, mb, pose);
         EXPECT_EQ(inside.relation, Relation::Inside);
         EXPECT_TRUE(inside.is_complete);
-        EXPECT_EQ(check_certificate(inside, ma.brep(), pose, mb.brep(), pose), "");
-        InterferenceCertificate contains = certify(mb, pose, ma, pose);
+        EXPECT_EQ(refusals::reason(trisect::check(inside, ma.brep(), pose, mb.brep(), pose)), "");
+        InterferenceCertificate contains = certify_relation(mb, pose, ma, pose);
         EXPECT_EQ(contains.relation, Relation::Contains);
         EXPECT_TRUE(contains.is_complete);
-        EXPECT_EQ(check_certificate(contains, mb.brep(), pose, ma.brep(), pose), "");
+        EXPECT_EQ(refusals::reason(trisect::check(contains, mb.brep(), pose, ma.brep(), pose)), "");
         contains.relation = Relation::Inside;
-        EXPECT_NE(check_certificate(contains, mb.brep(), pose, ma.brep(), pose), "");
+        EXPECT_NE(refusals::reason(trisect::check(contains, mb.brep(), pose, ma.brep(), pose)), "");
         // Cells about another pose prove nothing about this one.
-        EXPECT_NE(check_certificate(inside, ma.brep(), Pose(), mb.brep(), pose), "");
+        EXPECT_NE(refusals::reason(trisect::check(inside, ma.brep(), Pose(), mb.brep(), pose)), "");
     }
 }
 
@@ -257,10 +257,10 @@ TEST(Certificates, OfCurvedParts) {
     const auto ball = InterferenceModel(Solid::from_mesh(trisect::make_icosphere(1, 2)));
     const auto check = [](const InterferenceModel& a, const InterferenceModel& b, const Pose& pose,
                           Relation relation) {
-        const InterferenceCertificate c = certify(a, Pose(), b, pose);
+        const InterferenceCertificate c = certify_relation(a, Pose(), b, pose);
         EXPECT_EQ(c.relation, relation);
         EXPECT_TRUE(c.is_complete);
-        EXPECT_EQ(check_certificate(c, a.brep(), Pose(), b.brep(), pose), "");
+        EXPECT_EQ(refusals::reason(trisect::check(c, a.brep(), Pose(), b.brep(), pose)), "");
     };
     check(torus, ball, Pose(), Relation::Disjoint);  // in the hole: no plane separates them
     check(torus, ball, Pose::from_translation({1.5, 0, 0}), Relation::Overlapping);

@@ -14,13 +14,13 @@
 
 #include "support/models.h"
 #include "support/placed_pair.h"
+#include "support/reason.h"
 
 namespace distance_certificate_test {
 namespace {
 
 using models::box;
 using trisect::certify_distance;
-using trisect::check_distance_certificate;
 using trisect::DistanceCertificate;
 using trisect::ExactRational;
 using trisect::InterferenceModel;
@@ -33,7 +33,7 @@ struct Case : brute::PlacedPair {
         return certify_distance(a, pose_a, b, pose_b);
     }
     [[nodiscard]] std::string check(const DistanceCertificate& c) const {
-        return check_distance_certificate(c, a.brep(), pose_a, b.brep(), pose_b);
+        return refusals::reason(trisect::check(c, a.brep(), pose_a, b.brep(), pose_b));
     }
 };
 

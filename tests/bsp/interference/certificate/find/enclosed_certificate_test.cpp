@@ -18,6 +18,7 @@
 #include "reference/random_solids.h"
 #include "support/enclosed_motions.h"
 #include "support/models.h"
+#include "support/reason.h"
 
 namespace enclosed_certificate_test {
 namespace {
@@ -26,7 +27,6 @@ using models::box;
 using moving::straight;
 using moving::whole;
 using trisect::certify_enclosed_contact;
-using trisect::check_enclosed_certificate;
 using trisect::ConstantTurn;
 using trisect::EnclosedCertificate;
 using trisect::EnclosedContact;
@@ -50,7 +50,7 @@ struct Case {
         return certify_enclosed_contact(a, motion_a, b, motion_b, {width});
     }
     [[nodiscard]] std::string check(const EnclosedCertificate& c) const {
-        return check_enclosed_certificate(c, a.brep(), motion_a, b.brep(), motion_b);
+        return refusals::reason(trisect::check(c, a.brep(), motion_a, b.brep(), motion_b));
     }
 };
 

@@ -125,7 +125,7 @@ TEST(OverlapCertificates, OfPiecesAndBothMoving) {
 
 // The extent of a model along an axis.
 std::array<double, 2> extent(const InterferenceModel& m, std::size_t axis) {
-    const auto& d = m.data();
+    const auto& d = trisect::detail::data_of(m);
     return {std::ldexp(d.lo[axis], m.lattice().exponent),
             std::ldexp(d.hi[axis], m.lattice().exponent)};
 }
@@ -290,7 +290,7 @@ bool corrupt_clearance(OverlapCertificate& c, reference::Random& random) {
         case 1: {
             if (n.kind != Kind::Separated) return false;
             // Nothing need be kept away from an empty part.
-            const trisect::RationalPoint none;
+            const trisect::ExactPoint none;
             if (n.plane.plane.normal == none && n.plane.along_a == none) return false;
             for (std::size_t k = 0; k < 3; ++k) {
                 n.plane.plane.normal[k] = -n.plane.plane.normal[k];

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ExactMesh: a triangle mesh with exact corners.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/kernel/lattice.h>
+#include <trisect/kernel/point.h>
+
+namespace trisect {
+
+/// The triangles of a boundary before anything is rounded.
+///
+/// Invariants: every index is less than points.size(); no triangle is degenerate; `source` has one
+/// entry for each triangle. Orientation: counter-clockwise seen from outside.
+struct ExactMesh {
+    Lattice lattice;
+    std::vector<Point> points;  ///< in lattice units
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<FaceSource> source;  ///< the face of an operand that a triangle is part of
+};
+
+}  // namespace trisect

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/solid_measure.h>
+
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+
+namespace {
+
+// A boundary that may meet itself is made free of that first. Names of faces do not matter here, so
+// nothing need be cut for them.
+ExactMesh boundary_of(const Solid& solid) {
+    const bool embedded = detail::state_of(solid)->embedded;
+    const Solid resolved = embedded ? solid : evaluate(Expression(solid));
+    return detail::assemble_exact_mesh(*detail::state_of(resolved));
+}
+
+ExactMesh bounded_boundary_of(const Solid& solid) {
+    if (detail::state_of(solid)->far_out == 1)
+        throw UnsupportedError("an unbounded set has no volume");
+    return boundary_of(solid);
+}
+
+// Half-spaces alone decide it only when they have been put together.
+ExactRational require_bounded(ExactRational volume) {
+    if (volume.sign() < 0) throw UnsupportedError("an unbounded set has no volume");
+    return volume;
+}
+
+}  // namespace
+
+ExactRational exact_volume(const Solid& solid) {
+    return require_bounded(exact_volume(bounded_boundary_of(solid)));
+}
+
+double volume(const Solid& solid) {
+    const double v = volume(bounded_boundary_of(solid));
+    if (v < 0) throw UnsupportedError("an unbounded set has no volume");
+    return v;
+}
+
+Area area(const Solid& solid) { return area(boundary_of(solid)); }
+
+std::optional<std::array<ExactRational, 3>> exact_centroid(const Solid& solid) {
+    return exact_centroid(bounded_boundary_of(solid));
+}
+
+std::optional<Point3d> centroid(const Solid& solid) { return centroid(bounded_boundary_of(solid)); }
+
+std::optional<Bounds> bounds(const Solid& solid) {
+    if (solid.is_whole_space()) return std::nullopt;
+    return bounds(bounded_boundary_of(solid));
+}
+
+SolidCounts counts(const Solid& solid) {
+    const ExactMesh mesh = boundary_of(solid);
+    return {mesh.points.size(), mesh.triangles.size()};
+}
+
+}  // namespace trisect

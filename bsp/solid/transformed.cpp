@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Maps that take the lattice onto itself move the tree (moved_tree.h). A translation that does not
+// is rounded as a whole: to a finer lattice, as far as the solid leaves room for one.
+//
+// Other maps are applied to exact vertices, in fractions. The lattice is then chosen as an import
+// would for these points, and every coordinate is rounded to it once.
+
+#include <trisect/bsp/solid_transform.h>
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/measure.h>
+#include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/evaluate/half_space.h>
+#include <trisect/bsp/evaluate/on_common_lattice.h>
+#include <trisect/bsp/solid/moved_tree.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+
+namespace {
+
+using detail::LatticeMove;
+using detail::SolidState;
+using StatePtr = std::shared_ptr<const SolidState>;
+
+// The signed permutation, if the map has one; without its translation.
+std::optional<LatticeMove> permutation_of(const Pose& pose) {
+    LatticeMove move;
+    for (std::size_t i = 0; i < 3; ++i) {
+        int entries = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Pose::Number& v = pose.matrix(i, j);
+            if (v.is_zero()) continue;
+            if (v.abs() != pose.denominator()) return std::nullopt;
+            ++entries;
+            move.from[i] = static_cast<std::uint8_t>(j);
+            move.sign[i] = v.is_negative() ? -1 : 1;
+        }
+        if (entries != 1) return std::nullopt;
+    }
+    return move;
+}
+
+// t / S, in the user's units.
+mpq_class translation_of(const Pose& pose, std::size_t i) {
+    return detail::fraction(detail::to_integer(pose.translation(i)),
+                            detail::to_integer(pose.denominator()));
+}
+
+mpq_class in_units(mpq_class v, Lattice lattice) {
+    if (lattice.exponent < 0) {
+        v <<= static_cast<unsigned long>(-lattice.exponent);
+    } else {
+        v >>= static_cast<unsigned long>(lattice.exponent);
+    }
+    return v;
+}
+
+mpz_class floor_of(const mpq_class& v) {
+    mpz_class out;
+    mpz_fdiv_q(out.get_mpz_t(), v.get_num_mpz_t(), v.get_den_mpz_t());
+    return out;
+}
+
+// \throw LimitError beyond the range in which coordinates may be moved
+std::int64_t rounded(const mpq_class& v) {
+    const mpz_class r = floor_of(v + mpq_class(1, 2));
+    if (abs(r) >= mpz_class(2) * mpz_class(coordinate_limit))
+        throw LimitError("a transformed coordinate leaves the lattice");
+    return r.get_si();
+}
+
+double size_of(const mpq_class& units, Lattice lattice) {
+    return lattice.to_double(std::fabs(units.get_d()));
+}
+
+// Of the moved solid, in units of its lattice, about.
+mpz_class largest_coordinate(const SolidState& state, const Pose& pose) {
+    const detail::Box box = detail::box_of(state.root());
+    std::int64_t largest = 0;
+    if (!box.is_empty())
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max({largest, std::abs(box.lo[k]), std::abs(box.hi[k])});
+    mpq_class by = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        by = std::max(by, mpq_class(abs(in_units(translation_of(pose, i), state.lattice))));
+    return floor_of(by) + largest + 4;
+}
+
+// The nearest finer lattice on which the translation is exact, if the moved solid has room on it;
+// or else the finest one that leaves room to grow.
+Lattice wanted_lattice(const SolidState& state, const Pose& pose) {
+    const mpz_class largest = largest_coordinate(state, pose);
+    const auto has_room = [&](Lattice l, int bits) {
+        const mpz_class there = largest
+                                << static_cast<unsigned long>(state.lattice.exponent - l.exponent);
+        return mpz_sizeinbase(there.get_mpz_t(), 2) <= static_cast<std::size_t>(bits);
+    };
+    const auto is_exact = [&](Lattice l) {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (in_units(translation_of(pose, i), l).get_den() != 1) return false;
+        return true;
+    };
+    Lattice finest = state.lattice;
+    for (Lattice l = state.lattice; has_room(l, coordinate_bits); l.exponent -= 8) {
+        if (is_exact(l)) return l;
+        if (has_room(l, coordinate_bits - growth_bits)) finest = l;
+    }
+    return finest;
+}
+
+// The same set on the wanted lattice, or one between, as fine as there is room.
+StatePtr refined_towards(const StatePtr& state, Lattice wanted) {
+    for (Lattice l = wanted; l < state->lattice; l.exponent += 8) {
+        SolidState fine;  // an operand of this unit
+        fine.lattice = l;
+        fine.form = detail::state_of(Solid())->form;
+        std::vector<StatePtr> both{state, std::make_shared<const SolidState>(fine)};
+        try {
+            (void)detail::move_to_common_lattice(both, EvaluateOptions::Lattices::Refuse);
+            return both[0];
+        } catch (const LimitError&) {  // no room: a coarser one
+        }
+    }
+    return state;
+}
+
+StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport& report) {
+    state = refined_towards(state, wanted_lattice(*state, pose));
+    report.lattice = state->lattice;
+    mpq_class largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const mpq_class t = in_units(translation_of(pose, i), state->lattice);
+        move.by[i] = rounded(t);
+        largest = std::max(largest, mpq_class(abs(t - mpq_class(mpz_class(move.by[i])))));
+    }
+    report.lossless = largest == 0;
+    report.max_move = size_of(largest, state->lattice);
+    StatePtr out = detail::moved_state(*state, move);
+    if (!report.lossless) report.moved = detail::solid_of(out).to_exact_mesh().points.size();
+    return out;
+}
+
+// Points under a pose.
+class PointMover {
+public:
+    PointMover(const Pose& pose, Lattice lattice) : lattice_(lattice) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) m_[i][j] = detail::to_integer(pose.matrix(i, j));
+            t_[i] = detail::to_integer(pose.translation(i));
+        }
+        s_ = detail::to_integer(pose.denominator());
+    }
+    /// In the user's units.
+    [[nodiscard]] std::array<mpq_class, 3> moved(const Point& point) const {
+        const detail::Corner p = detail::corner_at(point);
+        const Lattice to_units{-lattice_.exponent};
+        std::array<mpq_class, 3> out;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const mpz_class sum = m_[i][0] * p.x[0] + m_[i][1] * p.x[1] + m_[i][2] * p.x[2];
+            out[i] =
+                in_units(detail::fraction(sum, p.w * s_), to_units) + detail::fraction(t_[i], s_);
+        }
+        return out;
+    }
+
+private:
+    Lattice lattice_;
+    std::array<std::array<mpz_class, 3>, 3> m_;
+    std::array<mpz_class, 3> t_;
+    mpz_class s_;
+};
+
+using ExactPoints = std::vector<std::array<mpq_class, 3>>;
+
+Point3d to_doubles(const std::array<mpq_class, 3>& p) {
+    return {p[0].get_d(), p[1].get_d(), p[2].get_d()};
+}
+
+double sign_between(const std::array<Point3d, 3>& a, const std::array<Point3d, 3>& b) {
+    double dot = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t u = (i + 1) % 3;
+        const std::size_t v = (i + 2) % 3;
+        const auto normal = [&](const std::array<Point3d, 3>& t) {
+            return (t[1][u] - t[0][u]) * (t[2][v] - t[0][v]) -
+                   (t[1][v] - t[0][v]) * (t[2][u] - t[0][u]);
+        };
+        dot += normal(a) * normal(b);
+    }
+    return dot;
+}
+
+// Coordinates of lattice points, which doubles hold exactly.
+std::vector<Point3d> rounded_points(const ExactPoints& exact, LatticeReport& report) {
+    std::vector<Point3d> points;
+    points.reserve(exact.size());
+    for (const auto& p : exact) points.push_back(to_doubles(p));
+    report.lattice = choose_lattice(points);
+    for (std::size_t n = 0; n < exact.size(); ++n) {
+        mpq_class largest = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const mpq_class v = in_units(exact[n][i], report.lattice);
+            const std::int64_t r = rounded(v);
+            largest = std::max(largest, mpq_class(abs(v - mpq_class(mpz_class(r)))));
+            points[n][i] = report.lattice.to_double(static_cast<double>(r));
+        }
+        if (largest == 0) continue;
+        ++report.moved;
+        report.max_move = std::max(report.max_move, size_of(largest, report.lattice));
+    }
+    report.lossless = report.moved == 0;
+    return points;
+}
+
+PolygonMesh rounded_mesh(const ExactMesh& mesh, const Pose& pose, bool turn_over,
+                         LatticeReport& report) {
+    const PointMover mover(pose, mesh.lattice);
+    ExactPoints exact;
+    exact.reserve(mesh.points.size());
+    for (const Point& p : mesh.points) exact.push_back(mover.moved(p));
+    PolygonMesh out;
+    out.points = rounded_points(exact, report);
+    for (const auto& t : mesh.triangles) {
+        const auto corners = [&](const auto& point) {
+            return std::array{point(t[0]), point(t[1]), point(t[2])};
+        };
+        const auto before = corners([&](std::uint32_t v) { return to_doubles(exact[v]); });
+        const auto after = corners([&](std::uint32_t v) { return out.points[v]; });
+        if (!(sign_between(before, after) > 0)) ++report.flipped_faces;
+        out.add_triangle(t[0], t[turn_over ? 2 : 1], t[turn_over ? 1 : 2]);
+    }
+    return out;
+}
+
+// Names without repetition, and the number of each triangle's.
+std::pair<std::vector<FaceSource>, std::vector<std::uint32_t>> numbered(
+    const std::vector<FaceSource>& names) {
+    std::pair<std::vector<FaceSource>, std::vector<std::uint32_t>> out;
+    std::map<FaceSource, std::uint32_t> numbers;
+    for (const FaceSource& n : names) {
+        const auto [at, is_new] =
+            numbers.try_emplace(n, static_cast<std::uint32_t>(out.first.size()));
+        if (is_new) out.first.push_back(n);
+        out.second.push_back(at->second);
+    }
+    return out;
+}
+
+StatePtr state_of(LatticeMesh mesh, std::uint32_t operand, std::vector<FaceSource> names,
+                  bool is_complement) {
+    auto state = std::make_shared<SolidState>();
+    state->lattice = mesh.lattice;
+    state->embedded = is_embedded(mesh);
+    const auto source =
+        detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
+    state->form = detail::CellTree{
+        {detail::CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false),
+         is_complement},
+        {},
+        nullptr};
+    state->source = operand != 0 ? operand : source->serial();
+    state->far_out = is_complement ? 1 : 0;
+    return state;
+}
+
+StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
+    const SolidState& state = *detail::state_of(solid);
+    const bool is_complement = state.far_out == 1;
+    const ExactMesh mesh = solid.to_exact_mesh();
+    if (state.far_out < 0 && exact_volume(mesh).sign() < 0)
+        throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
+    ImportOptions options;
+    const bool turn_over = pose.is_mirror() != is_complement;
+    const PolygonMesh moved = rounded_mesh(mesh, pose, turn_over, report);
+    options.lattice = report.lattice;
+    ImportedMesh imported = import_mesh(moved, options);
+    if (imported.mesh.triangles.empty())
+        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    auto [names, number] = numbered(mesh.source);
+    std::vector<std::uint32_t> faces;
+    faces.reserve(imported.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < imported.mesh.triangles.size(); ++t)
+        faces.push_back(number[imported.mesh.face_of(t)]);
+    imported.mesh.face_of_triangle = std::move(faces);
+    return state_of(std::move(imported.mesh), solid.source_id(), std::move(names), is_complement);
+}
+
+}  // namespace
+
+Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
+    LatticeReport made;
+    made.lattice = solid.lattice();
+    Solid out = solid;
+    if (detail::state_of(solid)->lattice_matters && !(pose == Pose())) {
+        const auto permutation = permutation_of(pose);
+        out =
+            detail::solid_of(permutation ? moved(detail::cut_state(solid), *permutation, pose, made)
+                                         : rounded(solid, pose, made));
+    }
+    if (report != nullptr) *report = made;
+    return out;
+}
+
+Solid transformed(const Solid& solid, const AffineMap& map, LatticeReport* report) {
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
+    return transformed(solid, Pose::from_doubles(rows), report);
+}
+
+}  // namespace trisect

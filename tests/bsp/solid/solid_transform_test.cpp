@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Solids under maps: exact ones against maps of their operands, rounded ones against what they
+// report; names of faces; connected parts.
+
+#include <trisect/bsp/solid_transform.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid_measure.h>
+#include <trisect/kernel/error.h>
+
+#include "engines/engines.h"
+
+namespace {
+
+using reference::Random;
+using trisect::evaluate;
+using trisect::ExactRational;
+using trisect::LatticeReport;
+using trisect::Pose;
+using trisect::Solid;
+
+Solid box(const trisect::Point3d& low, const trisect::Point3d& high) {
+    return Solid::from_mesh(trisect::make_box(low, high));
+}
+
+bool are_equal(const Solid& a, const Solid& b) { return evaluate(a ^ b).is_empty(); }
+
+// Quarter turns, mirrors and a translation by integers.
+Pose random_move(Random& random) {
+    std::array<std::size_t, 3> from{0, 1, 2};
+    for (std::size_t i = 2; i > 0; --i) std::swap(from[i], from[random.below(i + 1)]);
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        rows[4 * i + from[i]] = random.chance(1, 2) ? 1 : -1;
+        rows[4 * i + 3] = static_cast<double>(random.between(-9, 9));
+    }
+    return Pose::from_doubles(rows);
+}
+
+reference::Operand moved(const reference::Operand& operand, const Pose& pose) {
+    reference::Operand out = operand;
+    for (auto& t : out) {
+        for (auto& p : t) {
+            std::array<std::int64_t, 3> q{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto entry = [&](std::size_t k) {
+                    return static_cast<std::int64_t>(pose.approximate()[4 * i + k]);
+                };
+                q[i] = entry(0) * p[0] + entry(1) * p[1] + entry(2) * p[2] + entry(3);
+            }
+            p = {q[0], q[1], q[2]};
+        }
+        if (pose.is_mirror()) std::swap(t[1], t[2]);
+    }
+    return out;
+}
+
+TEST(TransformedSolid, OfAResultIsTheResultOfMovedOperands) {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Random random(seed);
+        const auto family = reference::random_family(random, 3);
+        const reference::Expression formula = reference::random_expression(random, 3, 3);
+        const Pose pose = random_move(random);
+        std::vector<Solid> solids;
+        std::vector<Solid> moved_solids;
+        for (const reference::Operand& o : family) {
+            solids.push_back(engines::solid(o));
+            moved_solids.push_back(engines::solid(moved(o, pose)));
+        }
+        LatticeReport report;
+        const Solid result = evaluate(engines::formula(formula, solids));
+        const Solid there = trisect::transformed(result, pose, &report);
+        EXPECT_TRUE(report.lossless) << seed;
+        EXPECT_EQ(report.moved, 0U);
+        const Solid expected = evaluate(engines::formula(formula, moved_solids));
+        EXPECT_TRUE(are_equal(there, expected)) << seed;
+        EXPECT_EQ(there.to_brep().counts(), expected.to_brep().counts()) << seed;
+        // As an operand, together with what did not move.
+        const Solid mixed = evaluate(there - solids[0]);
+        EXPECT_TRUE(are_equal(mixed, evaluate(expected - solids[0]))) << seed;
+        EXPECT_TRUE(are_equal(trisect::transformed(there, pose.inverse()), result)) << seed;
+    }
+}
+
+TEST(TransformedSolid, KeepsTheNamesOfFaces) {
+    const Solid a = box({0, 0, 0}, {2, 2, 2});
+    const Solid b = box({1, 1, 1}, {3, 3, 3});
+    const Solid cut = evaluate(a - b);
+    const auto names = [](const Solid& s) {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> out;
+        const trisect::Brep brep = s.to_brep();
+        for (const trisect::FaceId f : brep.faces())
+            out.emplace(brep.source(f).operand, brep.source(f).face);
+        return out;
+    };
+    const Pose mirror = Pose::from_doubles({-1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0.25});
+    EXPECT_EQ(names(trisect::transformed(cut, mirror)), names(cut));
+    EXPECT_EQ(trisect::transformed(a, mirror).source_id(), a.source_id());
+    const Pose turn = Pose::rotation_near({1, 2, 3}, 33);
+    EXPECT_EQ(names(trisect::transformed(cut, turn)), names(cut));
+    const trisect::BrepIndex index(trisect::transformed(a, Pose::from_translation({4, 0, 0})));
+    const trisect::Place corner = index.locate(trisect::Point3d{4, 0, 0});
+    EXPECT_EQ(corner.corner.operand, a.source_id());
+    EXPECT_EQ(corner.corner, trisect::BrepIndex(a).locate(trisect::Point3d{0, 0, 0}).corner);
+}
+
+TEST(TransformedSolid, TakesAFinerLatticeForAFinerTranslation) {
+    const Solid a = box({0, 0, 0}, {1, 1, 1});
+    ASSERT_EQ(a.lattice(), trisect::Lattice{0});
+    LatticeReport report;
+    const Solid b = trisect::transformed(a, Pose::from_translation({0.5, 0.25, 0}), &report);
+    EXPECT_TRUE(report.lossless);
+    EXPECT_EQ(b.lattice(), trisect::Lattice{-8});
+    EXPECT_EQ(trisect::bounds(b), (trisect::Bounds{{0.5, 0.25, 0}, {1.5, 1.25, 1}}));
+    EXPECT_EQ(trisect::volume(evaluate(a & b)), 0.375);
+}
+
+TEST(TransformedSolid, RoundsATranslationAsAWhole) {
+    const Solid ball = Solid::from_mesh(trisect::make_icosphere(10, 3));
+    LatticeReport report;
+    // A third has no place on any lattice.
+    const std::array<Pose::Number, 9> unit{3, 0, 0, 0, 3, 0, 0, 0, 3};
+    const std::array<Pose::Number, 3> by{1, 0, 0};
+    const Solid there =
+        trisect::transformed(ball, Pose::from_integers(unit, by, Pose::Number(3)), &report);
+    EXPECT_FALSE(report.lossless);
+    EXPECT_EQ(report.moved, 642U);
+    EXPECT_GT(report.max_move, 0);
+    EXPECT_LE(report.max_move, there.lattice().to_double(0.5));
+    EXPECT_LT(report.max_move, 1e-12);
+    EXPECT_EQ(report.flipped_faces, 0U);
+    EXPECT_EQ(trisect::exact_volume(there), trisect::exact_volume(ball));
+}
+
+TEST(TransformedSolid, RoundsVerticesUnderOtherMapsAndReports) {
+    const Solid cut = evaluate(box({0, 0, 0}, {2, 2, 2}) - box({1, 1, 1}, {3, 3, 3}));
+    LatticeReport report;
+    const Solid there =
+        trisect::transformed(cut, trisect::AffineMap::rotation({0, 0, 1}, 30), &report);
+    EXPECT_FALSE(report.lossless);
+    EXPECT_GT(report.moved, 0U);
+    EXPECT_LT(report.max_move, 1e-12);
+    EXPECT_EQ(report.flipped_faces, 0U);
+    EXPECT_EQ(report.lattice, there.lattice());
+    EXPECT_NEAR(trisect::volume(there), 7, 1e-12);
+    const auto bounds = trisect::bounds(there);
+    EXPECT_NEAR(bounds->lo[0], -1, 1e-12);
+    EXPECT_NEAR(bounds->hi[1], 1 + std::sqrt(3.0), 1e-12);
+    EXPECT_TRUE(trisect::validate(there.to_mesh()).empty());
+}
+
+TEST(TransformedSolid, MirrorsAndComplementsKeepTheirInside) {
+    const Solid cut = evaluate(box({0, 0, 0}, {2, 2, 2}) - box({1, 1, 1}, {3, 3, 3}));
+    const Pose skew = Pose::from_doubles({-1, 0.5, 0, 0, 0, 1, 0.25, 0, 0, 0, 2, 0});
+    ASSERT_TRUE(skew.is_mirror());
+    EXPECT_EQ(trisect::volume(trisect::transformed(cut, skew)), 14);
+    const Solid rest = trisect::transformed(evaluate(~cut), skew);
+    EXPECT_TRUE(are_equal(evaluate(~rest), trisect::transformed(cut, skew)));
+    const Solid turned = trisect::transformed(evaluate(~cut), Pose::from_quaternion({1, 0, 0, 1}));
+    EXPECT_EQ(trisect::volume(evaluate(~turned)), 7);
+}
+
+TEST(TransformedSolid, OfSpecialSets) {
+    const Pose turn = Pose::rotation_near({1, 2, 3}, 33);
+    EXPECT_TRUE(trisect::transformed(Solid(), turn).is_empty());
+    EXPECT_TRUE(trisect::transformed(Solid::whole_space(), turn).is_whole_space());
+    const Solid half = Solid::half_space({1, 0, 0, -1});
+    EXPECT_THROW((void)trisect::transformed(half, turn), trisect::UnsupportedError);
+    const Solid above =
+        trisect::transformed(half, Pose::from_quaternion({0, 0, 0, 1}, {0.5, 0, 0}));
+    EXPECT_EQ(trisect::volume(evaluate(above & box({-2, 0, 0}, {2, 1, 1}))), 2.5);
+}
+
+TEST(TransformedSolid, LeavesTheLattice) {
+    const Solid a = box({0, 0, 0}, {1, 1, 1});
+    EXPECT_THROW((void)trisect::transformed(a, Pose::from_translation({0x1p60, 0, 0})),
+                 trisect::LimitError);
+}
+
+TEST(RotationNear, IsExactForQuartersAndThirds) {
+    EXPECT_EQ(Pose::rotation_near({0, 0, 1}, 90), Pose::from_quaternion({1, 0, 0, 1}));
+    EXPECT_EQ(Pose::rotation_near({0, -2, 0}, 180), Pose::from_quaternion({0, 0, 1, 0}));
+    EXPECT_EQ(Pose::rotation_near({1, 1, 1}, 120), Pose::from_quaternion({1, 1, 1, 1}));
+    EXPECT_EQ(Pose::rotation_near({3, 4, 5}, 0), Pose());
+    EXPECT_EQ(Pose::rotation_near({0, 0, 1}, 450), Pose::from_quaternion({1, 0, 0, 1}));
+}
+
+TEST(RotationNear, IsNearTheRotation) {
+    for (const int bits : {8, 20, 40}) {
+        for (double degrees = -350; degrees < 360; degrees += 37) {
+            const Pose p = Pose::rotation_near({1, -2, 0.5}, degrees, bits);
+            const auto q = trisect::AffineMap::rotation({1, -2, 0.5}, degrees);
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    EXPECT_NEAR(p.approximate()[4 * i + j], q.rows[i][j],
+                                std::ldexp(1.0, 3 - bits) + 1e-14);
+        }
+    }
+    EXPECT_THROW((void)Pose::rotation_near({0, 0, 0}, 1), trisect::UsageError);
+    EXPECT_THROW((void)Pose::rotation_near({0, 0, 1}, 1, 60), trisect::UsageError);
+}
+
+TEST(Components, HaveTheirCavities) {
+    const Solid shell = evaluate(box({0, 0, 0}, {8, 8, 8}) - box({1, 1, 1}, {7, 7, 7}));
+    const Solid inner = evaluate(box({2, 2, 2}, {6, 6, 6}) - box({3, 3, 3}, {5, 5, 5}));
+    const Solid aside = box({8, 8, 8}, {9, 9, 9});  // touches a corner
+    const auto parts = trisect::components(evaluate(shell | inner | aside));
+    ASSERT_EQ(parts.size(), 3U);
+    EXPECT_TRUE(are_equal(parts[0], shell));
+    EXPECT_TRUE(are_equal(parts[1], inner));
+    EXPECT_TRUE(are_equal(parts[2], aside));
+    const trisect::Brep brep = parts[2].to_brep();
+    EXPECT_EQ(brep.source(trisect::FaceId(0)).operand, aside.source_id());
+}
+
+TEST(Components, OfRoundBodiesOffTheLattice) {
+    const Solid torus = Solid::from_mesh(trisect::make_torus(2, 0.5, 24, 12));
+    const Solid knife =
+        Solid::from_mesh(trisect::transformed(trisect::make_box({-9, -0.125, -9}, {9, 0.125, 9}),
+                                              trisect::AffineMap::rotation({0.1, 0.2, 1}, 20)));
+    const Solid cut = evaluate(torus - knife);
+    const auto parts = trisect::components(cut);
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_TRUE(evaluate(parts[0] & parts[1]).is_empty());
+    EXPECT_TRUE(are_equal(evaluate(parts[0] | parts[1]), cut));
+    EXPECT_EQ(trisect::exact_volume(parts[0]) + trisect::exact_volume(parts[1]),
+              trisect::exact_volume(cut));
+}
+
+TEST(Components, OfSpecialSets) {
+    EXPECT_TRUE(trisect::components(Solid()).empty());
+    EXPECT_EQ(trisect::components(box({0, 0, 0}, {1, 1, 1})).size(), 1U);
+    EXPECT_THROW((void)trisect::components(Solid::whole_space()), trisect::UnsupportedError);
+    EXPECT_THROW((void)trisect::components(Solid::half_space({0, 0, 1, 0})),
+                 trisect::UnsupportedError);
+}
+
+}  // namespace
