@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/polygon_mesh.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/point.h>
 
@@ -23,5 +24,8 @@ struct ExactMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<FaceSource> source;  ///< the face of an operand that a triangle is part of
 };
+
+/// The same triangles with correctly rounded coordinates in the user's units.
+[[nodiscard]] PolygonMesh to_polygon_mesh(const ExactMesh& mesh);
 
 }  // namespace trisect

@@ -3,6 +3,7 @@
 // union, intersection, difference and xor of two or more meshes. The whole formula is evaluated in
 // one pass; difference is A minus all the others.
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/bsp/expression.h>
 
@@ -18,6 +19,7 @@
 #include "mesh_files.h"
 #include "operand.h"
 #include "output_name.h"
+#include "parallel_each.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -32,21 +34,37 @@ struct BooleanResult {
     EvaluateStats stats;
 };
 
-/// Assembles, writes and, if asked, certifies what was written.
-void deliver(Session& session, const BooleanOptions& options, const Solid& solid, MeshFormat format,
-             BooleanResult& result) {
+/// Whether faces are wanted, or something that only faces have.
+bool needs_brep(const BooleanOptions& options) {
+    return options.faces || options.source_faces || options.repair || !options.boundary.empty();
+}
+
+DescriptionOptions description_options(const Session& session, const BooleanOptions& options) {
+    return {options.exact, session.options().json};
+}
+
+void describe_brep(const Session& session, const BooleanOptions& options, const Brep& brep,
+                   BooleanResult& result) {
+    result.description = describe(brep, description_options(session, options));
+    result.description.lattice = result.stats.lattice;
+}
+
+AssembleOptions assemble_options(const BooleanOptions& options) {
     AssembleOptions assembly;
     assembly.maximal_faces = !options.source_faces;
+    return assembly;
+}
+
+/// By faces: assembles, certifies or repairs, and writes.
+void deliver_brep(Session& session, const BooleanOptions& options, const Solid& solid,
+                  MeshFormat format, BooleanResult& result) {
     PolygonMesh mesh;
     const Brep brep = session.stage("assemble", [&] {
-        Brep boundary = solid.to_brep(assembly);
+        Brep boundary = solid.to_brep(assemble_options(options));
         mesh = to_polygon_mesh(boundary);
         return boundary;
     });
-    session.stage("describe", [&] {
-        result.description = describe(brep);
-        result.description.lattice = result.stats.lattice;
-    });
+    session.stage("describe", [&] { describe_brep(session, options, brep, result); });
     if (options.repair) {
         session.interruptible_stage("certify", [&] {
             result.rounding =
@@ -64,6 +82,31 @@ void deliver(Session& session, const BooleanOptions& options, const Solid& solid
     });
 }
 
+/// By triangles alone. Counts and certificate are made at the same time.
+void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& solid,
+                  MeshFormat format, BooleanResult& result) {
+    ExactMesh exact;
+    PolygonMesh mesh;
+    session.stage("assemble", [&] {
+        exact = solid.to_exact_mesh();
+        mesh = to_polygon_mesh(exact);
+    });
+    session.stage("describe", [&] {
+        std::optional<Description> description;
+        for_each_in_parallel(2, session.supervisor().stop_flag(), [&](std::size_t i) {
+            if (i == 0) description = describe(exact, description_options(session, options));
+            if (i == 1 && options.certificate)
+                result.certificate = certify_output(exact, mesh, format);
+        });
+        if (!description) return describe_brep(session, options, solid.to_brep(), result);
+        result.description = *description;
+        result.description.lattice = result.stats.lattice;
+    });
+    session.stage("write", [&] {
+        result.written = write_output_mesh(session, options.output, format, mesh);
+    });
+}
+
 Json document_of(const Session& session, const BooleanOptions& options,
                  const std::vector<Operand>& operands, const BooleanResult& result) {
     Json document;
@@ -71,7 +114,7 @@ Json document_of(const Session& session, const BooleanOptions& options,
     document["op"] = options.operation;
     document["inputs"] = Json::array();
     for (const Operand& operand : operands) document["inputs"].push_back(operand.facts);
-    document["embedding"] = options.operands.assume_embedded ? "assumed" : "resolved";
+    document["embedding"] = options.operands.assume_embedded ? "assumed" : "checked";
     document["output"]["file"] = options.output;
     if (!options.boundary.empty()) document["output"]["boundary"] = options.boundary;
     document["output"].update(to_json(result.description));
@@ -87,19 +130,20 @@ Json document_of(const Session& session, const BooleanOptions& options,
 std::string remarks_of(const Session& session, const BooleanOptions& options,
                        const BooleanResult& result) {
     const Description& d = result.description;
-    std::string out =
-        fmt::format("{:<11}{} triangles, {} faces, {} shells, volume {}\n", options.operation,
-                    d.triangles, d.faces, d.shells, number_text(d.volume.value_or(0)));
-    out += fmt::format("{:<11}{}\n", "operands", embedding_text(options.operands));
+    const std::string faces = needs_brep(options) ? fmt::format(" {} faces,", d.faces) : "";
+    std::string out = fmt::format("{:<13}{} triangles,{} {} shells, volume {}\n", options.operation,
+                                  d.triangles, faces, d.shells, number_text(d.volume.value_or(0)));
+    if (d.volume_exact) out += fmt::format("{:<13}{}\n", "", d.volume_exact->to_string());
+    out += fmt::format("{:<13}{}\n", "operands", embedding_text(options.operands));
     if (result.certificate) {
-        out += fmt::format("{:<11}{}\n", "certified", to_text(*result.certificate));
+        out += fmt::format("{:<13}{}\n", "certified", to_text(*result.certificate));
         if (!options.repair && !result.certificate->holds())
-            out += fmt::format("{:<11}--repair moves vertices until it is certified\n", "");
+            out += fmt::format("{:<13}--repair moves vertices until it is certified\n", "");
     }
-    if (result.rounding) out += fmt::format("{:<11}{}\n", "rounding", to_text(*result.rounding));
+    if (result.rounding) out += fmt::format("{:<13}{}\n", "rounding", to_text(*result.rounding));
     double total = 0;
     for (const auto& seconds : session.seconds()) total += seconds.get<double>();
-    return out + fmt::format("{:<11}{:.3f} s", "time", total);
+    return out + fmt::format("{:<13}{:.3f} s", "time", total);
 }
 
 CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
@@ -114,8 +158,11 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
         ->add_option("--boundary", options.boundary,
                      "file for the boundary without loss, as integers; '-' is the standard output")
         ->type_name("FILE");
+    command->add_flag("--exact", options.exact, "also the volume as a fraction");
+    command->add_flag("--faces", options.faces,
+                      "join coplanar triangles to faces, and count these; slower");
     command->add_flag("--source-faces", options.source_faces,
-                      "do not join coplanar faces of different origin");
+                      "faces, but no coplanar ones of different origin joined");
     command->add_flag("!--no-certificate", options.certificate,
                       "do not check the rounded result for self-intersection");
     command->add_flag(
@@ -138,7 +185,7 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const MeshFormat format = output_format(session, options.output);
     check_outputs(session, {options.output, options.boundary});
-    session.plan(options.certificate ? 6 : 5);
+    session.plan(needs_brep(options) && options.certificate ? 6 : 5);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
     BooleanResult result;
@@ -147,7 +194,11 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
         return evaluate(formula(options.operation, operands), evaluation, &result.stats);
     });
     note_rounding(session, result.stats.lattice, "the operands");
-    deliver(session, options, solid, format, result);
+    if (needs_brep(options)) {
+        deliver_brep(session, options, solid, format, result);
+    } else {
+        deliver_mesh(session, options, solid, format, result);
+    }
     Outcome out;
     if (result.rounding && !result.rounding->certificate.holds()) out.code = exit_findings;
     out.document = document_of(session, options, operands, result);

@@ -41,6 +41,10 @@ Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format
     return certify(brep, std::move(mesh), precision_of(format));
 }
 
+Certificate certify_output(const ExactMesh& exact, PolygonMesh mesh, MeshFormat format) {
+    return certify(exact, std::move(mesh), precision_of(format));
+}
+
 CertifiedRounding round_output(const Brep& brep, MeshFormat format,
                                const EvaluateOptions& evaluation) {
     RoundingOptions options;

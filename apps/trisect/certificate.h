@@ -16,6 +16,10 @@ namespace trisect::app {
 /// Of the coordinates as the format holds them. \pre `mesh` is to_polygon_mesh(brep)
 [[nodiscard]] Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format);
 
+/// The same. \pre `mesh` is to_polygon_mesh(exact)
+[[nodiscard]] Certificate certify_output(const ExactMesh& exact, PolygonMesh mesh,
+                                         MeshFormat format);
+
 /// As the format holds them, repaired where that takes it.
 [[nodiscard]] CertifiedRounding round_output(const Brep& brep, MeshFormat format,
                                              const EvaluateOptions& evaluation);

@@ -6,6 +6,7 @@
 #include "description.h"
 
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/validate/manifold_counts.h>
 
 #include <fmt/format.h>
 
@@ -106,8 +107,10 @@ bool count_as_brep(const ImportedMesh& imported, Description& out) {
 
 template <class Boundary>
 void measure(const Boundary& boundary, DescriptionOptions options, Description& out) {
-    out.area = area(boundary).value;
-    out.bounds = bounds(boundary);
+    if (options.measures) {
+        out.area = area(boundary).value;
+        out.bounds = bounds(boundary);
+    }
     if (!out.closed) return;
     out.volume = volume(boundary);
     if (options.exact) out.volume_exact = exact_volume(boundary);
@@ -161,6 +164,22 @@ Description describe(const Brep& brep, DescriptionOptions options) {
     out.closed = true;
     out.lattice.lattice = brep.lattice();
     measure(brep, options, out);
+    return out;
+}
+
+std::optional<Description> describe(const ExactMesh& mesh, DescriptionOptions options) {
+    const auto counts = manifold_counts(mesh.points.size(), mesh.triangles);
+    if (!counts) return std::nullopt;
+    Description out;
+    out.vertices = counts->vertices;
+    out.edges = counts->edges;
+    out.shells = counts->shells;
+    out.genus = counts->genus;
+    out.triangles = mesh.triangles.size();
+    out.faces = mesh.triangles.size();
+    out.closed = true;
+    out.lattice.lattice = mesh.lattice;
+    measure(mesh, options, out);
     return out;
 }
 

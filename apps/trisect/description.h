@@ -5,6 +5,7 @@
 #pragma once
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
 
@@ -33,13 +34,18 @@ struct Description {
 };
 
 struct DescriptionOptions {
-    bool exact = false;  ///< fill volume_exact
+    bool exact = false;    ///< fill volume_exact
+    bool measures = true;  ///< fill area and bounds
 };
 
 /// Of a mesh as it was read: points of equal value are one vertex. Vertices and edges where the
 /// boundary touches itself count as often as they do in a Brep.
 [[nodiscard]] Description describe(const ImportedMesh& imported, DescriptionOptions options = {});
 [[nodiscard]] Description describe(const Brep& brep, DescriptionOptions options = {});
+/// Of a result before it is rounded; its faces are its triangles. Nothing if it touches itself:
+/// only a Brep has the counts of such a boundary.
+[[nodiscard]] std::optional<Description> describe(const ExactMesh& mesh,
+                                                  DescriptionOptions options = {});
 
 [[nodiscard]] Json to_json(const Description& description);
 /// Aligned lines.

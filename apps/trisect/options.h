@@ -56,6 +56,7 @@ struct BooleanOptions {
     OperandOptions operands;
     std::string boundary;  ///< a file for the boundary without loss; empty: none
     bool exact = false;    ///< also the volume as a fraction
+    bool faces = false;    ///< assemble faces, although triangles are written
     bool source_faces = false;
     bool certificate = true;
     bool repair = false;  ///< what is written must be certified

@@ -46,7 +46,7 @@ void describe_inputs(const QueryOptions& options, const QueriedSet& set, Json& d
     document["inputs"] = Json::array();
     for (const Operand& operand : set.operands) document["inputs"].push_back(operand.facts);
     document["op"] = set.operands.size() == 1 ? Json() : Json(options.operation);
-    document["embedding"] = options.operands.assume_embedded ? "assumed" : "resolved";
+    document["embedding"] = options.operands.assume_embedded ? "assumed" : "checked";
 }
 
 std::vector<Point3d> corners_of(const Solid& solid) { return solid.to_mesh().points; }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -95,13 +96,12 @@ bool cannot_have_moved(const Point& exact, Lattice lattice, const Point3d& writt
     return to_user(exact.lattice(), lattice) == written && lattice.exponent > -1000;
 }
 
-void measure_moves(const Brep& brep, const PolygonMesh& written, Certificate& out) {
-    Moves moves(brep.lattice());
-    for (const VertexId v : brep.vertices()) {
-        const Point3d& point = written.points[v.index];
-        if (!cannot_have_moved(brep.point(v), brep.lattice(), point))
-            moves.add(brep.point(v), point);
-    }
+void measure_moves(std::span<const Point> exact, Lattice lattice, const PolygonMesh& written,
+                   Certificate& out) {
+    Moves moves(lattice);
+    for (std::size_t v = 0; v < exact.size(); ++v)
+        if (!cannot_have_moved(exact[v], lattice, written.points[v]))
+            moves.add(exact[v], written.points[v]);
     out.rounded_vertices = moves.count();
     out.max_move = moves.largest();
 }
@@ -110,6 +110,14 @@ void round_to_floats(PolygonMesh& mesh) {
     for (Point3d& p : mesh.points) {
         for (double& c : p) c = static_cast<double>(static_cast<float>(c));
     }
+}
+
+Certificate certify_rounded(std::span<const Point> exact, Lattice lattice, PolygonMesh mesh,
+                            Precision precision) {
+    if (precision == Precision::Float) round_to_floats(mesh);
+    Certificate out = certify(mesh);
+    measure_moves(exact, lattice, mesh, out);
+    return out;
 }
 
 ValidationReport checked(const PolygonMesh& mesh, bool self_intersection) {
@@ -192,10 +200,11 @@ Certificate certify(const PolygonMesh& mesh) {
 }
 
 Certificate certify(const Brep& brep, PolygonMesh mesh, Precision precision) {
-    if (precision == Precision::Float) round_to_floats(mesh);
-    Certificate out = certify(mesh);
-    measure_moves(brep, mesh, out);
-    return out;
+    return certify_rounded(brep.points(), brep.lattice(), std::move(mesh), precision);
+}
+
+Certificate certify(const ExactMesh& exact, PolygonMesh mesh, Precision precision) {
+    return certify_rounded(exact.points, exact.lattice, std::move(mesh), precision);
 }
 
 }  // namespace trisect

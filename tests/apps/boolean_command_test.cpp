@@ -45,7 +45,7 @@ TEST_F(BooleanCommand, DocumentHasItsKeys) {
     EXPECT_EQ(document["op"], "difference");
     ASSERT_EQ(document["inputs"].size(), 2U);
     EXPECT_EQ(document["inputs"][0]["file"], a_);
-    EXPECT_EQ(document["embedding"], "resolved");
+    EXPECT_EQ(document["embedding"], "checked");
     for (const char* key : {"read", "evaluate", "assemble", "write"}) {
         EXPECT_TRUE(document["seconds"].contains(key)) << key;
     }
@@ -196,9 +196,32 @@ TEST_F(BooleanCommand, EmptyResultIsWritten) {
     EXPECT_TRUE(exists("out.obj"));
 }
 
+// What is written by triangles alone has the same measures; its faces are its triangles. Two boxes
+// that touch in an edge have the shells of the B-rep.
+TEST_F(BooleanCommand, TrianglesAloneDescribeTheSameSet) {
+    const std::string beside = box("n.obj", {2, 2, 0}, {3, 3, 2});
+    for (const std::string& other : {b_, beside}) {
+        for (const char* operation : {"union", "difference", "xor"}) {
+            const json quick = run(operation, {a_, other, "--exact"})["output"];
+            const json faces = run(operation, {a_, other, "--exact", "--faces"})["output"];
+            for (const char* key :
+                 {"volume", "volume_exact", "area", "bounds", "shells", "genus", "closed"})
+                EXPECT_EQ(quick[key], faces[key]) << operation << ' ' << other << ' ' << key;
+        }
+    }
+    const json quick = run("union", {a_, b_})["output"];
+    EXPECT_EQ(quick["faces"], quick["triangles"]);
+}
+
+TEST_F(BooleanCommand, AnOptionIsNoValue) {
+    const Finished result = trisect({"union", a_, b_, "-o", out_, "--boundary", "--json"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_FALSE(exists("--json"));
+}
+
 TEST_F(BooleanCommand, CoplanarFacesJoinUnlessAskedNotTo) {
     const std::string next = box("n.obj", {2, 0, 0}, {3, 2, 2});
-    EXPECT_EQ(run("union", {a_, next})["output"]["faces"], 6);
+    EXPECT_EQ(run("union", {a_, next, "--faces"})["output"]["faces"], 6);
     EXPECT_GE(run("union", {a_, next, "--source-faces"})["output"]["faces"], 10);
 }
 

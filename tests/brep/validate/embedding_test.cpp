@@ -2,10 +2,16 @@
 
 #include <trisect/brep/validate/embedding.h>
 
+#include <cstdint>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/primitives/torus.h>
+#include <trisect/brep/validate/manifold_counts.h>
+#include <trisect/brep/validate/validate.h>
 
 #include "support/mesh_builders.h"
 
@@ -46,6 +52,57 @@ TEST(Embedding, TouchingInAnEdgeOrACorner) {
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 1, 0}, {2, 2, 1}))));
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 1, 1}, {2, 2, 2}))));
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 1, 0.5}, {2, 2, 2}))));
+}
+
+// Whether it is decided over neighbours or by validation, the answer is that of all checks.
+bool is_without_defect(const trisect::LatticeMesh& mesh) {
+    const trisect::ValidationReport report = trisect::validate(mesh);
+    for (std::size_t k = 0; k < trisect::defect_kind_count; ++k) {
+        const auto kind = static_cast<trisect::DefectKind>(k);
+        const bool of_points =
+            kind == trisect::DefectKind::DuplicatePoint || kind == trisect::DefectKind::UnusedPoint;
+        if (!of_points && report.count(kind) != 0) return false;
+    }
+    return true;
+}
+
+TEST(Embedding, SameAsValidationWhereCornersMove) {
+    std::mt19937 random(20261123);
+    std::size_t embedded = 0;
+    constexpr std::size_t rounds = 400;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        trisect::LatticeMesh mesh =
+            trisect::import_mesh(trisect::make_icosphere(64, 1 + round % 3)).mesh;
+        // From hardly a dent to corners far outside, on so coarse a grid that they often coincide.
+        const std::int64_t reach = std::int64_t{1} << (36 + round % 8);
+        for (std::size_t n = 0; n < 1 + round % 5; ++n) {
+            trisect::LatticePoint& p = mesh.points[random() % mesh.points.size()];
+            for (int i = 0; i < 3; ++i)
+                p[i] += (static_cast<std::int64_t>(random() % 5) - 2) * reach / 4;
+        }
+        if (random() % 4 == 0)
+            mesh.points[random() % mesh.points.size()] = mesh.points[random() % mesh.points.size()];
+        const bool answer = is_embedded(mesh);
+        EXPECT_EQ(answer, is_without_defect(mesh)) << round;
+        embedded += answer ? 1 : 0;
+    }
+    EXPECT_GT(embedded, rounds / 10);
+    EXPECT_LT(embedded, rounds * 9 / 10);
+}
+
+TEST(ManifoldCounts, ShellsAndHandles) {
+    const auto counts_of = [](const PolygonMesh& polygons) {
+        const trisect::LatticeMesh mesh = trisect::import_mesh(polygons).mesh;
+        return trisect::manifold_counts(mesh.points.size(), mesh.triangles);
+    };
+    const auto cubes = counts_of(together(cuboid(), cuboid({2, 2, 2}, {3, 3, 3})));
+    EXPECT_EQ(cubes, (trisect::ManifoldCounts{16, 36, 2, 0}));
+    const auto torus = counts_of(trisect::make_torus(3, 1, 12, 8));
+    ASSERT_TRUE(torus);
+    EXPECT_EQ(torus->genus, 1);
+    EXPECT_EQ(torus->shells, 1U);
+    EXPECT_FALSE(counts_of(together(cuboid(), cuboid({1, 1, 0}, {2, 2, 1})))) << "edge of four";
+    EXPECT_FALSE(counts_of(together(cuboid(), cuboid({1, 1, 1}, {2, 2, 2})))) << "two fans";
 }
 
 }  // namespace
