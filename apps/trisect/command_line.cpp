@@ -149,7 +149,8 @@ std::string refuse_option(const std::string& value) {
 
 void refuse_options_as_values(CLI::App& app) {
     for (CLI::Option* option : app.get_options())
-        if (option->get_items_expected_max() > 0) option->check(refuse_option, "");
+        if (!option->get_positional() && option->get_items_expected_max() > 0)
+            option->check(refuse_option, "");
 }
 
 void declare(CLI::App& app, Request& request) {
