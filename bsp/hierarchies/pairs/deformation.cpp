@@ -37,8 +37,8 @@ std::vector<Named> named(const detail::InterferenceModelData& m) {
 
 std::optional<std::vector<std::uint32_t>> same_triangles(const InterferenceModel& before,
                                                          const InterferenceModel& after) {
-    const std::vector<Named> from = named(before.data());
-    const std::vector<Named> to = named(after.data());
+    const std::vector<Named> from = named(detail::data_of(before));
+    const std::vector<Named> to = named(detail::data_of(after));
     if (!std::ranges::equal(from, to, {}, &Named::source, &Named::source)) return std::nullopt;
     std::vector<std::uint32_t> r(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) r[from[i].triangle] = to[i].triangle;

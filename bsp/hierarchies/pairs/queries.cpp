@@ -38,8 +38,8 @@ struct TrianglePair {
 class LeafTest {
 public:
     explicit LeafTest(const PairStructure& s)
-        : a_(s.model_a().data()),
-          b_(s.model_b().data()),
+        : a_(detail::data_of(s.model_a())),
+          b_(detail::data_of(s.model_b())),
           map_(s.placement().to_a),
           error_(a_.position_error + s.placement().b_error) {}
 
@@ -90,7 +90,8 @@ bool compare_candidates(PairStructure& s, CostCounters& counters, Visit&& visit)
 class ExactTest {
 public:
     explicit ExactTest(const PairStructure& s)
-        : pairs_(s.model_a().data(), s.pose_a(), s.model_b().data(), s.pose_b(), stack_) {}
+        : pairs_(detail::data_of(s.model_a()), s.pose_a(), detail::data_of(s.model_b()), s.pose_b(),
+                 stack_) {}
     bool meet(std::uint32_t a, std::uint32_t b, CostCounters& counters) {
         ++counters.exact_tests;
         return pairs_.exact(a, b).meets();
@@ -105,7 +106,7 @@ private:
 Relation relation_of_unknown(const PairStructure& s, const std::vector<TrianglePair>& unknown,
                              CostCounters& counters) {
     const detail::PosedModels models{
-        s.model_a().data(), s.model_b().data(),
+        detail::data_of(s.model_a()), detail::data_of(s.model_b()),
         detail::PosedPair(s.pose_a(), s.model_a().lattice(), s.pose_b(), s.model_b().lattice())};
     detail::MeetingCollector collect(models, false);
     for (const TrianglePair& p : unknown) {
@@ -124,8 +125,8 @@ struct NearestPairs {
 };
 
 NearestPairs nearest(PairStructure& s, CostCounters& counters) {
-    const detail::PairDistance pairs(s.model_a().data(), s.pose_a(), s.model_b().data(),
-                                     s.pose_b());
+    const detail::PairDistance pairs(detail::data_of(s.model_a()), s.pose_a(),
+                                     detail::data_of(s.model_b()), s.pose_b());
     constexpr double infinite = std::numeric_limits<double>::infinity();
     NearestPairs r;
     double upper = infinite;
@@ -173,8 +174,8 @@ bool boundaries_meet(PairStructure& structure, CostCounters& counters) {
 }
 
 std::vector<FacePair> meeting_faces(PairStructure& structure, CostCounters& counters) {
-    const InterferenceModelData& a = structure.model_a().data();
-    const InterferenceModelData& b = structure.model_b().data();
+    const InterferenceModelData& a = detail::data_of(structure.model_a());
+    const InterferenceModelData& b = detail::data_of(structure.model_b());
     std::optional<ExactTest> exact;
     std::vector<FacePair> faces;
     compare_candidates(structure, counters,
@@ -202,17 +203,18 @@ Relation relation(PairStructure& structure, CostCounters& counters) {
     std::vector<TrianglePair> unknown;
     const bool crossing = compare_candidates(
         structure, counters, [&](std::uint32_t a, std::uint32_t b, PairVerdict verdict) {
-            if (verdict == PairVerdict::Crossing && structure.model_a().data().is_clear(a) &&
-                structure.model_b().data().is_clear(b))
+            if (verdict == PairVerdict::Crossing &&
+                detail::data_of(structure.model_a()).is_clear(a) &&
+                detail::data_of(structure.model_b()).is_clear(b))
                 return true;
             unknown.push_back({a, b});
             return false;
         });
     if (crossing) return Relation::Overlapping;
     if (unknown.empty()) {
-        const auto quick = detail::relation_of_apart(structure.model_a().data(), structure.pose_a(),
-                                                     structure.model_b().data(), structure.pose_b(),
-                                                     structure.placement().to_a);
+        const auto quick = detail::relation_of_apart(
+            detail::data_of(structure.model_a()), structure.pose_a(),
+            detail::data_of(structure.model_b()), structure.pose_b(), structure.placement().to_a);
         if (quick) return *quick;
     }
     return relation_of_unknown(structure, unknown, counters);
@@ -223,8 +225,8 @@ DistanceInterval distance(PairStructure& structure, CostCounters& counters) {
 }
 
 ClosestFeatures closest(PairStructure& structure, CostCounters& counters) {
-    const InterferenceModelData& a = structure.model_a().data();
-    const InterferenceModelData& b = structure.model_b().data();
+    const InterferenceModelData& a = detail::data_of(structure.model_a());
+    const InterferenceModelData& b = detail::data_of(structure.model_b());
     const NearestPairs found = nearest(structure, counters);
     if (std::ranges::any_of(found.pairs, &DistanceCandidate::crossing)) return {};
     std::optional<ClosestFeatures> best;
