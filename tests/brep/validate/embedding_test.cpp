@@ -72,7 +72,9 @@ TEST(Embedding, SameAsValidationWhereCornersMove) {
     constexpr std::size_t rounds = 400;
     for (std::size_t round = 0; round < rounds; ++round) {
         trisect::LatticeMesh mesh =
-            trisect::import_mesh(trisect::make_icosphere(64, 1 + round % 3)).mesh;
+            trisect::import_mesh(
+                trisect::make_icosphere(64, static_cast<std::uint32_t>(1 + round % 3)))
+                .mesh;
         // From hardly a dent to corners far outside, on so coarse a grid that they often coincide.
         const std::int64_t reach = std::int64_t{1} << (36 + round % 8);
         for (std::size_t n = 0; n < 1 + round % 5; ++n) {

@@ -114,11 +114,11 @@ TEST(NamedScenes, AlignedWalls) {  // IfcOpenShell#4594
 Relation by_separating_axes(const InterferenceModel& a, const Pose& pose_a,
                             const InterferenceModel& b, const Pose& pose_b) {
     struct Body {
-        std::vector<oracle::ExactPoint> points;
-        std::vector<oracle::ExactPoint> edges;
-        std::vector<oracle::ExactPoint> normals;
+        std::vector<oracle::RationalPoint> points;
+        std::vector<oracle::RationalPoint> edges;
+        std::vector<oracle::RationalPoint> normals;
     };
-    using Vector = oracle::ExactPoint;
+    using Vector = oracle::RationalPoint;
     const auto minus = [](const Vector& u, const Vector& v) {
         return Vector{u[0] - v[0], u[1] - v[1], u[2] - v[2]};
     };
