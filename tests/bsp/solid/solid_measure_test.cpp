@@ -17,6 +17,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
+namespace solid_measure_test {
 namespace {
 
 using trisect::Bounds;
@@ -150,3 +151,4 @@ TEST(SolidMesh, IsTheExactOneRounded) {
 }
 
 }  // namespace
+}  // namespace solid_measure_test

@@ -26,6 +26,7 @@
 
 #include "engines/engines.h"
 
+namespace solid_transform_test {
 namespace {
 
 using reference::Random;
@@ -252,3 +253,4 @@ TEST(Components, OfSpecialSets) {
 }
 
 }  // namespace
+}  // namespace solid_transform_test
