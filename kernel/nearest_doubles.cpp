@@ -140,7 +140,7 @@ std::optional<Vector3> rounded(const std::array<std::int64_t, 3>& c, const Enclo
     for (std::size_t i = 0; i < 3; ++i) {
         const auto at = static_cast<double>(c[i]);
         // The last term pays for the rounding of step - error and step + error.
-        const double error = 1.0001 * step.error[i] + 0x1p-51 * std::fabs(step.c[i]);
+        const double error = detail::bound_slack * step.error[i] + 0x1p-51 * std::fabs(step.c[i]);
         out[i] = at + (step.c[i] - error);
         if (out[i] != at + (step.c[i] + error)) return std::nullopt;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Value of a plane's equation at an approximate point, with error bound.
-// The bound is proved.
+// Values of a plane's equation at approximate points.
+// Each comes with a proved bound of its error.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ namespace trisect::detail {
         terms += std::fabs(t);
         normals += std::fabs(n);
     }
-    return {value, plane_value_rounding * terms + moved_value_slack * (error * normals)};
+    return {value, plane_value_rounding * terms + error_slack * (error * normals)};
 }
 
 [[nodiscard]] inline Ball value_at_point(const Plane& plane, const std::array<double, 3>& c,

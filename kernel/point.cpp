@@ -8,6 +8,7 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect {
 
@@ -32,7 +33,7 @@ std::optional<LatticePoint> lattice_point_on(const std::array<double, 3>& neares
 Approximation certified(const std::array<double, 3>& nearest) {
     const double largest =
         std::max(std::fabs(nearest[0]), std::max(std::fabs(nearest[1]), std::fabs(nearest[2])));
-    return {nearest, largest * 0x1p-53};
+    return {nearest, largest * detail::unit_roundoff};
 }
 
 }  // namespace

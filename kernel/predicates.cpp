@@ -229,7 +229,8 @@ std::optional<Quotients> quotients(const DoubleCramer& d) {
         // |X/W - x/w| <= (δx + |x/w| δw) / (|w| - δw), plus the division's own rounding.
         const double c = std::fabs(out.c[i]);
         out.error[i] =
-            (determinant_rounding * d.magnitude[i] + c * w_error) / w_safe * 1.0001 + c * 0x1p-52;
+            (determinant_rounding * d.magnitude[i] + c * w_error) / w_safe * detail::bound_slack +
+            c * detail::last_place;
     }
     return out;
 }
@@ -278,7 +279,8 @@ Approximation approximate(const HomogeneousPoint& p) {
     a.c = nearest_doubles(p);
     double largest = 0;
     for (double c : a.c) largest = std::max(largest, std::fabs(c));
-    a.error = largest * 0x1p-53;  // half a unit in the last place of the largest coordinate
+    a.error =
+        largest * detail::unit_roundoff;  // half a unit in the last place of the largest coordinate
     return a;
 }
 

@@ -94,7 +94,7 @@ inline std::optional<Side> filtered_side(const Approximation& a, const Plane& pl
     const double terms = ((mag(tx) + mag(ty)) + mag(tz)) + mag(d);
     const double normals = (mag(nx) + mag(ny)) + mag(nz);
     const double bound =
-        detail::plane_value_rounding * terms + detail::moved_value_slack * (a.error * normals);
+        detail::plane_value_rounding * terms + detail::error_slack * (a.error * normals);
     if (s > bound) return Side::Above;
     if (s < -bound) return Side::Below;
     return std::nullopt;

@@ -6,39 +6,24 @@
 // comparisons decide whether they overlap, and a comparison of two such points along the line is
 // the orientation of the four corners.
 //
-// The filter is that of Shewchuk ("Adaptive precision floating-point arithmetic", 1997, orient3d):
-// the error is below (7 + 56 ε) ε times the permanent, ε = 2^-53, rounded differences included.
+// The filter is filtered_orientation().
 
 #include <trisect/kernel/triangle_pair.h>
 
 #include <cmath>
 #include <utility>
 
+#include <trisect/kernel/number/orientation.h>
+
 namespace trisect::detail {
 
 namespace {
 
-// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot decide.
+// 0 when doubles cannot decide.
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const LatticePoint& d) {
-    std::array<std::array<double, 3>, 3> m;
-    const std::array<const LatticePoint*, 3> rows{&a, &b, &c};
-    for (std::size_t i = 0; i < 3; ++i)
-        m[i] = {static_cast<double>(rows[i]->x) - static_cast<double>(d.x),
-                static_cast<double>(rows[i]->y) - static_cast<double>(d.y),
-                static_cast<double>(rows[i]->z) - static_cast<double>(d.z)};
-    double sum = 0;
-    double permanent = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& p = m[(i + 1) % 3];
-        const auto& q = m[(i + 2) % 3];
-        const double u = p[0] * q[1];
-        const double v = p[1] * q[0];
-        sum += m[i][2] * (u - v);
-        permanent += std::fabs(m[i][2]) * (std::fabs(u) + std::fabs(v));
-    }
-    const double error = 0x1p-50 * permanent;
-    return sum > error ? 1 : (sum < -error ? -1 : 0);
+    return detail::filtered_orientation(detail::to_vector(a), detail::to_vector(b),
+                                        detail::to_vector(c), detail::to_vector(d));
 }
 
 // Numbers the corners so that the first one is alone on its side of the other plane.

@@ -16,6 +16,7 @@
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect {
 
@@ -125,7 +126,7 @@ BSplinePatches to_bezier(const BSplineSurface& s) {
     r.columns = v.spans().size();
     // Points are off by 2^-53 of their coordinates, and weights by 2^-53 of themselves, which moves
     // weighted means by at most twice that of the extent.
-    r.largest_move = 8 * 0x1p-53 * largest;
+    r.largest_move = 8 * detail::unit_roundoff * largest;
     for (const std::size_t k : u.spans()) {
         // Over this span of u: one curve of u for each column.
         std::vector<std::vector<ExactHomogeneous>> across(s.degree_u + 1);

@@ -21,13 +21,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::detail {
 
 namespace {
-
-constexpr double rounding = 0x1p-53;
-// Pays for the roundings of a bound's own computation, which are at most some hundred.
-constexpr double outward = 1 + 0x1p-40;
 
 Homogeneous mean(const Homogeneous& a, const Homogeneous& b) {
     Homogeneous m;
@@ -85,7 +83,7 @@ void ControlNet::add(const Point3d& p, double w) {
     const Homogeneous h{w * p[0], w * p[1], w * p[2], w};
     for (const double c : h) largest_ = std::max(largest_, std::abs(c));
     // A product with 1 is exact.
-    if (w != 1) error_ = std::max(error_, 2 * rounding * largest_);
+    if (w != 1) error_ = std::max(error_, 2 * unit_roundoff * largest_);
     net_.push_back(h);
 }
 
@@ -105,7 +103,7 @@ ControlNet::ControlNet(std::size_t degree, const std::vector<Point3d>& points,
 std::pair<ControlNet, ControlNet> ControlNet::halves_in_u() const {
     std::pair<ControlNet, ControlNet> r{*this, *this};
     for (ControlNet* half : {&r.first, &r.second})
-        half->error_ += static_cast<double>(degree_u_) * 2 * rounding * largest_;
+        half->error_ += static_cast<double>(degree_u_) * 2 * unit_roundoff * largest_;
     std::vector<Homogeneous> row(degree_u_ + 1);
     for (std::size_t j = 0; j <= degree_v_; ++j) {
         for (std::size_t i = 0; i <= degree_u_; ++i) row[i] = net(i, j);
@@ -121,7 +119,7 @@ std::pair<ControlNet, ControlNet> ControlNet::halves_in_u() const {
 std::pair<ControlNet, ControlNet> ControlNet::halves_in_v() const {
     std::pair<ControlNet, ControlNet> r{*this, *this};
     for (ControlNet* half : {&r.first, &r.second})
-        half->error_ += static_cast<double>(degree_v_) * 2 * rounding * largest_;
+        half->error_ += static_cast<double>(degree_v_) * 2 * unit_roundoff * largest_;
     std::vector<Homogeneous> row(degree_v_ + 1);
     for (std::size_t i = 0; i <= degree_u_; ++i) {
         for (std::size_t j = 0; j <= degree_v_; ++j) row[j] = net(i, j);
@@ -143,8 +141,8 @@ CertifiedPoint ControlNet::projected(const Homogeneous& h, double error) const {
     }
     // |x/w - x'/w'| <= (|x - x'| + |x'/w'| |w - w'|) / w, and the quotient is rounded once.
     const double least = h[3] - error;
-    p.error = least > 0 ? outward * (error * (1 + largest) / least) : INFINITY;
-    if (h[3] != 1) p.error += 2 * rounding * largest;
+    p.error = least > 0 ? surely_more * (error * (1 + largest) / least) : INFINITY;
+    if (h[3] != 1) p.error += 2 * unit_roundoff * largest;
     return p;
 }
 
@@ -160,7 +158,7 @@ CertifiedPoint ControlNet::at(double u, double v) const {
     for (std::size_t level = degree_u_; level > 0; --level)
         for (std::size_t i = 0; i < level; ++i) column[i] = between(column[i], column[i + 1], u);
     const auto steps = static_cast<double>(degree_u_ + degree_v_);
-    return projected(column[0], error_ + steps * 4 * rounding * largest_);
+    return projected(column[0], error_ + steps * 4 * unit_roundoff * largest_);
 }
 
 CertifiedPoint ControlNet::corner(std::size_t u, std::size_t v) const {
@@ -189,7 +187,8 @@ SecondDerivatives ControlNet::second_derivatives() const {
     std::vector<Homogeneous> seen = net_;
     for (Homogeneous& h : seen)
         for (std::size_t k = 0; k < 3; ++k) h[k] -= c[k] * h[3];
-    const double error = outward * (error_ * (1 + size) + 4 * rounding * largest_ * (1 + size));
+    const double error =
+        surely_more * (error_ * (1 + size) + 4 * unit_roundoff * largest_ * (1 + size));
 
     // Of the surface: its points are means of these.
     VectorRange surface{no_number, no_number, no_number};
@@ -234,7 +233,7 @@ SecondDerivatives ControlNet::second_derivatives() const {
                     minus(minus(at(i + 1, j + 1), at(i + 1, j)), minus(at(i, j + 1), at(i, j))));
         }
     // Rounding of the differences is less than what the factors of `error` leave.
-    const double e = 2 * error + 4 * rounding * largest_ * (1 + size);
+    const double e = 2 * error + 4 * unit_roundoff * largest_ * (1 + size);
     u = u.times(p, e);
     v = v.times(q, e);
     uu = uu.times(p * (p - 1), 2 * e);
@@ -298,9 +297,9 @@ ControlNet ControlNet::moved(const std::array<double, 12>& map) const {
             h[i] = map[4 * i] * x[0] + map[4 * i + 1] * x[1] + map[4 * i + 2] * x[2] +
                    map[4 * i + 3] * x[3];
     }
-    r.largest_ = outward * rows * largest_;
+    r.largest_ = surely_more * rows * largest_;
     // 2^-50 of each product for the map, at most 5·2^-53 for products and sums.
-    r.error_ = outward * (rows * error_ + 0x1p-49 * rows * largest_);
+    r.error_ = surely_more * (rows * error_ + 0x1p-49 * rows * largest_);
     return r;
 }
 

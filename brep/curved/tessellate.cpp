@@ -36,6 +36,7 @@
 
 #include <trisect/brep/curved/control_net.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect {
 
@@ -75,7 +76,7 @@ struct RoughVector {
             const double half = std::max(x[k].hi - middle[k], middle[k] - x[k].lo);
             sum += half * half;
         }
-        radius = std::sqrt(sum) * (1 + 0x1p-40);
+        radius = std::sqrt(sum) * detail::surely_more;
     }
 };
 
@@ -167,8 +168,8 @@ public:
     [[nodiscard]] Division division(std::uint64_t u, std::uint64_t v, double limit) const {
         const std::vector<Span> rows = spans(u);
         const std::vector<Span> columns = spans(v);
-        const double l1 = (1 + 0x1p-40) / static_cast<double>(u);
-        const double l2 = (1 + 0x1p-40) / static_cast<double>(v);
+        const double l1 = detail::surely_more / static_cast<double>(u);
+        const double l2 = detail::surely_more / static_cast<double>(v);
         CellDeviation worst;
         for (const Span& row : rows)
             for (const Span& column : columns) {

@@ -18,6 +18,7 @@
 
 #include <trisect/brep/face/loops_below.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
@@ -64,9 +65,9 @@ int PlaneProjection::filtered_orientation(const Approximation& a, const Approxim
     const double bv = b.c[v] - c.c[v];
     const double s = au * bv;
     const double t = av * bu;
-    const double bound = 0x1p-50 * (std::fabs(s) + std::fabs(t)) +
-                         1.0000001 * (ea * (std::fabs(bu) + std::fabs(bv)) +
-                                      eb * (std::fabs(au) + std::fabs(av)) + 2 * ea * eb);
+    const double bound = detail::minor_rounding * (std::fabs(s) + std::fabs(t)) +
+                         detail::error_slack * (ea * (std::fabs(bu) + std::fabs(bv)) +
+                                                eb * (std::fabs(au) + std::fabs(av)) + 2 * ea * eb);
     if (s - t > bound) return 1;
     if (t - s > bound) return -1;
     return 0;

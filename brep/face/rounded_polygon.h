@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <trisect/brep/face/small_polygon.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -35,7 +36,7 @@ public:
     }
     /// A corner whose coordinates are the nearest doubles of the exact ones.
     void add_nearest(double u, double v) {
-        add(u, v, 0x1p-53 * std::max(std::fabs(u), std::fabs(v)));
+        add(u, v, unit_roundoff * std::max(std::fabs(u), std::fabs(v)));
     }
     [[nodiscard]] std::size_t size() const { return size_; }
 
@@ -53,8 +54,8 @@ public:
         const double s = au * bv;
         const double t = av * bu;
         const double sides = (std::fabs(au) + std::fabs(av)) + (std::fabs(bu) + std::fabs(bv));
-        const double bound =
-            0x1p-50 * (std::fabs(s) + std::fabs(t)) + 2.0000002 * error_ * (sides + 4 * error_);
+        const double bound = minor_rounding * (std::fabs(s) + std::fabs(t)) +
+                             2.0000002 * error_ * (sides + 4 * error_);
         if (s - t > bound) return 1;
         if (t - s > bound) return -1;
         return 0;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <trisect/brep/face/sweep_line.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -41,7 +42,7 @@ struct FlatPoint {
 int turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
     const double left = static_cast<double>(b.u - a.u) * static_cast<double>(c.v - a.v);
     const double right = static_cast<double>(b.v - a.v) * static_cast<double>(c.u - a.u);
-    const double bound = 0x1p-50 * (std::fabs(left) + std::fabs(right));
+    const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
     if (left - right > bound) return 1;
     if (left - right < -bound) return -1;
     const Int128 l = Int128{b.u - a.u} * (c.v - a.v);

@@ -29,6 +29,7 @@
 #include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/validate/region_outline.h>
 #include <trisect/brep/validate/twins.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -63,7 +64,7 @@ RoughNormal normal_of(std::span<const LatticePoint> points, const Triangle& t) {
         const double left = static_cast<double>(p[u]) * static_cast<double>(q[v]);
         const double right = static_cast<double>(p[v]) * static_cast<double>(q[u]);
         n[k] = left - right;
-        if (std::fabs(n[k]) > 0x1p-50 * (std::fabs(left) + std::fabs(right))) {
+        if (std::fabs(n[k]) > minor_rounding * (std::fabs(left) + std::fabs(right))) {
             out.sign[k] = n[k] > 0 ? 1 : -1;
         } else {
             const Int128 l = Int128{p[u]} * q[v];

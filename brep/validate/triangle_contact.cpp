@@ -25,6 +25,7 @@
 #include <utility>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -100,7 +101,7 @@ private:
     static int turn(const Flat& p, const Flat& q, const Flat& r) {
         const double left = (q[0] - p[0]) * (r[1] - p[1]);
         const double right = (q[1] - p[1]) * (r[0] - p[0]);
-        const double bound = 0x1p-50 * (std::fabs(left) + std::fabs(right));
+        const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
         const double t = left - right;
         return t > bound ? 1 : (t < -bound ? -1 : 0);
     }

@@ -33,6 +33,7 @@
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/near_points.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -571,7 +572,7 @@ void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRe
         for (int i = 0; i < 3; ++i) {
             bool near = true;
             for (std::size_t k = 0; k < 3; ++k)
-                near = near && std::fabs(a.c[k] - corners[as_index(i)][k]) <= 1.0000001 * a.error;
+                near = near && std::fabs(a.c[k] - corners[as_index(i)][k]) <= error_slack * a.error;
             if (near) (void)out_.bench.corner(ref.source, ref.facet, i);
         }
     }

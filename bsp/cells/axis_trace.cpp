@@ -14,6 +14,7 @@
 
 #include <trisect/bsp/cells/trace_winding.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -22,7 +23,7 @@ AxisTrace::AxisTrace(const FinePoint& from, const FinePoint& to, int axis)
     for (std::size_t i = 0; i < 2; ++i) {
         at_[i] = static_cast<double>(from.c[(axis_ + 1 + i) % 3]) *
                  (1.0 / static_cast<double>(wall_scale));
-        at_error_ = std::max(at_error_, std::fabs(at_[i]) * 0x1p-53);
+        at_error_ = std::max(at_error_, std::fabs(at_[i]) * unit_roundoff);
     }
 }
 

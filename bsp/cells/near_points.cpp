@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -30,7 +31,7 @@ namespace {
 
 // Somewhat wider than the error bound, for the rounding of its ends.
 double reach(const Approximation& a, std::size_t axis) {
-    return 1.0000001 * a.error + 0x1p-50 * std::fabs(a.c[axis]);
+    return error_slack * a.error + 0x1p-50 * std::fabs(a.c[axis]);
 }
 
 // Connects the points that share a cell of a grid. An enclosure belongs to all cells that it meets,

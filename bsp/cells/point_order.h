@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -18,7 +19,7 @@ namespace trisect::detail {
     const Approximation& pa = bench.approximation(a);
     const Approximation& pb = bench.approximation(b);
     const double gap = pa.c[static_cast<std::size_t>(axis)] - pb.c[static_cast<std::size_t>(axis)];
-    if (std::fabs(gap) > 1.0000001 * (pa.error + pb.error)) return gap < 0 ? -1 : 1;
+    if (std::fabs(gap) > error_slack * (pa.error + pb.error)) return gap < 0 ? -1 : 1;
     return compare_closely_along(bench, a, b, axis);
 }
 

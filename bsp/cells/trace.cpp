@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/bsp/cells/interpolation.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/plane_value.h>
 
 namespace trisect::detail {
@@ -50,22 +52,9 @@ std::optional<Approximation> approximate_crossing(const Approximation& from,
                                                   const Approximation& to, const Plane& plane) {
     const Ball r = value_at_point(plane, from.c, from.error);
     const Ball g = value_at_point(plane, to.c, to.error);
-    const double spread = std::fabs(r.value) + std::fabs(g.value);
-    const double error = r.error + g.error;
-    if (!(spread > 4 * error) || r.value * g.value >= 0) return std::nullopt;
-    const double lambda = std::fabs(r.value) / spread;
-    // |dλ| <= (er |g| + eg |r|) / (|r|+|g|)^2 to first order; the factor covers the rest.
-    const double lambda_error = 2 * error / spread + 0x1p-50;
+    if (r.value * g.value >= 0) return std::nullopt;
     Approximation x;
-    double largest = 0;
-    double span = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double step = to.c[k] - from.c[k];
-        x.c[k] = from.c[k] + lambda * step;
-        span = std::max(span, std::fabs(step));
-        largest = std::max({largest, std::fabs(from.c[k]), std::fabs(to.c[k])});
-    }
-    x.error = (span * lambda_error + from.error + to.error + largest * 0x1p-50) * 1.001;
+    if (!interpolate(from, r.value, to, g.value, r.error + g.error, x)) return std::nullopt;
     return x;
 }
 
@@ -85,7 +74,7 @@ TraceTarget::TraceTarget(const Workbench& bench, const std::array<PointId, 3>& p
             largest = std::max(largest, std::fabs(a.c[k]));
         }
     }
-    approximation_.error = 1.0000001 * error + largest * 0x1p-49;
+    approximation_.error = error_slack * error + largest * 0x1p-49;
 }
 
 const TraceTarget::Exact& TraceTarget::exact() const {
@@ -114,7 +103,7 @@ Approximation approximate(const FinePoint& p) {
     Approximation a;
     for (std::size_t k = 0; k < 3; ++k) {
         a.c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
-        a.error = std::max(a.error, std::fabs(a.c[k]) * 0x1p-53);
+        a.error = std::max(a.error, std::fabs(a.c[k]) * unit_roundoff);
     }
     return a;
 }

@@ -7,6 +7,7 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -287,7 +288,7 @@ bool Workbench::may_be_same(PointId a, PointId b) const {
     const Approximation& p = approximation(a);
     const Approximation& q = approximation(b);
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::fabs(p.c[k] - q.c[k]) > 1.0000001 * (p.error + q.error)) return false;
+        if (std::fabs(p.c[k] - q.c[k]) > error_slack * (p.error + q.error)) return false;
     return true;
 }
 

@@ -15,6 +15,7 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail::msp {
 
@@ -73,7 +74,7 @@ std::strong_ordering MspGeometry::compare(PointIndex a, PointIndex b, int axis) 
     const auto i = static_cast<std::size_t>(axis);
     const double gap = p.approximation.c[i] - q.approximation.c[i];
     // The difference has one rounding; the sum of the errors another.
-    if (std::fabs(gap) > 1.0000001 * (p.approximation.error + q.approximation.error))
+    if (std::fabs(gap) > error_slack * (p.approximation.error + q.approximation.error))
         return gap < 0 ? std::strong_ordering::less : std::strong_ordering::greater;
     if (p.is_lattice && q.is_lattice) return p.lattice[axis] <=> q.lattice[axis];
     return compare_coordinate(homogeneous(p), homogeneous(q), axis);

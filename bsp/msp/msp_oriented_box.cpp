@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail::msp {
@@ -95,7 +96,7 @@ Side OrientedBox::side(const Plane& plane) const {
         // The dot product's own rounding.
         terms += std::fabs(n[0] * a[0]) + std::fabs(n[1] * a[1]) + std::fabs(n[2] * a[2]);
     }
-    const double bound = 1.0000001 * reach + 0x1p-47 * terms;
+    const double bound = error_slack * reach + 0x1p-47 * terms;
     return s > bound ? Side::Above : (s < -bound ? Side::Below : Side::On);
 }
 

@@ -15,6 +15,7 @@
 
 #include <trisect/brep/measure/interior_point.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
@@ -108,7 +109,7 @@ private:
     [[nodiscard]] bool holds_as_given(const GridPoint& at) const {
         for (std::size_t i = 0; i < q_.meshes.size(); ++i) {
             if (q_.moved[i] == 0) continue;
-            const double limit = q_.moved[i] / unit_ * (1 + 0x1p-40);
+            const double limit = q_.moved[i] / unit_ * surely_more;
             for (const auto& t : q_.meshes[i].mesh.triangles) {
                 const auto& p = q_.meshes[i].mesh.points;
                 const GridTriangle triangle(to_grid(p[t[0]]), to_grid(p[t[1]]), to_grid(p[t[2]]));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -24,29 +25,29 @@ struct Ball {
     /// An exact double.
     constexpr explicit Ball(double v) : value(v) {}
     /// A number of which v is a nearest double, or off by one unit in the last place.
-    static Ball rounded(double v) { return {v, std::abs(v) * 0x1p-52 + 0x1p-1000}; }
+    static Ball rounded(double v) { return {v, std::abs(v) * last_place + 0x1p-1000}; }
 
     // One rounding of the value costs 2^-53 of it; the factor 1 + 2^-50 pays for the roundings of
     // the error itself.
     friend Ball operator+(Ball a, Ball b) {
         const double v = a.value + b.value;
-        return {v, (a.error + b.error + std::abs(v) * 0x1p-53) * (1 + 0x1p-50)};
+        return {v, (a.error + b.error + std::abs(v) * unit_roundoff) * slightly_more};
     }
     friend Ball operator-(Ball a, Ball b) { return a + (-b); }
     friend Ball operator-(Ball a) { return {-a.value, a.error}; }
     friend Ball operator*(Ball a, Ball b) {
         const double v = a.value * b.value;
         return {v, (std::abs(a.value) * b.error + (std::abs(b.value) + b.error) * a.error +
-                    std::abs(v) * 0x1p-53) *
-                           (1 + 0x1p-50) +
+                    std::abs(v) * unit_roundoff) *
+                           slightly_more +
                        0x1p-1000};
     }
     Ball& operator+=(Ball b) { return *this = *this + b; }
 
     /// The sign of all members, or 0 when they do not share one.
     [[nodiscard]] int sign() const { return value > error ? 1 : (value < -error ? -1 : 0); }
-    [[nodiscard]] double lower() const { return (value - error) - std::abs(value) * 0x1p-52; }
-    [[nodiscard]] double upper() const { return (value + error) + std::abs(value) * 0x1p-52; }
+    [[nodiscard]] double lower() const { return (value - error) - std::abs(value) * last_place; }
+    [[nodiscard]] double upper() const { return (value + error) + std::abs(value) * last_place; }
 };
 
 using BallVector = VectorOf<Ball>;

@@ -16,6 +16,8 @@
 #include <array>
 #include <cstddef>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::detail {
 
 /// The constants of a format.
@@ -26,7 +28,7 @@ template <>
 struct Roundoff<double> {
     static constexpr double times_8 = 0x1p-50;
     static constexpr double times_16 = 0x1p-49;
-    static constexpr double slack = 1.0000001;  ///< at least 1 + 8u
+    static constexpr double slack = error_slack;  ///< at least 1 + 8u
 };
 
 template <class F>

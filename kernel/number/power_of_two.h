@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Powers of two as doubles.
-// A product with one is as exact as std::ldexp, and many times faster.
+// A product with one rounds like std::ldexp and is many times faster.
 #pragma once
 
 #include <bit>

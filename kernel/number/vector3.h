@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Algebra of vectors of three numbers.
-// The numbers are doubles, doubles with proved errors, integers or fractions.
+// Vectors of three numbers of any kind.
+// Numbers are doubles, doubles with proved errors, integers or fractions.
 //
 // With doubles each operation rounds, in the order in which it stands here. Error bounds count on
 // that order: a component of a cross product is two products and a difference, a dot product three

@@ -28,6 +28,7 @@
 #include <optional>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -117,7 +118,7 @@ SizedVector difference(const Approximation& from, const Approximation& to) {
         if (mag(v.c[i]) > v.size) v.size = mag(v.c[i]);
     }
     // One rounding of the subtraction, relative to the result.
-    v.error = (from.error + to.error) * 1.0000001 + v.size * 0x1p-53;
+    v.error = (from.error + to.error) * error_slack + v.size * unit_roundoff;
     v.size += v.error;
     return v;
 }
@@ -274,7 +275,7 @@ int PulledPlane::side_of(const Point& p) const {
     }
     // Beside the errors of coefficients and point, four roundings of the terms; the factors pay for
     // the rounding of the bound itself.
-    const double bound = 0x1p-50 * terms + 1.0000001 * error;
+    const double bound = 0x1p-50 * terms + error_slack * error;
     if (value > bound || value < -bound) {
         ++predicate_counters().filtered;
         return value > 0 ? 1 : -1;
@@ -295,7 +296,7 @@ int PulledPlane::along(const Direction& v) const {
         }
         // The direction's relative error is 2^-51, four roundings of 2^-53; 2^-900 for what
         // underflows.
-        const double bound = 0x1p-49 * terms + 1.0000001 * error + 0x1p-900;
+        const double bound = 0x1p-49 * terms + error_slack * error + 0x1p-900;
         if (value > bound || value < -bound) {
             ++predicate_counters().filtered;
             return value > 0 ? 1 : -1;
@@ -359,7 +360,7 @@ bool MovedPoint::is_at(const Point& p) const {
     if (pose_->has_doubles()) {
         const Approximation& a = p.approximation();
         const Approximation& b = approximation();
-        const double error = 1.0000001 * (a.error + b.error);
+        const double error = error_slack * (a.error + b.error);
         for (std::size_t i = 0; i < 3; ++i)
             if (mag(a.c[i] - b.c[i]) > error) return false;
     }

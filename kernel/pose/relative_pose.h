@@ -9,6 +9,7 @@
 
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/number/bounded_int.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/pose.h>
 #include <trisect/kernel/predicates.h>
 
@@ -104,7 +105,7 @@ inline Approximation RelativePose::move(const Approximation& p) const {
         r.c[i] = ((x + y) + z) + ft_[i];
         const double terms = ((mag(x) + mag(y)) + mag(z)) + mag(ft_[i]);
         const double size = (mag(row[0]) + mag(row[1])) + mag(row[2]);
-        const double e = 0x1p-49 * terms + 1.0000001 * (p.error * size);
+        const double e = 0x1p-49 * terms + error_slack * (p.error * size);
         if (e > r.error) r.error = e;
     }
     return r;

@@ -31,6 +31,7 @@
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/leaf/grid/axis_clip.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -404,7 +405,7 @@ std::optional<LatticePoint> lattice_place(const Workbench& bench, PointId p) {
     std::array<std::int64_t, 3> near{};
     for (std::size_t k = 0; k < 3; ++k) {
         const double c = std::nearbyint(a.c[k]);
-        if (std::fabs(c - a.c[k]) > 1.0000001 * a.error || std::fabs(c) > 0x1p53)
+        if (std::fabs(c - a.c[k]) > error_slack * a.error || std::fabs(c) > 0x1p53)
             return std::nullopt;
         near[k] = static_cast<std::int64_t>(c);
     }

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include <trisect/bsp/cells/point_order.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -29,7 +30,7 @@ class EdgeFilter {
 public:
     /// `error`: of the ends and of a point together.
     EdgeFilter(const std::array<double, 3>& a, const std::array<double, 3>& b, double error)
-        : a_(a), b_(b), error_(1.0000001 * error) {
+        : a_(a), b_(b), error_(error_slack * error) {
         for (std::size_t k = 0; k < 3; ++k) {
             lo_[k] = std::min(a[k], b[k]) - error_;
             hi_[k] = std::max(a[k], b[k]) + error_;
@@ -132,7 +133,7 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     const Candidate* const to = first + rank_[as_index(e.to)];
     const Candidate* low = std::min(from, to);
     const Candidate* high = std::max(from, to) + 1;
-    const double reach = 1.0000001 * (3 * widest_);
+    const double reach = error_slack * (3 * widest_);
     const double low_at = low->c[axis_] - reach;
     const double high_at = high[-1].c[axis_] + reach;
     while (low != first && low[-1].c[axis_] >= low_at) --low;

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::detail {
 
 std::uint8_t FragmentGroup::line(const PlaneName& name) {
@@ -41,7 +43,7 @@ bool FragmentGroup::sort_vertices_on(std::uint8_t line) {
     for (std::size_t i = 1; i < on_line_.size(); ++i) {
         const Approximation& p = approximation(on_line_[i - 1]);
         const Approximation& q = approximation(on_line_[i]);
-        if (!(q.c[axis] - p.c[axis] > 1.0000001 * (p.error + q.error))) return false;
+        if (!(q.c[axis] - p.c[axis] > error_slack * (p.error + q.error))) return false;
     }
     return true;
 }

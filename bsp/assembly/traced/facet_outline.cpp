@@ -303,7 +303,7 @@ bool FacetOutline::start_from_corner(std::uint32_t segment, Covers& covers) {
 bool FacetOutline::set_projection() {
     if (has_projection_) return true;
     const std::size_t k = plane_.dominant_axis();
-    if (std::fabs(plane_.normal[k]) <= 0x1p-50 * plane_.minor[k]) return false;
+    if (std::fabs(plane_.normal[k]) <= minor_rounding * plane_.minor[k]) return false;
     axis_u_ = plane_.normal[k] > 0 ? (k + 1) % 3 : (k + 2) % 3;
     axis_v_ = plane_.normal[k] > 0 ? (k + 2) % 3 : (k + 1) % 3;
     has_projection_ = true;

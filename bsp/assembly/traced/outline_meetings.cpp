@@ -90,7 +90,7 @@ bool OutlineMeetings::set_axes(const OutlinePlane& facet) {
     const std::size_t k = facet.dominant_axis();
     axes_ = {(k + 1) % 3, (k + 2) % 3};
     if (facet.normal[k] < 0) std::swap(axes_[0], axes_[1]);
-    return std::fabs(facet.normal[k]) > 0x1p-50 * facet.minor[k];
+    return std::fabs(facet.normal[k]) > minor_rounding * facet.minor[k];
 }
 
 void OutlineMeetings::make_boxes(const OutlinePlane& facet) {
@@ -164,7 +164,8 @@ OutlineMeetings::Values OutlineMeetings::values_of(const OutlineSegment& line,
     const Double2 value = left - right;
     const double e = std::max(std::max(p.error, q.error), std::max(from.error, to.error));
     const Double2 ways = both(std::fabs(du) + std::fabs(dv) + 4 * e) + (size(x) + size(y));
-    const Double2 error = both(0x1p-50) * (size(left) + size(right)) + both(2.001 * e) * ways;
+    const Double2 error =
+        both(minor_rounding) * (size(left) + size(right)) + both(2.001 * e) * ways;
     Values out;
     out.at = {value[0], value[1]};
     out.error = error[0] + error[1];

@@ -12,7 +12,7 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
-#include <trisect/kernel/number/bounded_double.h>
+#include <trisect/kernel/number/ball.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/pose.h>
 
@@ -45,12 +45,11 @@ public:
     enum class Body : std::uint8_t { A, B };
 
     /// Up to a factor `unit()`; all coordinates are at most about 1.
-    [[nodiscard]] detail::VectorOf<detail::BoundedDouble> approximate(Body body,
-                                                                      const LatticePoint& p) const {
+    [[nodiscard]] detail::BallVector approximate(Body body, const LatticePoint& p) const {
         const Map& m = body == Body::A ? a_ : b_;
         const std::array<double, 3> x{static_cast<double>(p.x), static_cast<double>(p.y),
                                       static_cast<double>(p.z)};
-        detail::VectorOf<detail::BoundedDouble> r;
+        detail::BallVector r;
         for (std::size_t i = 0; i < 3; ++i)
             r[i] = {((m.m[i][0] * x[0] + m.m[i][1] * x[1]) + m.m[i][2] * x[2]) + m.t[i], m.error};
         return r;

@@ -8,7 +8,6 @@
 #include <array>
 
 #include <trisect/bsp/hierarchies/convex/common_frame.h>
-#include <trisect/kernel/number/bounded_double.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {

@@ -45,10 +45,11 @@
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/hierarchies/convex/exact_frame.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
-using detail::BoundedDouble;
+using detail::Ball;
 using detail::cross;
 using detail::dot;
 using detail::minus;
@@ -57,7 +58,7 @@ using detail::VectorOf;
 using Kind = PolytopeFeature::Kind;
 
 struct FeatureWalk::Doubles {
-    using Number = BoundedDouble;
+    using Number = Ball;
     const FeatureWalk* walk;
     static Number one() { return {1, 0}; }
     VectorOf<Number> operator()(const Place& p) const {
@@ -92,7 +93,7 @@ struct Fraction {
     N denominator;
 };
 
-double about(const Fraction<BoundedDouble>& f) { return f.numerator.v / f.denominator.v; }
+double about(const Fraction<Ball>& f) { return f.numerator.value / f.denominator.value; }
 
 }  // namespace
 
@@ -111,16 +112,16 @@ std::array<FeatureWalk::Place, 2> FeatureWalk::ends(const Part& edge) const {
 template <class F>
 int FeatureWalk::sign(const F& f) const {
     if (counts_ != nullptr) ++counts_->signs;
-    if (const auto s = f(Doubles{this}).sign()) return *s;
+    if (const int s = f(Doubles{this}).sign(); s != 0) return s;
     if (counts_ != nullptr) ++counts_->exact_signs;
     return sgn(f(Integers{this}));
 }
 
 // The same where the doubles are there already.
 template <class F>
-int FeatureWalk::decide(const BoundedDouble& d, const F& f) const {
+int FeatureWalk::decide(const Ball& d, const F& f) const {
     if (counts_ != nullptr) ++counts_->signs;
-    if (const auto s = d.sign()) return *s;
+    if (const int s = d.sign(); s != 0) return s;
     if (counts_ != nullptr) ++counts_->exact_signs;
     return sgn(f(Integers{this}));
 }
@@ -264,7 +265,7 @@ auto FeatureWalk::lines(const Part& e, const Part& f, const At& at) const {
 
 void FeatureWalk::of_edges(const Part& e, const Part& f) {
     const auto d = lines(e, f, Doubles{this});
-    const auto positive = [&](const BoundedDouble& about, const auto& exact) {
+    const auto positive = [&](const Ball& about, const auto& exact) {
         return decide(about, [&](const Integers& at) { return exact(lines(e, f, at)); }) > 0;
     };
     // Parallel edges have n = 0 and are within nothing.
@@ -293,14 +294,14 @@ void FeatureWalk::of_vertex_and_face(const Place& p, const Part& given) {
     const auto loop = body.corners(face.feature.index);
     const auto sides = body.sides(face.feature.index);
     const Doubles at{this};
-    const VectorOf<BoundedDouble> n = normal_of(face, at);
-    const VectorOf<BoundedDouble> x = at(p);
+    const VectorOf<Ball> n = normal_of(face, at);
+    const VectorOf<Ball> x = at(p);
     bool inside = true;
-    VectorOf<BoundedDouble> from = at(Place{face.body, loop[0]});
+    VectorOf<Ball> from = at(Place{face.body, loop[0]});
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Place c{face.body, loop[i]};
         const Place d{face.body, loop[(i + 1) % loop.size()]};
-        const VectorOf<BoundedDouble> to = at(d);
+        const VectorOf<Ball> to = at(d);
         const int s =
             decide(dot(n, cross(minus(to, from), minus(x, from))), [&](const Integers& exact) {
                 return dot(normal_of(face, exact),
@@ -421,20 +422,20 @@ FeatureWalk::Rise FeatureWalk::rise_from_vertex(const Part& x) {
     const Doubles at{this};
     const Place p{x.body, x.feature.index};
     const Part y{x.body == Body::A ? Body::B : Body::A, x.body == Body::A ? state_.b : state_.a};
-    const VectorOf<BoundedDouble> w = turned(way(state_, at), x.body == Body::A ? 1 : -1);
-    const VectorOf<BoundedDouble> o = at(p);
+    const VectorOf<Ball> w = turned(way(state_, at), x.body == Body::A ? 1 : -1);
+    const VectorOf<Ball> o = at(p);
     const auto spokes = polytope(x.body).spokes(p.vertex);
     std::uint32_t best = ConvexPolytope::none;
     double steepest = 0;
     bool unsure = false;
     for (const auto& spoke : spokes) {
-        const VectorOf<BoundedDouble> d = minus(at(Place{x.body, spoke.vertex}), o);
-        const BoundedDouble rise = dot(w, d);
-        const auto s = rise.sign();
-        if (counts_ != nullptr && s) ++counts_->signs;
-        unsure = unsure || !s;
-        if (!s || *s < 0) continue;
-        const double slope = rise.v * rise.v / dot(d, d).v;
+        const VectorOf<Ball> d = minus(at(Place{x.body, spoke.vertex}), o);
+        const Ball rise = dot(w, d);
+        const int s = rise.sign();
+        if (counts_ != nullptr && s != 0) ++counts_->signs;
+        unsure = unsure || s == 0;
+        if (s <= 0) continue;
+        const double slope = rise.value * rise.value / dot(d, d).value;
         if (best == ConvexPolytope::none || slope > steepest) {
             best = spoke.edge;
             steepest = slope;
@@ -510,13 +511,15 @@ const WalkEnd& FeatureWalk::run(const FeaturePair& start) {
 FeatureWalk::Bounds FeatureWalk::bounds() const {
     if (closest_.meet) return {};
     const auto f = squared(state_, Doubles{this});
-    const double low = (f.numerator.v - f.numerator.e) / (f.denominator.v + f.denominator.e);
-    const double high = (f.numerator.v + f.numerator.e) / (f.denominator.v - f.denominator.e);
+    const double low =
+        (f.numerator.value - f.numerator.error) / (f.denominator.value + f.denominator.error);
+    const double high =
+        (f.numerator.value + f.numerator.error) / (f.denominator.value - f.denominator.error);
     Bounds r{0, std::numeric_limits<double>::infinity()};
     // Differences, quotients and roots are rounded: below 2^-50 of them together.
-    if (low > 0) r.lower = std::sqrt(low) * (1 - 0x1p-50) * frame_->unit();
-    if (high >= 0 && f.denominator.v > f.denominator.e)
-        r.upper = std::sqrt(high) * (1 + 0x1p-50) * frame_->unit();
+    if (low > 0) r.lower = std::sqrt(low) * detail::slightly_less * frame_->unit();
+    if (high >= 0 && f.denominator.value > f.denominator.error)
+        r.upper = std::sqrt(high) * detail::slightly_more * frame_->unit();
     return r;
 }
 

@@ -106,7 +106,7 @@ private:
     template <class F>
     [[nodiscard]] int sign(const F& f) const;
     template <class F>
-    [[nodiscard]] int decide(const detail::BoundedDouble& about, const F& f) const;
+    [[nodiscard]] int decide(const detail::Ball& about, const F& f) const;
     template <class N>
     struct LinePair;
     template <class At>

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
@@ -50,7 +51,7 @@ public:
                             map_[4 * i + 3];
             largest = std::max(largest, std::abs(p[i]));
         }
-        r.error = 1.0001 * rows_ * error + 0x1p-48 * (rows_ * largest + shift_);
+        r.error = detail::bound_slack * rows_ * error + 0x1p-48 * (rows_ * largest + shift_);
         return r;
     }
 

@@ -18,6 +18,7 @@
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
@@ -143,7 +144,7 @@ NearestPairs nearest(PairStructure& s, CostCounters& counters) {
                 upper = c.bounds.upper;
                 // The margin pays for this division.
                 if (pairs.least_stretch() > 0)
-                    limit = upper / pairs.least_stretch() * (1 + 0x1p-40);
+                    limit = upper / pairs.least_stretch() * detail::surely_more;
             }
             if (c.crossing) limit = -1;
             return limit;

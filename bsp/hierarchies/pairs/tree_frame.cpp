@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::hierarchies {
 
 TreeFrame::TreeFrame(const detail::InterferenceModelData& model) {
@@ -61,7 +63,7 @@ FrameMap::FrameMap(const TreeFrame& a, const TreeFrame& b, const detail::Approxi
         }
         square = std::max(square, row);
     }
-    stretch = (1 + 0x1p-40) * std::sqrt(square) + 3 * m_error;
+    stretch = detail::surely_more * std::sqrt(square) + 3 * m_error;
 }
 
 }  // namespace trisect::hierarchies

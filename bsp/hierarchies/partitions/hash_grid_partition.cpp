@@ -18,6 +18,7 @@
 #include <trisect/bsp/hierarchies/partitions/partition.h>
 #include <trisect/bsp/hierarchies/partitions/partitions.h>
 #include <trisect/bsp/query/index/triangle_in_boxes.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
@@ -93,7 +94,7 @@ private:
             triangle.emplace(std::array{data_a().position(t.vertex[0]),
                                         data_a().position(t.vertex[1]),
                                         data_a().position(t.vertex[2])});
-        const double half = 0.5 * grid_.size() * (1 + 0x1p-40) + 4 * fixed().error();
+        const double half = 0.5 * grid_.size() * detail::surely_more + 4 * fixed().error();
         range.for_each([&](const CellPlace& c) {
             std::array<double, 3> middle{};
             for (std::size_t k = 0; k < 3; ++k) middle[k] = (c[k] + 0.5) * grid_.size();

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
@@ -19,11 +20,7 @@ namespace trisect::hierarchies {
 using detail::length;
 using detail::Vector3;
 
-namespace {
-
-constexpr double inward = 1 - 0x1p-40;
-
-}  // namespace
+namespace {}  // namespace
 
 double depth_below(const Vector3& p, const RoughPlane& plane) {
     double at = 0;
@@ -35,7 +32,7 @@ double depth_below(const Vector3& p, const RoughPlane& plane) {
     }
     // Errors of the coefficients and of three products and sums.
     const double depth = -(at + plane.offset) - 0x1p-48 * terms;
-    return depth / (length(plane.normal) * (depth > 0 ? 1 + 0x1p-40 : inward));
+    return depth / (length(plane.normal) * (depth > 0 ? detail::surely_more : detail::surely_less));
 }
 
 std::optional<InnerBall> part_below(const InnerBall& ball, const RoughPlane& plane) {
@@ -52,8 +49,8 @@ std::optional<InnerBall> part_below(const InnerBall& ball, const RoughPlane& pla
     }
     const Vector3 moved{r.center[0] - ball.center[0], r.center[1] - ball.center[1],
                         r.center[2] - ball.center[2]};
-    const double within = ball.radius - length(moved) / inward;
-    r.radius = std::min(within, depth_below(r.center, plane)) * inward;
+    const double within = ball.radius - length(moved) / detail::surely_less;
+    r.radius = std::min(within, depth_below(r.center, plane)) * detail::surely_less;
     // Positions of this size are known to 2^-53 of it; smaller balls are not worth going on with.
     if (!(r.radius > 0x1p-44 * (far + ball.radius))) return std::nullopt;
     return r;
@@ -75,7 +72,7 @@ double least_stretch(const detail::ApproximateMap& map) {
         most = std::max(most, own + others);
     }
     least -= 0x1p-48 * most;
-    return least > 0 ? std::max(0.0, std::sqrt(least) * inward - 3 * map.m_error) : 0;
+    return least > 0 ? std::max(0.0, std::sqrt(least) * detail::surely_less - 3 * map.m_error) : 0;
 }
 
 std::optional<InnerBall> part_above(const InnerBall& ball, const RoughPlane& plane) {

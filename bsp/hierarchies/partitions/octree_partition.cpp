@@ -13,6 +13,7 @@
 #include <trisect/bsp/hierarchies/partitions/partitions.h>
 #include <trisect/bsp/hierarchies/partitions/space_tree_partition.h>
 #include <trisect/bsp/query/index/triangle_in_boxes.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
@@ -24,7 +25,7 @@ Box cube_around(const Box& b) {
     Box cube = b;
     // A little more, so that rounding keeps the boxes inside.
     for (std::size_t k = 0; k < 3; ++k)
-        cube.hi[k] = b.lo[k] + std::nextafter(size, HUGE_VAL) * (1 + 0x1p-40);
+        cube.hi[k] = b.lo[k] + std::nextafter(size, HUGE_VAL) * detail::surely_more;
     return cube;
 }
 
@@ -53,7 +54,7 @@ SpaceTree octree(const detail::InterferenceModelData& model, const TriangleBoxes
             half = std::max({half, cell.hi[k] - middle[k], middle[k] - cell.lo[k]});
         }
         // A cube that contains the cell, grown by what positions are off by.
-        return triangles[i].may_meet(middle, half * (1 + 0x1p-40) + 4 * boxes.error());
+        return triangles[i].may_meet(middle, half * detail::surely_more + 4 * boxes.error());
     };
     const auto divide = [](const Box& cell, std::span<const std::uint32_t>) {
         return octants(cell);

@@ -23,6 +23,7 @@
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/interference/boxes/box_gap.h>
 #include <trisect/kernel/convex_polygon.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
@@ -219,8 +220,8 @@ void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::
         }
         const Value v = value_of(node.normal, node.offset, middle, 0);
         const double gap =
-            (std::abs(v.at) - reach * (1 + 0x1p-40) - 2 * v.bound) / std::sqrt(square);
-        const double beyond = std::max(task.least, gap * (1 - 0x1p-40));
+            (std::abs(v.at) - reach * detail::surely_more - 2 * v.bound) / std::sqrt(square);
+        const double beyond = std::max(task.least, gap * detail::surely_less);
         // The nearer side is taken from the stack first.
         const bool is_below = v.at < 0;
         near_tasks_.push_back({beyond, is_below ? node.above : node.below});
@@ -259,7 +260,7 @@ InnerBall PlaneTree::ball_below(std::span<const Step> steps, std::uint32_t last,
                 nearest = s;
             }
         }
-        if (depth > best.radius) best = {p, depth * (1 - 0x1p-40)};
+        if (depth > best.radius) best = {p, depth * detail::surely_less};
         const Vector3& n = steps[nearest].plane.normal;
         const double norm = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (std::size_t k = 0; k < 3; ++k) p[k] -= step * (n[k] / norm);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <trisect/bsp/hierarchies/pairs/tree_frame.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/float_above.h>
 
 namespace trisect::hierarchies {
@@ -114,7 +115,7 @@ struct KDop {
             else
                 best = std::max(best, g * inverse_length(i));
         }
-        return std::max(best, std::sqrt(box)) * (1 - 0x1p-40);
+        return std::max(best, std::sqrt(box)) * detail::surely_less;
     }
     [[nodiscard]] float size() const {
         return (h[0] + h[n]) + (h[1] + h[n + 1]) + (h[2] + h[n + 2]);

@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/hierarchies/pairs/tree_frame.h>
 #include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
@@ -35,12 +36,13 @@ struct SphereKind {
         [[nodiscard]] Moved moved(const Volume& v) const;
         [[nodiscard]] static bool meet(const Volume& a, const Moved& b) {
             const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
-            return squared_distance(a.middle(), b.middle()) <= reach * reach * (1 + 0x1p-40);
+            return squared_distance(a.middle(), b.middle()) <= reach * reach * detail::surely_more;
         }
         [[nodiscard]] static double gap(const Volume& a, const Moved& b) {
             const double reach = static_cast<double>(a.radius) + static_cast<double>(b.radius);
             return std::max(
-                0.0, std::sqrt(squared_distance(a.middle(), b.middle())) * (1 - 0x1p-40) - reach);
+                0.0,
+                std::sqrt(squared_distance(a.middle(), b.middle())) * detail::surely_less - reach);
         }
 
     private:

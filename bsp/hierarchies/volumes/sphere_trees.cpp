@@ -26,6 +26,7 @@
 #include <trisect/bsp/hierarchies/volumes/kdop.h>
 #include <trisect/bsp/hierarchies/volumes/medial_balls.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::hierarchies {
 
@@ -241,7 +242,7 @@ private:
             std::vector<std::size_t> other = chosen;
             other[random() % other.size()] = random() % candidates.size();
             const double changed = cost_of(other);
-            const double chance = static_cast<double>(random() >> 11) * 0x1p-53;
+            const double chance = static_cast<double>(random() >> 11) * detail::unit_roundoff;
             if (changed < cost || std::exp((cost - changed) / temperature) > chance) {
                 chosen = std::move(other);
                 cost = changed;
@@ -369,7 +370,8 @@ std::vector<SphereLevel> tightness(const InterferenceModel& model, const SphereT
         const double radius = lattice_unit * tree.frame.unit * static_cast<double>(s.radius);
         const auto distance = model.index().distance(center);
         const bool inside = model.index().locate(center).location == Location::Inside;
-        return std::max(0.0, radius + (inside ? -distance->lo : distance->hi)) * (1 + 0x1p-40);
+        return std::max(0.0, radius + (inside ? -distance->lo : distance->hi)) *
+               detail::surely_more;
     };
     std::vector<SphereLevel> levels;
     std::vector<std::uint32_t> nodes{0};
@@ -419,7 +421,8 @@ double reach_of(const Sphere& a, const Sphere& b) {
 
 // Points of the spheres are not farther apart than this.
 double farthest_points(const Sphere& a, const Sphere& b) {
-    return (std::sqrt(squared_distance(a.middle(), b.middle())) + reach_of(a, b)) * (1 + 0x1p-40);
+    return (std::sqrt(squared_distance(a.middle(), b.middle())) + reach_of(a, b)) *
+           detail::surely_more;
 }
 
 // B moved along d, |d| = 1, by this or more does not meet A. Rounded up: numbers are of the size of
@@ -432,7 +435,7 @@ double last_contact(const Sphere& a, const Sphere& b, const Vector3& d) {
     const double square = reach * reach - (detail::dot(w, w) - along * along) + 0x1p-46 * scale;
     if (square < 0) return 0;
     const double exit = std::sqrt(square) - along + 0x1p-46 * std::sqrt(scale);
-    return exit > 0 ? exit * (1 + 0x1p-40) : 0;
+    return exit > 0 ? exit * detail::surely_more : 0;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/pose.h>
 #include <trisect/kernel/pose/relative_pose.h>
 
@@ -42,7 +43,7 @@ struct ApproximateMap {
                 0x1p-50 * (row * largest + mag(t[i])) + (row + 3 * m_error) * point_error;
             worst = e > worst ? e : worst;
         }
-        return 1.0001 * (worst + 3 * m_error * largest + t_error);
+        return bound_slack * (worst + 3 * m_error * largest + t_error);
     }
     /// Whether all numbers are finite and the errors small enough for filters to be of use.
     [[nodiscard]] bool is_usable() const;

@@ -76,6 +76,7 @@
 #include <limits>
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -99,7 +100,7 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
         t[i] = (sum - a.origin[i]) / a.unit;
         way_error += 0x1p-50 * size + map.t_error;
     }
-    way_error = 1.0001 * way_error / a.unit;
+    way_error = bound_slack * way_error / a.unit;
     matrix_error += 0x1p-50 * largest;
 
     matrix_ = m;
@@ -125,17 +126,18 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
         for (std::size_t j = 0; j < 3; ++j)
             off = std::max(off, std::abs(gram[i][j] - (i == j ? square : 0)));
     rigid_ = off <= 0x1p-25 * square && matrix_error <= 0x1p-28 * std::sqrt(square);
-    const double scale = rigid_ ? std::sqrt(square) : 1.0001 * std::sqrt(rows) + 3 * matrix_error;
+    const double scale =
+        rigid_ ? std::sqrt(square) : bound_slack * std::sqrt(rows) + 3 * matrix_error;
 
     mirrors_ = dot(m[0], cross(m[1], m[2])) < 0;
 
     const double length = std::sqrt(dot(t, t));
-    const double way = 1.0001 * sweep / a.unit;
+    const double way = bound_slack * sweep / a.unit;
     const double reach =
         1.001 * (a.reach + (scale + 3 * matrix_error) * b.reach) + 2 * way_error + way;
     apart_ = length > 1.001 * reach;
-    clearance_ = 0.9999 * length -
-                 1.0001 * (a.radius + (scale + 3 * matrix_error) * b.radius + way + 2 * way_error);
+    clearance_ = 0.9999 * length - bound_slack * (a.radius + (scale + 3 * matrix_error) * b.radius +
+                                                  way + 2 * way_error);
     const double lambda = length + reach;
     const double margin = 0x1p-18 * lambda + 4 * way_error + 12 * matrix_error * b.reach + way;
     scale_ = static_cast<float>(scale);
@@ -146,8 +148,8 @@ ObbPose::ObbPose(const ObbTree& a, const ObbTree& b, const ApproximateMap& map, 
     }
     // Beyond the range of floats nothing is certain.
     const bool in_range = scale < 0x1p100 && lambda < 0x1p100;
-    margin_ =
-        in_range ? static_cast<float>(1.0001 * margin) : std::numeric_limits<float>::infinity();
+    margin_ = in_range ? static_cast<float>(bound_slack * margin)
+                       : std::numeric_limits<float>::infinity();
 }
 
 // Of the matrices as they are in doubles, and up to rounding.
@@ -167,14 +169,15 @@ double ObbPose::stretch_from(const ObbPose& other) const {
 
 // The factors take the roundings.
 double ObbPose::turn_from(const ObbPose& other) const {
-    return 1.0001 * stretch_from(other) + 3 * (matrix_error_ + other.matrix_error_);
+    return bound_slack * stretch_from(other) + 3 * (matrix_error_ + other.matrix_error_);
 }
 
 double ObbPose::displacement_from(const ObbPose& other) const {
     double way = 0;
     for (std::size_t i = 0; i < 3; ++i)
         way += (way_[i] - other.way_[i]) * (way_[i] - other.way_[i]);
-    return 1.0001 * (stretch_from(other) * radius_ + std::sqrt(way)) + inexact_ + other.inexact_;
+    return bound_slack * (stretch_from(other) * radius_ + std::sqrt(way)) + inexact_ +
+           other.inexact_;
 }
 
 }  // namespace trisect::detail

@@ -30,6 +30,7 @@
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -61,7 +62,7 @@ public:
             Vector3 q = minus(p, tree.origin);
             for (double& c : q) c /= tree.unit;
             points_.push_back(q);
-            tree.radius = std::max(tree.radius, 1.0001 * std::sqrt(dot(q, q)) + slack_);
+            tree.radius = std::max(tree.radius, bound_slack * std::sqrt(dot(q, q)) + slack_);
         }
         items_.resize(corners.size());
         for (std::uint32_t t = 0; t < corners.size(); ++t) {
@@ -253,7 +254,7 @@ private:
             half[k] = static_cast<double>(h);
         }
         far += std::sqrt(dot(half, half));
-        tree_.reach = std::max(tree_.reach, 1.0001 * far);
+        tree_.reach = std::max(tree_.reach, bound_slack * far);
     }
 
     ObbTree& tree_;

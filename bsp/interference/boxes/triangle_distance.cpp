@@ -19,6 +19,7 @@
 #include <limits>
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -112,7 +113,7 @@ bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, d
     for (const auto* t : {&p, &q})
         for (const Vector3& c : *t)
             for (const double v : c) g = std::max(g, std::abs(v));
-    const double wanted = (limit + 4 * error + 0x1p-48 * g) * (1 + 0x1p-40);
+    const double wanted = (limit + 4 * error + 0x1p-48 * g) * surely_more;
     Vector3 centres{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) centres[k] += q[i][k] - p[i][k];
@@ -142,7 +143,7 @@ DistanceBounds certify(const TriangleCorners& p, const TriangleCorners& q,
     const Vector3 way = minus(combined(q, closest.on_q), combined(p, closest.on_p));
     const double length = std::sqrt(dot(way, way));
     DistanceBounds r;
-    r.upper = length * (1 + 0x1p-50) + slack;
+    r.upper = length * slightly_more + slack;
     if (!(length > 0)) return r;
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -150,7 +151,7 @@ DistanceBounds certify(const TriangleCorners& p, const TriangleCorners& q,
         low = std::min(low, dot(way, q[i]));
         high = std::max(high, dot(way, p[i]));
     }
-    r.lower = std::max(0.0, (low - high) / length * (1 - 0x1p-50) - slack);
+    r.lower = std::max(0.0, (low - high) / length * slightly_less - slack);
     return r;
 }
 

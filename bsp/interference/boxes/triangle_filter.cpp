@@ -6,12 +6,8 @@
 // cleverly; here all that matter are computed, since nearly every pair that comes this far is
 // close).
 //
-// Every value is the determinant of three differences of points. Let g bound the components of all
-// differences, e the error of a difference's exact components (of the two points) and u = 2^-53;
-// computing the difference adds u g. Then with η = e + u g each of the six products of a
-// determinant is off by at most (g + η)^3 - g^3 < 3.01 g² η, and evaluating takes at most five
-// roundings a product, 6·5.01 u g³. In all 18.1 g² η + 31 u g³ < 19 g² e + 50 u g³, for which 20 g²
-// e + 64 u g³ is taken.
+// Every value is the determinant of three differences of points, with the bound of error_bounds.h
+// (difference_determinant_bound).
 
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 
@@ -42,12 +38,9 @@ SideVerdict meet(int p, int q, int o0, int o1, int o2) {
 
 // Whether a side of p, seen along an axis, has the rest of p strictly on one side of it and q on
 // the other.
-//
-// A 2 by 2 determinant of differences has two products of two; as above 4.01 g e + 11 u g² bounds
-// its error, for which 5 g e + 16 u g² is taken.
 bool has_separating_side(const TriangleCorners& p, const TriangleCorners& q, std::size_t axis,
                          double g, double error) {
-    const double bound = g * (5 * error + 0x1p-49 * g);
+    const double bound = difference_minor_bound(g, error);
     const std::size_t i = (axis + 1) % 3;
     const std::size_t j = (axis + 2) % 3;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +71,7 @@ PairVerdict compare_triangles(const TriangleCorners& p, const TriangleCorners& q
                         std::max(largest_component(q1), largest_component(q2)));
     g = 2 * std::max(g, std::max(largest_component(w[0]),
                                  std::max(largest_component(w[1]), largest_component(w[2]))));
-    const double bound = g * g * (20 * error + 0x1p-47 * g);
+    const double bound = difference_determinant_bound(g, error);
 
     const Vector3 n = cross(p1, p2);
     std::array<int, 3> q_side{};

@@ -42,6 +42,7 @@
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/infinity.h>
 
 namespace trisect::detail {
@@ -368,7 +369,7 @@ double CoherentWalk::gap_along_plane(std::uint32_t v, const TriangleCorners& p,
         from = std::min(from, (along[0] * q[i][0] + along[1] * q[i][1]) + along[2] * q[i][2]);
     }
     const double gap = from - reach - (4 * error_ + 0x1p-48 * a_->largest);
-    return gap * (1 - 0x1p-50) / a_->boxes.unit;
+    return gap * slightly_less / a_->boxes.unit;
 }
 
 // Puts a visit on the list of those to be made.
@@ -536,7 +537,7 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
     if (found == Answer::Crossing) return crossing_answer();
     // Less than the last step had better not be kept.
     if (found == Answer::Apart && front_pose_)
-        if (const double left = (due_.first() - odometer_) * (1 - 0x1p-50); left > step_)
+        if (const double left = (due_.first() - odometer_) * slightly_less; left > step_)
             reserve_ = left * a_->boxes.unit;
     return found;
 }

@@ -19,6 +19,8 @@
 #include <cmath>
 #include <utility>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -128,7 +130,7 @@ bool PoseReserve::covers(const Pose& a, const Pose& b) const {
     double moved = difference(b.approximate(), rows_b_).at(b_);
     if (a.approximate() == rows_a_) return moved < reserve_;
     const Difference d = difference(a.approximate(), rows_a_);
-    const double shrink = stretch_ * d.norm * 1.0001;
+    const double shrink = stretch_ * d.norm * bound_slack;
     moved += d.at(b_in_a_);
     return shrink < 0.5 && moved < reserve_ * (1 - shrink);
 }

@@ -31,6 +31,7 @@
 #include <trisect/bsp/interference/motion/swept_walk.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect {
 
@@ -60,7 +61,7 @@ double reach_of(const InterferenceModelData& data) {
         const double v = std::max(std::abs(data.lo[i]), std::abs(data.hi[i]));
         square += v * v;
     }
-    return std::ldexp(std::sqrt(square) * (1 + 0x1p-40), data.brep.lattice().exponent);
+    return std::ldexp(std::sqrt(square) * detail::surely_more, data.brep.lattice().exponent);
 }
 
 // What A sees of B during a range of time.
@@ -115,7 +116,7 @@ private:
             const BallMotion of_a = BallMotion::of_points(detail::piece_of(ea.motion, 0));
             r.margin =
                 std::ldexp(deviation * detail::inverse_stretch(of_a), -a_.lattice().exponent) *
-                (1 + 0x1p-40);
+                detail::surely_more;
         }
         // An infinity times 0, or an infinite sweep.
         if (!(r.margin + r.swept.sweep < HUGE_VAL)) r.margin = HUGE_VAL;
@@ -218,7 +219,7 @@ private:
         const SweptView now = view(time, time);
         if (now.margin == HUGE_VAL) return false;
         detail::ApproximateMap map = now.swept.map;
-        map.t_error = (now.swept.sweep + now.margin) * (1 + 0x1p-40);
+        map.t_error = (now.swept.sweep + now.margin) * detail::surely_more;
         ObbWalk walk(detail::data_of(a_).boxed(), detail::data_of(b_).boxed(), map, stack_);
         bool any = false;
         result_.witnesses.clear();

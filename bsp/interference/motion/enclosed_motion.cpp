@@ -16,6 +16,7 @@
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/motion/turning_piece.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect {
 
@@ -132,7 +133,7 @@ public:
         expect_finite(end);
         const double h = to - from;
         const double bend = from == to ? 0 : motion_.bend(from, to);
-        const double each = (motion_.error + h * h / 8 * bend) * (1 + 0x1p-40) + 0x1p-1000;
+        const double each = (motion_.error + h * h / 8 * bend) * detail::surely_more + 0x1p-1000;
         if (!(each < infinite)) return {Motion(), infinite, infinite};
         MotionPiece piece;
         std::vector<mpq_class> values;

@@ -33,6 +33,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/inverse_matrix.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -229,7 +230,7 @@ void PartingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
         errors = std::max(errors, errors_of(next, swept, extent));
     }
     turn_norm_ = norm(turn_);
-    error_ = 1.0001 * (deviation + weight_step * swept.sweep + 4 * errors) + 0x1p-46 * size;
+    error_ = bound_slack * (deviation + weight_step * swept.sweep + 4 * errors) + 0x1p-46 * size;
 }
 
 // Of all points of B.
@@ -261,7 +262,7 @@ void PartingFaces::set_inverse(const BallMotion& over, const SweptMap& swept, do
     inverse_norm_ = norm(inverse_);
     const double rest = std::sqrt(square_off_identity(inverse_, swept.map.m));
     const double stretch = inverse_stretch(over);
-    inverse_error_ = 1.0001 * (stretch * stretch * reach + stretch * rest) +
+    inverse_error_ = bound_slack * (stretch * stretch * reach + stretch * rest) +
                      0x1p-46 * inverse_norm_ * inverse_norm_ * norm(swept.map.m);
 }
 
@@ -277,7 +278,7 @@ bool PartingFaces::operator()(ObbId a, ObbId b) {
     }
     Vector3 v = product(turn_, p);
     for (std::size_t k = 0; k < 3; ++k) v[k] += way_[k];
-    const double slack = error_ + 1.0001 * turn_norm_ * length(half);
+    const double slack = error_ + bound_slack * turn_norm_ * length(half);
     const auto is_parting = [&] {
         if (cones_a_.of(a).is_all_along(v, slack)) return true;
         if (!(inverse_error_ < HUGE_VAL)) return false;

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -77,8 +78,8 @@ bool SweptSeparation::is_separated_along(const Vector3& d,
     double highest = -HUGE_VAL;
     for (const BallVector& corner : corners)
         highest = std::max(highest, detail::dot(direction, corner).upper());
-    const double length = std::sqrt(dot(d, d)) * (1 + 0x1p-50);
-    const Ball limit(highest + margin_ * length * (1 + 0x1p-50) +
+    const double length = std::sqrt(dot(d, d)) * slightly_more;
+    const Ball limit(highest + margin_ * length * slightly_more +
                      0x1p-50 * (std::abs(highest) + margin_));
     for (std::size_t k = 0; k <= over_.degree; ++k) {
         const Ball height = limit * over_.maps[k].weight;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/inverse_matrix.h>
 
 namespace trisect::detail {
@@ -52,7 +53,7 @@ Swept sweep_of(const BallMotion& motion, const Numerator& numerator) {
         least = std::min(least, motion.maps[k].weight.lower());
     }
     // Without a positive bound on the weight nothing is known.
-    r.reach = least > 0 ? r.reach / least * (1 + 0x1p-50) : HUGE_VAL;
+    r.reach = least > 0 ? r.reach / least * slightly_more : HUGE_VAL;
     return r;
 }
 
@@ -64,7 +65,7 @@ SweptMap swept_map(const BallMotion& motion, const std::array<double, 3>& lo,
     std::array<double, 3> half{};
     for (std::size_t j = 0; j < 3; ++j) {
         center[j] = (lo[j] + hi[j]) / 2;
-        half[j] = std::max(hi[j] - center[j], center[j] - lo[j]) * (1 + 0x1p-50);
+        half[j] = std::max(hi[j] - center[j], center[j] - lo[j]) * slightly_more;
     }
     SweptMap r;
     double square = 0;
@@ -89,7 +90,7 @@ SweptMap swept_map(const BallMotion& motion, const std::array<double, 3>& lo,
         reach += 0x1p-50 * rounding;
         square += reach * reach;
     }
-    r.sweep = std::sqrt(square) * (1 + 0x1p-40);
+    r.sweep = std::sqrt(square) * surely_more;
     return r;
 }
 
@@ -121,8 +122,8 @@ double inverse_stretch(const BallMotion& motion) {
     const double norm = std::min(std::sqrt(inverse), std::sqrt(*std::ranges::max_element(rows) *
                                                                *std::ranges::max_element(columns)));
     const double loss = std::sqrt(rest) + 0x1p-48 * std::sqrt(inverse * size) +
-                        norm * std::sqrt(reach) * (1 + 0x1p-40);
-    return loss < 0.5 ? norm / (1 - loss) * (1 + 0x1p-40) : HUGE_VAL;
+                        norm * std::sqrt(reach) * surely_more;
+    return loss < 0.5 ? norm / (1 - loss) * surely_more : HUGE_VAL;
 }
 
 SweptWalk::Pairs SweptWalk::meeting(const ObbPose& pose, const Pairs& front) {

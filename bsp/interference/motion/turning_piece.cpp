@@ -25,6 +25,7 @@
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/brep/number/trigonometry.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -109,8 +110,8 @@ Sizes sizes_of(const MotionPiece& map, const std::array<mpq_class, 3>& center) {
         r.shift += square(map.shift[i].value_at(0) / weight - center[i]);
     }
     // Rounding, and GMP truncates.
-    return {std::sqrt(r.matrix) * (1 + 0x1p-40) + 0x1p-1000,
-            std::sqrt(r.shift) * (1 + 0x1p-40) + 0x1p-1000};
+    return {std::sqrt(r.matrix) * surely_more + 0x1p-1000,
+            std::sqrt(r.shift) * surely_more + 0x1p-1000};
 }
 
 }  // namespace
@@ -123,7 +124,7 @@ NearPiece near_piece(const Turning& turning, const mpq_class& t0, const mpq_clas
     const SineCosine c = sine_cosine(small_angle);
     mpq_class tangent(c.sine, c.cosine);
     tangent.canonicalize();
-    const double t = std::abs(tangent.get_d()) * (1 + 0x1p-50);
+    const double t = std::abs(tangent.get_d()) * slightly_more;
     if (t > largest_tangent) return r;
 
     // (1, s T axis) with s from -1 to 1 while the parameter runs from 0 to 1.
@@ -144,7 +145,7 @@ NearPiece near_piece(const Turning& turning, const mpq_class& t0, const mpq_clas
                           sum(turning.center, between(turning, t1))) *
               (rotation * (translation(back, back) * turning.start));
 
-    const double angle = (2 * 0.1285 * t * t * t + 0x1p-57) * (1 + 0x1p-40);
+    const double angle = (2 * 0.1285 * t * t * t + 0x1p-57) * surely_more;
     const Sizes sizes = sizes_of(turning.start, turning.center);
     r.by_length = angle * sizes.matrix;
     r.constant = angle * sizes.shift;

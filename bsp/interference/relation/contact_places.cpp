@@ -25,6 +25,7 @@
 #include <trisect/bsp/interference/relation/contact_cones.h>
 #include <trisect/bsp/interference/relation/exact_place.h>
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -232,7 +233,7 @@ private:
         }
         for (std::size_t k = 0; k < 3; ++k) {
             p.at[k] = exact(p).c[k].to_double();
-            p.error = std::max(p.error, std::nextafter(0x1p-53 * std::abs(p.at[k]), 1.0));
+            p.error = std::max(p.error, std::nextafter(unit_roundoff * std::abs(p.at[k]), 1.0));
         }
     }
     const ExactPlace& exact(ContactPlace& p) {

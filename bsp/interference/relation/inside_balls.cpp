@@ -27,6 +27,7 @@
 
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -257,7 +258,7 @@ std::optional<InsideBall> certified_ball(const InterferenceModelData& model, con
     const ObbTree& tree = model.boxes;
     const double radius = distance_in_tree - 0x1p-50 * (model.largest / tree.unit + 1);
     if (!(radius > 0) || !is_certainly_inside(model, center)) return std::nullopt;
-    return InsideBall{center, tree.unit * radius * (1 - 0x1p-50)};
+    return InsideBall{center, tree.unit * radius * slightly_less};
 }
 
 }  // namespace
@@ -335,7 +336,7 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
     const double error = to_a.error_below(b.largest, b.position_error);
     const double way_error = 2 * error + 0x1p-48 * a.largest;
     const auto whole = [](const InterferenceModelData& m) {
-        return 1.0001 * (m.boxes.radius * m.boxes.unit);
+        return bound_slack * (m.boxes.radius * m.boxes.unit);
     };
     const Vector3 middle_of_b = to_a(b.boxes.origin);
     const double radius_of_b = *scale * (1 + ball_slack) * whole(b);
@@ -343,7 +344,7 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
         if (!(radius_of_b < balls_a.radius_[i])) continue;
         const double left =
             balls_a.radius_[i] -
-            (1.0001 * distance(middle_of_b, balls_a.center_[i]) + radius_of_b + way_error);
+            (bound_slack * distance(middle_of_b, balls_a.center_[i]) + radius_of_b + way_error);
         if (!(left > 0)) continue;
         if (reserve != nullptr) *reserve = left;
         return Relation::Contains;
@@ -353,7 +354,7 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
         const Vector3 center = to_a(balls_b.center_[j]);
         const double radius = *scale * (1 - ball_slack) * balls_b.radius_[j];
         if (const double left =
-                radius - (1.0001 * (distance(center, a.boxes.origin) + whole(a)) + way_error);
+                radius - (bound_slack * (distance(center, a.boxes.origin) + whole(a)) + way_error);
             left > 0) {
             if (reserve != nullptr) *reserve = left;
             return Relation::Inside;
@@ -374,8 +375,9 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
                 if ((hits & 1U) == 0) continue;
                 const std::size_t i = 4 * g + lane;
                 deepest = std::max(
-                    deepest, depth_of(radius, balls_a.radius_[i],
-                                      1.0001 * distance(center, balls_a.center_[i]) + way_error));
+                    deepest,
+                    depth_of(radius, balls_a.radius_[i],
+                             bound_slack * distance(center, balls_a.center_[i]) + way_error));
                 // For the answer alone any will do.
                 if (deepest > 0 && reserve == nullptr)
                     return overlap_if_both_stick_out(a, b, balls_b, to_a, deepest, reserve);
@@ -396,7 +398,7 @@ std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
     const double error = to_a.error_below(b.largest, b.position_error);
     const double depth = depth_of(
         *scale * (1 - ball_slack) * in_b.radius, in_a.radius,
-        1.0001 * distance(to_a(in_b.center), in_a.center) + 2 * error + 0x1p-48 * a.largest);
+        bound_slack * distance(to_a(in_b.center), in_a.center) + 2 * error + 0x1p-48 * a.largest);
     if (!(depth > 0)) return std::nullopt;
     return overlap_if_both_stick_out(a, b, balls_b, to_a, depth, reserve);
 }

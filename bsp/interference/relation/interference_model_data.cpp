@@ -21,6 +21,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/seconds_since.h>
 
@@ -141,7 +142,7 @@ void InterferenceModelData::build() {
     // Correct rounding moves a coordinate of magnitude m by at most 2^-53 m; those below the
     // smallest normal number, which rounding may move by more, by less than the bound all the same.
     if (!all_lattice)
-        position_error = std::max(0x1p-53 * largest, std::numeric_limits<double>::min());
+        position_error = std::max(unit_roundoff * largest, std::numeric_limits<double>::min());
 
     if (!positions.empty()) lo = hi = positions.front();
     for (const auto& p : positions)

@@ -19,6 +19,7 @@
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -41,8 +42,7 @@ double least_stretch_of(const std::array<Vector3, 3>& l) {
     }
     const double det = std::abs(dot(l[0], cross(l[1], l[2])));
     const double by_det = most > 0 ? (det - 0x1p-45 * most * std::sqrt(most)) / most : 0;
-    return std::max(
-        {0.0, least > 0 ? std::sqrt(least) * (1 - 0x1p-40) : 0.0, by_det * (1 - 0x1p-40)});
+    return std::max({0.0, least > 0 ? std::sqrt(least) * surely_less : 0.0, by_det * surely_less});
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double
     c.a = i;
     c.b = j;
     if (are_certainly_farther(in_world_p, in_world_q, nearest, error)) {
-        c.bounds = {nearest * (1 + 0x1p-50), std::numeric_limits<double>::infinity()};
+        c.bounds = {nearest * slightly_more, std::numeric_limits<double>::infinity()};
         return c;
     }
     c.closest = closest_points(in_world_p, in_world_q);

@@ -76,12 +76,12 @@ Vector3 unit(const Vector3& v) {
 
 // Two rays p and two rays q from one point, whose components are off by at most `error`: whether
 // the angles that they span certainly have nothing else in common. Bounds as in
-// triangle_filter.cpp.
+// error_bounds.h.
 bool only_apex_in_common(const std::array<Vector3, 2>& p, const std::array<Vector3, 2>& q,
                          double error) {
     const double g = std::max(std::max(largest_component(p[0]), largest_component(p[1])),
                               std::max(largest_component(q[0]), largest_component(q[1])));
-    const double bound = g * g * (20 * error + 0x1p-47 * g);
+    const double bound = difference_determinant_bound(g, error);
     const auto sides = [&](const Vector3& normal, const Vector3& v, const Vector3& w) {
         return std::pair(certain_sign(dot(normal, v), bound), certain_sign(dot(normal, w), bound));
     };

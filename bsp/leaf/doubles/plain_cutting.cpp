@@ -17,6 +17,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/facet_in_cell.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -295,7 +296,7 @@ Approximation PlainCutting::middle_of(const PlainPart& part, int attempt) const 
             largest = std::max(largest, std::fabs(a.c[k]));
         }
     }
-    m.error = 1.0000001 * error + largest * 0x1p-49;
+    m.error = error_slack * error + largest * 0x1p-49;
     return m;
 }
 

@@ -13,6 +13,8 @@
 #include <optional>
 #include <span>
 
+#include <trisect/kernel/number/error_bounds.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -60,7 +62,7 @@ void PlainFacets::set_origin(const LatticePoint& origin) {
         wall_lo_[k] = from_origin(cell.lo[k]);
         wall_hi_[k] = from_origin(cell.hi[k]);
         reference_.c[k] = from_origin(problem_->reference.c[k]);
-        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * 0x1p-53);
+        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * unit_roundoff);
         const auto inner = [&](std::int64_t c) {
             return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
         };
@@ -206,7 +208,7 @@ void PlainFacets::add_outline(PlainFacet& f) {
                 a.c[k] -= static_cast<double>(origin_[k]);
                 largest = std::max(largest, std::fabs(a.c[k]));
             }
-            a.error = 1.0001 * a.error + 0x1p-51 * largest;
+            a.error = bound_slack * a.error + 0x1p-51 * largest;
         }
         outlines_.push_back(a);
     }
@@ -248,31 +250,8 @@ PlainPlane PlainFacets::plane_of(const std::array<Vector3, 3>& corners, const Ve
         sum += minor;
     }
     p.bound = 0x1p-50 * permanent;
-    p.slope = 1.0001 * sum;
+    p.slope = bound_slack * sum;
     return p;
-}
-
-int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-    Vector3 p;
-    Vector3 q;
-    Vector3 r;
-    for (std::size_t k = 0; k < 3; ++k) {
-        p[k] = a[k] - d[k];
-        q[k] = b[k] - d[k];
-        r[k] = c[k] - d[k];
-    }
-    double sum = 0;
-    double permanent = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3;
-        const std::size_t j = (k + 2) % 3;
-        const double s = q[i] * r[j];
-        const double t = q[j] * r[i];
-        sum += p[k] * (s - t);
-        permanent += std::fabs(p[k]) * (std::fabs(s) + std::fabs(t));
-    }
-    const double error = 0x1p-50 * permanent;
-    return sum > error ? 1 : (sum < -error ? -1 : 0);
 }
 
 std::optional<int> exact_orientation(const Vector3& a, const Vector3& b, const Vector3& c,

@@ -10,8 +10,10 @@
 #include <optional>
 #include <vector>
 
+#include <trisect/bsp/cells/interpolation.h>
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/support/as_index.h>
@@ -204,11 +206,8 @@ private:
     Vector3 extent_{};  // of all facets, unclipped, and the reference point
 };
 
-/// Sign of the determinant of (a - d, b - d, c - d); 0 when doubles cannot decide.
-[[nodiscard]] int orientation(const Vector3& a, const Vector3& b, const Vector3& c,
-                              const Vector3& d);
-
-/// The same, exact; nothing when corners are so far apart that 128 bits do not hold it.
+/// Sign of the determinant of (a - d, b - d, c - d), exact; nothing when corners are so far apart
+/// that 128 bits do not hold it.
 [[nodiscard]] std::optional<int> exact_orientation(const Vector3& a, const Vector3& b,
                                                    const Vector3& c, const Vector3& d);
 
@@ -216,7 +215,7 @@ private:
 [[nodiscard]] inline int compare_along(std::size_t axis, const Approximation& a,
                                        const Approximation& b) {
     const double gap = b.c[axis] - a.c[axis];
-    const double error = 1.0001 * (a.error + b.error);
+    const double error = bound_slack * (a.error + b.error);
     return gap > error ? -1 : (gap < -error ? 1 : 0);
 }
 
@@ -242,26 +241,5 @@ struct LineDirection {
         return sign * compare_along(axis, a, b);
     }
 };
-
-/// The point between u and w where a linear function is 0. Its values there are known up to
-/// `error` in sum and have different signs. False when that says too little.
-[[nodiscard]] inline bool interpolate(const Approximation& u, double at_u, const Approximation& w,
-                                      double at_w, double error, Approximation& x) {
-    const double spread = std::fabs(at_u) + std::fabs(at_w);
-    if (!(spread > 4 * error)) return false;
-    const double lambda = std::fabs(at_u) / spread;
-    // See approximate_crossing() in trace.cpp for the bound.
-    const double lambda_error = 2 * error / spread + 0x1p-50;
-    double span = 0;
-    double largest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double step = w.c[k] - u.c[k];
-        x.c[k] = u.c[k] + lambda * step;
-        span = std::max(span, std::fabs(step));
-        largest = std::max({largest, std::fabs(u.c[k]), std::fabs(w.c[k])});
-    }
-    x.error = (span * lambda_error + u.error + w.error + largest * 0x1p-50) * 1.001;
-    return true;
-}
 
 }  // namespace trisect::detail

@@ -18,6 +18,7 @@
 // corners are marked (PlainFacet::resting). An edge in another support is left to the exact path.
 
 #include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/kernel/number/orientation.h>
 
 #include <algorithm>
 #include <bit>
@@ -303,7 +304,7 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     // its edge to corner 2 to that to corner 1, the one of b from 1 to 2. order(i, j) > 0: b's edge
     // to corner j comes before a's to corner i.
     const auto order = [&](std::size_t i, std::size_t j) {
-        return orientation(p[0], p[i], q[0], q[j]);
+        return filtered_orientation(p[0], p[i], q[0], q[j]);
     };
     const int start_of_b = order(1, 1);
     if (start_of_b < 0) return Relation::Apart;

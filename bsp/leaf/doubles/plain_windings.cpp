@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -49,7 +50,7 @@ int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x)
     std::size_t k = std::fabs(n[0]) > std::fabs(n[1]) ? 0 : 1;
     if (std::fabs(n[2]) > std::fabs(n[k])) k = 2;
     // The sign of the largest component must be sure.
-    if (std::fabs(n[k]) <= 0x1p-50 * f.plane.slope) return 0;
+    if (std::fabs(n[k]) <= minor_rounding * f.plane.slope) return 0;
     const std::size_t i = (k + 1) % 3;
     const std::size_t j = (k + 2) % 3;
     int inside = 1;
@@ -68,9 +69,9 @@ int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x)
         const double edge_error = a.error + b.error;
         const double point_error = a.error + x.error;
         const double error =
-            0x1p-50 * (std::fabs(s) + std::fabs(t)) +
-            1.0001 * (point_error * (std::fabs(u) + std::fabs(v)) +
-                      edge_error * (std::fabs(p) + std::fabs(q) + 2 * point_error));
+            minor_rounding * (std::fabs(s) + std::fabs(t)) +
+            bound_slack * (point_error * (std::fabs(u) + std::fabs(v)) +
+                           edge_error * (std::fabs(p) + std::fabs(q) + 2 * point_error));
         if (m < -error) return -1;
         if (m <= error) inside = 0;
     }

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <utility>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -56,7 +57,7 @@ bool certainly_enters(const Cell& cell, const Approximation& p, const Approximat
     // The candidate is within three roundings and the errors of the ends of a point of the segment;
     // splitting planes carry one rounding, at most that of the candidate's size where they are near
     // it.
-    const double margin = 1.0001 * (p.error + q.error) + 0x1p-48 * largest;
+    const double margin = bound_slack * (p.error + q.error) + 0x1p-48 * largest;
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = p.c[k] + middle * (q.c[k] - p.c[k]);
         if (!(lo[k] + margin < x && x < hi[k] - margin)) return false;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <span>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -95,7 +96,7 @@ RectangleCorners corners_of(const RectangleSides& sides, bool up) {
 // A coordinate of a place that is given in 1/256 units.
 void set(Approximation& a, std::size_t axis, std::int64_t at) {
     a.c[axis] = static_cast<double>(at) / static_cast<double>(wall_scale);
-    if (at % wall_scale != 0) a.error = std::max(a.error, 0x1p-52 * std::fabs(a.c[axis]));
+    if (at % wall_scale != 0) a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));
 }
 
 // Doubles of places in the plane of a polygon.

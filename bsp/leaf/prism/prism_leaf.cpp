@@ -27,6 +27,7 @@
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -47,8 +48,8 @@ std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>&
     const double dv = static_cast<double>(w.to[1] - w.from[1]);
     const double s = du * -from_v;
     const double t = dv * (p[0] - static_cast<double>(w.from[0]));
-    const double bound =
-        0x1p-50 * (std::fabs(s) + std::fabs(t)) + 1.001 * error * (std::fabs(du) + std::fabs(dv));
+    const double bound = minor_rounding * (std::fabs(s) + std::fabs(t)) +
+                         1.001 * error * (std::fabs(du) + std::fabs(dv));
     if (std::fabs(s - t) <= bound) return std::nullopt;
     return (s > t) == (dv > 0);
 }

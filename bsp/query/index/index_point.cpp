@@ -8,6 +8,7 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -73,7 +74,7 @@ IndexPoint::IndexPoint(const FinePoint& p) {
         c_[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
         if (static_cast<std::int64_t>(c_[k] * static_cast<double>(wall_scale)) == p.c[k]) continue;
         rounded = true;
-        error_ = std::max(error_, std::fabs(c_[k]) * 0x1p-52);
+        error_ = std::max(error_, std::fabs(c_[k]) * last_place);
     }
     if (!rounded) return;
     homogeneous_ = {{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
@@ -184,7 +185,7 @@ int IndexPoint::compare_slowly(std::size_t k, double position) const {
 int IndexPoint::compare_fine(std::size_t k, std::int64_t position) const {
     const double at = static_cast<double>(position) * (1.0 / static_cast<double>(wall_scale));
     const double d = c_[k] - at;
-    const double slack = 2 * error_ + std::fabs(at) * 0x1p-52;
+    const double slack = 2 * error_ + std::fabs(at) * last_place;
     if (d > slack) return 1;
     if (d < -slack) return -1;
     return (rational()[k].scaled(wall_bits) - ExactRational(position)).sign();
@@ -202,7 +203,7 @@ Approximation approximate(const IndexPoint::Rational& p) {
     for (std::size_t k = 0; k < 3; ++k) {
         a.c[k] = p[k].to_double();
         if (std::isfinite(a.c[k]) && ExactRational::from_double(a.c[k]) == p[k]) continue;
-        a.error = std::max(a.error, std::max(std::fabs(a.c[k]) * 0x1p-52, 0x1p-1000));
+        a.error = std::max(a.error, std::max(std::fabs(a.c[k]) * last_place, 0x1p-1000));
     }
     return a;
 }

@@ -278,7 +278,7 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
 void Reference::set_error() {
     for (std::size_t k = 0; k < 3; ++k)
         if (static_cast<std::int64_t>(c[k] * static_cast<double>(wall_scale)) != fine.c[k])
-            error = std::max(error, std::fabs(c[k]) * 0x1p-52);
+            error = std::max(error, std::fabs(c[k]) * last_place);
 }
 
 Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,

@@ -16,6 +16,7 @@
 
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/int128.h>
 
 namespace trisect::detail {
@@ -228,7 +229,7 @@ void IndexHandles::list_edges(const IndexBase& base) {
                 ApproximateLine line{a.c, {}, a.error, 2 * (a.error + b.error)};
                 for (std::size_t k = 0; k < 3; ++k) {
                     line.direction[k] = b.c[k] - a.c[k];
-                    line.direction_error += std::fabs(line.direction[k]) * 0x1p-52;
+                    line.direction_error += std::fabs(line.direction[k]) * last_place;
                 }
                 for_grid_leaves_along(
                     tree, g, line, p.lo, p.hi, [](double) { return true; },

@@ -71,13 +71,13 @@ void RayParameter::approximate_value() {
     const double slope_error = 0x1p-50 * slope_terms;
     const double safe = std::fabs(slope) - slope_error;
     value_ = -at / slope;
-    error_ = ((at_error + std::fabs(value_) * slope_error) / safe) * 1.0001 +
-             std::fabs(value_) * 0x1p-52;
+    error_ = ((at_error + std::fabs(value_) * slope_error) / safe) * detail::bound_slack +
+             std::fabs(value_) * detail::last_place;
     if (!(safe > 0.75 * std::fabs(slope)) || !(error_ < HUGE_VAL) ||
         !(scale > 0x1p-900 && scale < 0x1p900)) {
         const ExactRational t = exact();
         value_ = t.to_double();
-        error_ = std::fabs(value_) * 0x1p-52 + 0x1p-1000;
+        error_ = std::fabs(value_) * detail::last_place + 0x1p-1000;
         if (!std::isfinite(value_)) {
             value_ = std::copysign(std::numeric_limits<double>::max(), value_);
             error_ = HUGE_VAL;
@@ -112,7 +112,7 @@ double RayParameter::nearest() const { return error_ == 0 ? value_ : exact().to_
 std::strong_ordering operator<=>(const RayParameter& a, const RayParameter& b) {
     if (a.is_infinite() || b.is_infinite()) return a.is_infinite() <=> b.is_infinite();
     const double d = a.value_ - b.value_;
-    const double slack = (a.error_ + b.error_) * 1.0001;
+    const double slack = (a.error_ + b.error_) * detail::bound_slack;
     if (d > slack) return std::strong_ordering::greater;
     if (d < -slack) return std::strong_ordering::less;
     if (slack == 0) return std::strong_ordering::equal;
@@ -241,7 +241,8 @@ QuotientRange quotient(double n, double n_error, double d, double d_error) {
     const double safe = std::fabs(d) - d_error;
     if (!(safe > 0.5 * std::fabs(d))) return {};
     const double t = n / d;
-    const double e = (n_error + std::fabs(t) * d_error) / safe * 1.0001 + std::fabs(t) * 0x1p-51;
+    const double e =
+        (n_error + std::fabs(t) * d_error) / safe * bound_slack + std::fabs(t) * 0x1p-51;
     return {t - e, t + e, e < HUGE_VAL};
 }
 
@@ -348,7 +349,7 @@ IndexLine::IndexLine(const Segment& segment, Lattice lattice)
             direction_error_ = HUGE_VAL;
         } else {
             direction_error_ =
-                std::max(direction_error_, std::fabs(direction_[k]) * 0x1p-53 + 0x1p-1000);
+                std::max(direction_error_, std::fabs(direction_[k]) * unit_roundoff + 0x1p-1000);
         }
     }
 }

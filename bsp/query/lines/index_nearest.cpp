@@ -25,6 +25,7 @@
 
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/bsp/query/lines/index_handles.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -483,7 +484,7 @@ private:
         squared_ = std::move(d);
         on_.assign(1, f.polygon);
         const double root = std::sqrt(squared_.to_double());
-        limit_ = std::min(limit_, root * (1 + 0x1p-50) + 0x1p-500);
+        limit_ = std::min(limit_, root * slightly_more + 0x1p-500);
     }
 
     [[nodiscard]] Exact nearest_of(const Feature& f) const {

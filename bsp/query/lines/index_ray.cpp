@@ -23,6 +23,7 @@
 #include <trisect/bsp/query/lines/index_handles.h>
 #include <trisect/bsp/query/lines/index_path.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -149,7 +150,7 @@ private:
     void step(const IndexTree::Node& n, Pending& at) {
         const std::size_t axis = n.axis();
         const double wall = n.rounded_wall();
-        const double wall_error = std::fabs(wall) * 0x1p-52;
+        const double wall_error = std::fabs(wall) * last_place;
         if (line_.is_parallel(axis)) {
             const double d = line_.origin()[axis] - wall;
             const double slack = wall_error + 2 * line_.origin().error();
@@ -391,7 +392,7 @@ std::optional<FacetHit> first_facet(const IndexCore& core, const IndexLine& line
     }
     const RayHit h = first_of(core, line, contacts);
     const double t = h.enter.approximate();
-    const double e = h.enter.error() + std::fabs(t) * 0x1p-52;
+    const double e = h.enter.error() + std::fabs(t) * last_place;
     return FacetHit{h.place.faces[0], t - e, t + e};
 }
 
