@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <vector>
 
-#include <trisect/bsp/cells/axis_trace.h>
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/axis_trace.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 #include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/kernel/support/flat_map.h>
 

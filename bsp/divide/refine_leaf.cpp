@@ -20,8 +20,8 @@
 
 #include <tbb/task_arena.h>
 
-#include <trisect/bsp/cells/axis_trace.h>
 #include <trisect/bsp/cells/packed_box.h>
+#include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
 

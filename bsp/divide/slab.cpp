@@ -13,7 +13,7 @@
 #include <unordered_set>
 
 #include <trisect/bsp/cells/axis_polygon.h>
-#include <trisect/bsp/cells/axis_trace.h>
+#include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect::detail {

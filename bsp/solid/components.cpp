@@ -2,7 +2,7 @@
 //
 // A shell of positive volume bounds material, one of negative volume a cavity (B-reps are taken
 // apart so that the inside decides what is connected, see brep.h). A cavity belongs to the smallest
-// part around it. Any of its vertices that is not on that part's shell tells whether it is around.
+// part around it. Any of its vertices that is not on that part's shell shows whether it is around.
 
 #include <trisect/bsp/solid_transform.h>
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include <trisect/bsp/cells/interpolation.h>
 #include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/cells/trace/interpolation.h>
 #include <trisect/bsp/leaf/leaf_work.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/facet_in_cell.h>
-#include <trisect/bsp/cells/trace.h>
+#include <trisect/bsp/cells/trace/trace.h>
 #include <trisect/bsp/leaf/exact/leaf_coincidence.h>
 #include <trisect/bsp/leaf/split_piece.h>
 #include <trisect/kernel/contract.h>

@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-#include <trisect/bsp/cells/trace.h>
+#include <trisect/bsp/cells/trace/trace.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
 #include <trisect/kernel/support/as_index.h>

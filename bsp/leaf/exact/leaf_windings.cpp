@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/support/as_index.h>

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include <trisect/bsp/cells/trace.h>
+#include <trisect/bsp/cells/trace/trace.h>
 #include <trisect/bsp/leaf/leaf_work.h>
 
 namespace trisect::detail {

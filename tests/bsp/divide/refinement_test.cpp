@@ -14,7 +14,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/bsp/expression.h>

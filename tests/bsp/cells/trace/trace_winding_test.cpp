@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <trisect/bsp/cells/cell_tree.h>
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 
 #include "engines/engines.h"
 

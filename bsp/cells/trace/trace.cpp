@@ -7,12 +7,12 @@
 //   crossing X = R g - G r     < 2^1233    W = 2^8 g - w r < 2^1178
 //   n·X + d W                  < 2^1345                               -> 22 limbs.
 
-#include <trisect/bsp/cells/trace.h>
+#include <trisect/bsp/cells/trace/trace.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include <trisect/bsp/cells/interpolation.h>
+#include <trisect/bsp/cells/trace/interpolation.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/plane_value.h>

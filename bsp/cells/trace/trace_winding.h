@@ -9,7 +9,7 @@
 #include <span>
 
 #include <trisect/bsp/cells/cell_tree.h>
-#include <trisect/bsp/cells/trace.h>
+#include <trisect/bsp/cells/trace/trace.h>
 
 namespace trisect::detail {
 

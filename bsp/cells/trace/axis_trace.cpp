@@ -6,13 +6,13 @@
 //   3 · 2^-53 (|a b| + |c d|) + e (|a| + |b| + |c| + |d|);
 // twice that, with 2^-50 for 3 · 2^-53, covers the rest.
 
-#include <trisect/bsp/cells/axis_trace.h>
+#include <trisect/bsp/cells/trace/axis_trace.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/cells/trace_winding.h>
+#include <trisect/bsp/cells/trace/trace_winding.h>
 
 #include <cmath>
 #include <vector>
