@@ -41,7 +41,7 @@ Box LatticeMove::applied(const Box& box) const {
     if (box.is_empty()) return box;
     Box out;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto [lo, hi] = std::minmax(sign[i] * box.lo[from[i]], sign[i] * box.hi[from[i]]);
+        const auto [lo, hi] = std::minmax({sign[i] * box.lo[from[i]], sign[i] * box.hi[from[i]]});
         // Boxes are rounded outwards, beyond the last lattice point.
         out.lo[i] = within(lo + by[i], coordinate_limit + 2);
         out.hi[i] = within(hi + by[i], coordinate_limit + 2);
