@@ -2,10 +2,12 @@
 #include "operand.h"
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/validate/embedding.h>
 
 #include "choice.h"
 #include "commands.h"
@@ -45,56 +47,65 @@ Json facts_of(const ImportedMesh& imported, const std::string& name, std::size_t
     return facts;
 }
 
-Embedding embedding_of(const OperandOptions& options) {
-    return options.assume_embedded ? Embedding::Assume : Embedding::Check;
-}
+/// An input before it is a solid. Solids are made one after the other, because their numbers, which
+/// outputs name, are given in that order.
+struct ReadOperand {
+    Json facts;
+    ImportNote note;
+    LatticeMesh mesh;  ///< of a mesh file
+    Embedding embedding = Embedding::Assume;
+    std::optional<Brep> brep;  ///< of an exact boundary
+};
 
-Operand exact_operand(const Session& session, const std::string& name,
-                      const OperandOptions& options) {
+ReadOperand read_exact_operand(const Session& session, const std::string& name,
+                               const OperandOptions& options) {
     if (session.options().lattice)
         throw UsageError("--lattice is for meshes: " + name +
                          " has planes on a lattice of its own");
-    const Brep brep = read_exact(std::filesystem::path(name));
-    if (!brep.is_empty() && !(volume(brep) > 0) &&
+    ReadOperand out;
+    out.note.name = name;
+    out.brep = read_exact(std::filesystem::path(name));
+    if (!out.brep->is_empty() && !(volume(*out.brep) > 0) &&
         options.winding == EvaluateOptions::Winding::Positive)
         throw OperandError(ErrorCode::InvalidSolid, name,
                            "the boundary is inside out (--winding nonzero accepts it)");
-    Json facts;
-    facts["file"] = name;
-    facts["faces"] = brep.faces().size();
-    facts["lattice"] = lattice_json(LatticeReport{brep.lattice()});
-    try {
-        const InsideOut inside_out = options.winding == EvaluateOptions::Winding::NonZero
-                                         ? InsideOut::Accept
-                                         : InsideOut::Refuse;
-        return {Solid::from_brep(brep, embedding_of(options), inside_out), std::move(facts)};
-    } catch (const Error& e) {
-        throw OperandError(e.code(), name, e.what());
-    }
+    out.facts["file"] = name;
+    out.facts["faces"] = out.brep->faces().size();
+    out.facts["lattice"] = lattice_json(LatticeReport{out.brep->lattice()});
+    return out;
 }
 
-/// An operand with what there is to note about it.
-struct ReadOperand {
-    Operand operand;
-    ImportNote note;
-};
-
-ReadOperand mesh_operand(const Session& session, const std::string& name,
-                         const OperandOptions& options) {
+ReadOperand read_mesh_operand(const Session& session, const std::string& name,
+                              const OperandOptions& options) {
     const PolygonMesh mesh = read_input(session, name);
     ImportedMesh imported = import_input(session, mesh, name);
     require_solid(imported, name, options);
-    Json facts = facts_of(imported, name, mesh.face_count());
-    return {{Solid::from_lattice_mesh(std::move(imported.mesh), embedding_of(options)),
-             std::move(facts)},
-            {name, std::move(imported.report)}};
+    ReadOperand out;
+    out.facts = facts_of(imported, name, mesh.face_count());
+    out.note = {name, std::move(imported.report)};
+    const bool is_free = options.assume_embedded || is_embedded(imported.mesh);
+    out.embedding = is_free ? Embedding::Assume : Embedding::Resolve;
+    out.mesh = std::move(imported.mesh);
+    return out;
 }
 
 ReadOperand read_operand(const Session& session, const std::string& name,
                          const OperandOptions& options) {
-    if (has_exact_boundary(name))
-        return {exact_operand(session, name, options), {name, ImportReport()}};
-    return mesh_operand(session, name, options);
+    return has_exact_boundary(name) ? read_exact_operand(session, name, options)
+                                    : read_mesh_operand(session, name, options);
+}
+
+Solid solid_of(ReadOperand& read, const OperandOptions& options) {
+    if (!read.brep) return Solid::from_lattice_mesh(std::move(read.mesh), read.embedding);
+    const Embedding embedding = options.assume_embedded ? Embedding::Assume : Embedding::Check;
+    const InsideOut inside_out = options.winding == EvaluateOptions::Winding::NonZero
+                                     ? InsideOut::Accept
+                                     : InsideOut::Refuse;
+    try {
+        return Solid::from_brep(*read.brep, embedding, inside_out);
+    } catch (const Error& e) {
+        throw OperandError(e.code(), read.note.name, e.what());
+    }
 }
 
 }  // namespace
@@ -125,7 +136,8 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
     operands.reserve(read.size());
     notes.reserve(read.size());
     for (ReadOperand& r : read) {
-        operands.push_back(std::move(r.operand));
+        Solid solid = solid_of(r, options);
+        operands.push_back({std::move(solid), std::move(r.facts)});
         notes.push_back(std::move(r.note));
     }
     note_imports(session, notes);

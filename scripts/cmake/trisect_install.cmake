@@ -26,12 +26,17 @@ set(private_headers
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/validate/checked_mesh.h
+    brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/region_outline.h
+    brep/validate/sheet_grid.h
     brep/validate/sheets.h
+    brep/validate/shell_nesting.h
     brep/validate/triangle_contact.h
     brep/validate/triangle_tree.h
+    brep/validate/twins.h
     bsp/trisect.h
+    kernel/plane_value.h
     kernel/triangle_pair.h
 )
 # Two headers that need nothing else: cmake --install BUILD --component predicate_suite
@@ -59,6 +64,11 @@ foreach(
     list(TRANSFORM headers PREPEND ${PROJECT_SOURCE_DIR}/)
     install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/${room})
 endforeach()
+# The bounds that the filters of predicates.h count on.
+install(
+    FILES ${PROJECT_SOURCE_DIR}/kernel/number/error_bounds.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/kernel/number
+)
 install(
     FILES ${predicate_suite}
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect/kernel

@@ -117,7 +117,7 @@ TEST_F(BooleanCommand, UndecidedIsNotCertified) {
     EXPECT_TRUE(certificate["self_intersecting_pairs"].is_null());
     EXPECT_TRUE(certificate.value("undecided", json()).is_string());
     const Finished spoken = trisect({"intersection", tetrahedron, block, "-o", out_});
-    EXPECT_NE(spoken.err.find("certified  NO: "), std::string::npos) << spoken.err;
+    EXPECT_NE(spoken.err.find("certified    NO: "), std::string::npos) << spoken.err;
     EXPECT_NE(spoken.err.find("too many bits"), std::string::npos) << spoken.err;
     EXPECT_NE(spoken.err.find("--repair"), std::string::npos) << spoken.err;
 

@@ -228,7 +228,7 @@ TEST_F(Operators, PrefixesThatAreKeptDoNotMakeAChainDeep) {
     EXPECT_EQ(volume(prefixes.back()), "16");
 }
 
-TEST(Operators, UniteSolidsAsTheyAre) {
+TEST(Formulas, UniteSolidsAsTheyAre) {
     const std::vector<Solid> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3})};
     EXPECT_EQ(volume(Expression::any_of(solids)), "15");
     EXPECT_EQ(volume(Expression::all_of(solids)), "1");
