@@ -26,10 +26,11 @@ TEST_F(CheckCommand, NothingIsFoundInABox) {
 
 TEST_F(CheckCommand, ExactBoundaries) {
     const std::string exact = path("a.exact");
-    ASSERT_EQ(trisect({"difference", box("a.obj", {0, 0, 0}, {9, 9, 9}),
-                       box("b.obj", {3, 3, 3}, {5, 5, 5}), "-o", path("a.off"), "--boundary", exact})
-                  .code,
-              0);
+    ASSERT_EQ(
+        trisect({"difference", box("a.obj", {0, 0, 0}, {9, 9, 9}),
+                 box("b.obj", {3, 3, 3}, {5, 5, 5}), "-o", path("a.off"), "--boundary", exact})
+            .code,
+        0);
     const Finished cavity = trisect({"check", exact, "--json"});
     EXPECT_EQ(cavity.code, 0) << cavity.out;
     EXPECT_EQ(cavity.json()["solid"], true);

@@ -69,8 +69,8 @@ TEST_F(VerifyCommand, ExactBoundariesAreComparedAsTheyAre) {
     const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
     const std::string exact = path("kept.exact");
     const std::string rounded = path("kept.off");
-    ASSERT_EQ(trisect({"intersection", tetrahedron, block, "-o", rounded, "--boundary", exact}).code,
-              0);
+    ASSERT_EQ(
+        trisect({"intersection", tetrahedron, block, "-o", rounded, "--boundary", exact}).code, 0);
     // Corners at thirds: the file of doubles is another set, the exact one is not.
     EXPECT_EQ(trisect({"verify", "intersection", tetrahedron, block, rounded}).code, 1);
     const Finished good = trisect({"verify", "intersection", tetrahedron, block, exact, "--json"});
@@ -82,7 +82,8 @@ TEST_F(VerifyCommand, ExactBoundariesAreComparedAsTheyAre) {
     // As an operand, too: what is cut off and what is kept make the whole.
     const std::string rest = path("rest.exact");
     ASSERT_EQ(
-        trisect({"difference", tetrahedron, block, "-o", path("r.off"), "--boundary", rest}).code, 0);
+        trisect({"difference", tetrahedron, block, "-o", path("r.off"), "--boundary", rest}).code,
+        0);
     EXPECT_EQ(trisect({"verify", "union", exact, rest, tetrahedron}).code, 0);
     const Finished bad = trisect({"verify", "union", exact, block, rest, "--json"});
     EXPECT_EQ(bad.code, 1);
