@@ -78,10 +78,13 @@ private:
     // The only one with this previous corner.
     static std::uint32_t only_before(std::span<const TwinCorner> corners, std::uint32_t previous) {
         if (corners.size() > short_list) {
-            const auto found =
-                std::ranges::equal_range(corners, previous, {}, &TwinCorner::previous);
-            return found.size() == 1 ? static_cast<std::uint32_t>(found.begin() - corners.begin())
-                                     : none;
+            const auto before = [](const TwinCorner& c, std::uint32_t v) { return c.previous < v; };
+            const auto first = std::lower_bound(corners.begin(), corners.end(), previous, before);
+            const auto is_it = [&](auto at) {
+                return at != corners.end() && at->previous == previous;
+            };
+            if (!is_it(first) || is_it(first + 1)) return none;
+            return static_cast<std::uint32_t>(first - corners.begin());
         }
         std::uint32_t found = none;
         for (std::uint32_t i = 0; i < corners.size(); ++i) {

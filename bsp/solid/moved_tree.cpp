@@ -83,14 +83,14 @@ private:
 
     // Holds fragments until a list does.
     struct KeepFragments {
-        explicit KeepFragments(const std::vector<PolygonRef>& refs) : refs_(refs) {}
+        explicit KeepFragments(const std::vector<PolygonRef>& kept) : refs(kept) {}
         KeepFragments(const KeepFragments&) = delete;
         KeepFragments& operator=(const KeepFragments&) = delete;
         ~KeepFragments() {
-            for (const PolygonRef& r : refs_)
+            for (const PolygonRef& r : refs)
                 if (r.fragment != nullptr) r.fragment->release();
         }
-        const std::vector<PolygonRef>& refs_;
+        const std::vector<PolygonRef>& refs;
     };
 
     const Source* moved(const Source* source) {
