@@ -43,12 +43,6 @@ DescriptionOptions description_options(const Session& session, const BooleanOpti
     return {options.exact, session.options().json};
 }
 
-void describe_brep(const Session& session, const BooleanOptions& options, const Brep& brep,
-                   BooleanResult& result) {
-    result.description = describe(brep, description_options(session, options));
-    result.description.lattice = result.stats.lattice;
-}
-
 AssembleOptions assemble_options(const BooleanOptions& options) {
     AssembleOptions assembly;
     assembly.maximal_faces = !options.source_faces;
@@ -64,7 +58,10 @@ void deliver_brep(Session& session, const BooleanOptions& options, const Solid& 
         mesh = to_polygon_mesh(boundary);
         return boundary;
     });
-    session.stage("describe", [&] { describe_brep(session, options, brep, result); });
+    session.stage("describe", [&] {
+        result.description = describe(brep, description_options(session, options));
+        result.description.lattice = result.stats.lattice;
+    });
     if (options.repair) {
         session.interruptible_stage("certify", [&] {
             result.rounding =
@@ -92,14 +89,13 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
         mesh = to_polygon_mesh(exact);
     });
     session.stage("describe", [&] {
-        std::optional<Description> description;
         for_each_in_parallel(2, session.supervisor().stop_flag(), [&](std::size_t i) {
-            if (i == 0) description = describe(exact, description_options(session, options));
+            if (i == 0)
+                result.description = describe(
+                    exact, [&] { return solid.to_brep(); }, description_options(session, options));
             if (i == 1 && options.certificate)
                 result.certificate = certify_output(exact, mesh, format);
         });
-        if (!description) return describe_brep(session, options, solid.to_brep(), result);
-        result.description = *description;
         result.description.lattice = result.stats.lattice;
     });
     session.stage("write", [&] {

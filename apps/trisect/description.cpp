@@ -105,6 +105,18 @@ bool count_as_brep(const ImportedMesh& imported, Description& out) {
     }
 }
 
+/// Of triangles that touch each other, with the vertices and edges there as often as in the B-rep
+/// of the same set: each edge has two triangles, and Euler's formula gives the vertices.
+ManifoldCounts counts_of_copies(std::size_t triangles, const Brep& brep) {
+    ManifoldCounts out;
+    out.shells = brep.counts().shells;
+    out.genus = total_genus(brep);
+    out.edges = 3 * triangles / 2;
+    const std::ptrdiff_t euler = 2 * (static_cast<std::ptrdiff_t>(out.shells) - out.genus);
+    out.vertices = static_cast<std::size_t>(euler + static_cast<std::ptrdiff_t>(triangles / 2));
+    return out;
+}
+
 template <class Boundary>
 void measure(const Boundary& boundary, DescriptionOptions options, Description& out) {
     if (options.measures) {
@@ -167,9 +179,10 @@ Description describe(const Brep& brep, DescriptionOptions options) {
     return out;
 }
 
-std::optional<Description> describe(const ExactMesh& mesh, DescriptionOptions options) {
-    const auto counts = manifold_counts(mesh.points.size(), mesh.triangles);
-    if (!counts) return std::nullopt;
+Description describe(const ExactMesh& mesh, const std::function<Brep()>& boundary,
+                     DescriptionOptions options) {
+    auto counts = manifold_counts(mesh.points.size(), mesh.triangles);
+    if (!counts) counts = counts_of_copies(mesh.triangles.size(), boundary());
     Description out;
     out.vertices = counts->vertices;
     out.edges = counts->edges;

@@ -10,6 +10,7 @@
 #include <trisect/brep/measure.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -42,10 +43,10 @@ struct DescriptionOptions {
 /// boundary touches itself count as often as they do in a Brep.
 [[nodiscard]] Description describe(const ImportedMesh& imported, DescriptionOptions options = {});
 [[nodiscard]] Description describe(const Brep& brep, DescriptionOptions options = {});
-/// Of a result before it is rounded; its faces are its triangles. Nothing if it touches itself:
-/// only a Brep has the counts of such a boundary.
-[[nodiscard]] std::optional<Description> describe(const ExactMesh& mesh,
-                                                  DescriptionOptions options = {});
+/// Of a result before it is rounded: its faces are its triangles. `boundary` is called where the
+/// result touches itself, for the shells and the genus.
+[[nodiscard]] Description describe(const ExactMesh& mesh, const std::function<Brep()>& boundary,
+                                   DescriptionOptions options = {});
 
 [[nodiscard]] Json to_json(const Description& description);
 /// Aligned lines.

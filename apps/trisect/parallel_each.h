@@ -3,32 +3,33 @@
 // Independent pieces of work on all threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <cstddef>
-#include <exception>
 #include <vector>
 
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::app {
 
-/// Calls work(i) for i from 0 to count - 1, in any order and at the same time, under `stop`. All
-/// are called, whether others fail or not; then the failure with the smallest i is thrown.
+/// Calls work(i) for i from 0 to count - 1, in any order and at the same time, under `stop`. Throws
+/// what the failure with the smallest i throws; after a failure those with larger i are stopped,
+/// or not begun.
 template <class Work>
 void for_each_in_parallel(std::size_t count, const std::atomic<bool>& stop, const Work& work) {
-    std::vector<std::exception_ptr> failures(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    std::vector<std::atomic<bool>> needless(count);
+    detail::ParallelParts(count, 0, 1).for_each([&](std::size_t, std::size_t i, std::size_t end) {
         const StopScope scope(&stop);
-        try {
-            work(i);
-        } catch (...) {
-            failures[i] = std::current_exception();
+        for (; i < end; ++i) {
+            const StopScope own(&needless[i]);
+            try {
+                work(i);
+            } catch (...) {
+                for (std::size_t later = i + 1; later < count; ++later) needless[later] = true;
+                throw;
+            }
         }
     });
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace trisect::app
