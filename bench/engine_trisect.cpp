@@ -61,7 +61,7 @@ public:
                 {"shared_cells", stats_.shared_cells},
                 {"constant_cells", stats_.constant_cells},
                 {"mixed_leaves", stats_.mixed_leaves},
-                {"plain_leaves", stats_.plain_leaves},
+                {"filtered_leaves", stats_.filtered_leaves},
                 {"listed_polygons", stats_.listed_polygons},
                 {"pairs_boxes", stats_.pairs_boxes},
                 {"pairs_cutting", stats_.pairs_cutting},

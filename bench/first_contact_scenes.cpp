@@ -81,7 +81,7 @@ FirstContact report(const char* name, const Body& a, const Motion& ma, const Bod
     }
     // The same without faces that move apart.
     trisect::FirstContactOptions options;
-    options.leave_out_parting = true;
+    options.leave_out_receding = true;
     const auto facing_start = Clock::now();
     const FirstContact facing = first_contact(a.model, ma, b.model, mb, options);
     const double facing_time = milliseconds_since(facing_start);
@@ -252,7 +252,7 @@ void falls(const char* name, const Body& rest, const Body& falling,
         ours.push_back(milliseconds_since(start));
         contacts += c.exists() ? 1U : 0U;
         trisect::FirstContactOptions options;
-        options.leave_out_parting = true;
+        options.leave_out_receding = true;
         const auto facing_start = Clock::now();
         const FirstContact facing = first_contact(rest.model, Motion(), falling.model,
                                                   Motion::translation(f.start, f.by), options);
@@ -263,7 +263,7 @@ void falls(const char* name, const Body& rest, const Body& falling,
         pairs[0] += facing.stats.triangle_pairs;
         box_tests[1] += c.stats.box_tests;
         box_tests[0] += facing.stats.box_tests;
-        left_out += facing.stats.parting_pairs;
+        left_out += facing.stats.separating_pairs;
         for (std::size_t k = 0; k < peers.size() && peer::is_available(); ++k) {
             PeerTally& t = peers[k];
             const auto peer_start = Clock::now();

@@ -185,7 +185,7 @@ void measure_files(const std::string& name, const PolygonMesh& mesh, const Optio
             std::ranges::find(options.formats, kind.name) == options.formats.end())
             continue;
         const fs::path file = folder / (name + kind.extension);
-        const fs::path other = folder / ("plain_" + name + kind.extension);
+        const fs::path other = folder / ("filtered_" + name + kind.extension);
         trisect::WriteOptions as;
         as.format = kind.format;
         as.ply_encoding = kind.encoding;

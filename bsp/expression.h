@@ -65,7 +65,7 @@ struct EvaluateOptions {
     std::uint32_t leaf_polygons = 100;
     /// Offset of splitting planes from lattice positions in 1/256 units: odd, below 256. For tests
     /// of vertices on splitting planes.
-    std::uint32_t wall_offset = 83;
+    std::uint32_t splitting_offset = 83;
     /// What counts as inside an operand that overlaps itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
     /// Work budget: cells visited plus polygon pairs compared in leaves, not counting what operands
@@ -87,16 +87,16 @@ struct EvaluateOptions {
 
 /// What one evaluation did.
 struct EvaluateStats {
-    std::uint64_t cells = 0;            ///< visited
-    std::uint64_t shared_cells = 0;     ///< one operand left: subtree shared
-    std::uint64_t constant_cells = 0;   ///< homogeneous result
-    std::uint64_t mixed_leaves = 0;     ///< resolved by a local arrangement
-    std::uint64_t grid_leaves = 0;      ///< of them, on a grid of bits: all across axes
-    std::uint64_t plain_leaves = 0;     ///< of them, by doubles alone: in general position
-    std::uint64_t plain_fragments = 0;  ///< fragments of earlier results in those
+    std::uint64_t cells = 0;               ///< visited
+    std::uint64_t shared_cells = 0;        ///< one operand left: subtree shared
+    std::uint64_t constant_cells = 0;      ///< homogeneous result
+    std::uint64_t mixed_leaves = 0;        ///< resolved by a local arrangement
+    std::uint64_t grid_leaves = 0;         ///< of them, on a grid of bits: all across axes
+    std::uint64_t filtered_leaves = 0;     ///< of them, by doubles alone: in general position
+    std::uint64_t filtered_fragments = 0;  ///< fragments of earlier results in those
     std::uint64_t prism_leaves = 0;     ///< of them, by segments in a plane: prisms along one axis
     std::uint64_t exact_leaves = 0;     ///< of them, by integers: all others
-    std::uint64_t divided_cells = 0;    ///< by a wall
+    std::uint64_t divided_cells = 0;    ///< by a splitter
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
     std::uint64_t pairs_touching = 0;   ///< of them, pairs in contact

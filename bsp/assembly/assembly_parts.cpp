@@ -85,12 +85,12 @@ private:
     void finish();
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
     [[nodiscard]] const DeferredLeaf* deferred(const AssembledLeaf& leaf) const;
-    [[nodiscard]] const AxisPicture* picture(const AssembledLeaf& leaf) const;
+    [[nodiscard]] const OccupancyGrid* occupancy(const AssembledLeaf& leaf) const;
     void mark_facets(const AssembledLeaf& leaf);
     void mark_leaves();
     void mark_crossed(const Crossings& crossings);
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
-    [[nodiscard]] bool needs_parts(const AssembledLeaf& leaf, const AxisPicture& picture) const;
+    [[nodiscard]] bool needs_parts(const AssembledLeaf& leaf, const OccupancyGrid& occupancy) const;
     void note_list(const AssembledLeaf& leaf, const PolygonList& polygons, std::size_t table);
     void mark_lists();
     void mark_uncrossed(std::span<const UncrossedFacets> lists);
@@ -220,8 +220,8 @@ void Gatherer::list_leaves(const CellNode& node, bool complemented, const Cell& 
     }
     for (int i = 0; i < 2; ++i) {
         const CellRef& c = node.child(i);
-        const Cell part =
-            i == 0 ? cell.below(node.axis(), node.wall()) : cell.above(node.axis(), node.wall());
+        const Cell part = i == 0 ? cell.below(node.axis(), node.splitter())
+                                 : cell.above(node.axis(), node.splitter());
         with_enough_stack([&] { list_leaves(*c.node, c.complemented != complemented, part); });
     }
 }
@@ -241,9 +241,9 @@ const DeferredLeaf* Gatherer::deferred(const AssembledLeaf& leaf) const {
 }
 
 // Where planes are outlined as a whole.
-const AxisPicture* Gatherer::picture(const AssembledLeaf& leaf) const {
+const OccupancyGrid* Gatherer::occupancy(const AssembledLeaf& leaf) const {
     const DeferredLeaf* const d = leaf.node->deferred();
-    return by_planes_ && d != nullptr ? d->picture() : nullptr;
+    return by_planes_ && d != nullptr ? d->occupancy() : nullptr;
 }
 
 void Gatherer::mark_crossed(const Crossings& crossings) {
@@ -274,10 +274,10 @@ void Gatherer::mark_facets(const AssembledLeaf& leaf) {
     const DeferredLeaf* const deferred = this->deferred(leaf);
     if (deferred != nullptr)
         for (const auto& o : deferred->operands) (void)table(o.polygons.whole_source());
-    const AxisPicture* const picture = this->picture(leaf);
-    const PolygonList& polygons = deferred != nullptr  ? *deferred->uncrossed()
-                                  : picture != nullptr ? picture->facets
-                                                       : leaf.node->polygons();
+    const OccupancyGrid* const occupancy = this->occupancy(leaf);
+    const PolygonList& polygons = deferred != nullptr    ? *deferred->uncrossed()
+                                  : occupancy != nullptr ? occupancy->facets
+                                                         : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
         source != nullptr && !source->is_half_space()) {
         note_list(leaf, polygons, table(source));
@@ -437,8 +437,8 @@ bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
     });
 }
 
-bool Gatherer::needs_parts(const AssembledLeaf& leaf, const AxisPicture& picture) const {
-    return std::any_of(picture.facets.begin(), picture.facets.end(), [&](const PolygonRef& r) {
+bool Gatherer::needs_parts(const AssembledLeaf& leaf, const OccupancyGrid& occupancy) const {
+    return std::any_of(occupancy.facets.begin(), occupancy.facets.end(), [&](const PolygonRef& r) {
         const FacetMarks& marks = out_.sources[out_.table_of(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
         return marks.takes_part(r.facet, flipped) &&
@@ -449,7 +449,7 @@ bool Gatherer::needs_parts(const AssembledLeaf& leaf, const AxisPicture& picture
 void Gatherer::make_parts(AssembledLeaf& leaf) {
     leaf.first_edge = leaf.end_edge = edges_.size();
     if (const auto* d = deferred(leaf); d != nullptr && !needs_parts(*d)) return;
-    if (const auto* p = picture(leaf); p != nullptr && !needs_parts(leaf, *p)) return;
+    if (const auto* p = occupancy(leaf); p != nullptr && !needs_parts(leaf, *p)) return;
     const PolygonList& polygons = leaf.node->polygons();
     if (const Source* source = polygons.whole_source()) {
         const FacetMarks& marks = out_.sources[table(source)];
@@ -481,7 +481,7 @@ void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
         if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
         if (axis_faces_.takes(facet)) continue;
-        if (r.fragment == nullptr || !ends_at_walls(*r.fragment, leaf.cell)) {
+        if (r.fragment == nullptr || !ends_at_splitters(*r.fragment, leaf.cell)) {
             make_part(r, leaf, facet);
             continue;
         }
@@ -489,7 +489,7 @@ void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
         for (; i < polygons.size() && group_.size() < FragmentGroup::max_parts; ++i) {
             const PolygonRef next = polygons[i];
             if (next.facet != r.facet || next.source != r.source || next.flipped != r.flipped ||
-                next.fragment == nullptr || !ends_at_walls(*next.fragment, leaf.cell))
+                next.fragment == nullptr || !ends_at_splitters(*next.fragment, leaf.cell))
                 break;
             group_.push_back(next);
         }
@@ -583,7 +583,7 @@ void Gatherer::choose_axis_faces() {
     leaves.reserve(leaves_.size());
     for (const AssembledLeaf& leaf : leaves_) {
         if (deferred(leaf) != nullptr) return;
-        const AxisPicture* const p = picture(leaf);
+        const OccupancyGrid* const p = occupancy(leaf);
         leaves.push_back(
             {p != nullptr ? &p->facets : &leaf.node->polygons(), leaf.cell, leaf.complemented, p});
     }

@@ -13,19 +13,19 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::int64_t centre_scale = 2 * wall_scale;  // of lattice units
+constexpr std::int64_t centre_scale = 2 * splitting_scale;  // of lattice units
 
 }  // namespace
 
 void AxisUnits::finish(std::size_t axis, const Cell& cell) {
-    const auto wall = [&](std::int64_t at) {
-        return Position{at, PlaneName::wall(static_cast<int>(axis), at), 1};
+    const auto splitter = [&](std::int64_t at) {
+        return Position{at, PlaneName::splitter(static_cast<int>(axis), at), 1};
     };
     std::erase_if(positions_, [&](const Position& p) {
         return p.at <= cell.lo[axis] || p.at >= cell.hi[axis];
     });
-    positions_.push_back(wall(cell.lo[axis]));
-    positions_.push_back(wall(cell.hi[axis]));
+    positions_.push_back(splitter(cell.lo[axis]));
+    positions_.push_back(splitter(cell.hi[axis]));
     const auto same = [](const Position& a, const Position& b) { return a.at == b.at; };
     std::stable_sort(positions_.begin(), positions_.end(),
                      [](const Position& a, const Position& b) { return a.at < b.at; });
@@ -142,7 +142,7 @@ std::uint64_t AxisGrid::overlapped(const AxisPolygon& polygon, Frame frame, std:
     const bool along_u = frame.bit_axis == (polygon.plane.axis + 1) % 3;
     std::uint64_t bits = unit_bits(begin, end);
     for (const SlantedEdge& e : polygon.slanted_edges()) {
-        const EdgeSide side(e, wall_scale);
+        const EdgeSide side(e, splitting_scale);
         bits &= units_left(begin, end, side.leads_left(along_u), [&](std::size_t bit) {
             // The corner of the unit that is farthest to the left.
             const std::int64_t first = units.plane(bit).at;

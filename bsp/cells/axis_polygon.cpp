@@ -34,7 +34,7 @@ int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePo
 }  // namespace
 
 std::optional<AxisPlane> axis_plane(const PlaneName& name) {
-    if (name.is_wall()) return AxisPlane{name.facet, 1, name.position()};
+    if (name.is_splitter()) return AxisPlane{name.facet, 1, name.position()};
     const Source& source = *name.source();
     if (source.is_half_space()) return std::nullopt;
     const LatticePoint& a = source.corner(name.facet, 0);
@@ -44,7 +44,7 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     if (!name.is_edge()) {
         if (across == 3) return std::nullopt;
         return AxisPlane{across, sign_of_normal(a, b, c, across),
-                         coordinate(a, across) * wall_scale};
+                         coordinate(a, across) * splitting_scale};
     }
     // Through an edge and along the axis that the support lies across, or nearly so.
     const auto i = static_cast<int>(name.kind);
@@ -61,7 +61,7 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     const std::size_t axis = 3 - along - across;
     // The facet lies below its edge planes.
     const int sign = coordinate(third, axis) < coordinate(from, axis) ? 1 : -1;
-    return AxisPlane{axis, sign, coordinate(from, axis) * wall_scale};
+    return AxisPlane{axis, sign, coordinate(from, axis) * splitting_scale};
 }
 
 bool AxisPolygon::read(const PolygonRef& polygon) {
@@ -73,7 +73,7 @@ bool AxisPolygon::read(const PolygonRef& polygon) {
     if (plane.axis == 3) return false;
     ref = polygon;
     plane.sign = sign_of_normal(*corners[0], *corners[1], *corners[2], plane.axis);
-    plane.position = coordinate(*corners[0], plane.axis) * wall_scale;
+    plane.position = coordinate(*corners[0], plane.axis) * splitting_scale;
     slanted_count = 0;
     if (polygon.fragment != nullptr) return read_fragment(corners);
     read_facet(corners);
@@ -94,7 +94,8 @@ bool AxisPolygon::meets(const Cell& cell) const {
         // The corner of the cell that is farthest to the left.
         const std::int64_t at_u = step_v > 0 ? cell.lo[u] : cell.hi[u];
         const std::int64_t at_v = step_u > 0 ? cell.hi[v] : cell.lo[v];
-        return step_u * (at_v - e.from[1] * wall_scale) > step_v * (at_u - e.from[0] * wall_scale);
+        return step_u * (at_v - e.from[1] * splitting_scale) >
+               step_v * (at_u - e.from[0] * splitting_scale);
     });
 }
 
@@ -102,8 +103,8 @@ void AxisPolygon::read_facet(const Corners& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(
             {coordinate(*corners[0], k), coordinate(*corners[1], k), coordinate(*corners[2], k)});
-        lo[k] = low * wall_scale;
-        hi[k] = high * wall_scale;
+        lo[k] = low * splitting_scale;
+        hi[k] = high * splitting_scale;
     }
     for (std::size_t i = 0; i < 3; ++i) add_slanted(*corners[i], *corners[i == 2 ? 0 : i + 1]);
 }
@@ -121,8 +122,8 @@ void AxisPolygon::add_slanted(const LatticePoint& from, const LatticePoint& to) 
 bool AxisPolygon::read_fragment(const Corners& corners) {
     const Box& box = ref.fragment->box();
     for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = box.lo[k] * wall_scale;
-        hi[k] = box.hi[k] * wall_scale;
+        lo[k] = box.lo[k] * splitting_scale;
+        hi[k] = box.hi[k] * splitting_scale;
     }
     lo[plane.axis] = hi[plane.axis] = plane.position;
     for (const EdgeName& e : ref.fragment->edges()) {

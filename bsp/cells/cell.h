@@ -55,10 +55,10 @@ struct Box {
 };
 
 /// Positions of splitting planes and reference points count in 1/256 of the lattice unit.
-inline constexpr int wall_bits = 8;
-inline constexpr std::int64_t wall_scale = std::int64_t{1} << wall_bits;
+inline constexpr int splitting_bits = 8;
+inline constexpr std::int64_t splitting_scale = std::int64_t{1} << splitting_bits;
 /// Beyond every lattice point.
-inline constexpr std::int64_t universe_limit = (coordinate_limit + 16) * wall_scale + 1;
+inline constexpr std::int64_t universe_limit = (coordinate_limit + 16) * splitting_scale + 1;
 
 /// A point with coordinates in 1/256 lattice units.
 struct FinePoint {
@@ -75,20 +75,23 @@ struct Cell {
     [[nodiscard]] Box lattice_box() const {
         Box b;
         for (std::size_t k = 0; k < 3; ++k) {
-            b.lo[k] = (lo[k] >> wall_bits) + 1;  // splitting planes are never lattice positions
-            b.hi[k] = hi[k] >> wall_bits;
+            b.lo[k] =
+                (lo[k] >> splitting_bits) + 1;  // splitting planes are never lattice positions
+            b.hi[k] = hi[k] >> splitting_bits;
         }
         return b;
     }
     /// Whether a closed box of lattice points meets the cell.
     [[nodiscard]] bool meets(const Box& b) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (b.hi[k] <= (lo[k] >> wall_bits) || b.lo[k] > (hi[k] >> wall_bits)) return false;
+            if (b.hi[k] <= (lo[k] >> splitting_bits) || b.lo[k] > (hi[k] >> splitting_bits))
+                return false;
         return true;
     }
     [[nodiscard]] bool contains(const Box& b) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (b.lo[k] <= (lo[k] >> wall_bits) || b.hi[k] > (hi[k] >> wall_bits)) return false;
+            if (b.lo[k] <= (lo[k] >> splitting_bits) || b.hi[k] > (hi[k] >> splitting_bits))
+                return false;
         return true;
     }
     [[nodiscard]] bool contains(const FinePoint& p) const {
@@ -96,14 +99,14 @@ struct Cell {
             if (p.c[k] <= lo[k] || p.c[k] >= hi[k]) return false;
         return true;
     }
-    [[nodiscard]] Cell below(int axis, std::int64_t wall) const {
+    [[nodiscard]] Cell below(int axis, std::int64_t splitter) const {
         Cell c = *this;
-        c.hi[static_cast<std::size_t>(axis)] = wall;
+        c.hi[static_cast<std::size_t>(axis)] = splitter;
         return c;
     }
-    [[nodiscard]] Cell above(int axis, std::int64_t wall) const {
+    [[nodiscard]] Cell above(int axis, std::int64_t splitter) const {
         Cell c = *this;
-        c.lo[static_cast<std::size_t>(axis)] = wall;
+        c.lo[static_cast<std::size_t>(axis)] = splitter;
         return c;
     }
 };
@@ -113,7 +116,7 @@ struct Cell {
 [[nodiscard]] inline FinePoint point_beyond(const Box& box) {
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
-        p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * wall_scale +
+        p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * splitting_scale +
                  static_cast<std::int64_t>(12 + 22 * k);
     return p;
 }

@@ -12,7 +12,8 @@
 namespace trisect::detail {
 
 Plane PlaneName::plane() const {
-    if (is_wall()) return Plane::axis_aligned(static_cast<int>(facet), wall_scale, position());
+    if (is_splitter())
+        return Plane::axis_aligned(static_cast<int>(facet), splitting_scale, position());
     const Source* s = source();
     return kind == Support ? s->support(facet) : s->edge_plane(facet, static_cast<int>(kind));
 }
@@ -118,13 +119,13 @@ std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const Fine
     return leaf(PolygonList::all_facets(source), reference, winding, mixed);
 }
 
-std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t wall, CellRef below,
+std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t splitter, CellRef below,
                                                 CellRef above) {
-    TRISECT_EXPECTS((wall & 1) != 0, "a wall must lie at an odd position");
+    TRISECT_EXPECTS((splitter & 1) != 0, "a splitter must lie at an odd position");
     struct Made : CellNode {};  // with its counts in one piece of memory
     const auto n = std::make_shared<Made>();
     n->axis_ = axis;
-    n->wall_ = wall;
+    n->splitter_ = splitter;
     n->size_ = below.node->size() + above.node->size();
     n->child_ = {std::move(below), std::move(above)};
     return n;

@@ -26,7 +26,7 @@ namespace trisect::detail {
 /// The plane of a polygon's edge, by name: names survive when their polygon moves between cells and
 /// versions, and equal names are equal planes without arithmetic.
 struct PlaneName {
-    enum Kind : std::uint32_t { Edge0, Edge1, Edge2, Support, Wall };
+    enum Kind : std::uint32_t { Edge0, Edge1, Edge2, Support, SplittingPlane };
 
     std::uint64_t owner = 0;  ///< address of the Source, or the splitting plane's position
     std::uint32_t facet = 0;  ///< facet of the source, or the splitting plane's axis
@@ -38,13 +38,14 @@ struct PlaneName {
     [[nodiscard]] static PlaneName edge(const Source* s, std::uint32_t facet, int i) {
         return {reinterpret_cast<std::uintptr_t>(s), facet, static_cast<std::uint32_t>(i)};
     }
-    [[nodiscard]] static PlaneName wall(int axis, std::int64_t position) {
-        return {static_cast<std::uint64_t>(position), static_cast<std::uint32_t>(axis), Wall};
+    [[nodiscard]] static PlaneName splitter(int axis, std::int64_t position) {
+        return {static_cast<std::uint64_t>(position), static_cast<std::uint32_t>(axis),
+                SplittingPlane};
     }
-    [[nodiscard]] bool is_wall() const { return kind == Wall; }
+    [[nodiscard]] bool is_splitter() const { return kind == SplittingPlane; }
     [[nodiscard]] bool is_edge() const { return kind <= Edge2; }
     [[nodiscard]] const Source* source() const {
-        return is_wall() ? nullptr : reinterpret_cast<const Source*>(owner);
+        return is_splitter() ? nullptr : reinterpret_cast<const Source*>(owner);
     }
     [[nodiscard]] std::int64_t position() const { return static_cast<std::int64_t>(owner); }
     [[nodiscard]] Plane plane() const;
@@ -243,7 +244,7 @@ public:
     /// All facets of a source, unrefined.
     static std::shared_ptr<const CellNode> fresh(const Source& source, const FinePoint& reference,
                                                  int winding, bool mixed);
-    static std::shared_ptr<const CellNode> split(int axis, std::int64_t wall, CellRef below,
+    static std::shared_ptr<const CellNode> split(int axis, std::int64_t splitter, CellRef below,
                                                  CellRef above);
     ~CellNode();
     CellNode(const CellNode&) = delete;
@@ -251,7 +252,7 @@ public:
 
     [[nodiscard]] bool is_leaf() const { return axis_ < 0; }
     [[nodiscard]] int axis() const { return axis_; }
-    [[nodiscard]] std::int64_t wall() const { return wall_; }
+    [[nodiscard]] std::int64_t splitter() const { return splitter_; }
     [[nodiscard]] const CellRef& child(int i) const { return child_[static_cast<std::size_t>(i)]; }
     /// Safe from any thread; of a deferred leaf they stay where they are once they are made.
     [[nodiscard]] const PolygonList& polygons() const {
@@ -288,7 +289,7 @@ private:
     void arrange() const;
 
     int axis_ = -1;
-    std::int64_t wall_ = 0;
+    std::int64_t splitter_ = 0;
     std::array<CellRef, 2> child_;
     mutable PolygonList polygons_;
     std::unique_ptr<const DeferredLeaf> deferred_;

@@ -108,8 +108,8 @@ std::size_t Crossings::operand_of(std::uint32_t number) const {
 
 void Crossings::append(const Crossings& part) {
     pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
-    doubtful.insert(doubtful.end(), part.doubtful.begin(), part.doubtful.end());
-    covers.insert(covers.end(), part.covers.begin(), part.covers.end());
+    uncertain.insert(uncertain.end(), part.uncertain.begin(), part.uncertain.end());
+    containments.insert(containments.end(), part.containments.begin(), part.containments.end());
 }
 
 void Crossings::arrange() {
@@ -117,14 +117,14 @@ void Crossings::arrange() {
         std::ranges::sort(list);
         list.erase(std::unique(list.begin(), list.end()), list.end());
     };
-    make_unique(doubtful);
+    make_unique(uncertain);
     make_unique(hidden);
     const std::uint64_t count = operands.size();
-    radix_sort(covers, [count](const Cover& c) { return c.facet * count + c.operand; });
-    covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
+    radix_sort(containments, [count](const Containment& c) { return c.facet * count + c.operand; });
+    containments.erase(std::unique(containments.begin(), containments.end()), containments.end());
     sort_pairs();
     list_shown();
-    covers = {};
+    containments = {};
     hidden = {};
 }
 
@@ -158,7 +158,7 @@ void Crossings::sort_pairs() {
 void Crossings::list_shown() {
     std::size_t first = 0;   // in pairs
     std::size_t second = 0;  // in by_second
-    auto cover = covers.begin();
+    auto containment = containments.begin();
     const auto crosses = [&](std::uint32_t operand, std::size_t p, std::size_t end_p, std::size_t q,
                              std::size_t end_q) {
         const auto is_of = [&](std::uint32_t facet) {
@@ -180,12 +180,12 @@ void Crossings::list_shown() {
         const std::size_t q = second;
         while (first < pairs.size() && pairs[first].facets[0] == facet) ++first;
         while (second < by_second.size() && pairs[by_second[second]].facets[1] == facet) ++second;
-        while (cover != covers.end() && cover->facet < facet) ++cover;
+        while (containment != containments.end() && containment->facet < facet) ++containment;
         bool is_covered = false;
-        for (; cover != covers.end() && cover->facet == facet; ++cover)
-            is_covered = is_covered || !crosses(cover->operand, p, first, q, second);
+        for (; containment != containments.end() && containment->facet == facet; ++containment)
+            is_covered = is_covered || !crosses(containment->operand, p, first, q, second);
         if (std::ranges::binary_search(hidden, facet)) continue;
-        if (!is_covered || std::ranges::binary_search(doubtful, facet)) shown.push_back(facet);
+        if (!is_covered || std::ranges::binary_search(uncertain, facet)) shown.push_back(facet);
     }
 }
 

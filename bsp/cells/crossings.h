@@ -36,7 +36,7 @@ struct FacetCrossing {
 /// apart (traced_facets.h).
 ///
 /// The facets of all operands are numbered, one operand after the other. Of a facet that is not
-/// `doubtful` all crossings are known, and nothing else of another boundary touches it.
+/// `uncertain` all crossings are known, and nothing else of another boundary touches it.
 ///
 /// In such a formula an operand bounds the result just where all others are *open*: where none of
 /// them has the value, inside for a union, that decides the formula by itself.
@@ -50,16 +50,16 @@ struct Crossings {
         [[nodiscard]] bool is_open_below() const { return (open == 1) != flipped; }
     };
     /// A facet with a part in a cell that is contained in an operand there without a crossing.
-    struct Cover {
+    struct Containment {
         std::uint32_t facet = 0;
         std::uint32_t operand = 0;
-        friend auto operator<=>(const Cover&, const Cover&) = default;
+        friend auto operator<=>(const Containment&, const Containment&) = default;
     };
-    std::vector<Operand> operands;        ///< by slot
-    std::vector<FacetCrossing> pairs;     ///< sorted by facets, each once
-    std::vector<std::uint32_t> doubtful;  ///< facets, sorted
-    std::vector<Cover> covers;            ///< until arrange()
-    std::vector<std::uint32_t> hidden;    ///< facets that no leaf has seen crossed, until arrange()
+    std::vector<Operand> operands;          ///< by slot
+    std::vector<FacetCrossing> pairs;       ///< sorted by facets, each once
+    std::vector<std::uint32_t> uncertain;   ///< facets, sorted
+    std::vector<Containment> containments;  ///< until arrange()
+    std::vector<std::uint32_t> hidden;  ///< facets that no leaf has seen crossed, until arrange()
     /// Made by arrange(): the pairs in the order of their second facets, and all facets of pairs
     /// but hidden ones and those that lie within an operand that does not cross them.
     std::vector<std::uint32_t> by_second;

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include <trisect/bsp/cells/axis_picture.h>
 #include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/expression.h>
 
@@ -27,7 +27,7 @@ public:
         bool flipped = false;   ///< they are to be read with the other orientation
         int winding = 0;        ///< at the leaf's reference point
     };
-    using Picture = std::unique_ptr<const AxisPicture>;
+    using Picture = std::unique_ptr<const OccupancyGrid>;
     using Arrange = PolygonList (*)(const DeferredLeaf& leaf);
 
     Cell cell;
@@ -44,9 +44,9 @@ public:
     /// Null for an axis-perpendicular leaf.
     [[nodiscard]] const PolygonList* uncrossed() const { return std::get_if<PolygonList>(&known); }
     /// Null for a leaf in general position.
-    [[nodiscard]] const AxisPicture* picture() const {
-        const Picture* const picture = std::get_if<Picture>(&known);
-        return picture != nullptr ? picture->get() : nullptr;
+    [[nodiscard]] const OccupancyGrid* occupancy() const {
+        const Picture* const occupancy = std::get_if<Picture>(&known);
+        return occupancy != nullptr ? occupancy->get() : nullptr;
     }
     /// For the leaf's node: arrange once.
     [[nodiscard]] std::mutex& arranging() const { return arranging_; }

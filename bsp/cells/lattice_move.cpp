@@ -51,13 +51,13 @@ Box LatticeMove::applied(const Box& box) const {
 
 std::int64_t LatticeMove::applied_to_wall(int axis, std::int64_t position) const {
     const auto i = static_cast<std::size_t>(image_of_axis(axis));
-    return within(sign[i] * position + by[i] * wall_scale, universe_limit);
+    return within(sign[i] * position + by[i] * splitting_scale, universe_limit);
 }
 
 FinePoint LatticeMove::applied(const FinePoint& p) const {
     FinePoint out;
     for (std::size_t i = 0; i < 3; ++i)
-        out.c[i] = within(sign[i] * p.c[from[i]] + by[i] * wall_scale, universe_limit);
+        out.c[i] = within(sign[i] * p.c[from[i]] + by[i] * splitting_scale, universe_limit);
     return out;
 }
 

@@ -32,7 +32,7 @@ struct LatticeMove {
     /// \throw LimitError beyond the range of the lattice.
     [[nodiscard]] LatticePoint applied(const LatticePoint& p) const;
     [[nodiscard]] Box applied(const Box& box) const;
-    /// Of a wall across an axis: its position across image_of_axis(axis).
+    /// Of a splitter across an axis: its position across image_of_axis(axis).
     [[nodiscard]] std::int64_t applied_to_wall(int axis, std::int64_t position) const;
     [[nodiscard]] FinePoint applied(const FinePoint& p) const;
     [[nodiscard]] Plane applied(const Plane& plane) const;

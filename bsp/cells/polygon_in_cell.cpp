@@ -28,10 +28,11 @@ Box outward_box(const Workbench& bench, const WorkPolygon& polygon) {
 bool lies_in(const Fragment& fragment, const Cell& cell) {
     Box box = fragment.box();
     for (const EdgeName& e : fragment.edges()) {
-        if (!e.plane.is_wall()) continue;
+        if (!e.plane.is_splitter()) continue;
         const std::size_t k = e.plane.facet;
-        if (e.above && e.plane.position() == cell.lo[k]) box.lo[k] = (cell.lo[k] >> wall_bits) + 1;
-        if (!e.above && e.plane.position() == cell.hi[k]) box.hi[k] = cell.hi[k] >> wall_bits;
+        if (e.above && e.plane.position() == cell.lo[k])
+            box.lo[k] = (cell.lo[k] >> splitting_bits) + 1;
+        if (!e.above && e.plane.position() == cell.hi[k]) box.hi[k] = cell.hi[k] >> splitting_bits;
     }
     return cell.contains(box);
 }
@@ -77,15 +78,15 @@ bool meets_cell(Workbench& bench, const PolygonRef& ref, const Cell& cell) {
     return !bench.clipped(whole, ref.box(), cell).is_empty();
 }
 
-bool ends_at_walls(const Fragment& fragment, const Cell& cell) {
-    const auto ends_at = [&](std::size_t axis, std::int64_t wall, bool above) {
-        const EdgeName e{PlaneName::wall(static_cast<int>(axis), wall), above};
+bool ends_at_splitters(const Fragment& fragment, const Cell& cell) {
+    const auto ends_at = [&](std::size_t axis, std::int64_t splitter, bool above) {
+        const EdgeName e{PlaneName::splitter(static_cast<int>(axis), splitter), above};
         return std::ranges::find(fragment.edges(), e) != fragment.edges().end();
     };
     for (std::size_t k = 0; k < 3; ++k) {
-        if (fragment.box().lo[k] <= (cell.lo[k] >> wall_bits) && !ends_at(k, cell.lo[k], true))
+        if (fragment.box().lo[k] <= (cell.lo[k] >> splitting_bits) && !ends_at(k, cell.lo[k], true))
             return false;
-        if (fragment.box().hi[k] > (cell.hi[k] >> wall_bits) && !ends_at(k, cell.hi[k], false))
+        if (fragment.box().hi[k] > (cell.hi[k] >> splitting_bits) && !ends_at(k, cell.hi[k], false))
             return false;
     }
     return true;

@@ -22,7 +22,7 @@ namespace trisect::detail {
 
 /// Whether all that the bounding planes of a cell could cut off a fragment has been cut off: its
 /// box is rounded outwards and says too much where it ends at a splitting plane.
-[[nodiscard]] bool ends_at_walls(const Fragment& fragment, const Cell& cell);
+[[nodiscard]] bool ends_at_splitters(const Fragment& fragment, const Cell& cell);
 
 /// Room for one more polygon, to be made before its fragment is: a fragment that no list holds yet
 /// would be lost when the list cannot grow.

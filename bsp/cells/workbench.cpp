@@ -231,7 +231,7 @@ std::array<double, 3> Workbench::nearest(PointId id) const {
 
 // Whether the name of a plane says that it passes through a vertex of a source.
 bool Workbench::has_vertex(const PlaneName& plane, const Source* source, std::uint32_t vertex) {
-    if (plane.is_wall() || plane.source() != source || source->is_half_space()) return false;
+    if (plane.is_splitter() || plane.source() != source || source->is_half_space()) return false;
     const auto is_corner = [&](std::uint32_t i) {
         return source->corner_index(plane.facet, static_cast<int>(i % 3)) == vertex;
     };
@@ -253,7 +253,7 @@ bool Workbench::contains_edge(const PlaneName& plane, const PlaneName& edge) {
 // The same for the common edge of two facets.
 bool Workbench::contains_common_edge(const PlaneName& plane, const PlaneName& a,
                                      const PlaneName& b) {
-    if (plane.owner != a.owner || plane.is_wall()) return false;
+    if (plane.owner != a.owner || plane.is_splitter()) return false;
     const auto ends = common_edge(a, b);
     return ends && has_vertex(plane, a.source(), (*ends)[0]) &&
            has_vertex(plane, a.source(), (*ends)[1]);
@@ -430,13 +430,13 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
     const int k = s.dominant_axis();
     const int j = (k + 1) % 3;
     const int l = (k + 2) % 3;
-    const auto wall = [&](int axis, bool high) {
+    const auto splitter = [&](int axis, bool high) {
         const auto i = static_cast<std::size_t>(axis);
-        return WorkEdge{plane(PlaneName::wall(axis, high ? cell.hi[i] : cell.lo[i])), !high};
+        return WorkEdge{plane(PlaneName::splitter(axis, high ? cell.hi[i] : cell.lo[i])), !high};
     };
     WorkPolygon w;
     w.support = support;
-    w.edges = {wall(l, false), wall(j, true), wall(l, true), wall(j, false)};
+    w.edges = {splitter(l, false), splitter(j, true), splitter(l, true), splitter(j, false)};
     if (plane_at(support).normal(k) < 0) std::reverse(w.edges.begin(), w.edges.end());
     for (std::size_t i = 0; i < 4; ++i)
         w.points.push_back(meet(support, w.edges[(i + 3) % 4].plane, w.edges[i].plane));
@@ -444,9 +444,9 @@ WorkPolygon Workbench::unbounded_in(PlaneId support, const Cell& cell) {
 }
 
 // Whether the polygon has an edge on a splitting plane, and so lies on one side of it.
-bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
+bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t splitter,
                               bool above) const {
-    const PlaneName n = PlaneName::wall(axis, wall);
+    const PlaneName n = PlaneName::splitter(axis, splitter);
     return std::any_of(polygon.edges.begin(), polygon.edges.end(),
                        [&](const WorkEdge& e) { return e.above == above && name(e.plane) == n; });
 }
@@ -457,11 +457,13 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& 
         const auto k = static_cast<std::size_t>(axis);
         // Boxes are rounded outwards, so those of parts that end at a splitting plane reach beyond
         // it.
-        if (box.lo[k] <= (cell.lo[k] >> wall_bits) && !is_bounded_by(w, axis, cell.lo[k], true))
-            w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.lo[k])), 1);
+        if (box.lo[k] <= (cell.lo[k] >> splitting_bits) &&
+            !is_bounded_by(w, axis, cell.lo[k], true))
+            w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;
-        if (box.hi[k] > (cell.hi[k] >> wall_bits) && !is_bounded_by(w, axis, cell.hi[k], false))
-            w = clipped(std::move(w), plane(PlaneName::wall(axis, cell.hi[k])), -1);
+        if (box.hi[k] > (cell.hi[k] >> splitting_bits) &&
+            !is_bounded_by(w, axis, cell.hi[k], false))
+            w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.hi[k])), -1);
         if (w.is_empty()) return w;
     }
     return w;

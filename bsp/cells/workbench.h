@@ -201,7 +201,7 @@ private:
                         const Approximation* known);
     PointId meet_on_edge(PlaneId support, PlaneId edge, PlaneId other, const Approximation* known);
     void add_fragment(const PolygonRef& ref, WorkPolygon& out);
-    [[nodiscard]] bool is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t wall,
+    [[nodiscard]] bool is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t splitter,
                                      bool above) const;
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 

@@ -28,7 +28,7 @@ namespace trisect {
 namespace {
 
 /// The cube's plane at the upper or lower end of an axis; the cube is below it.
-Plane wall(int axis, bool upper) {
+Plane splitter(int axis, bool upper) {
     if (upper) return Plane::axis_aligned(axis, 1, coordinate_limit);
     return Plane::axis_aligned(axis, 1, -coordinate_limit).flipped();
 }
@@ -64,11 +64,12 @@ ConvexPolygon section_of_space(const Plane& plane) {
     const int axis = plane.dominant_axis();
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
-    std::vector<Plane> edges{wall(v, false), wall(u, true), wall(v, true), wall(u, false)};
+    std::vector<Plane> edges{splitter(v, false), splitter(u, true), splitter(v, true),
+                             splitter(u, false)};
     if (plane.normal(axis) < 0) std::swap(edges[0], edges[2]);
     ConvexPolygon section(plane, std::move(edges));
     for (const bool upper : {false, true})
-        if (!keep_part(section, wall(axis, upper), Side::Below)) return {};
+        if (!keep_part(section, splitter(axis, upper), Side::Below)) return {};
     return section;
 }
 

@@ -16,7 +16,7 @@
 #include <trisect/bsp/cells/facet_in_cell.h>
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
-#include <trisect/bsp/divide/choose_wall.h>
+#include <trisect/bsp/divide/choose_splitting_plane.h>
 #include <trisect/bsp/divide/partition.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
@@ -55,9 +55,9 @@ void make_frame(CellTask& task) {
     if (!all.is_empty()) task.frame = Frame::covering(all);
 }
 
-bool has_wall(const CellOperand& o, const std::optional<Wall>& wall) {
-    return wall && !o.is_list && !o.node->is_leaf() && o.node->axis() == wall->axis &&
-           o.node->wall() == wall->position;
+bool has_splitter(const CellOperand& o, const std::optional<SplittingPlane>& splitter) {
+    return splitter && !o.is_list && !o.node->is_leaf() && o.node->axis() == splitter->axis &&
+           o.node->splitter() == splitter->position;
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ void OperandLists::flatten(const CellRef& tree, const Cell& cell, std::vector<Po
         for (std::size_t i = 0; i < 2; ++i)
             with_enough_stack([&] {
                 flatten(child_of(node, tree.complemented, i),
-                        i == 0 ? cell.below(node.axis(), node.wall())
-                               : cell.above(node.axis(), node.wall()),
+                        i == 0 ? cell.below(node.axis(), node.splitter())
+                               : cell.above(node.axis(), node.splitter()),
                         out);
             });
         return;
@@ -156,18 +156,19 @@ void OperandLists::make_leaf(CellOperand& operand, const Cell& cell) {
     operand.complemented = false;
 }
 
-void OperandLists::make(CellTask& task, const std::optional<Wall>& wall, std::uint32_t threads) {
+void OperandLists::make(CellTask& task, const std::optional<SplittingPlane>& splitter,
+                        std::uint32_t threads) {
     bool opened = false;
     for (CellOperand& o : task.operands) {
-        if (o.is_list || has_wall(o, wall)) continue;
+        if (o.is_list || has_splitter(o, splitter)) continue;
         make_leaf(o, task.cell);
         opened = true;
     }
     if (!opened) return;
-    const bool anew = task.has_frame && !wall;
+    const bool anew = task.has_frame && !splitter;
     if (anew || !task.has_frame) make_frame(task);
     for (CellOperand& o : task.operands) {
-        if (has_wall(o, wall)) continue;
+        if (has_splitter(o, splitter)) continue;
         if (!o.is_list) {
             open_leaf(o, task, arena_, threads);
         } else if (anew) {

@@ -25,7 +25,7 @@ public:
     /// Makes lists of all operands, except trees that have the splitting plane. When nothing but
     /// lists is left, the frame is made anew: the one so far may belong to one operand and be
     /// narrow. `threads` as in ParallelParts.
-    void make(CellTask& task, const std::optional<Wall>& wall, std::uint32_t threads);
+    void make(CellTask& task, const std::optional<SplittingPlane>& splitter, std::uint32_t threads);
 
     /// Makes leaves of subtrees, so that every operand is a list or a leaf: all that an arrangement
     /// needs, which looks at polygons and not at boxes in a frame.

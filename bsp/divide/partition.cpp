@@ -91,11 +91,11 @@ Ends distribute_exactly(const CellOperand& operand, std::span<const PackedBox> l
                         const Frame& frame, std::size_t axis, std::int64_t last_below,
                         int long_facet, Ends ends, const AddLong& add_long) {
     const bool covered = frame.covers(axis, last_below);
-    const int at_wall = frame.at(axis, last_below);
+    const int at_splitter = frame.at(axis, last_below);
     for (const PackedBox& e : list) {
-        bool below = e.low(axis) < at_wall;
-        bool above = e.high(axis) > at_wall;
-        if (!covered || e.low(axis) == at_wall || e.high(axis) == at_wall) {
+        bool below = e.low(axis) < at_splitter;
+        bool above = e.high(axis) > at_splitter;
+        if (!covered || e.low(axis) == at_splitter || e.high(axis) == at_splitter) {
             const Box b = operand.polygon(e.id).box();
             below = b.lo[axis] <= last_below;
             above = b.hi[axis] > last_below;
@@ -244,11 +244,11 @@ namespace {
 // A splitting plane, and what all lists of a task have in common there.
 class Division {
 public:
-    Division(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells)
+    Division(const CellTask& task, const SplittingPlane& splitter, const std::array<Cell, 2>& cells)
         : task_(task),
           cells_(cells),
-          axis_(static_cast<std::size_t>(wall.axis)),
-          last_(wall.last_below()),
+          axis_(static_cast<std::size_t>(splitter.axis)),
+          last_(splitter.last_below()),
           first_above_(task.frame.first_above(axis_, last_)),
           small_(task.size() < short_list),
           long_facet_(small_ ? long_facet_of(task, axis_) : unlimited) {}
@@ -357,11 +357,11 @@ void divide_both(Division& division, const ListToDivide& a, const ListToDivide& 
 
 }  // namespace
 
-void partition(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells,
-               StackArena& arena, std::uint32_t threads,
+void partition(const CellTask& task, const SplittingPlane& splitter,
+               const std::array<Cell, 2>& cells, StackArena& arena, std::uint32_t threads,
                const std::array<std::span<CellOperand>, 2>& out) {
     constexpr std::size_t large = 100'000;
-    Division division(task, wall, cells);
+    Division division(task, splitter, cells);
     std::optional<ListToDivide> waiting;  // a large one, for another at the same time
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& o = task.operands[i];

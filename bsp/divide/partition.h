@@ -27,8 +27,8 @@ void reframe(CellOperand& operand, const CellTask& task, StackArena& arena);
 /// Distributes the lists of a task to the cells below and above a splitting plane; `out` are copies
 /// of its operands, of which entries, counts and boxes of lists are set. In short lists a facet
 /// that is long for its cell is looked at itself, since it may pass by a cell that its box meets.
-void partition(const CellTask& task, const Wall& wall, const std::array<Cell, 2>& cells,
-               StackArena& arena, std::uint32_t threads,
+void partition(const CellTask& task, const SplittingPlane& splitter,
+               const std::array<Cell, 2>& cells, StackArena& arena, std::uint32_t threads,
                const std::array<std::span<CellOperand>, 2>& out);
 
 /// What of a cell lies within the limits of a frame, rounded outwards.

@@ -20,7 +20,8 @@ namespace trisect::detail {
 
 bool lies_outside(const FinePoint& p, const Box& box) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (p.c[k] < box.lo[k] * wall_scale || p.c[k] > box.hi[k] * wall_scale) return true;
+        if (p.c[k] < box.lo[k] * splitting_scale || p.c[k] > box.hi[k] * splitting_scale)
+            return true;
     return false;
 }
 
@@ -40,9 +41,11 @@ std::optional<int> winding_in_tree(const CellNode& root, bool complemented, cons
         if (node->is_leaf() && node->size() > 4 * refinable_leaf)
             if (const CellNode* fine = refined(*node, at)) node = fine;
         if (node->is_leaf()) break;
-        const std::size_t i = p.c[static_cast<std::size_t>(node->axis())] > node->wall() ? 1 : 0;
+        const std::size_t i =
+            p.c[static_cast<std::size_t>(node->axis())] > node->splitter() ? 1 : 0;
         const CellRef& c = node->child(static_cast<int>(i));
-        at = i == 0 ? at.below(node->axis(), node->wall()) : at.above(node->axis(), node->wall());
+        at = i == 0 ? at.below(node->axis(), node->splitter())
+                    : at.above(node->axis(), node->splitter());
         complemented = complemented != c.complemented;
         node = unfolded(c.node.get());
     }
@@ -58,8 +61,8 @@ namespace {
 Box box_around(const FinePoint& a, const FinePoint& b) {
     Box segment;
     for (std::size_t k = 0; k < 3; ++k) {
-        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> wall_bits) - 1;
-        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> wall_bits) + 2;
+        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> splitting_bits) - 1;
+        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> splitting_bits) + 2;
     }
     return segment;
 }
@@ -104,16 +107,16 @@ bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> ax
 // The same for a point straight behind a splitting plane, on whose other side the reference lies.
 // What meets the way there reaches over to that side, unless the way passes a lattice position
 // behind the splitting plane.
-bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
-               const CellTask& other_side, CellTask& out) {
-    const auto k = static_cast<std::size_t>(wall.axis);
-    if (p.c[k] >> wall_bits != wall.last_below() || p.c[k] % wall_scale == 0)
-        return windings_at(task, p, wall.axis, out);
+bool pass_splitter(const CellTask& task, const SplittingPlane& splitter, const FinePoint& p,
+                   const CellTask& other_side, CellTask& out) {
+    const auto k = static_cast<std::size_t>(splitter.axis);
+    if (p.c[k] >> splitting_bits != splitter.last_below() || p.c[k] % splitting_scale == 0)
+        return windings_at(task, p, splitter.axis, out);
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& o = task.operands[i];
-        const std::optional<int> w = o.is_list
-                                         ? list_winding(task, other_side.operands[i], p, wall.axis)
-                                         : winding_in_tree(*o.node, o.complemented, task.cell, p);
+        const std::optional<int> w =
+            o.is_list ? list_winding(task, other_side.operands[i], p, splitter.axis)
+                      : winding_in_tree(*o.node, o.complemented, task.cell, p);
         if (!w) return false;
         out.operands[i].winding = *w;
     }
@@ -123,8 +126,9 @@ bool pass_wall(const CellTask& task, const Wall& wall, const FinePoint& p,
 
 }  // namespace
 
-bool place_reference(const CellTask& task, const Wall& wall, int which, CellChildren& children) {
-    const auto k = static_cast<std::size_t>(wall.axis);
+bool place_reference(const CellTask& task, const SplittingPlane& splitter, int which,
+                     CellChildren& children) {
+    const auto k = static_cast<std::size_t>(splitter.axis);
     CellTask& out = children[static_cast<std::size_t>(which)];
     const CellTask& other_side = children[static_cast<std::size_t>(1 - which)];
     if (out.cell.contains(task.reference)) {
@@ -145,8 +149,8 @@ bool place_reference(const CellTask& task, const Wall& wall, int which, CellChil
     // Straight through the splitting plane; the segment hits little.
     FinePoint p = task.reference;
     for (const std::int64_t step : {3, 37, 59, 101}) {
-        p.c[k] = wall.position + (which == 0 ? -step : step);
-        if (out.cell.contains(p) && pass_wall(task, wall, p, other_side, out)) return true;
+        p.c[k] = splitter.position + (which == 0 ? -step : step);
+        if (out.cell.contains(p) && pass_splitter(task, splitter, p, other_side, out)) return true;
     }
     // Then anywhere near the polygons.
     Box around;
@@ -163,10 +167,13 @@ bool place_reference(const CellTask& task, const Wall& wall, int which, CellChil
     for (std::uint64_t attempt = 1; attempt <= 200; ++attempt) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // Near the polygons, or at the end of the cell that is nearest to them.
-            std::int64_t lo = std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * wall_scale);
-            std::int64_t hi = std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * wall_scale);
-            if (hi - lo < wall_scale / 2) {
-                const bool cell_is_above = (around.hi[axis] + 2) * wall_scale < out.cell.hi[axis];
+            std::int64_t lo =
+                std::max(out.cell.lo[axis] + 1, (around.lo[axis] - 2) * splitting_scale);
+            std::int64_t hi =
+                std::min(out.cell.hi[axis] - 1, (around.hi[axis] + 2) * splitting_scale);
+            if (hi - lo < splitting_scale / 2) {
+                const bool cell_is_above =
+                    (around.hi[axis] + 2) * splitting_scale < out.cell.hi[axis];
                 lo = cell_is_above ? out.cell.lo[axis] + 1
                                    : std::max(out.cell.lo[axis] + 1, out.cell.hi[axis] - 512);
                 hi = std::min(out.cell.hi[axis] - 1, lo + 512);

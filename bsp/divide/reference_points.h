@@ -26,7 +26,7 @@ using CellChildren = std::array<CellTask, 2>;
 
 /// Gives a child of the task's cell its reference point and its operands their winding numbers
 /// there. \pre both children have their operands. False when no point was found.
-[[nodiscard]] bool place_reference(const CellTask& task, const Wall& wall, int which,
+[[nodiscard]] bool place_reference(const CellTask& task, const SplittingPlane& splitter, int which,
                                    CellChildren& children);
 
 }  // namespace trisect::detail

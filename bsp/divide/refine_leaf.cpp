@@ -29,7 +29,7 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::int64_t wall_offset = 83;
+constexpr std::int64_t splitting_offset = 83;
 // Levels made at once. More cost the first visitor more, fewer mean that corners are looked up more
 // often.
 constexpr int levels_at_once = 4;
@@ -85,7 +85,7 @@ private:
                                                                    const Cut& cut);
     [[nodiscard]] std::optional<KnownPoint> reference_beyond(const ListInCell& list,
                                                              const Cell& cell, int axis,
-                                                             std::int64_t wall,
+                                                             std::int64_t splitter,
                                                              std::int64_t direction) const;
     [[nodiscard]] std::shared_ptr<const CellNode> split(const ListInCell& list, int level);
     [[nodiscard]] CellRef node_of(const ListInCell& list, int level);
@@ -148,19 +148,19 @@ std::optional<Cut> Halving::longest(const ListInCell& list, int shortest) const 
 
 // The list's reference moved through the splitting plane, with the winding number there.
 std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, const Cell& cell,
-                                                    int axis, std::int64_t wall,
+                                                    int axis, std::int64_t splitter,
                                                     std::int64_t direction) const {
     const auto k = static_cast<std::size_t>(axis);
     const KnownPoint& from = list.reference;
     for (const std::int64_t step : {3, 37, 59, 101, 1001, 10001}) {
         FinePoint p = from.at;
-        p.c[k] = wall + direction * step;
+        p.c[k] = splitter + direction * step;
         if (!cell.contains(p)) continue;
         AxisTrace trace(from.at, p, axis);
         Box segment;
         for (std::size_t i = 0; i < 3; ++i) {
-            segment.lo[i] = (std::min(p.c[i], from.at.c[i]) >> wall_bits) - 1;
-            segment.hi[i] = (std::max(p.c[i], from.at.c[i]) >> wall_bits) + 2;
+            segment.lo[i] = (std::min(p.c[i], from.at.c[i]) >> splitting_bits) - 1;
+            segment.hi[i] = (std::max(p.c[i], from.at.c[i]) >> splitting_bits) + 2;
         }
         const PackedReach reach(PackedBox::of(frame_, segment));
         for (const auto& part : {list.contained, list.crossing})
@@ -180,16 +180,16 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
     const auto is_below = [&](const PackedBox& e) { return e.lo[cut.axis] < q; };
     const auto is_above = [&](const PackedBox& e) { return e.minus_hi[cut.axis] <= minus_q; };
     const int axis = static_cast<int>(cut.axis);
-    const std::int64_t wall =
-        frame_.last_below(cut.axis, cut.first_above) * wall_scale + wall_offset;
+    const std::int64_t splitter =
+        frame_.last_below(cut.axis, cut.first_above) * splitting_scale + splitting_offset;
 
     std::array<ListInCell, 2> out;
-    out[0].cell = list.cell.below(axis, wall);
-    out[1].cell = list.cell.above(axis, wall);
+    out[0].cell = list.cell.below(axis, splitter);
+    out[1].cell = list.cell.above(axis, splitter);
     for (std::size_t i = 0; i < 2; ++i) {
         out[i].reference = list.reference;
         if (out[i].cell.contains(list.reference.at)) continue;
-        const auto moved = reference_beyond(list, out[i].cell, axis, wall, i == 0 ? -1 : 1);
+        const auto moved = reference_beyond(list, out[i].cell, axis, splitter, i == 0 ? -1 : 1);
         if (!moved) return std::nullopt;
         out[i].reference = *moved;
     }
@@ -232,11 +232,11 @@ std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level
     // Both halves nearly as large as the whole: a splitting plane that separates nothing.
     const std::size_t most = list.size() - list.size() / 16;
     if (halves && ((*halves)[0].size() <= most || (*halves)[1].size() <= most)) {
-        const std::int64_t wall = (*halves)[0].cell.hi[cut->axis];
+        const std::int64_t splitter = (*halves)[0].cell.hi[cut->axis];
         CellRef below = node_of((*halves)[0], level);
         CellRef above = node_of((*halves)[1], level);
-        node =
-            CellNode::split(static_cast<int>(cut->axis), wall, std::move(below), std::move(above));
+        node = CellNode::split(static_cast<int>(cut->axis), splitter, std::move(below),
+                               std::move(above));
     }
     arena_.release(mark);
     return node;
@@ -283,8 +283,8 @@ void refine_below(const CellNode& node, const Cell& cell, bool parallel) {
         if (at == nullptr) return;
     }
     const auto below = [&](int i) {
-        const Cell c =
-            i == 0 ? cell.below(at->axis(), at->wall()) : cell.above(at->axis(), at->wall());
+        const Cell c = i == 0 ? cell.below(at->axis(), at->splitter())
+                              : cell.above(at->axis(), at->splitter());
         refine_below(*at->child(i).node, c, parallel);
     };
     if (parallel && at->size() > 64 * refinable_leaf) {

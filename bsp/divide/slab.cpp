@@ -33,7 +33,7 @@ public:
 private:
     void walk(const Residual& formula);
     void cover_terms(const std::vector<std::int32_t>& slots);
-    [[nodiscard]] bool covers(const Slab& slab, const CellOperand& o) const;
+    [[nodiscard]] bool containments(const Slab& slab, const CellOperand& o) const;
     [[nodiscard]] bool is_outside_at(const CellOperand& o, std::size_t axis,
                                      std::int64_t position) const;
     void drop(const Slab& slab, const CellOperand& o);
@@ -96,20 +96,20 @@ void Covering::cover_terms(const std::vector<std::int32_t>& slots) {
             if (other != slabs_.end() && other - slabs_.begin() < static_cast<std::ptrdiff_t>(i) &&
                 other->axis == slab.axis && other->lo == slab.lo && other->hi == slab.hi)
                 continue;
-            if (const CellOperand& o = *operands_.at(s); covers(slab, o)) drop(slab, o);
+            if (const CellOperand& o = *operands_.at(s); containments(slab, o)) drop(slab, o);
         }
     }
 }
 
-bool Covering::covers(const Slab& slab, const CellOperand& o) const {
+bool Covering::containments(const Slab& slab, const CellOperand& o) const {
     const std::size_t k = slab.axis;
     if (o.unbounded || !o.embedded || !o.is_list) return false;
     const bool has_lo = slab.lo != task_.cell.lo[k];
     const bool has_hi = slab.hi != task_.cell.hi[k];
     for (const PackedBox& e : o.list()) {
         const Box box = o.polygon(e.id).box();
-        if (has_lo && box.lo[k] * wall_scale < slab.lo) return false;
-        if (has_hi && box.hi[k] * wall_scale > slab.hi) return false;
+        if (has_lo && box.lo[k] * splitting_scale < slab.lo) return false;
+        if (has_hi && box.hi[k] * splitting_scale > slab.hi) return false;
     }
     // Nothing of the operand's boundary is beyond the slab, so one point there decides.
     const auto between = [](std::int64_t a, std::int64_t b) { return a + (b - a) / 2; };
@@ -177,7 +177,7 @@ std::optional<Slab> slab_of(const CellOperand& operand, const CellTask& task) {
     return slab;
 }
 
-bool find_covered(const CellTask& task, SlotValues& values, std::vector<FacetName>& incomplete) {
+bool find_contained(const CellTask& task, SlotValues& values, std::vector<FacetName>& incomplete) {
     return Covering(task, values, incomplete).run();
 }
 

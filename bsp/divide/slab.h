@@ -29,6 +29,6 @@ struct Slab {
 /// Finds the operands of unions that lie within another operand of the union that is a slab, and
 /// sets their values to outside. Facets that lie in a bound of the slab and reach into other cells
 /// are missing in this one: they are added to `incomplete`. Returns whether there are any.
-bool find_covered(const CellTask& task, SlotValues& values, std::vector<FacetName>& incomplete);
+bool find_contained(const CellTask& task, SlotValues& values, std::vector<FacetName>& incomplete);
 
 }  // namespace trisect::detail

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <memory>
 
-#include <trisect/bsp/leaf/doubles/plain_leaf.h>
+#include <trisect/bsp/leaf/doubles/filtered_leaf.h>
 #include <trisect/bsp/leaf/exact/exact_leaf.h>
 #include <trisect/bsp/leaf/grid/axis_leaf.h>
 #include <trisect/bsp/leaf/prism/prism_leaf.h>
@@ -16,7 +16,7 @@ namespace trisect::detail {
 /// All arrangements of leaves, for one thread.
 struct LeafArrangers {
     AxisLeaf grid;
-    PlainLeaf doubles;
+    FilteredLeaf doubles;
     PrismLeaf prisms;
     ExactLeaf exact;
     std::size_t largest_leaf = 0;  ///< polygons of the largest leaf so far

@@ -25,9 +25,9 @@ namespace {
 // scale: an even offset could put a splitting plane through one, and so could an offset of a unit
 // or more.
 void expect_valid(const EvaluateOptions& options) {
-    if (options.wall_offset % 2 == 0 || options.wall_offset >= detail::wall_scale)
-        throw UsageError("EvaluateOptions::wall_offset: must be odd and below " +
-                         std::to_string(detail::wall_scale));
+    if (options.splitting_offset % 2 == 0 || options.splitting_offset >= detail::splitting_scale)
+        throw UsageError("EvaluateOptions::splitting_offset: must be odd and below " +
+                         std::to_string(detail::splitting_scale));
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     constant_cells += part.constant_cells;
     mixed_leaves += part.mixed_leaves;
     grid_leaves += part.grid_leaves;
-    plain_leaves += part.plain_leaves;
-    plain_fragments += part.plain_fragments;
+    filtered_leaves += part.filtered_leaves;
+    filtered_fragments += part.filtered_fragments;
     prism_leaves += part.prism_leaves;
     exact_leaves += part.exact_leaves;
     divided_cells += part.divided_cells;

@@ -37,7 +37,7 @@
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
-#include <trisect/bsp/divide/choose_wall.h>
+#include <trisect/bsp/divide/choose_splitting_plane.h>
 #include <trisect/bsp/divide/operand_lists.h>
 #include <trisect/bsp/divide/partition.h>
 #include <trisect/bsp/divide/reference_points.h>
@@ -45,7 +45,7 @@
 #include <trisect/bsp/divide/shared_list.h>
 #include <trisect/bsp/divide/slab.h>
 #include <trisect/bsp/evaluate/arranger_pool.h>
-#include <trisect/bsp/evaluate/covered_cells.h>
+#include <trisect/bsp/evaluate/contained_cells.h>
 #include <trisect/bsp/evaluate/root_task.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
@@ -96,7 +96,7 @@ public:
         return with_enough_stack([&] { return solve(task); });
     }
     [[nodiscard]] const LeafFindings& findings() const { return findings_; }
-    [[nodiscard]] const CoveredCells& covered() const { return covered_; }
+    [[nodiscard]] const ContainedCells& covered() const { return covered_; }
     [[nodiscard]] StackArena& arena() { return arena_; }
     /// Last, and only when nothing was thrown.
     void give_back_arrangers() noexcept { ArrangerPool::give_back(std::move(arrangers_)); }
@@ -123,7 +123,7 @@ private:
                                                   CellTask& task);
     [[nodiscard]] std::optional<CellRef> make_constant(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> share(CellTask& task) override;
-    [[nodiscard]] std::optional<CellRef> peel(CellTask& task) override;
+    [[nodiscard]] std::optional<CellRef> trim(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> divide(CellTask& task) override;
 
     void list(CellTask& task, Listed& out);
@@ -137,8 +137,9 @@ private:
     [[nodiscard]] PolygonList kept_list(std::vector<PolygonRef> polygons);
     [[nodiscard]] std::unique_ptr<DeferredLeaf> problem_of(const CellTask& task);
 
-    CellRef solve_children(const CellTask& task, const Wall& wall, Children& children);
-    Children children_of(const CellTask& task, const Wall& wall);
+    CellRef solve_children(const CellTask& task, const SplittingPlane& splitter,
+                           Children& children);
+    Children children_of(const CellTask& task, const SplittingPlane& splitter);
 
     Shared& shared_;
     const EvaluateOptions& options_;
@@ -146,7 +147,7 @@ private:
     std::vector<std::uint8_t> used_;
     std::unique_ptr<LeafArrangers> arrangers_ = ArrangerPool::take();
     LeafFindings findings_;
-    CoveredCells covered_;
+    ContainedCells covered_;
     Workbench bench_;
     StackArena arena_;
     OperandLists lists_{arena_, bench_};
@@ -169,7 +170,7 @@ void Worker::prune(CellTask& task) {
     }
     if (any) drop(task);
     // What is left may overlap itself.
-    if (task.operands.size() > 2 && find_covered(task, values_, findings_.incomplete)) drop(task);
+    if (task.operands.size() > 2 && find_contained(task, values_, findings_.incomplete)) drop(task);
 }
 
 // Takes operands with a value out of the formula, and those that it then does not name.
@@ -207,7 +208,7 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
     for (const CellOperand& o : task.operands) {
         if (o.is_list) {
             for (const PackedBox& e : o.list())
-                findings_.note_doubtful(o.slot, o.polygon(e.id).facet);
+                findings_.note_uncertain(o.slot, o.polygon(e.id).facet);
         } else {
             note_all(o.slot, *o.node);
         }
@@ -217,7 +218,7 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
 // All facets that the leaves below a node list.
 void Worker::note_all(std::int32_t slot, const CellNode& node) {
     if (node.is_leaf()) {
-        for (const PolygonRef& r : node.polygons()) findings_.note_doubtful(slot, r.facet);
+        for (const PolygonRef& r : node.polygons()) findings_.note_uncertain(slot, r.facet);
         return;
     }
     for (int i = 0; i < 2; ++i) with_enough_stack([&] { note_all(slot, *node.child(i).node); });
@@ -339,9 +340,9 @@ CellRef Worker::keep(LeafUncrossed made, const CellTask& task, bool inside) {
 
 CellRef Worker::keep(LeafPicture made, const CellTask& task, bool inside) {
     auto leaf = problem_of(task);
-    shared_.memory.keep(made.picture->bytes());
-    const std::uint64_t size = made.picture->facets.size();
-    leaf->known = std::move(made.picture);
+    shared_.memory.keep(made.occupancy->bytes());
+    const std::uint64_t size = made.occupancy->facets.size();
+    leaf->known = std::move(made.occupancy);
     return {CellNode::deferred(std::move(leaf), inside ? 1 : 0, size), false};
 }
 
@@ -380,13 +381,13 @@ std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
 
 // --- Step 3: divide.
 
-std::optional<Wall> wall_of_trees(const CellTask& task) {
+std::optional<SplittingPlane> splitter_of_trees(const CellTask& task) {
     const CellOperand* largest = nullptr;
     for (const CellOperand& o : task.operands)
         if (!o.is_list && !o.node->is_leaf() && (largest == nullptr || o.size() > largest->size()))
             largest = &o;
     if (largest == nullptr) return std::nullopt;
-    return Wall{largest->node->axis(), largest->node->wall()};
+    return SplittingPlane{largest->node->axis(), largest->node->splitter()};
 }
 
 // A leaf of a solid that outnumbers everything else in the cell is refined for good.
@@ -403,12 +404,12 @@ void refine_large(CellTask& task) {
 }
 
 // Both children of a cell. Their lists are in the arena.
-Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
+Worker::Children Worker::children_of(const CellTask& task, const SplittingPlane& splitter) {
     Children out;
     for (std::size_t i = 0; i < 2; ++i) {
         CellTask& c = out[i];
-        c.cell = i == 0 ? task.cell.below(wall.axis, wall.position)
-                        : task.cell.above(wall.axis, wall.position);
+        c.cell = i == 0 ? task.cell.below(splitter.axis, splitter.position)
+                        : task.cell.above(splitter.axis, splitter.position);
         c.frame = task.frame;
         c.has_frame = task.has_frame;
         c.formula = task.formula;
@@ -426,32 +427,34 @@ Worker::Children Worker::children_of(const CellTask& task, const Wall& wall) {
             c.complemented = child.complemented != o.complemented;
         }
     }
-    partition(task, wall, cells, arena_, threads(), {out[0].operands, out[1].operands});
+    partition(task, splitter, cells, arena_, threads(), {out[0].operands, out[1].operands});
     for (int i = 0; i < 2; ++i)
-        TRISECT_EXPECTS(place_reference(task, wall, i, out), "no reference point found in a cell");
+        TRISECT_EXPECTS(place_reference(task, splitter, i, out),
+                        "no reference point found in a cell");
     return out;
 }
 
-std::optional<CellRef> Worker::peel(CellTask& task) {
-    const auto wall = peeling_wall(task, least_peeled, options_.wall_offset);
-    if (!wall) return std::nullopt;
-    Children children = children_of(task, *wall);
-    return solve_children(task, *wall, children);
+std::optional<CellRef> Worker::trim(CellTask& task) {
+    const auto splitter = trimming_plane(task, least_trimmed, options_.splitting_offset);
+    if (!splitter) return std::nullopt;
+    Children children = children_of(task, *splitter);
+    return solve_children(task, *splitter, children);
 }
 
 std::optional<CellRef> Worker::divide(CellTask& task) {
     refine_large(task);
-    std::optional<Wall> wall = wall_of_trees(task);
-    lists_.make(task, wall, threads());
-    if (!wall) {
+    std::optional<SplittingPlane> splitter = splitter_of_trees(task);
+    lists_.make(task, splitter, threads());
+    if (!splitter) {
         lists_.refine_frame(task);
-        if (!walls_have_failed(task)) wall = choose_wall(task, options_.wall_offset);
+        if (!walls_have_failed(task))
+            splitter = choose_splitting_plane(task, options_.splitting_offset);
     }
-    if (!wall) return std::nullopt;
-    Children children = children_of(task, *wall);
+    if (!splitter) return std::nullopt;
+    Children children = children_of(task, *splitter);
     const int stalled = stalled_after(task, children[0].size(), children[1].size());
     for (CellTask& c : children) c.stalled = stalled;
-    return solve_children(task, *wall, children);
+    return solve_children(task, *splitter, children);
 }
 
 bool is_homogeneous(const CellRef& r) { return r.node->is_leaf() && r.node->size() == 0; }
@@ -479,18 +482,21 @@ std::optional<CellRef> unchanged(const CellTask& task, const std::array<CellRef,
 }
 
 // What a cell is, when the two sides of its splitting plane are known.
-CellRef merged(const CellTask& task, const Wall& wall, std::array<CellRef, 2> results) {
+CellRef merged(const CellTask& task, const SplittingPlane& splitter,
+               std::array<CellRef, 2> results) {
     if (auto node = unchanged(task, results)) return *std::move(node);
     if (is_homogeneous(results[0]) && is_homogeneous(results[1]) &&
         value_at_reference(results[0]) == value_at_reference(results[1]))
         return {
             CellNode::leaf(PolygonList(), task.reference, value_at_reference(results[0]), false),
             false};
-    return {CellNode::split(wall.axis, wall.position, std::move(results[0]), std::move(results[1])),
+    return {CellNode::split(splitter.axis, splitter.position, std::move(results[0]),
+                            std::move(results[1])),
             false};
 }
 
-CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children& children) {
+CellRef Worker::solve_children(const CellTask& task, const SplittingPlane& splitter,
+                               Children& children) {
     std::uint64_t listed = 0;
     for (const CellTask& c : children)
         for (const CellOperand& o : c.operands)
@@ -505,7 +511,7 @@ CellRef Worker::solve_children(const CellTask& task, const Wall& wall, Children&
     } else {
         for (std::size_t i = 0; i < 2; ++i) results[i] = deep_solve(children[i]);
     }
-    return merged(task, wall, std::move(results));
+    return merged(task, splitter, std::move(results));
 }
 
 CellRef Worker::solve(CellTask& task) {
@@ -585,7 +591,7 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
         result.tree.root = solve_root(shared, formula, solids);
     }
     if (crossings) {
-        CoveredCells covered;
+        ContainedCells covered;
         std::vector<std::uint32_t> seen;
         shared.workers.for_each([&](const Worker& worker) {
             const LeafFindings& found = worker.findings();

@@ -78,7 +78,7 @@ private:
 
     [[nodiscard]] std::int64_t shifted(std::int64_t v) const {
         if (shift_ >= 62 || v > (universe_limit >> shift_) || v < -(universe_limit >> shift_))
-            throw LimitError("a cell wall leaves the range of the common lattice of unit 2^" +
+            throw LimitError("a cell splitter leaves the range of the common lattice of unit 2^" +
                              std::to_string(exponent_));
         return v << shift_;
     }
@@ -95,7 +95,7 @@ private:
         if (ref.fragment == nullptr) return out;
         std::vector<EdgeName> edges;
         for (EdgeName e : ref.fragment->edges()) {
-            if (e.plane.is_wall()) {
+            if (e.plane.is_splitter()) {
                 e.plane.owner = static_cast<std::uint64_t>(shifted(e.plane.position()));
             } else {
                 e.plane.owner = reinterpret_cast<std::uintptr_t>(renamed(e.plane.source()));
@@ -124,8 +124,8 @@ private:
             for (int i = 0; i < 2; ++i) {
                 CellRef c = node.child(i);
                 c.complemented = c.complemented != ref.complemented;
-                const Cell part = i == 0 ? cell.below(node.axis(), node.wall())
-                                         : cell.above(node.axis(), node.wall());
+                const Cell part = i == 0 ? cell.below(node.axis(), node.splitter())
+                                         : cell.above(node.axis(), node.splitter());
                 with_enough_stack([&] { visit(c, part); });
             }
             return;

@@ -41,14 +41,15 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sol
     }
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
-        p.c[k] = all.is_empty() ? 0 : (all.lo[k] - 3) * wall_scale + 2 * static_cast<int>(k) + 12;
+        p.c[k] =
+            all.is_empty() ? 0 : (all.lo[k] - 3) * splitting_scale + 2 * static_cast<int>(k) + 12;
     return p;
 }
 
 bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::max(a.c[k], b.c[k]) < box.lo[k] * wall_scale ||
-            std::min(a.c[k], b.c[k]) > box.hi[k] * wall_scale)
+        if (std::max(a.c[k], b.c[k]) < box.lo[k] * splitting_scale ||
+            std::min(a.c[k], b.c[k]) > box.hi[k] * splitting_scale)
             return true;
     return false;
 }

@@ -16,7 +16,7 @@
 #include <trisect/bsp/evaluate/evaluator.h>
 #include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
-#include <trisect/bsp/two_meshes/undivided_meshes.h>
+#include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
@@ -37,8 +37,8 @@ constexpr int most_stalled = 3;
 constexpr int most_stalled_of_many = 12;
 constexpr int most_depth = 400;
 
-// Pairs are what a leaf costs. Both sides of a wall may have such a part of those of the cell for
-// it to be worth it, and for it to be of any use.
+// Pairs are what a leaf costs. Both sides of a splitter may have such a part of those of the cell
+// for it to be worth it, and for it to be of any use.
 constexpr double large_cell = 4000;
 constexpr double worthy_part = 0.8;
 constexpr double worthy_part_of_large = 1.6;
@@ -66,10 +66,10 @@ bool is_of_one_operand(const CellView& view) {
 // A leaf looks at each of its polygons for some hundred instructions more than a list that is
 // shared does. So what one operand has beside the other one is cut off where that is enough to pay
 // for two cells more. Not in chains, where every later step meets those cells again.
-bool may_be_peeled(const CellView& view) {
+bool may_be_trimmed(const CellView& view) {
     const CellTask& task = view.task;
     return !view.undividable && view.size <= view.options.leaf_polygons && view.collects &&
-           task.operands.size() == 2 && view.size >= least_peeled && task.stalled == 0 &&
+           task.operands.size() == 2 && view.size >= least_trimmed && task.stalled == 0 &&
            std::ranges::all_of(task.operands, &CellOperand::is_list);
 }
 
@@ -105,9 +105,9 @@ bool may_be_prisms(const CellView& view) {
 
 bool is_any(const CellView&) { return true; }
 
-// A wall pays where an operand is all on one side of it, and most where it covers the other side.
-// Small operands do not cover much, and walls cut most of their facets, so that these are listed
-// and compared again and again.
+// A splitter pays where an operand is all on one side of it, and most where it containments the
+// other side. Small operands do not containment much, and splitters cut most of their facets, so
+// that these are listed and compared again and again.
 bool are_small_operands(const CellView& view) {
     if (view.is_small() || !view.collects || view.task.operands.size() < 3) return false;
     std::uint64_t all = 0;
@@ -149,8 +149,8 @@ constexpr std::array all_rules{
     Rule{"two meshes",
          "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
          "limit",
-         "uncrossed facets, crossings", &Stats::plain_leaves,
-         FormulaRule{&are_meshes_of_a_size, &evaluate_undivided}},
+         "uncrossed facets, crossings", &Stats::filtered_leaves,
+         FormulaRule{&are_meshes_of_a_size, &evaluate_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",
@@ -158,19 +158,19 @@ constexpr std::array all_rules{
          CellRule{&is_of_one_operand, &CellSteps::share}},
     Rule{"trim", "two lists of imported meshes in a small cell, 16 facets of one beside the other",
          "a splitting plane and two cells", &Stats::divided_cells,
-         CellRule{&may_be_peeled, &CellSteps::peel}},
+         CellRule{&may_be_trimmed, &CellSteps::trim}},
     Rule{"grid", "up to 8 leaves; all facets axis-perpendicular",
          "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
          LeafRule{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
     Rule{"general position", "one leaf; embedded operands in general position",
-         "fragments; of imported meshes uncrossed facets and crossings", &Stats::plain_leaves,
+         "fragments; of imported meshes uncrossed facets and crossings", &Stats::filtered_leaves,
          by_doubles(usual_leaf, &is_any)},
     Rule{"prisms", "up to 40 leaves; prisms along one axis, whole in the cell", "fragments",
          &Stats::prism_leaves,
          LeafRule{prism_leaf_factor, &may_be_prisms, &arranger<&LeafArrangers::prisms>}},
     Rule{"small operands",
          "up to 8 leaves; three imported meshes or more, an eighth of their facets in the cell",
-         "as in general position", &Stats::plain_leaves,
+         "as in general position", &Stats::filtered_leaves,
          by_doubles(small_operands_leaf, &are_small_operands)},
     Rule{"exact", "one leaf; any polygons", "fragments", &Stats::exact_leaves,
          LeafRule{usual_leaf, &is_any, &arranger<&LeafArrangers::exact>}},
@@ -267,10 +267,10 @@ bool walls_have_failed(const CellTask& task) {
            task.depth > most_depth;
 }
 
-// A wall that leaves most pairs on its sides was not worth it, and after a few such walls none will
-// be: long thin facets cross all of them. Where many facets meet in a corner, though, walls around
-// the corner cut off small cells at little cost. Walls that make more pairs than there were never
-// pay: a pair costs a few nanoseconds.
+// A splitter that leaves most pairs on its sides was not worth it, and after a few such splitters
+// none will be: long thin facets cross all of them. Where many facets meet in a corner, though,
+// splitters around the corner cut off small cells at little cost. Walls that make more pairs than
+// there were never pay: a pair costs a few nanoseconds.
 int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second) {
     const auto total = static_cast<double>(task.size());
     const auto a = static_cast<double>(first);

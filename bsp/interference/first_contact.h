@@ -39,15 +39,15 @@ struct FirstContactOptions {
     /// begins there (facing_cones.cpp has the proof). The answer is the same either way. Off, since
     /// the search seldom comes to such parts: a tenth of the tests of boxes at most in what was
     /// measured, for less than the cones cost.
-    bool leave_out_parting = false;
+    bool leave_out_receding = false;
 };
 
 /// What a search did, besides motion_counters().
 struct FirstContactStats {
-    std::uint64_t intervals = 0;       ///< parts of the range of the parameter looked at
-    std::uint64_t box_tests = 0;       ///< one swept box against four
-    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles whose events were computed
-    std::uint64_t parting_pairs = 0;   ///< pairs of boxes left out since they move apart
+    std::uint64_t intervals = 0;         ///< parts of the range of the parameter looked at
+    std::uint64_t box_tests = 0;         ///< one swept box against four
+    std::uint64_t triangle_pairs = 0;    ///< pairs of triangles whose events were computed
+    std::uint64_t separating_pairs = 0;  ///< pairs of boxes left out since they move apart
 };
 
 struct FirstContact {

@@ -6,10 +6,10 @@
 
 namespace trisect::detail {
 
-void LeafFindings::note_doubtful(const LeafProblem& problem) {
+void LeafFindings::note_uncertain(const LeafProblem& problem) {
     if (!crossings) return;
     for (const LeafOperand& o : problem.operands)
-        for (const PolygonRef& r : o.polygons) note_doubtful(o.slot, r.facet);
+        for (const PolygonRef& r : o.polygons) note_uncertain(o.slot, r.facet);
 }
 
 std::optional<LeafResult> LeafArrangement::arrange(const LeafProblem& problem,

@@ -10,11 +10,11 @@
 #include <variant>
 #include <vector>
 
-#include <trisect/bsp/cells/axis_picture.h>
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 
@@ -34,7 +34,7 @@ struct LeafUncrossed {
 
 /// Polygons across axes as a grid of bits; facets of imported meshes are still to be cut.
 struct LeafPicture {
-    std::unique_ptr<const AxisPicture> picture;
+    std::unique_ptr<const OccupancyGrid> occupancy;
 };
 
 /// Facets that bound the result as they are, and outlines of all else.
@@ -57,11 +57,11 @@ struct LeafFindings {
     std::vector<std::uint32_t> seen;
 
     /// A facet of an operand may cross others where no leaf compares them. \pre crossings
-    void note_doubtful(std::int32_t slot, std::uint32_t facet) {
-        crossings->doubtful.push_back(crossings->number_of(static_cast<std::size_t>(slot), facet));
+    void note_uncertain(std::int32_t slot, std::uint32_t facet) {
+        crossings->uncertain.push_back(crossings->number_of(static_cast<std::size_t>(slot), facet));
     }
     /// The same of all facets of a leaf, if crossings are collected.
-    void note_doubtful(const LeafProblem& problem);
+    void note_uncertain(const LeafProblem& problem);
 };
 
 /// Scratch memory that one thread uses for all its leaves of a kind. What it returns depends on the

@@ -17,7 +17,7 @@ void LeafWork::start(const LeafProblem& leaf, EvaluateStats& counters) {
     pieces.clear();
     steps.clear();
     incomplete.clear();
-    sheets_.clear();
+    surfaces_.clear();
     for (std::size_t o = 0; o < leaf.operands.size(); ++o) add_operand(static_cast<LeafIndex>(o));
     contacts_.clear();
     first_contact_.assign(items.size() + 1, 0);
@@ -27,7 +27,7 @@ void LeafWork::add_operand(LeafIndex operand) {
     const LeafOperand& o = problem->operands[as_index(operand)];
     const Box cell = problem->cell.lattice_box();
     const Source* source = nullptr;
-    LeafIndex sheet = -1;
+    LeafIndex surface = -1;
     for (const PolygonRef& ref : o.polygons) {
         LeafItem& item = items.emplace_back();
         item.ref = ref;
@@ -37,9 +37,9 @@ void LeafWork::add_operand(LeafIndex operand) {
         item.side_of_reference = 2;
         if (ref.source != source) {
             source = ref.source;
-            sheet = sheet_of(source, operand);
+            surface = surface_of(source, operand);
         }
-        item.sheet = sheet;
+        item.surface = surface;
         const Box& box = ref.box();
         item.contained = problem->cell.contains(box);
         // A cell without lattice points still has an inside: keep one unit around it.
@@ -55,9 +55,9 @@ void LeafWork::add_operand(LeafIndex operand) {
     }
 }
 
-LeafIndex LeafWork::sheet_of(const Source* source, LeafIndex operand) {
+LeafIndex LeafWork::surface_of(const Source* source, LeafIndex operand) {
     const Key128 key{reinterpret_cast<std::uintptr_t>(source), static_cast<std::uint64_t>(operand)};
-    return sheets_.insert(key, static_cast<LeafIndex>(sheets_.size())).first;
+    return surfaces_.insert(key, static_cast<LeafIndex>(surfaces_.size())).first;
 }
 
 void LeafWork::set_contacts(std::span<const std::pair<LeafIndex, LeafContact>> pairs) {

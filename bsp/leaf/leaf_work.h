@@ -20,23 +20,23 @@ struct LeafItem {
     PolygonRef ref;
     Box box;  ///< of the polygon, within the cell
     LeafIndex operand = 0;
-    LeafIndex sheet = 0;            ///< one number for each operand and source in it
+    LeafIndex surface = 0;          ///< one number for each operand and source in it
     std::int8_t orientation = 1;    ///< -1 when flipped
     std::int8_t side_of_reference;  ///< of the support, see LeafWindings; 2 = not computed
     bool contained = false;         ///< lies in the cell
     bool cut = false;               ///< another one runs through its interior
-    bool covered = false;           ///< another one in its plane shares interior with it
+    bool overlapped = false;        ///< another one in its plane shares interior with it
     WorkPolygon shape;              ///< unclipped; made on demand
 
-    [[nodiscard]] bool is_whole() const { return !cut && !covered; }
+    [[nodiscard]] bool is_whole() const { return !cut && !overlapped; }
 };
 
 /// Contact of an item with another one, of another surface. Facets that merely share an edge or a
 /// corner of their mesh have none.
 struct LeafContact {
     LeafIndex other = 0;
-    bool cuts = false;    ///< the other one runs through the item's interior
-    bool covers = false;  ///< coplanar, interiors meet
+    bool cuts = false;      ///< the other one runs through the item's interior
+    bool overlaps = false;  ///< coplanar, interiors meet
 };
 
 /// A convex part of an item, on one side of everything else.
@@ -88,11 +88,11 @@ struct LeafWork {
 
 private:
     void add_operand(LeafIndex operand);
-    [[nodiscard]] LeafIndex sheet_of(const Source* source, LeafIndex operand);
+    [[nodiscard]] LeafIndex surface_of(const Source* source, LeafIndex operand);
 
     std::vector<LeafContact> contacts_;
     std::vector<std::size_t> first_contact_;
-    FlatMap sheets_;
+    FlatMap surfaces_;
 };
 
 }  // namespace trisect::detail

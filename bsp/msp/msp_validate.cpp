@@ -250,11 +250,12 @@ private:
     void expect(const Point& p, Ref expected) const {
         const Ref found = tree_.locate(p);
         if (found == expected) return;
-        const bool may_speak =
+        const bool may_represent =
             found.kind() > expected.kind() ||
             (found.kind() == expected.kind() && found.entity() < expected.entity());
-        if (may_speak && found.kind() == Leaf::OnVertex && brep_.point(found.vertex()) == p) return;
-        if (may_speak && found.kind() == Leaf::OnEdge && is_on_edge(p, found.edge())) return;
+        if (may_represent && found.kind() == Leaf::OnVertex && brep_.point(found.vertex()) == p)
+            return;
+        if (may_represent && found.kind() == Leaf::OnEdge && is_on_edge(p, found.edge())) return;
         refuse(name_of(expected) + " is located as " + name_of(found));
     }
     [[nodiscard]] bool is_on_edge(const Point& p, EdgeId e) const {

@@ -38,9 +38,9 @@ Visit root_of(const Solid& solid) {
 Visit child_of(const Visit& visit, int i) {
     const CellRef& child = visit.node->child(i);
     const int axis = visit.node->axis();
-    const std::int64_t wall = visit.node->wall();
+    const std::int64_t splitter = visit.node->splitter();
     return {child.node.get(), visit.complemented != child.complemented, visit.depth + 1,
-            i == 0 ? visit.cell.below(axis, wall) : visit.cell.above(axis, wall)};
+            i == 0 ? visit.cell.below(axis, splitter) : visit.cell.above(axis, splitter)};
 }
 
 bool is_inside(const Visit& leaf) { return (leaf.node->winding() > 0) != leaf.complemented; }
@@ -85,7 +85,7 @@ struct PositionInterval {
 
 /// Positions count in 1/256 of the lattice unit. Beyond the universe all positions are alike.
 double fine_position(double user, Lattice lattice) {
-    return std::ldexp(user, detail::wall_bits - lattice.exponent);
+    return std::ldexp(user, detail::splitting_bits - lattice.exponent);
 }
 
 std::int64_t clamped(double position) {
@@ -101,15 +101,19 @@ PositionInterval interval_of(double lower, double upper, Lattice lattice) {
 
 /// A slice may lie between two positions; then `lower` is above `upper` by one and both comparisons
 /// still show the side on which it is.
-bool meets_below(const PositionInterval& box, std::int64_t wall) { return box.lower <= wall; }
-bool meets_above(const PositionInterval& box, std::int64_t wall) { return box.upper >= wall; }
+bool meets_below(const PositionInterval& box, std::int64_t splitter) {
+    return box.lower <= splitter;
+}
+bool meets_above(const PositionInterval& box, std::int64_t splitter) {
+    return box.upper >= splitter;
+}
 
 double user_position(std::int64_t position, Lattice lattice) {
     if (std::abs(position) == detail::universe_limit) {
         return std::copysign(std::numeric_limits<double>::infinity(),
                              static_cast<double>(position));
     }
-    return std::ldexp(static_cast<double>(position), lattice.exponent - detail::wall_bits);
+    return std::ldexp(static_cast<double>(position), lattice.exponent - detail::splitting_bits);
 }
 
 CellLeaf leaf_of(const Visit& visit, Lattice lattice) {
@@ -162,9 +166,9 @@ std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const std::array<doub
             continue;
         }
         const PositionInterval& side = box[static_cast<std::size_t>(visit.node->axis())];
-        const std::int64_t wall = visit.node->wall();
-        if (meets_above(side, wall)) stack.push_back(child_of(visit, 1));
-        if (meets_below(side, wall)) stack.push_back(child_of(visit, 0));
+        const std::int64_t splitter = visit.node->splitter();
+        if (meets_above(side, splitter)) stack.push_back(child_of(visit, 1));
+        if (meets_below(side, splitter)) stack.push_back(child_of(visit, 0));
     }
     return leaves;
 }

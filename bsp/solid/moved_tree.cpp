@@ -2,8 +2,8 @@
 //
 // Walls lie at odd multiples of a 256th of the unit and stay odd under quarter turns, mirrors and
 // translations by units; so the tree keeps its shape. What has a name is renamed: sources become
-// moved sources, edges of fragments planes of these, walls moved walls. A mirror turns the order of
-// corners over, and then the first and the last edge of a triangle change places.
+// moved sources, edges of fragments planes of these, splitters moved splitters. A mirror turns the
+// order of corners over, and then the first and the last edge of a triangle change places.
 
 #include <trisect/bsp/solid/moved_tree.h>
 
@@ -44,7 +44,7 @@ private:
         CellRef above = with_enough_stack([&] { return moved(node.child(1)); });
         const int axis = move_.image_of_axis(node.axis());
         if (move_.turns_over(axis)) std::swap(below, above);
-        return CellNode::split(axis, move_.applied_to_wall(node.axis(), node.wall()),
+        return CellNode::split(axis, move_.applied_to_wall(node.axis(), node.splitter()),
                                std::move(below), std::move(above));
     }
 
@@ -115,10 +115,10 @@ private:
     }
 
     EdgeName moved(EdgeName e) {
-        if (e.plane.is_wall()) {
+        if (e.plane.is_splitter()) {
             const auto axis = static_cast<int>(e.plane.facet);
             const int image = move_.image_of_axis(axis);
-            e.plane = PlaneName::wall(image, move_.applied_to_wall(axis, e.plane.position()));
+            e.plane = PlaneName::splitter(image, move_.applied_to_wall(axis, e.plane.position()));
             e.above = e.above != move_.turns_over(image);
             return e;
         }

@@ -131,8 +131,8 @@ bool FacetSides::look_at_outer_runs(Side side) {
 
 // Ends of a crossing come in the direction of the product of the normals. So an edge of the first
 // facet goes up through the second one's support where it is the start, an edge of the second one
-// down through the first one's (plain_pair_relation.cpp). All that pierces a facet's edges crosses
-// it.
+// down through the first one's (filtered_pair_relation.cpp). All that pierces a facet's edges
+// crosses it.
 bool FacetSides::look_at_pierced_edges(const Crossings& crossings, std::size_t operand) {
     const std::uint32_t first = crossings.operands[operand].first;
     const auto& pairs = crossings.pairs;

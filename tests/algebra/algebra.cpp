@@ -26,7 +26,7 @@ trisect::EvaluateOptions options_of(std::uint64_t seed) {
     constexpr std::array<std::uint32_t, 3> offsets{83, 1, 127};
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaves[seed % leaves.size()];
-    options.wall_offset = offsets[seed % offsets.size()];
+    options.splitting_offset = offsets[seed % offsets.size()];
     return options;
 }
 

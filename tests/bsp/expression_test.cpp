@@ -99,10 +99,10 @@ TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
 TEST_F(Operators, WallsThatMayMeetCornersAreRefused) {
     for (const std::uint32_t offset : {0U, 2U, 82U, 256U, 257U}) {
         trisect::EvaluateOptions options;
-        options.wall_offset = offset;
+        options.splitting_offset = offset;
         EXPECT_THROW((void)evaluate(a | b, options), trisect::UsageError) << offset;
-        options.wall_offset = offset % 256 + 1 - offset % 2;
-        EXPECT_FALSE(evaluate(a | b, options).is_empty()) << options.wall_offset;
+        options.splitting_offset = offset % 256 + 1 - offset % 2;
+        EXPECT_FALSE(evaluate(a | b, options).is_empty()) << options.splitting_offset;
     }
 }
 

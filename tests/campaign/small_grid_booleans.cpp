@@ -73,14 +73,14 @@ struct Counters {
     std::atomic<std::uint64_t> formulas;
     std::atomic<std::uint64_t> operations;  // of all formulas
     std::atomic<std::uint64_t> chains;
-    std::atomic<std::uint64_t> mixed_leaves;     // of all chains
-    std::atomic<std::uint64_t> plain_leaves;     // of them
-    std::atomic<std::uint64_t> plain_fragments;  // in those
-    std::atomic<std::uint64_t> undivided;        // meshes of pairs and first steps
-    std::atomic<std::uint64_t> results;          // cell tree against naive
-    std::atomic<std::uint64_t> stepwise;         // cell tree, step by step, against naive
-    std::atomic<std::uint64_t> classic;          // classic BSP tree against naive
-    std::atomic<std::uint64_t> empty;            // expected results without boundary
+    std::atomic<std::uint64_t> mixed_leaves;        // of all chains
+    std::atomic<std::uint64_t> filtered_leaves;     // of them
+    std::atomic<std::uint64_t> filtered_fragments;  // in those
+    std::atomic<std::uint64_t> undivided;           // meshes of pairs and first steps
+    std::atomic<std::uint64_t> results;             // cell tree against naive
+    std::atomic<std::uint64_t> stepwise;            // cell tree, step by step, against naive
+    std::atomic<std::uint64_t> classic;             // classic BSP tree against naive
+    std::atomic<std::uint64_t> empty;               // expected results without boundary
     std::atomic<std::uint64_t> disagreements;
     std::atomic<std::uint64_t> wrong_flags;  // right boundary, wrong is_empty or is_whole_space
     std::atomic<std::uint64_t> crashes;
@@ -160,7 +160,7 @@ public:
         constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 1000};
         constexpr std::array<std::uint32_t, 4> wall_offsets{1, 83, 127, 255};
         options_.leaf_polygons = leaf_sizes[random.below(4)];
-        options_.wall_offset = wall_offsets[random.below(4)];
+        options_.splitting_offset = wall_offsets[random.below(4)];
         const bool assume = embedded_ && random.chance(1, 2);
         for (const auto& o : operands_)
             solids_.push_back(engines::solid(
@@ -264,8 +264,8 @@ private:
         }
         if (why.empty()) return;
         ++counters_.disagreements;
-        std::printf("DISAGREEMENT %s, %s, leaf_polygons %u, wall_offset %u, %s: %s\n",
-                    name_.c_str(), engine, options_.leaf_polygons, options_.wall_offset,
+        std::printf("DISAGREEMENT %s, %s, leaf_polygons %u, splitting_offset %u, %s: %s\n",
+                    name_.c_str(), engine, options_.leaf_polygons, options_.splitting_offset,
                     reference::to_string(expression).c_str(), why.c_str());
         std::fflush(stdout);
     }
@@ -337,8 +337,8 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
         }
         result = trisect::evaluate(step, options, &stats);
         counters.mixed_leaves += stats.mixed_leaves;
-        counters.plain_leaves += stats.plain_leaves;
-        counters.plain_fragments += stats.plain_fragments;
+        counters.filtered_leaves += stats.filtered_leaves;
+        counters.filtered_fragments += stats.filtered_fragments;
     }
     const Timer timer(counters.microseconds_naive);
     const auto wanted = reference::evaluate(operands, expression);
@@ -428,8 +428,8 @@ void print(const Counters& c) {
     row("operations in formulas", c.operations);
     row("chains", c.chains);
     row("their leaves that were arranged", c.mixed_leaves);
-    row("of those, in doubles", c.plain_leaves);
-    row("fragments of earlier steps in those", c.plain_fragments);
+    row("of those, in doubles", c.filtered_leaves);
+    row("fragments of earlier steps in those", c.filtered_fragments);
     row("meshes of pairs and first steps that were not divided", c.undivided);
     row("results of the cell tree compared with the naive engine", c.results);
     row("the same, formulas step by step", c.stepwise);

@@ -27,7 +27,7 @@ void for_all_walls(Body&& body) {
             SCOPED_TRACE("wall offset " + std::to_string(offset) + ", leaf size " +
                          std::to_string(leaf));
             trisect::EvaluateOptions options;
-            options.wall_offset = offset;
+            options.splitting_offset = offset;
             options.leaf_polygons = leaf;
             body(options);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Chains of operations whose leaves are arranged in doubles (plain_leaf.h) although they hold
+// Chains of operations whose leaves are arranged in doubles (filtered_leaf.h) although they hold
 // fragments of the steps before, against the naive engine in rationals. In general position, on a
 // small grid, and where a symmetric tool moves along an axis, so that edges meet edges at every
 // step.
@@ -56,9 +56,9 @@ void expect_agreement(const std::vector<Operand>& operands, const std::vector<Ki
             result = trisect::evaluate(
                 engines::formula(reference::pair_expression(kinds[i - 1]), {result, tool}), options,
                 &stats);
-            counts.plain += stats.plain_leaves;
+            counts.plain += stats.filtered_leaves;
             counts.mixed += stats.mixed_leaves;
-            counts.fragments += stats.plain_fragments;
+            counts.fragments += stats.filtered_fragments;
             counts.near += stats.traces_near;
             counts.linked += stats.linked;
         }

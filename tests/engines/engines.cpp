@@ -13,7 +13,7 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
-#include <trisect/bsp/two_meshes/undivided_meshes.h>
+#include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
 
 namespace engines {
@@ -207,7 +207,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
                                     return are_two_large_meshes(formula, solids, with, 1);
                                 },
-                                &evaluate_undivided};
+                                &evaluate_without_tree};
     const auto state = evaluate_by(undivided, t.formula, states, options, stats);
     if (state == nullptr) return std::nullopt;
     trisect::EvaluateOptions dividing = options;
@@ -218,12 +218,12 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     if (!expected) return std::string();
     if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";
     // Where an outline is in doubt a tree is made after all.
-    SolidState doubtful = *state;
-    auto& meshes = std::get<UndividedMeshes>(doubtful.form);
+    SolidState uncertain = *state;
+    auto& meshes = std::get<UndividedMeshes>(uncertain.form);
     auto crossings = std::make_shared<Crossings>(*meshes.crossings);
-    crossings->doubtful.push_back(crossings->shown.front());
+    crossings->uncertain.push_back(crossings->shown.front());
     meshes.crossings = crossings;
-    if (!are_equal(mesh_of(doubtful), expected)) return "another mesh out of a tree";
+    if (!are_equal(mesh_of(uncertain), expected)) return "another mesh out of a tree";
     if (!state->lazy_tree()->is_cut()) return "no tree was made";
     return std::string();
 }

@@ -42,9 +42,9 @@ trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid);
 /// Why the triangles of a result do not close, corner index by corner index; empty when they do.
 std::string open_edge(const trisect::PolygonMesh& mesh);
 
-/// What is different where two meshes are evaluated without being divided (undivided_meshes.h),
-/// empty when the mesh is the same corner by corner; nothing where they are divided. Meshes of any
-/// size are tried, pieces as well.
+/// What is different where two meshes are evaluated without being divided
+/// (two_meshes_without_tree.h), empty when the mesh is the same corner by corner; nothing where
+/// they are divided. Meshes of any size are tried, pieces as well.
 [[nodiscard]] std::optional<std::string> undivided_difference(
     const trisect::Expression& expression, const trisect::EvaluateOptions& options);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Solids in general position, whose leaves are arranged in doubles (plain_leaf.h), against the
+// Solids in general position, whose leaves are arranged in doubles (filtered_leaf.h), against the
 // naive engine in rationals. Within a solid facets lie in common planes as often as on the small
 // grid; an integer map of its own takes every solid out of the grid of the others.
 
@@ -35,7 +35,7 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
     trisect::EvaluateStats stats;
     const trisect::Solid result =
         trisect::evaluate(engines::formula(expression, solids), options, &stats);
-    leaves.plain += stats.plain_leaves;
+    leaves.plain += stats.filtered_leaves;
     leaves.mixed += stats.mixed_leaves;
     EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     const auto expected = reference::evaluate(operands, expression);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two meshes of which only the facets that come near the other one are divided
-// (undivided_meshes.h), against a tree of cells: the same mesh, corner by corner.
+// (two_meshes_without_tree.h), against a tree of cells: the same mesh, corner by corner.
 
 #include <gtest/gtest.h>
 

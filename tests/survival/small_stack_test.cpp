@@ -124,7 +124,7 @@ TEST(SmallStack, ChainOfResults) {
               "");
 }
 
-// Sizes fall by half: walls peel one slab after the other.
+// Sizes fall by half: splitting planes trim off one slab after the other.
 TEST(SmallStack, SlabsThatHalve) {
     EXPECT_EQ(run_with_small_stack([] {
                   std::vector<Expression> slabs;

@@ -11,7 +11,7 @@
 // integers. So the outline of all that a plane has is a sum of integers (axis_outline.h), over all
 // cells together, and splitting planes vanish with the rest.
 //
-// Vertices: a stretch of an outline is an edge of the solid, where faces of two planes end. If a
+// Vertices: an interval of an outline is an edge of the solid, where faces of two planes end. If a
 // vertex lies inside it, then the faces around change there, and so does one of those two outlines:
 // of the four quadrants around the line the two outlines determine those that are inside, and if
 // they are the same before and behind, no third plane has a boundary in between. So the ends of all
@@ -50,7 +50,7 @@ bool is_across_an_axis(const PolygonRef& r) {
 bool lies_in(const PolygonRef& r, const AxisPlane& plane) {
     const auto axis = static_cast<int>(plane.axis);
     for (int i = 0; i < 3; ++i)
-        if (r.source->corner(r.facet, i)[axis] * wall_scale != plane.position) return false;
+        if (r.source->corner(r.facet, i)[axis] * splitting_scale != plane.position) return false;
     return true;
 }
 
@@ -75,7 +75,8 @@ AxisRectangle rectangle_of(const Cell& cell, std::size_t across) {
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t axis = (across + 1 + i) % 3;
         const auto side = [&](std::int64_t at, bool above) {
-            return AxisRectangle::Side{at, {PlaneName::wall(static_cast<int>(axis), at), above}};
+            return AxisRectangle::Side{at,
+                                       {PlaneName::splitter(static_cast<int>(axis), at), above}};
         };
         out.sides[i] = {side(cell.lo[axis], true), side(cell.hi[axis], false)};
     }
@@ -83,7 +84,7 @@ AxisRectangle rectangle_of(const Cell& cell, std::size_t across) {
 }
 
 bool reaches_out(const PolygonRef& r, const Cell& cell) {
-    return r.fragment != nullptr ? !ends_at_walls(*r.fragment, cell) : !cell.contains(r.box());
+    return r.fragment != nullptr ? !ends_at_splitters(*r.fragment, cell) : !cell.contains(r.box());
 }
 
 // Calls add(part) for what a polygon has in a cell, if that has area. False where integers do not
@@ -114,7 +115,7 @@ void AxisFaces::choose(std::span<const Leaf> leaves) {
     facets_.assign(parts_.facets.size(), {});
     across_.clear();
     for (const Leaf& leaf : leaves) {
-        across_.push_back(leaf.picture != nullptr || all_across_axes(*leaf.polygons));
+        across_.push_back(leaf.occupancy != nullptr || all_across_axes(*leaf.polygons));
         if (!across_.back()) continue;
         check_stop(1 + leaf.polygons->size());
         read_leaf(leaf);
@@ -152,15 +153,15 @@ const FacetMarks& AxisFaces::marks_of(const Source* source) {
     return parts_.sources[last_table_];
 }
 
-AxisFaces::Sheet& AxisFaces::sheet_at(const AxisPlane& plane, const PlaneName& name) {
+AxisFaces::FacePlane& AxisFaces::face_plane_at(const AxisPlane& plane, const PlaneName& name) {
     const auto [id, inserted] =
-        sheet_ids_.insert(key_of(plane), static_cast<std::int32_t>(sheets_.size()));
+        face_plane_ids_.insert(key_of(plane), static_cast<std::int32_t>(face_planes_.size()));
     if (inserted) {
-        sheets_.emplace_back();
-        sheets_.back().plane = plane;
-        sheets_.back().name = name;
+        face_planes_.emplace_back();
+        face_planes_.back().plane = plane;
+        face_planes_.back().name = name;
     }
-    return sheets_[as_index(id)];
+    return face_planes_[as_index(id)];
 }
 
 void AxisFaces::read_leaf(const Leaf& leaf) {
@@ -170,8 +171,8 @@ void AxisFaces::read_leaf(const Leaf& leaf) {
         const bool flipped = r.flipped != leaf.complemented;
         if (marks.takes_part(r.facet, flipped)) {
             const std::int32_t number = marks.number_of_worked(r.facet, flipped);
-            if (leaf.picture != nullptr) {
-                read_facet(r, number, leaf.picture->parts[i], leaf.cell);
+            if (leaf.occupancy != nullptr) {
+                read_facet(r, number, leaf.occupancy->parts[i], leaf.cell);
             } else {
                 read_polygon(r, number, leaf.cell);
             }
@@ -180,7 +181,7 @@ void AxisFaces::read_leaf(const Leaf& leaf) {
         }
         ++i;
     }
-    if (leaf.picture != nullptr) read_units(*leaf.picture, leaf.complemented);
+    if (leaf.occupancy != nullptr) read_units(*leaf.occupancy, leaf.complemented);
 }
 
 // Its plane is not taken. Facets of one plane mostly come one after the other.
@@ -189,46 +190,47 @@ void AxisFaces::pass(const PolygonRef& facet) {
     if (last_passed_ && lies_in(facet, *last_passed_)) return;
     const PlaneName name = PlaneName::support(facet.source, facet.facet);
     last_passed_ = axis_plane(name);
-    Sheet& sheet = sheet_at(*last_passed_, name);
-    if (!sheet.has_passing && open_planes_.find(key_of(*last_passed_)) >= 0) --open_count_;
-    sheet.has_passing = sheet.is_general = true;
+    FacePlane& face_plane = face_plane_at(*last_passed_, name);
+    if (!face_plane.has_passing && open_planes_.find(key_of(*last_passed_)) >= 0) --open_count_;
+    face_plane.has_passing = face_plane.is_general = true;
 }
 
 // Its parts are in the occupancy grid's units. One that is not cut has all its area in the cell.
 void AxisFaces::read_facet(const PolygonRef& facet, std::int32_t number,
-                           const AxisPicture::Part& part, const Cell& cell) {
-    Sheet& sheet = sheet_of(facet, number);
+                           const OccupancyGrid::Part& part, const Cell& cell) {
+    FacePlane& face_plane = face_plane_of(facet, number);
     Facet& f = facets_[as_index(number)];
-    (void)count_part(sheet, number);
+    (void)count_part(face_plane, number);
     f.is_cut = f.is_cut || part.is_cut;
     f.corners |= part.corners;
-    if (f.is_cut || sheet.is_general) return;
-    const auto add = [&](const PolygonRef& p) { add_area(p, f, sheet.plane); };
-    if (!with_part_in(facet, cell, sheet.plane.axis, add)) sheet.is_general = true;
+    if (f.is_cut || face_plane.is_general) return;
+    const auto add = [&](const PolygonRef& p) { add_area(p, f, face_plane.plane); };
+    if (!with_part_in(facet, cell, face_plane.plane.axis, add)) face_plane.is_general = true;
 }
 
-void AxisFaces::read_units(const AxisPicture& picture, bool complemented) {
+void AxisFaces::read_units(const OccupancyGrid& occupancy, bool complemented) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::vector<AxisPicture::Layer> layers = picture.layers(k);
+        const std::vector<OccupancyGrid::Layer> layers = occupancy.layers(k);
         const AxisGrid::Frame frame = AxisGrid::frame(k);
         AxisOutline::Units units;
         units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - k) % 3);
-        units.row_planes = picture.planes[frame.row_axis];
-        units.bit_planes = picture.planes[frame.bit_axis];
+        units.row_planes = occupancy.planes[frame.row_axis];
+        units.bit_planes = occupancy.planes[frame.bit_axis];
         for (std::size_t p = 1; p < layers.size(); ++p) {
-            const AxisPicture::Layer& low = layers[p - 1];
-            const AxisPicture::Layer& high = layers[p];
+            const OccupancyGrid::Layer& low = layers[p - 1];
+            const OccupancyGrid::Layer& high = layers[p];
             if (low == high) continue;
-            const Key128 key{k, static_cast<std::uint64_t>(picture.planes[k][p])};
-            const std::int32_t sheet = sheet_ids_.find(key);
-            TRISECT_EXPECTS(sheet >= 0, "no facet bounds a set where it ends");
-            if (sheets_[as_index(sheet)].is_general) continue;
+            const Key128 key{k, static_cast<std::uint64_t>(occupancy.planes[k][p])};
+            const std::int32_t face_plane = face_plane_ids_.find(key);
+            TRISECT_EXPECTS(face_plane >= 0, "no facet bounds a set where it ends");
+            if (face_planes_[as_index(face_plane)].is_general) continue;
             for (const bool inside_low : {true, false}) {
                 std::uint64_t any = 0;
                 for (std::size_t r = 0; r < units.rows.size(); ++r)
                     any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
                 if (any != 0)
-                    sheets_[as_index(sheet)].outline.add(units, inside_low != complemented);
+                    face_planes_[as_index(face_plane)].outline.add(units,
+                                                                   inside_low != complemented);
             }
         }
     }
@@ -243,41 +245,41 @@ void AxisFaces::block_leaf(const Leaf& leaf) {
     }
 }
 
-AxisFaces::Sheet& AxisFaces::sheet_of(const PolygonRef& polygon, std::int32_t number) {
+AxisFaces::FacePlane& AxisFaces::face_plane_of(const PolygonRef& polygon, std::int32_t number) {
     Facet& f = facets_[as_index(number)];
-    if (f.sheet < 0) {
+    if (f.face_plane < 0) {
         const PlaneName name = PlaneName::support(polygon.source, polygon.facet);
         const AxisPlane plane = *axis_plane(name);
-        f.sheet = static_cast<std::int32_t>(&sheet_at(plane, name) - sheets_.data());
+        f.face_plane = static_cast<std::int32_t>(&face_plane_at(plane, name) - face_planes_.data());
         f.normal_is_up = plane.sign > 0;
     }
-    return sheets_[as_index(f.sheet)];
+    return face_planes_[as_index(f.face_plane)];
 }
 
 // Whether it faces up.
-bool AxisFaces::count_part(Sheet& sheet, std::int32_t number) {
+bool AxisFaces::count_part(FacePlane& face_plane, std::int32_t number) {
     const bool faces_up =
         facets_[as_index(number)].normal_is_up != parts_.facets[as_index(number)].flipped;
-    auto& first = sheet.first[faces_up ? 1 : 0];
+    auto& first = face_plane.first[faces_up ? 1 : 0];
     if (first < 0 || number < first) first = number;
-    ++sheet.parts;
+    ++face_plane.parts;
     return faces_up;
 }
 
 void AxisFaces::read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell) {
-    Sheet& sheet = sheet_of(polygon, number);
+    FacePlane& face_plane = face_plane_of(polygon, number);
     Facet& f = facets_[as_index(number)];
-    if (sheet.is_general) return;
+    if (face_plane.is_general) return;
     const auto add = [&](const PolygonRef& part) {
-        if (!read_axis_sides(part, sheet.plane.axis, sides_)) {
-            sheet.is_general = true;
+        if (!read_axis_sides(part, face_plane.plane.axis, sides_)) {
+            face_plane.is_general = true;
             return;
         }
-        sheet.outline.add(sides_, f.normal_is_up, count_part(sheet, number));
-        add_area(part, f, sheet.plane);
-        note_corners(part, f, sheet.plane.axis);
+        face_plane.outline.add(sides_, f.normal_is_up, count_part(face_plane, number));
+        add_area(part, f, face_plane.plane);
+        note_corners(part, f, face_plane.plane.axis);
     };
-    if (!with_part_in(polygon, cell, sheet.plane.axis, add)) sheet.is_general = true;
+    if (!with_part_in(polygon, cell, face_plane.plane.axis, add)) face_plane.is_general = true;
 }
 
 // In doubles from the facet's first corner. Of n products of differences, each off by the errors of
@@ -329,7 +331,7 @@ void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t a
             const auto& line = before.line;
             const bool ends = line.to == side.line.from || line.to == side.line.to;
             for (std::size_t k = 0; k < 2; ++k)
-                at[k] = (ends ? line.to[k] : line.from[k]) * wall_scale;
+                at[k] = (ends ? line.to[k] : line.from[k]) * splitting_scale;
         } else {
             const AxisSide& straight = side.is_slanted ? before : side;
             at[straight.axis] = straight.at;
@@ -338,25 +340,26 @@ void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t a
         for (int c = 0; c < 3; ++c) {
             if (!near[as_index(c)]) continue;
             const LatticePoint& corner = part.source->corner(part.facet, c);
-            if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * wall_scale &&
-                at[1] == corner[static_cast<int>((axis + 2) % 3)] * wall_scale)
+            if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * splitting_scale &&
+                at[1] == corner[static_cast<int>((axis + 2) % 3)] * splitting_scale)
                 facet.corners |= static_cast<std::uint8_t>(1U << c);
         }
     }
 }
 
 void AxisFaces::judge() {
-    for (Sheet& s : sheets_) s.is_general = s.is_general || !s.outline.finish();
+    for (FacePlane& s : face_planes_) s.is_general = s.is_general || !s.outline.finish();
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         const Facet& f = facets_[i];
-        if (f.sheet < 0) continue;
-        Sheet& s = sheets_[as_index(f.sheet)];
+        if (f.face_plane < 0) continue;
+        FacePlane& s = face_planes_[as_index(f.face_plane)];
         s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
     }
-    for (const Sheet& s : sheets_) part_count_ += s.is_general ? 0 : s.parts;
+    for (const FacePlane& s : face_planes_) part_count_ += s.is_general ? 0 : s.parts;
     taken_.assign(facets_.size(), false);
     for (std::size_t i = 0; i < facets_.size(); ++i) {
-        taken_[i] = facets_[i].sheet >= 0 && !sheets_[as_index(facets_[i].sheet)].is_general;
+        taken_[i] =
+            facets_[i].face_plane >= 0 && !face_planes_[as_index(facets_[i].face_plane)].is_general;
         taken_count_ += taken_[i] ? 1 : 0;
     }
     takes_all_ = taken_count_ == facets_.size();
@@ -367,23 +370,23 @@ void AxisFaces::judge() {
 bool AxisFaces::has_changed(std::int32_t number) const {
     const Facet& f = facets_[as_index(number)];
     const BoundaryFacet& facet = parts_.facets[as_index(number)];
-    const Sheet& sheet = sheets_[as_index(f.sheet)];
+    const FacePlane& face_plane = face_planes_[as_index(f.face_plane)];
     if (f.is_cut) return true;
     Facet all;
     const PolygonRef whole{facet.source, nullptr, facet.facet, false, false};
-    add_area(whole, all, sheet.plane);
+    add_area(whole, all, face_plane.plane);
     if (all.area - f.area > all.slack + f.slack) return true;
     const bool faces_up = f.normal_is_up != facet.flipped;
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& from = facet.source->corner(facet.facet, i);
         const LatticePoint& to = facet.source->corner(facet.facet, (i + 1) % 3);
         for (std::uint8_t k = 0; k < 2; ++k) {
-            const auto across = static_cast<int>((sheet.plane.axis + 1 + k) % 3);
-            const auto along = static_cast<int>((sheet.plane.axis + 2 - k) % 3);
+            const auto across = static_cast<int>((face_plane.plane.axis + 1 + k) % 3);
+            const auto along = static_cast<int>((face_plane.plane.axis + 2 - k) % 3);
             if (from[across] != to[across]) continue;
             const std::int64_t low = std::min(from[along], to[along]);
             const std::int64_t high = std::max(from[along], to[along]);
-            if (sheet.outline.turns_between(faces_up, k, from[across], low, high)) return true;
+            if (face_plane.outline.turns_between(faces_up, k, from[across], low, high)) return true;
         }
     }
     return false;
@@ -462,28 +465,28 @@ void AxisFaces::rank_coordinates() {
     };
     for (const LatticePoint& p : places_) add(p);
     for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));
-    for (const Sheet& s : sheets_)
-        coordinates_[s.plane.axis].push_back(s.plane.position / wall_scale);
+    for (const FacePlane& s : face_planes_)
+        coordinates_[s.plane.axis].push_back(s.plane.position / splitting_scale);
     for (std::size_t k = 0; k < 3; ++k) {
         auto& all = coordinates_[k];
         std::ranges::sort(all);
         all.erase(std::unique(all.begin(), all.end()), all.end());
-        sheet_of_[k].assign(all.size(), -1);
+        face_plane_of_[k].assign(all.size(), -1);
     }
-    for (std::size_t i = 0; i < sheets_.size(); ++i) {
-        const AxisPlane& p = sheets_[i].plane;
-        sheets_[i].rank = rank(p.axis, p.position / wall_scale);
-        sheet_of_[p.axis][sheets_[i].rank] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < face_planes_.size(); ++i) {
+        const AxisPlane& p = face_planes_[i].plane;
+        face_planes_[i].rank = rank(p.axis, p.position / splitting_scale);
+        face_plane_of_[p.axis][face_planes_[i].rank] = static_cast<std::int32_t>(i);
     }
-    for (Sheet& s : sheets_)
+    for (FacePlane& s : face_planes_)
         if (!s.is_general) rank_places(s);
 }
 
 // Neighbours in an outline mostly have neighbouring ranks.
-void AxisFaces::rank_places(Sheet& sheet) {
+void AxisFaces::rank_places(FacePlane& face_plane) {
     std::array<std::uint32_t, 2> last{};
-    sheet.outline.rank_places([&](std::size_t i, std::int64_t place) {
-        const std::size_t axis = (sheet.plane.axis + 1 + i) % 3;
+    face_plane.outline.rank_places([&](std::size_t i, std::int64_t place) {
+        const std::size_t axis = (face_plane.plane.axis + 1 + i) % 3;
         const auto& all = coordinates_[axis];
         std::uint32_t& r = last[i];
         if (all[r] != place && (++r >= all.size() || all[r] != place)) r = rank(axis, place);
@@ -511,42 +514,42 @@ void AxisFaces::add_other(const Ranks& at) {
     for (std::size_t k = 0; k < 3; ++k) other_stops_[k].push_back({line_at(k, at), at[k]});
 }
 
-AxisFaces::Ranks AxisFaces::line_of(const Sheet& sheet, const AxisStretch& stretch) {
+AxisFaces::Ranks AxisFaces::line_of(const FacePlane& face_plane, const AxisInterval& interval) {
     Ranks at{};
-    at[sheet.plane.axis] = sheet.rank;
-    at[across_of(sheet, stretch)] = static_cast<std::uint32_t>(stretch.at);
+    at[face_plane.plane.axis] = face_plane.rank;
+    at[across_of(face_plane, interval)] = static_cast<std::uint32_t>(interval.at);
     return at;
 }
 
 void AxisFaces::make_stops() {
-    for (Sheet& s : sheets_)
-        if (!s.is_general) s.stops.resize(s.outline.stretches().size());
-    for (Sheet& s : sheets_) {
+    for (FacePlane& s : face_planes_)
+        if (!s.is_general) s.stops.resize(s.outline.intervals().size());
+    for (FacePlane& s : face_planes_) {
         if (s.is_general) continue;
         for (const AxisOutline::Run& run : s.outline.runs())
-            if (s.stops[run.first].end == 0) add_line(s, s.outline.stretches()[run.first]);
+            if (s.stops[run.first].end == 0) add_line(s, s.outline.intervals()[run.first]);
     }
 }
 
-// All vertices on the line of a stretch, for all stretches there.
-void AxisFaces::add_line(Sheet& sheet, const AxisStretch& stretch) {
-    const std::size_t across = across_of(sheet, stretch);
-    const std::size_t along = along_of(sheet, stretch);
-    const Ranks at = line_of(sheet, stretch);
-    Sheet& beside = sheet_at_rank(across, at[across]);
-    std::array<Sheet*, 2> sheets{&sheet, beside.is_general ? nullptr : &beside};
+// All vertices on the line of an interval, for all intervals there.
+void AxisFaces::add_line(FacePlane& face_plane, const AxisInterval& interval) {
+    const std::size_t across = across_of(face_plane, interval);
+    const std::size_t along = along_of(face_plane, interval);
+    const Ranks at = line_of(face_plane, interval);
+    FacePlane& beside = face_plane_at_rank(across, at[across]);
+    std::array<FacePlane*, 2> face_planes{&face_plane, beside.is_general ? nullptr : &beside};
     std::array<LineRun, 4> runs;
     std::size_t count = 0;
     line_.clear();
-    for (Sheet* const s : sheets) {
+    for (FacePlane* const s : face_planes) {
         if (s == nullptr) continue;
-        const std::size_t other = s == &sheet ? across : sheet.plane.axis;
+        const std::size_t other = s == &face_plane ? across : face_plane.plane.axis;
         const auto axis = static_cast<std::uint8_t>((other + 2 - s->plane.axis) % 3);
         for (const bool faces_up : {false, true}) {
             const std::size_t run = s->outline.run_at(faces_up, axis, at[other]);
             if (run == s->outline.runs().size()) continue;
             runs[count++] = {s, s->outline.runs()[run]};
-            for (const AxisStretch& t : runs[count - 1].stretches()) {
+            for (const AxisInterval& t : runs[count - 1].intervals()) {
                 line_.push_back(static_cast<std::uint32_t>(t.low));
                 line_.push_back(static_cast<std::uint32_t>(t.high));
             }
@@ -564,11 +567,11 @@ void AxisFaces::add_line(Sheet& sheet, const AxisStretch& stretch) {
     for (const LineRun& r : std::span(runs).first(count)) {
         std::uint32_t i = 0;
         for (std::uint32_t n = r.run.first; n < r.run.end; ++n) {
-            const AxisStretch& t = r.sheet->outline.stretches()[n];
+            const AxisInterval& t = r.face_plane->outline.intervals()[n];
             while (line_[i] != t.low) ++i;
-            r.sheet->stops[n].first = first + i;
+            r.face_plane->stops[n].first = first + i;
             while (line_[i] != t.high) ++i;
-            r.sheet->stops[n].end = first + i + 1;
+            r.face_plane->stops[n].end = first + i + 1;
         }
     }
 }
@@ -580,14 +583,14 @@ std::span<const AxisFaces::Other> AxisFaces::others_on(std::size_t along, const 
     return {first, std::ranges::upper_bound(first, all.end(), key, {}, &Other::line)};
 }
 
-AxisFaces::Sheet& AxisFaces::sheet_at_rank(std::size_t axis, std::uint32_t rank) {
-    const std::int32_t sheet = sheet_of_[axis][rank];
-    TRISECT_EXPECTS(sheet >= 0, "an outline turns where no plane is");
-    return sheets_[as_index(sheet)];
+AxisFaces::FacePlane& AxisFaces::face_plane_at_rank(std::size_t axis, std::uint32_t rank) {
+    const std::int32_t face_plane = face_plane_of_[axis][rank];
+    TRISECT_EXPECTS(face_plane >= 0, "an outline turns where no plane is");
+    return face_planes_[as_index(face_plane)];
 }
 
 PlaneId AxisFaces::plane_of(std::size_t axis, std::uint32_t rank) {
-    Sheet& s = sheet_at_rank(axis, rank);
+    FacePlane& s = face_plane_at_rank(axis, rank);
     if (s.id < 0) s.id = parts_.bench.plane(s.name);
     return s.id;
 }
@@ -621,39 +624,40 @@ void AxisFaces::make_edges(std::vector<BoundaryEdge>& edges) {
         (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
     // In the order of their facets.
     std::vector<std::pair<std::int32_t, std::size_t>> faces;
-    for (std::size_t i = 0; i < sheets_.size(); ++i)
-        for (const std::int32_t first : sheets_[i].first)
-            if (first >= 0 && !sheets_[i].is_general) faces.emplace_back(first, i);
+    for (std::size_t i = 0; i < face_planes_.size(); ++i)
+        for (const std::int32_t first : face_planes_[i].first)
+            if (first >= 0 && !face_planes_[i].is_general) faces.emplace_back(first, i);
     std::ranges::sort(faces);
     edges.reserve(edges.size() + count_edges());
-    for (const auto& [first, sheet] : faces) {
-        check_stop(sheets_[sheet].outline.stretches().size());
-        make_edges_of(sheets_[sheet], first == sheets_[sheet].first[1], edges);
+    for (const auto& [first, face_plane] : faces) {
+        check_stop(face_planes_[face_plane].outline.intervals().size());
+        make_edges_of(face_planes_[face_plane], first == face_planes_[face_plane].first[1], edges);
     }
 }
 
 std::size_t AxisFaces::count_edges() const {
     std::size_t out = 0;
-    for (const Sheet& s : sheets_)
+    for (const FacePlane& s : face_planes_)
         for (const Stops& stops : s.stops) out += stops.end - stops.first - 1;
     return out;
 }
 
-void AxisFaces::make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges) {
-    const std::int32_t first = sheet.first[faces_up ? 1 : 0];
+void AxisFaces::make_edges_of(FacePlane& face_plane, bool faces_up,
+                              std::vector<BoundaryEdge>& edges) {
+    const std::int32_t first = face_plane.first[faces_up ? 1 : 0];
     BoundaryFacet& f = parts_.facets[as_index(first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
     f.parts = 1;
-    for (const std::uint32_t n : sheet.outline.loops(faces_up)) {
-        const AxisStretch& s = sheet.outline.stretches()[n];
-        const std::size_t across = across_of(sheet, s);
-        const std::size_t along = along_of(sheet, s);
-        Ranks at = line_of(sheet, s);
-        const Sheet& beside = sheet_at_rank(across, at[across]);
+    for (const std::uint32_t n : face_plane.outline.loops(faces_up)) {
+        const AxisInterval& s = face_plane.outline.intervals()[n];
+        const std::size_t across = across_of(face_plane, s);
+        const std::size_t along = along_of(face_plane, s);
+        Ranks at = line_of(face_plane, s);
+        const FacePlane& beside = face_plane_at_rank(across, at[across]);
         BoundaryEdge e{-1, -1, first, {}};
         e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
-        const auto stops = std::span(stops_).subspan(sheet.stops[n].first,
-                                                     sheet.stops[n].end - sheet.stops[n].first);
+        const auto stops = std::span(stops_).subspan(
+            face_plane.stops[n].first, face_plane.stops[n].end - face_plane.stops[n].first);
         for (std::size_t i = 0; i < stops.size(); ++i) {
             Stop& stop = stops[s.runs_up() ? i : stops.size() - 1 - i];
             at[along] = stop.place;
@@ -672,9 +676,9 @@ void AxisFaces::add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& 
     if (!support || !beside) return;
     Ranks at{};
     for (const AxisPlane& p : {*support, *beside}) {
-        const std::int64_t place = p.position / wall_scale;
+        const std::int64_t place = p.position / splitting_scale;
         at[p.axis] = rank(p.axis, place);
-        if (p.position % wall_scale != 0 || at[p.axis] == coordinates_[p.axis].size() ||
+        if (p.position % splitting_scale != 0 || at[p.axis] == coordinates_[p.axis].size() ||
             coordinates_[p.axis][at[p.axis]] != place)
             return;
     }

@@ -12,7 +12,7 @@
 
 #include <trisect/bsp/assembly/axis/axis_outline.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
-#include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -28,7 +28,7 @@ public:
         Cell cell;
         bool complemented = false;
         /// Not null: `polygons` are its facets.
-        const AxisPicture* picture = nullptr;
+        const OccupancyGrid* occupancy = nullptr;
     };
 
     explicit AxisFaces(BoundaryParts& parts) : parts_(parts) {}
@@ -68,13 +68,13 @@ private:
         std::uint32_t place = 0;  // its rank along the line
         PointId point = -1;       // once it was requested
     };
-    // The stops of one line, or of a stretch with its ends.
+    // The stops of one line, or of an interval with its ends.
     struct Stops {
         std::uint32_t first = 0;
         std::uint32_t end = 0;
     };
     /// A plane. By facing of its faces, down and up: the first facet.
-    struct Sheet {
+    struct FacePlane {
         AxisPlane plane;
         PlaneName name;
         std::array<std::int32_t, 2> first{-1, -1};
@@ -84,18 +84,18 @@ private:
         PlaneId id = -1;  // once it was requested
         std::uint32_t rank = 0;
         AxisOutline outline;
-        std::vector<Stops> stops;  // of each stretch
+        std::vector<Stops> stops;  // of each interval
     };
     // Stretches on a line, of one plane and facing.
     struct LineRun {
-        Sheet* sheet = nullptr;
+        FacePlane* face_plane = nullptr;
         AxisOutline::Run run;
-        [[nodiscard]] std::span<const AxisStretch> stretches() const {
-            return sheet->outline.stretches().subspan(run.first, run.end - run.first);
+        [[nodiscard]] std::span<const AxisInterval> intervals() const {
+            return face_plane->outline.intervals().subspan(run.first, run.end - run.first);
         }
     };
     struct Facet {
-        std::int32_t sheet = -1;
+        std::int32_t face_plane = -1;
         bool normal_is_up = false;
         bool is_blocked = false;   // reaches into a cell with polygons of other kinds
         bool is_cut = false;       // surely: not all of it bounds the result with one facing
@@ -130,16 +130,16 @@ private:
         return {plane.axis, static_cast<std::uint64_t>(plane.position)};
     }
     [[nodiscard]] const FacetMarks& marks_of(const Source* source);
-    [[nodiscard]] Sheet& sheet_at(const AxisPlane& plane, const PlaneName& name);
+    [[nodiscard]] FacePlane& face_plane_at(const AxisPlane& plane, const PlaneName& name);
     void list_open_planes();
     void read_leaf(const Leaf& leaf);
     void block_leaf(const Leaf& leaf);
-    void read_facet(const PolygonRef& facet, std::int32_t number, const AxisPicture::Part& part,
+    void read_facet(const PolygonRef& facet, std::int32_t number, const OccupancyGrid::Part& part,
                     const Cell& cell);
-    void read_units(const AxisPicture& picture, bool complemented);
+    void read_units(const OccupancyGrid& occupancy, bool complemented);
     void pass(const PolygonRef& facet);
-    [[nodiscard]] Sheet& sheet_of(const PolygonRef& polygon, std::int32_t number);
-    [[nodiscard]] bool count_part(Sheet& sheet, std::int32_t number);
+    [[nodiscard]] FacePlane& face_plane_of(const PolygonRef& polygon, std::int32_t number);
+    [[nodiscard]] bool count_part(FacePlane& face_plane, std::int32_t number);
     void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell);
     void add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const;
     void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const;
@@ -149,27 +149,29 @@ private:
     void place_others();
     void list_corners();
     void rank_coordinates();
-    void rank_places(Sheet& sheet);
+    void rank_places(FacePlane& face_plane);
     void name_corners();
     void add_other(const Ranks& at);
     void make_stops();
-    void add_line(Sheet& sheet, const AxisStretch& stretch);
+    void add_line(FacePlane& face_plane, const AxisInterval& interval);
     [[nodiscard]] std::size_t count_edges() const;
-    void make_edges_of(Sheet& sheet, bool faces_up, std::vector<BoundaryEdge>& edges);
+    void make_edges_of(FacePlane& face_plane, bool faces_up, std::vector<BoundaryEdge>& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
     [[nodiscard]] PointId point_at(const Ranks& ranks);
     [[nodiscard]] PointId make_point(const Ranks& ranks);
-    [[nodiscard]] static std::size_t along_of(const Sheet& sheet, const AxisStretch& stretch) {
-        return (sheet.plane.axis + 2 - stretch.axis) % 3;
+    [[nodiscard]] static std::size_t along_of(const FacePlane& face_plane,
+                                              const AxisInterval& interval) {
+        return (face_plane.plane.axis + 2 - interval.axis) % 3;
     }
-    [[nodiscard]] static std::size_t across_of(const Sheet& sheet, const AxisStretch& stretch) {
-        return (sheet.plane.axis + 1 + stretch.axis) % 3;
+    [[nodiscard]] static std::size_t across_of(const FacePlane& face_plane,
+                                               const AxisInterval& interval) {
+        return (face_plane.plane.axis + 1 + interval.axis) % 3;
     }
-    [[nodiscard]] static Ranks line_of(const Sheet& sheet, const AxisStretch& stretch);
+    [[nodiscard]] static Ranks line_of(const FacePlane& face_plane, const AxisInterval& interval);
     [[nodiscard]] std::span<const Other> others_on(std::size_t along, const Ranks& line) const;
-    [[nodiscard]] Sheet& sheet_at_rank(std::size_t axis, std::uint32_t rank);
+    [[nodiscard]] FacePlane& face_plane_at_rank(std::size_t axis, std::uint32_t rank);
     static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
 
     BoundaryParts& parts_;
@@ -181,8 +183,8 @@ private:
     std::size_t read_count_ = 0;
     std::vector<bool> across_;  // by leaf
     std::vector<Facet> facets_;
-    std::vector<Sheet> sheets_;
-    FlatMap sheet_ids_;
+    std::vector<FacePlane> face_planes_;
+    FlatMap face_plane_ids_;
     std::vector<bool> taken_;
     std::size_t taken_count_ = 0;
     std::size_t part_count_ = 0;
@@ -198,10 +200,10 @@ private:
     std::vector<LatticePoint> places_;
     std::vector<AxisSide> sides_;
 
-    std::array<std::vector<std::int64_t>, 3> coordinates_;  // sorted
-    std::array<std::vector<std::int32_t>, 3> sheet_of_;     // by rank
-    std::array<std::vector<Other>, 3> other_stops_;         // sorted
-    std::vector<Stop> stops_;                               // line by line
+    std::array<std::vector<std::int64_t>, 3> coordinates_;    // sorted
+    std::array<std::vector<std::int32_t>, 3> face_plane_of_;  // by rank
+    std::array<std::vector<Other>, 3> other_stops_;           // sorted
+    std::vector<Stop> stops_;                                 // line by line
     std::vector<Stops> all_lines_;     // where queries are possible, and their keys
     std::array<FlatMap, 3> lines_;     // by axis
     std::vector<std::uint32_t> line_;  // the places on the line in the making

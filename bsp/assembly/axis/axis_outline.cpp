@@ -12,7 +12,7 @@
 #include <bit>
 #include <utility>
 
-#include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -30,7 +30,7 @@ AxisSide own_side(const Source& source, std::uint32_t facet, int i, std::size_t 
         const std::size_t across = (axis + 1 + k) % 3;
         if (coordinate(from, across) != coordinate(to, across)) continue;
         side.axis = k;
-        side.at = coordinate(from, across) * wall_scale;
+        side.at = coordinate(from, across) * splitting_scale;
         side.is_low = coordinate(third, across) > coordinate(from, across);
         return side;
     }
@@ -74,11 +74,11 @@ std::optional<std::int64_t> end_of_side(const AxisSide& side, const AxisSide& ne
     const SlantedEdge& line = neighbour.line;
     const std::size_t fixed = side.axis;
     const std::size_t free = 1 - fixed;
-    const Int128 way = side.at - Int128{line.from[fixed]} * wall_scale;
+    const Int128 way = side.at - Int128{line.from[fixed]} * splitting_scale;
     const Int128 product = way * (line.to[free] - line.from[free]);
     const Int128 step = line.to[fixed] - line.from[fixed];
     if (product % step != 0) return std::nullopt;
-    return static_cast<std::int64_t>(Int128{line.from[free]} * wall_scale + product / step);
+    return static_cast<std::int64_t>(Int128{line.from[free]} * splitting_scale + product / step);
 }
 
 void AxisOutline::add(std::span<const AxisSide> sides, bool turns_left, bool faces_up) {
@@ -139,27 +139,27 @@ void AxisOutline::add_lines(const Units& units, bool faces_up) {
     }
 }
 
-bool AxisOutline::add_stretch(std::size_t kind, const Change& from, std::int64_t to, int cover) {
-    const auto on_lattice = [](std::int64_t place) { return place % wall_scale == 0; };
+bool AxisOutline::add_interval(std::size_t kind, const Change& from, std::int64_t to, int cover) {
+    const auto on_lattice = [](std::int64_t place) { return place % splitting_scale == 0; };
     if (cover > 1 || cover < -1 || !on_lattice(from.at()) || !on_lattice(from.place()) ||
         !on_lattice(to))
         return false;
-    AxisStretch s;
+    AxisInterval s;
     s.faces_up = kind >= 2;
     s.axis = static_cast<std::uint8_t>(kind % 2);
     s.is_low = (s.axis == 1) == (cover > 0);
-    s.at = from.at() / wall_scale;
-    s.low = from.place() / wall_scale;
-    s.high = to / wall_scale;
-    const auto number = static_cast<std::uint32_t>(stretches_.size());
-    if (runs_.size() == first_run_[kind] || stretches_.back().at != s.at)
+    s.at = from.at() / splitting_scale;
+    s.low = from.place() / splitting_scale;
+    s.high = to / splitting_scale;
+    const auto number = static_cast<std::uint32_t>(intervals_.size());
+    if (runs_.size() == first_run_[kind] || intervals_.back().at != s.at)
         runs_.push_back({number, number});
     runs_.back().end = number + 1;
-    stretches_.push_back(s);
+    intervals_.push_back(s);
     return true;
 }
 
-bool AxisOutline::add_stretches(std::size_t kind) {
+bool AxisOutline::add_intervals(std::size_t kind) {
     auto& changes = changes_[kind];
     if (!std::is_sorted(changes.begin(), changes.end())) std::sort(changes.begin(), changes.end());
     int cover = 0;
@@ -170,7 +170,7 @@ bool AxisOutline::add_stretches(std::size_t kind) {
         for (; i < changes.size() && changes[i].is_at_place_of(here); ++i) by += changes[i].by();
         if (by == 0) continue;
         if (cover != 0 &&
-            !(here.is_on_line_of(from) && add_stretch(kind, from, here.place(), cover)))
+            !(here.is_on_line_of(from) && add_interval(kind, from, here.place(), cover)))
             return false;
         cover += by;
         from = here;
@@ -180,11 +180,11 @@ bool AxisOutline::add_stretches(std::size_t kind) {
 }
 
 bool AxisOutline::finish() {
-    stretches_.clear();
+    intervals_.clear();
     runs_.clear();
     for (std::size_t kind = 0; kind < changes_.size(); ++kind) {
         first_run_[kind] = runs_.size();
-        if (!add_stretches(kind)) return false;
+        if (!add_intervals(kind)) return false;
     }
     first_run_.back() = runs_.size();
     return true;
@@ -196,13 +196,13 @@ std::size_t AxisOutline::run_at(bool faces_up, std::uint8_t axis, std::int64_t a
     std::size_t high = first_run_[kind + 1];
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        if (stretches_[runs_[middle].first].at < at) {
+        if (intervals_[runs_[middle].first].at < at) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    return low < first_run_[kind + 1] && stretches_[runs_[low].first].at == at ? low : runs_.size();
+    return low < first_run_[kind + 1] && intervals_[runs_[low].first].at == at ? low : runs_.size();
 }
 
 bool AxisOutline::turns_between(bool faces_up, std::uint8_t axis, std::int64_t at, std::int64_t low,
@@ -210,36 +210,37 @@ bool AxisOutline::turns_between(bool faces_up, std::uint8_t axis, std::int64_t a
     const std::size_t run = run_at(faces_up, axis, at);
     if (run == runs_.size()) return false;
     // The first that ends beyond `low`.
-    const auto on_line = stretches().subspan(runs_[run].first, runs_[run].end - runs_[run].first);
-    const auto it = std::ranges::upper_bound(on_line, low, {}, &AxisStretch::high);
+    const auto on_line = intervals().subspan(runs_[run].first, runs_[run].end - runs_[run].first);
+    const auto it = std::ranges::upper_bound(on_line, low, {}, &AxisInterval::high);
     if (it == on_line.end()) return false;
     return it->high < high || (it->low > low && it->low < high);
 }
 
-// The stretch that begins where another one ends: one across the other axis, at its end.
-std::size_t AxisOutline::next_of(const AxisStretch& s, const std::vector<bool>& used) const {
+// The interval that begins where another one ends: one across the other axis, at its end.
+std::size_t AxisOutline::next_of(const AxisInterval& s, const std::vector<bool>& used) const {
     const std::size_t run = run_at(s.faces_up, static_cast<std::uint8_t>(1 - s.axis), s.to());
-    if (run == runs_.size()) return stretches_.size();
-    const auto begin = stretches_.begin();
+    if (run == runs_.size()) return intervals_.size();
+    const auto begin = intervals_.begin();
     const auto end = begin + runs_[run].end;
-    auto it = std::ranges::lower_bound(begin + runs_[run].first, end, s.at, {}, &AxisStretch::high);
+    auto it =
+        std::ranges::lower_bound(begin + runs_[run].first, end, s.at, {}, &AxisInterval::high);
     for (int i = 0; i < 2 && it != end; ++i, ++it)
         if (const auto n = static_cast<std::size_t>(it - begin); it->from() == s.at && !used[n])
             return n;
-    return stretches_.size();
+    return intervals_.size();
 }
 
 std::vector<std::uint32_t> AxisOutline::loops(bool faces_up) const {
-    const auto stretch_at = [&](std::size_t run) {
-        return run < runs_.size() ? runs_[run].first : stretches_.size();
+    const auto interval_at = [&](std::size_t run) {
+        return run < runs_.size() ? runs_[run].first : intervals_.size();
     };
-    const std::size_t begin = stretch_at(first_run_[kind_of(faces_up, 0)]);
-    const std::size_t end = stretch_at(first_run_[kind_of(faces_up, 1) + 1]);
-    std::vector<bool> used(stretches_.size(), false);
+    const std::size_t begin = interval_at(first_run_[kind_of(faces_up, 0)]);
+    const std::size_t end = interval_at(first_run_[kind_of(faces_up, 1) + 1]);
+    std::vector<bool> used(intervals_.size(), false);
     std::vector<std::uint32_t> ordered;
     ordered.reserve(end - begin);
     for (std::size_t start = begin; start < end; ++start) {
-        for (std::size_t i = start; i < end && !used[i]; i = next_of(stretches_[i], used)) {
+        for (std::size_t i = start; i < end && !used[i]; i = next_of(intervals_[i], used)) {
             used[i] = true;
             ordered.push_back(static_cast<std::uint32_t>(i));
         }

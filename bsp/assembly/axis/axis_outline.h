@@ -37,9 +37,9 @@ struct AxisSide {
 [[nodiscard]] std::optional<std::int64_t> end_of_side(const AxisSide& side,
                                                       const AxisSide& neighbour);
 
-/// A straight stretch of an outline; the region that faces outwards is to its left, seen from
+/// A straight interval of an outline; the region that faces outwards is to its left, seen from
 /// outside.
-struct AxisStretch {
+struct AxisInterval {
     bool faces_up = false;  ///< the outside is on the higher side of the plane
     std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
     bool is_low = false;    ///< the region is on the higher side of it
@@ -69,11 +69,11 @@ public:
     };
     void add(const Units& units, bool faces_up);
 
-    /// What is left, as maximal stretches, sorted by facing, axis, place and ends. False when
+    /// What is left, as maximal intervals, sorted by facing, axis, place and ends. False when
     /// polygons overlap, or an end is not on the lattice.
     [[nodiscard]] bool finish();
-    [[nodiscard]] std::span<const AxisStretch> stretches() const { return stretches_; }
-    /// The stretches [first, end) are all that lie on one line with one facing, in their order.
+    [[nodiscard]] std::span<const AxisInterval> intervals() const { return intervals_; }
+    /// The intervals [first, end) are all that lie on one line with one facing, in their order.
     struct Run {
         std::uint32_t first = 0;
         std::uint32_t end = 0;
@@ -81,20 +81,20 @@ public:
     [[nodiscard]] std::span<const Run> runs() const { return runs_; }
     /// The number of a run; runs().size() if there is none.
     [[nodiscard]] std::size_t run_at(bool faces_up, std::uint8_t axis, std::int64_t at) const;
-    /// Whether a stretch of one facing ends strictly between two places of a line.
+    /// Whether an interval of one facing ends strictly between two places of a line.
     [[nodiscard]] bool turns_between(bool faces_up, std::uint8_t axis, std::int64_t at,
                                      std::int64_t low, std::int64_t high) const;
-    /// Puts rank(i, place) for the places of all stretches, along axis i (0 or 1). The ranks are in
+    /// Puts rank(i, place) for the places of all intervals, along axis i (0 or 1). The ranks are in
     /// the order of the places.
     template <class Rank>
     void rank_places(Rank rank) {
-        for (AxisStretch& s : stretches_) {
+        for (AxisInterval& s : intervals_) {
             s.at = rank(s.axis, s.at);
             s.low = rank(1 - s.axis, s.low);
             s.high = rank(1 - s.axis, s.high);
         }
     }
-    /// Numbers of all stretches with one facing, each behind the one that it continues, loop after
+    /// Numbers of all intervals with one facing, each behind the one that it continues, loop after
     /// loop.
     [[nodiscard]] std::vector<std::uint32_t> loops(bool faces_up) const;
 
@@ -132,13 +132,13 @@ private:
         return (faces_up ? 2U : 0U) + axis;
     }
     void add_lines(const Units& units, bool faces_up);
-    [[nodiscard]] bool add_stretches(std::size_t kind);
-    [[nodiscard]] std::size_t next_of(const AxisStretch& s, const std::vector<bool>& used) const;
-    [[nodiscard]] bool add_stretch(std::size_t kind, const Change& from, std::int64_t to,
-                                   int cover);
+    [[nodiscard]] bool add_intervals(std::size_t kind);
+    [[nodiscard]] std::size_t next_of(const AxisInterval& s, const std::vector<bool>& used) const;
+    [[nodiscard]] bool add_interval(std::size_t kind, const Change& from, std::int64_t to,
+                                    int cover);
 
     std::array<std::vector<Change>, 4> changes_;  // by facing and axis
-    std::vector<AxisStretch> stretches_;
+    std::vector<AxisInterval> intervals_;
     std::vector<Run> runs_;
     std::array<std::size_t, 5> first_run_{};  // by facing and axis
 };

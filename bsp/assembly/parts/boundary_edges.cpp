@@ -87,20 +87,20 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
 
 // Where coincident facets of two operands meet at a splitting plane because one of them dropped out
 // of the formula beyond it, each side has only its own vertices on the splitting plane.
-void conform_walls(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
-    const auto on_wall = [&](const BoundaryEdge& e) {
-        return parts.bench.name(e.line.plane).is_wall();
+void conform_splitters(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto on_splitter = [&](const BoundaryEdge& e) {
+        return parts.bench.name(e.line.plane).is_splitter();
     };
-    if (std::none_of(edges.begin(), edges.end(), on_wall)) return;
-    std::vector<BoundaryEdge> walls;
-    std::copy_if(edges.begin(), edges.end(), std::back_inserter(walls), on_wall);
-    std::erase_if(edges, on_wall);
+    if (std::none_of(edges.begin(), edges.end(), on_splitter)) return;
+    std::vector<BoundaryEdge> splitters;
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(splitters), on_splitter);
+    std::erase_if(edges, on_splitter);
     EdgeSplitter splitter(parts.bench, parts.facets);
-    for (const BoundaryEdge& e : walls) {
+    for (const BoundaryEdge& e : splitters) {
         splitter.add_candidate(e.from);
         splitter.add_candidate(e.to);
     }
-    splitter.split(walls, edges);
+    splitter.split(splitters, edges);
     sort_by_facet(parts, edges);
 }
 
@@ -147,12 +147,12 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         EdgeChains::arrange(std::span(out).subspan(first));
         for (const BoundaryEdge& e : std::span(out).subspan(first)) {
             const PlaneName& n = parts.bench.name(e.line.plane);
-            if (n.is_wall() && std::abs(n.position()) >= universe_limit)
+            if (n.is_splitter() && std::abs(n.position()) >= universe_limit)
                 throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
         }
     }
     edges.swap(out);
-    conform_walls(parts, edges);
+    conform_splitters(parts, edges);
 }
 
 void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
@@ -271,8 +271,8 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
     sort_by_facet(parts, edges);
     if (joined != 0) arrange_all(edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
-        TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_wall(),
-                            "an edge on a cell wall survived joining");
+        TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_splitter(),
+                            "an edge on a cell splitter survived joining");
     return joined;
 }
 
@@ -326,7 +326,7 @@ public:
                 name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
                 keep_[as_index(p)] = 1;
             } else {
-                doubtful_.push_back({first + in, first + out});
+                uncertain_.push_back({first + in, first + out});
             }
         });
     }
@@ -334,7 +334,7 @@ public:
     /// Whether there are any.
     [[nodiscard]] bool find() {
         bool found = false;
-        for (const Passage& d : doubtful_) {
+        for (const Passage& d : uncertain_) {
             char& keep = keep_[as_index(edges_[d.out].from)];
             if (keep != 0) continue;
             if (!runs_straight(edges_[d.in], edges_[d.out])) {
@@ -344,7 +344,7 @@ public:
             if (next_.empty()) next_.assign(edges_.size(), none);
             next_[d.in] = d.out;
         }
-        for (const Passage& d : doubtful_)
+        for (const Passage& d : uncertain_)
             found = found || keep_[as_index(edges_[d.out].from)] == 0;
         return found;
     }
@@ -393,7 +393,7 @@ private:
             if (!single || (keep_corners_ && bench_.is_corner(p))) {
                 keep_[as_index(p)] = 1;
             } else if (keep_[as_index(p)] == 0) {
-                doubtful_.push_back({in, out});
+                uncertain_.push_back({in, out});
             }
         }
     }
@@ -408,7 +408,7 @@ private:
     bool keep_corners_;
     const std::vector<BoundaryEdge>& edges_;
     std::vector<char> keep_;  // by point
-    std::vector<Passage> doubtful_;
+    std::vector<Passage> uncertain_;
     std::vector<std::size_t> next_;  // of edges, where they run straight on
     EdgeChains chains_;
     Ends by_from_;

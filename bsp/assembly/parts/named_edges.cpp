@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/kernel/counters.h>
 
 namespace trisect::detail {
@@ -36,7 +36,7 @@ struct NamedEdge {
 class NamedVertices {
 public:
     explicit NamedVertices(const PlaneName& plane) {
-        if (plane.is_wall() || plane.source()->is_half_space()) return;
+        if (plane.is_splitter() || plane.source()->is_half_space()) return;
         source_ = plane.source();
         const auto& corners = source_->mesh().triangles[plane.facet];
         if (!plane.is_edge()) {

@@ -48,8 +48,8 @@ bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
         cutters_ = std::max(cutters_, std::size_t{s.cutter} + 1);
     plane_ = OutlinePlane(corners);
     return cutters_ <= max_cutters && link_segments() &&
-           meetings_.find(plane_, segments, cutters_) && sort_stops() && find_covers_at_corner() &&
-           walk_outline() && walk_paths();
+           meetings_.find(plane_, segments, cutters_) && sort_stops() &&
+           find_containments_at_corner() && walk_outline() && walk_paths();
 }
 
 // --- Paths.
@@ -133,12 +133,12 @@ bool FacetOutline::sort_stops_on(std::size_t edge) {
     return true;
 }
 
-bool FacetOutline::find_covers_at_corner() {
+bool FacetOutline::find_containments_at_corner() {
     at_corner_ = 0;
-    Covers known = 0;
+    Containments known = 0;
     for (const auto& stops : stops_)
         for (const Stop& s : stops) {
-            const Covers b = bit(s.segment);
+            const Containments b = bit(s.segment);
             if ((known & b) != 0) continue;
             known |= b;
             if (s.end == 1) at_corner_ |= b;
@@ -146,7 +146,7 @@ bool FacetOutline::find_covers_at_corner() {
     for (std::uint32_t c = 0; c < cutters_; ++c) {
         bool open = true;
         if ((known >> c & 1U) == 0 && !has_open_outside(c, open)) return false;
-        if (!open) at_corner_ |= Covers{1} << c;
+        if (!open) at_corner_ |= Containments{1} << c;
     }
     return true;
 }
@@ -181,24 +181,25 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
 // Where no cutter contains it, the outline bounds the open part.
 bool FacetOutline::walk_outline() {
     at_stop_.assign(segments_.size(), 0);
-    Covers covers = at_corner_;
+    Containments containments = at_corner_;
     OutlinePoint at{};
     for (std::int8_t edge = 0; edge < 3; ++edge) {
         const auto go_to = [&](const OutlinePoint& to) {
-            if (covers == 0) edges_.push_back({at, to, edge, 0});
+            if (containments == 0) edges_.push_back({at, to, edge, 0});
             at = to;
         };
         for (const Stop& s : stops_[static_cast<std::size_t>(edge)]) {
             go_to({OutlinePoint::Kind::End, s.end, s.segment});
-            const Covers b = bit(s.segment);
-            if (((covers & b) != 0) != (s.end == 1)) return false;
-            covers ^= b;
+            const Containments b = bit(s.segment);
+            if (((containments & b) != 0) != (s.end == 1)) return false;
+            containments ^= b;
             // A segment across the facet has both ends here: the walk along it compares them.
-            if (s.end == 0 || segments_[s.segment].edge[0] < 0) at_stop_[s.segment] = covers & ~b;
+            if (s.end == 0 || segments_[s.segment].edge[0] < 0)
+                at_stop_[s.segment] = containments & ~b;
         }
         go_to({OutlinePoint::Kind::Corner, static_cast<std::int8_t>((edge + 1) % 3), 0});
     }
-    return covers == at_corner_;
+    return containments == at_corner_;
 }
 
 // --- Along the paths.
@@ -214,62 +215,62 @@ bool FacetOutline::walk_paths() {
         for (std::uint32_t s = 0; s < segments_.size(); ++s) {
             if (walked_[s] != 0) continue;
             left = s;
-            Covers covers = 0;
-            if (!start_from_meeting(s, covers)) continue;
-            if (!walk_path(s, covers)) return false;
+            Containments containments = 0;
+            if (!start_from_meeting(s, containments)) continue;
+            if (!walk_path(s, containments)) return false;
             found = true;
         }
         if (left == none) return true;
         if (found) continue;
-        Covers covers = 0;
-        if (!start_from_corner(left, covers) || !walk_path(left, covers)) return false;
+        Containments containments = 0;
+        if (!start_from_corner(left, containments) || !walk_path(left, containments)) return false;
     }
 }
 
-bool FacetOutline::walk_path(std::uint32_t start, Covers covers) {
-    const Covers own = bit(start);
-    const Covers at_start = covers;
-    if ((covers & own) != 0) return false;
+bool FacetOutline::walk_path(std::uint32_t start, Containments containments) {
+    const Containments own = bit(start);
+    const Containments at_start = containments;
+    if ((containments & own) != 0) return false;
     std::uint32_t s = start;
     while (true) {
         if (walked_[s] != 0) return false;
         walked_[s] = 1;
         OutlinePoint at{OutlinePoint::Kind::End, 0, s};
         const auto go_to = [&](const OutlinePoint& to) {
-            if (covers == 0) edges_.push_back({at, to, -1, s});
+            if (containments == 0) edges_.push_back({at, to, -1, s});
             at = to;
         };
         for (OutlineMeetings::Meeting& m : meetings_.of(s)) {
             go_to({OutlinePoint::Kind::Meeting, 0, m.point});
-            m.before = covers;
-            const Covers b = bit(m.other);
-            if (((covers & b) != 0) != m.opens) return false;
-            covers ^= b;
+            m.before = containments;
+            const Containments b = bit(m.other);
+            if (((containments & b) != 0) != m.opens) return false;
+            containments ^= b;
         }
         go_to({OutlinePoint::Kind::End, 1, s});
         if (next_[s] == none) {
             // A path of one segment has kept its first stop.
-            return segments_[s].edge[0] >= 0 || covers == at_stop_[s];
+            return segments_[s].edge[0] >= 0 || containments == at_stop_[s];
         }
         s = next_[s];
-        if (s == start) return covers == at_start;
+        if (s == start) return containments == at_start;
     }
 }
 
 // From a path that was walked and meets this segment; false when there is none.
-bool FacetOutline::start_from_meeting(std::uint32_t segment, Covers& covers) {
+bool FacetOutline::start_from_meeting(std::uint32_t segment, Containments& containments) {
     const auto meetings = meetings_.of(segment);
     for (std::size_t i = 0; i < meetings.size(); ++i) {
         const OutlineMeetings::Meeting& m = meetings[i];
         if (walked_[m.other] == 0) continue;
         const auto there =
             std::ranges::find(meetings_.of(m.other), m.point, &OutlineMeetings::Meeting::point);
-        covers = there->before & ~bit(segment);
-        if (m.opens) covers |= bit(m.other);
+        containments = there->before & ~bit(segment);
+        if (m.opens) containments |= bit(m.other);
         // Back to the segment's start.
         for (std::size_t k = i; k > 0; --k) {
-            const Covers b = bit(meetings[k - 1].other);
-            covers = meetings[k - 1].opens ? covers | b : covers & ~b;
+            const Containments b = bit(meetings[k - 1].other);
+            containments = meetings[k - 1].opens ? containments | b : containments & ~b;
         }
         return true;
     }
@@ -277,11 +278,11 @@ bool FacetOutline::start_from_meeting(std::uint32_t segment, Covers& covers) {
 }
 
 // By a straight way from the facet's first corner.
-bool FacetOutline::start_from_corner(std::uint32_t segment, Covers& covers) {
+bool FacetOutline::start_from_corner(std::uint32_t segment, Containments& containments) {
     if (!set_projection()) return false;
     const Approximation from = approximate(*corners_[0]);
     const Approximation& to = *segments_[segment].at[0];
-    covers = at_corner_ & ~bit(segment);
+    containments = at_corner_ & ~bit(segment);
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {
         if (segments_[s].cutter == segments_[segment].cutter) continue;
         const Approximation& first = *segments_[s].at[0];
@@ -293,7 +294,7 @@ bool FacetOutline::start_from_corner(std::uint32_t segment, Covers& covers) {
         const int d = turn(first, last, to);
         if (c * d > 0) continue;
         if (a == 0 || b == 0 || c == 0 || d == 0) return false;
-        covers ^= bit(s);
+        containments ^= bit(s);
     }
     return true;
 }

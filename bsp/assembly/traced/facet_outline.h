@@ -56,7 +56,7 @@ public:
 
 private:
     /// A bit for each cutter that contains a point.
-    using Covers = std::uint64_t;
+    using Containments = std::uint64_t;
     /// Where a segment ends in the facet's outline.
     struct Stop {
         double along = 0;
@@ -79,19 +79,19 @@ private:
     [[nodiscard]] bool link_segments();
     [[nodiscard]] bool sort_stops();
     [[nodiscard]] bool sort_stops_on(std::size_t edge);
-    [[nodiscard]] bool find_covers_at_corner();
+    [[nodiscard]] bool find_containments_at_corner();
     [[nodiscard]] bool has_open_outside(std::uint32_t cutter, bool& open);
     [[nodiscard]] bool walk_outline();
     [[nodiscard]] bool walk_paths();
-    [[nodiscard]] bool walk_path(std::uint32_t start, Covers covers);
-    [[nodiscard]] bool start_from_meeting(std::uint32_t segment, Covers& covers);
-    [[nodiscard]] bool start_from_corner(std::uint32_t segment, Covers& covers);
+    [[nodiscard]] bool walk_path(std::uint32_t start, Containments containments);
+    [[nodiscard]] bool start_from_meeting(std::uint32_t segment, Containments& containments);
+    [[nodiscard]] bool start_from_corner(std::uint32_t segment, Containments& containments);
 
     [[nodiscard]] bool set_projection();
     [[nodiscard]] int turn(const Approximation& a, const Approximation& b,
                            const Approximation& c) const;
-    [[nodiscard]] Covers bit(std::uint32_t segment) const {
-        return Covers{1} << segments_[segment].cutter;
+    [[nodiscard]] Containments bit(std::uint32_t segment) const {
+        return Containments{1} << segments_[segment].cutter;
     }
     std::array<const LatticePoint*, 3> corners_{};
     std::span<const OutlineSegment> segments_;
@@ -103,9 +103,10 @@ private:
     OutlinePlane plane_;
     OutlineMeetings meetings_;
     std::array<std::vector<Stop>, 3> stops_;  // of edges, in the order of a walk
-    std::vector<Covers> at_stop_;  // of segments that end in the outline, without their cutter
+    std::vector<Containments>
+        at_stop_;  // of segments that end in the outline, without their cutter
     std::vector<std::uint8_t> walked_;
-    Covers at_corner_ = 0;  // the first one
+    Containments at_corner_ = 0;  // the first one
     // The plane in which turns are seen, turned so that the facet is counter-clockwise.
     std::size_t axis_u_ = 0;
     std::size_t axis_v_ = 0;

@@ -26,7 +26,7 @@
 #include <limits>
 #include <utility>
 
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/double2.h>
 
@@ -134,7 +134,7 @@ bool OutlineMeetings::compare_with_all(std::uint32_t a) {
     return true;
 }
 
-// False when it is doubtful whether two segments cross.
+// False when it is uncertain whether two segments cross.
 bool OutlineMeetings::compare(std::uint32_t a, std::uint32_t b) {
     ++compared_;
     const std::array<std::uint32_t, 2> pair{a, b};
@@ -194,7 +194,7 @@ bool OutlineMeetings::add_point(const std::array<std::uint32_t, 2>& segments,
     return interpolate(*s.at[0], v.at[0], *s.at[1], v.at[1], v.error, point.at);
 }
 
-// Those of one segment in their order along it; false when it is doubtful.
+// Those of one segment in their order along it; false when it is uncertain.
 bool OutlineMeetings::sort_meetings() {
     for (std::size_t s = 1; s < first_.size(); ++s) first_[s] += first_[s - 1];
     next_.assign(first_.begin(), first_.end() - 1);

@@ -26,7 +26,7 @@ struct OutlineSegment {
     std::array<std::uint64_t, 2> through{};
 };
 
-/// The plane of a facet in doubles. For the bounds see plain_facets.cpp.
+/// The plane of a facet in doubles. For the bounds see filtered_facets.cpp.
 struct OutlinePlane {
     std::array<double, 3> origin{};
     std::array<double, 3> normal{};

@@ -70,7 +70,7 @@ public:
         const auto& by_second = crossings_.by_second;
         std::size_t first = 0;
         std::size_t second = 0;
-        auto doubtful = crossings_.doubtful.begin();
+        auto uncertain = crossings_.uncertain.begin();
         for (const std::uint32_t facet : crossings_.shown) {
             while (first < pairs.size() && pairs[first].facets[0] < facet) ++first;
             while (second < pairs.size() && pairs[by_second[second]].facets[1] < facet) ++second;
@@ -79,8 +79,8 @@ public:
                 sides_.push_back({static_cast<std::uint32_t>(first), 0});
             for (; second < pairs.size() && pairs[by_second[second]].facets[1] == facet; ++second)
                 sides_.push_back({by_second[second], 1});
-            while (doubtful != crossings_.doubtful.end() && *doubtful < facet) ++doubtful;
-            if (doubtful == crossings_.doubtful.end() || *doubtful != facet) look_at(facet);
+            while (uncertain != crossings_.uncertain.end() && *uncertain < facet) ++uncertain;
+            if (uncertain == crossings_.uncertain.end() || *uncertain != facet) look_at(facet);
         }
     }
 

@@ -22,13 +22,13 @@ AxisTrace::AxisTrace(const FinePoint& from, const FinePoint& to, int axis)
     : from_(from), to_(to), axis_(static_cast<std::size_t>(axis)) {
     for (std::size_t i = 0; i < 2; ++i) {
         at_[i] = static_cast<double>(from.c[(axis_ + 1 + i) % 3]) *
-                 (1.0 / static_cast<double>(wall_scale));
+                 (1.0 / static_cast<double>(splitting_scale));
         at_error_ = std::max(at_error_, std::fabs(at_[i]) * unit_roundoff);
     }
 }
 
 void AxisTrace::add(const PolygonRef& polygon) {
-    if (!decide(polygon)) doubtful_.push_back(polygon);
+    if (!decide(polygon)) uncertain_.push_back(polygon);
 }
 
 bool AxisTrace::decide(const PolygonRef& polygon) {
@@ -62,8 +62,8 @@ bool AxisTrace::decide(const PolygonRef& polygon) {
     const auto [lo, hi] = std::minmax({height[0], height[1], height[2]});
     const std::int64_t low = std::min(from_.c[axis_], to_.c[axis_]);
     const std::int64_t high = std::max(from_.c[axis_], to_.c[axis_]);
-    if (hi * wall_scale < low || lo * wall_scale > high) return true;
-    if (lo * wall_scale <= low || hi * wall_scale >= high) return false;
+    if (hi * splitting_scale < low || lo * splitting_scale > high) return true;
+    if (lo * splitting_scale <= low || hi * splitting_scale >= high) return false;
     // The support's normal along the axis has the sign of the determinants. Going up through a
     // facet that faces up is leaving.
     const bool leaving = (positive != 0) == (to_.c[axis_] > from_.c[axis_]);
@@ -73,8 +73,8 @@ bool AxisTrace::decide(const PolygonRef& polygon) {
 
 std::optional<int> AxisTrace::change(bool flipped) const {
     const int sure = flipped ? -decided_ : decided_;
-    if (doubtful_.empty()) return sure;
-    const auto rest = trace_winding(doubtful_, flipped, from_, to_);
+    if (uncertain_.empty()) return sure;
+    const auto rest = trace_winding(uncertain_, flipped, from_, to_);
     if (!rest) return std::nullopt;
     return sure + *rest;
 }

@@ -26,7 +26,7 @@ public:
     /// Start again on the same segment.
     void clear() {
         decided_ = 0;
-        doubtful_.clear();
+        uncertain_.clear();
     }
 
 private:
@@ -38,7 +38,7 @@ private:
     std::array<double, 2> at_{};  // the segment seen along the axis
     double at_error_ = 0;
     int decided_ = 0;
-    std::vector<PolygonRef> doubtful_;
+    std::vector<PolygonRef> uncertain_;
 };
 
 }  // namespace trisect::detail

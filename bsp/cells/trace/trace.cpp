@@ -31,7 +31,7 @@ int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
 }
 
 WideInt<4> plane_value_at(const FinePoint& p, const Plane& plane) {
-    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
+    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(splitting_bits);
     for (int k = 0; k < 3; ++k)
         sum +=
             multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
@@ -82,7 +82,7 @@ const TraceTarget::Exact& TraceTarget::exact() const {
     Exact e;
     if (bench_ == nullptr) {
         for (std::size_t k = 0; k < 3; ++k) e.xyz[k] = Wide(fine_.c[k]);
-        e.w = Wide(wall_scale);
+        e.w = Wide(splitting_scale);
         exact_ = e;
         return *exact_;
     }
@@ -102,7 +102,7 @@ const TraceTarget::Exact& TraceTarget::exact() const {
 Approximation approximate(const FinePoint& p) {
     Approximation a;
     for (std::size_t k = 0; k < 3; ++k) {
-        a.c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+        a.c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
         a.error = std::max(a.error, std::fabs(a.c[k]) * unit_roundoff);
     }
     return a;
@@ -147,7 +147,7 @@ int SupportCrossing::side_of(const Plane& edge) const {
     std::array<Huge, 3> x;
     for (std::size_t k = 0; k < 3; ++k)
         x[k] = multiply<22>(g, WideInt<1>(reference_.c[k])) - multiply<22>(t.xyz[k], r);
-    const Huge w = multiply<22>(g, WideInt<1>(wall_scale)) - multiply<22>(t.w, r);
+    const Huge w = multiply<22>(g, WideInt<1>(splitting_scale)) - multiply<22>(t.w, r);
     const int s = sign_at(x, w, edge);
     return w.is_negative() ? -s : s;
 }

@@ -224,7 +224,7 @@ void DelaunayMesh::fill_cavity(std::uint32_t corner) {
     // One tetrahedron for each face, in the places of the old ones first.
     std::vector<Tetrahedron> added;
     added.reserve(surface_.size());
-    for (const Wall& w : surface_) {
+    for (const SplittingPlane& w : surface_) {
         Tetrahedron t;
         t.corner = tetrahedra_[w.inside.tetrahedron].corner;
         t.corner[w.inside.face] = corner;
@@ -249,7 +249,7 @@ void DelaunayMesh::fill_cavity(std::uint32_t corner) {
     }
     edges_.clear();
     for (std::size_t n = 0; n < added.size(); ++n) {
-        const Wall& w = surface_[n];
+        const SplittingPlane& w = surface_[n];
         tetrahedra_[cavity_[n]] = added[n];
         if (w.outside.tetrahedron != none)
             tetrahedra_[w.outside.tetrahedron].neighbour[w.outside.face] = cavity_[n];

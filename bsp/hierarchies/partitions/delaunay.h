@@ -67,7 +67,7 @@ private:
         std::uint32_t face = 0;
     };
     /// A face of a cavity from inside, and from outside where there is one.
-    struct Wall {
+    struct SplittingPlane {
         Side inside;
         Side outside;
     };
@@ -90,7 +90,7 @@ private:
     // Of the insertion that is under way.
     std::vector<std::uint32_t> mark_;  // by tetrahedron: the last insertion that looked at it
     std::vector<std::uint32_t> cavity_;
-    std::vector<Wall> surface_;
+    std::vector<SplittingPlane> surface_;
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> free_;  // places of tetrahedra that are no more
     std::uint32_t insertion_ = 0;

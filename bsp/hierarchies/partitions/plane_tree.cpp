@@ -149,9 +149,9 @@ bool PlaneTree::push(const RoughPolygon& polygon, const Box& box,
             ++counters.volume_tests;
             const auto at = static_cast<std::size_t>(task.ref);
             const Node& node = nodes_[at];
-            if (at < walls_.size()) {
-                const bool near_below = walls_[at].below.meets(box);
-                const bool near_above = walls_[at].above.meets(box);
+            if (at < splitters_.size()) {
+                const bool near_below = splitters_[at].below.meets(box);
+                const bool near_above = splitters_[at].above.meets(box);
                 if (!near_below || !near_above) {
                     task.ref = near_below ? node.below : near_above ? node.above : nowhere;
                     continue;
@@ -200,9 +200,9 @@ void PlaneTree::find_near(const Box& box, double limit, FunctionRef<double(std::
         ++counters.volume_tests;
         const auto index = static_cast<std::size_t>(task.ref);
         const Node& node = nodes_[index];
-        if (index < walls_.size()) {
-            const double below = std::max(task.least, gap_between(walls_[index].below, box));
-            const double above = std::max(task.least, gap_between(walls_[index].above, box));
+        if (index < splitters_.size()) {
+            const double below = std::max(task.least, gap_between(splitters_[index].below, box));
+            const double above = std::max(task.least, gap_between(splitters_[index].above, box));
             const bool first_below = below <= above;
             near_tasks_.push_back(first_below ? NearTask{above, node.above}
                                               : NearTask{below, node.below});
@@ -445,32 +445,32 @@ PlaneTree::Ref PlaneTree::graft(const MspTree& tree, std::vector<Plane>& planes)
     return ref(tree.root());
 }
 
-void PlaneTree::build_under_walls(const detail::InterferenceModelData& model,
-                                  std::vector<Plane>& planes,
-                                  FunctionRef<Ref(const WallCells::Cell& cell)> graft_cell) {
-    const WallCells walls = WallCells::over(model, most_in_cell);
-    for (const WallCells::Wall& w : walls.walls) {
+void PlaneTree::build_under_splitters(const detail::InterferenceModelData& model,
+                                      std::vector<Plane>& planes,
+                                      FunctionRef<Ref(const SplitCells::Cell& cell)> graft_cell) {
+    const SplitCells splitters = SplitCells::over(model, most_in_cell);
+    for (const SplitCells::SplittingPlane& w : splitters.splitters) {
         nodes_.push_back(node_of(w.plane));
         planes.push_back(w.plane);
-        walls_.push_back({w.box_below, w.box_above});
+        splitters_.push_back({w.box_below, w.box_above});
     }
     std::vector<Ref> roots;
-    for (const WallCells::Cell& cell : walls.cells) roots.push_back(graft_cell(cell));
-    const auto ref = [&roots](WallCells::Ref r) {
+    for (const SplitCells::Cell& cell : splitters.cells) roots.push_back(graft_cell(cell));
+    const auto ref = [&roots](SplitCells::Ref r) {
         return r < 0 ? roots[static_cast<std::size_t>(~r)] : r;
     };
-    for (std::size_t i = 0; i < walls.walls.size(); ++i) {
-        nodes_[i].below = ref(walls.walls[i].below);
-        nodes_[i].above = ref(walls.walls[i].above);
+    for (std::size_t i = 0; i < splitters.splitters.size(); ++i) {
+        nodes_[i].below = ref(splitters.splitters[i].below);
+        nodes_[i].above = ref(splitters.splitters[i].above);
     }
-    root_ = ref(walls.root());
+    root_ = ref(splitters.root());
 }
 
 PlaneTree PlaneTree::classic(const detail::InterferenceModelData& model) {
     PlaneTree r;
     std::vector<Plane> planes;
     if (model.all_lattice)
-        r.build_under_walls(model, planes, [&](const WallCells::Cell& cell) {
+        r.build_under_splitters(model, planes, [&](const SplitCells::Cell& cell) {
             return r.graft(build_bsp(cell.polygons), planes);
         });
     else
@@ -484,11 +484,11 @@ PlaneTree PlaneTree::multidimensional(const detail::InterferenceModelData& model
     PlaneTree r;
     std::vector<Plane> planes;
     if (model.all_lattice)
-        r.build_under_walls(model, planes, [&](const WallCells::Cell& cell) {
+        r.build_under_splitters(model, planes, [&](const SplitCells::Cell& cell) {
             std::vector<MspPolygon> polygons;
             for (const std::uint32_t i : cell.triangles)
                 polygons.push_back(msp_polygon(model, model.triangles[i]));
-            return r.graft(MspTree::from_polygons(polygons, cell.walls), planes);
+            return r.graft(MspTree::from_polygons(polygons, cell.splitters), planes);
         });
     else
         r.root_ = r.graft(MspTree::from_brep(model.brep), planes);

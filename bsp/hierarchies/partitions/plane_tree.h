@@ -15,7 +15,7 @@
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/hierarchies/pairs/triangle_boxes.h>
 #include <trisect/bsp/hierarchies/partitions/inner_balls.h>
-#include <trisect/bsp/hierarchies/partitions/wall_cells.h>
+#include <trisect/bsp/hierarchies/partitions/split_cells.h>
 #include <trisect/bsp/interference/boxes/cost.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/msp_tree.h>
@@ -47,7 +47,7 @@ struct RoughPolygon {
 /// so every triangle with a point in common with the one that is pushed down is offered.
 ///
 /// Axis-perpendicular splitting planes above divide the boundary into cells of few triangles, and
-/// each of these has a tree of its own (WallCells): without them the tree of a convex solid would
+/// each of these has a tree of its own (SplitCells): without them the tree of a convex solid would
 /// be a list. A model with vertices that are not lattice points has no splitting planes. Nothing
 /// recurses.
 ///
@@ -86,7 +86,7 @@ public:
     [[nodiscard]] std::size_t stray_count() const { return strays_.size(); }
     [[nodiscard]] unsigned depth() const;
     [[nodiscard]] std::size_t bytes() const {
-        return nodes_.size() * sizeof(Node) + walls_.size() * sizeof(WallBoxes) +
+        return nodes_.size() * sizeof(Node) + splitters_.size() * sizeof(SplitterBoxes) +
                (first_.size() + lists_.size()) * sizeof(std::uint32_t);
     }
 
@@ -108,7 +108,7 @@ private:
         Ref above = out;
     };
     // Of the boundary below and above a splitting plane. Splitting planes are the first nodes.
-    struct WallBoxes {
+    struct SplitterBoxes {
         Box below;
         Box above;
     };
@@ -146,8 +146,9 @@ private:
     Ref graft(const BspTree& tree, std::vector<Plane>& planes);
     Ref graft(const MspTree& tree, std::vector<Plane>& planes);
     /// Splitting planes, and a tree of its own for each cell below them. \pre there are no nodes.
-    void build_under_walls(const detail::InterferenceModelData& model, std::vector<Plane>& planes,
-                           FunctionRef<Ref(const WallCells::Cell& cell)> graft_cell);
+    void build_under_splitters(const detail::InterferenceModelData& model,
+                               std::vector<Plane>& planes,
+                               FunctionRef<Ref(const SplitCells::Cell& cell)> graft_cell);
     [[nodiscard]] static Values values_of(const Node& node, const RoughPolygon& polygon);
     /// The part where sign · value is not above a margin; the whole where it is not worth cutting.
     [[nodiscard]] static RoughPolygon part(const RoughPolygon& polygon, const Values& values,
@@ -163,7 +164,7 @@ private:
     }
 
     std::vector<Node> nodes_;
-    std::vector<WallBoxes> walls_;
+    std::vector<SplitterBoxes> splitters_;
     Ref root_ = out;
     std::vector<std::uint32_t> first_;  // of lists: by node, or by face
     std::vector<std::uint32_t> lists_;

@@ -46,8 +46,8 @@
 // margin. The factor 1 - 2^-18 takes the lengths and the last roundings. So along a vector shorter
 // than 1, as products are, it says less than the distance, which is right, too.
 //
-// Planes that were found under another pose (parting_planes.h). The distance of the two sets along
-// L, in the frame of box A, is that along U_A^T L in A, whatever U_A is. That direction n, of
+// Planes that were found under another pose (separating_planes.h). The distance of the two sets
+// along L, in the frame of box A, is that along U_A^T L in A, whatever U_A is. That direction n, of
 // length at most 1 + 2^-20, is computed up to 7 u, which changes distances by 7 u Λ. B's second set
 // is within Σ s_j b_j u_j of its centre, so that under another map, M + D, its least place along n
 // is at least

@@ -67,7 +67,7 @@ public:
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
 
-    // The map in floats, as tests of planes need it (parting_planes.h).
+    // The map in floats, as tests of planes need it (separating_planes.h).
     [[nodiscard]] float turned(std::size_t i, std::size_t j) const { return m_[i][j]; }
     [[nodiscard]] float way(std::size_t i) const { return t_[i]; }
     [[nodiscard]] float margin() const { return margin_; }

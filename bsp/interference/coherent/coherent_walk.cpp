@@ -11,9 +11,9 @@
 // when they were last tested in full: one direction for each lane instead of sixteen (a witness
 // kept between frames, as Baraff 1990 does for convex polyhedra). Where the centre of a box is
 // along such a direction is linear in the pose, and no box is loaded for it; how much the rest of
-// the box may add follows from how far B has turned (parting_planes.h). Most of what is due is done
-// by that, in a sixth of the time of a box. It is also sharper than the odometer, which treats the
-// body as a whole: a plane feels the motion of its own box, along its own normal.
+// the box may add follows from how far B has turned (separating_planes.h). Most of what is due is
+// done by that, in a sixth of the time of a box. It is also sharper than the odometer, which treats
+// the body as a whole: a plane feels the motion of its own box, along its own normal.
 //
 // The front is the leaves of the tree of all pairs that a walk opens, and the whole tree is kept.
 // Where a pair closes in it is divided further. Where everything below a pair is far apart by now,
@@ -22,7 +22,7 @@
 //
 // Where boundaries cross, balls inside both solids are tried first, then the pair of triangles that
 // showed the crossing. Balls give a reserve: until something has moved by as much as they reach
-// into each other no test is needed at all (pose_reserve.h), and the same holds for the least gap
+// into each other no test is needed at all (motion_bound.h), and the same holds for the least gap
 // of a front. A crossing pair of a fine mesh is lost with every step; so balls are tried that touch
 // the boundaries from inside near where it was found. Models keep one for each region; the deepest
 // pair of some next to each other is taken, and again when the last one has parted.
@@ -212,7 +212,7 @@ std::uint32_t CoherentWalk::add_visit(ObbId a, ObbId b, std::uint32_t parent, do
         v = unused_.back();
         unused_.pop_back();
         visits_[v] = Visit{};
-        planes_[v] = PartingPlanes{};
+        planes_[v] = SeparatingPlanes{};
     }
     visits_[v].a = a;
     visits_[v].b = b;
@@ -259,7 +259,7 @@ void CoherentWalk::visit_lanes(std::uint32_t v) {
     const std::uint32_t number = open_b ? tb.child(e.b).node() : ta.child(e.a).node();
     const ObbNode& node = open_b ? tb.nodes[number] : ta.nodes[number];
     ++counters_.node_tests;
-    PartingPlanes& planes = planes_[v];
+    SeparatingPlanes& planes = planes_[v];
     Float4 gaps{};
     if (open_b) {
         gaps = pose_->gaps(ta.box(e.a), node, planes.along);
@@ -429,7 +429,7 @@ CoherentWalk::Answer CoherentWalk::renew_front() {
     odometer_ = (odometer_ + step_) * (1 + 0x1p-52);
     turn_ = (turn_ + pose_->turn_from(*front_pose_)) * (1 + 0x1p-52);
     if (!(turn_ <= PlanePose::most_turn * static_cast<double>(pose_->scale()))) {
-        for (PartingPlanes& p : planes_) p.forget();
+        for (SeparatingPlanes& p : planes_) p.forget();
         turn_ = 0;
     }
     stand();

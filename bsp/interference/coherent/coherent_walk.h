@@ -13,7 +13,7 @@
 #include <trisect/bsp/interference/boxes/approximate_map.h>
 #include <trisect/bsp/interference/boxes/obb_pose.h>
 #include <trisect/bsp/interference/boxes/obb_walk.h>
-#include <trisect/bsp/interference/coherent/parting_planes.h>
+#include <trisect/bsp/interference/coherent/separating_planes.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/support/due_list.h>
@@ -129,7 +129,7 @@ private:
     std::vector<Visit> visits_;
     // Of visits: planes that separate the lanes that are not open, which stay where they are while
     // B moves. Of a pair of triangles the first direction alone, in doubles.
-    std::vector<PartingPlanes> planes_;
+    std::vector<SeparatingPlanes> planes_;
     std::vector<std::uint32_t> unused_;
     DueList due_;                        // of visits
     std::vector<std::uint32_t> open_;    // visits to be made in this question

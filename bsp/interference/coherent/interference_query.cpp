@@ -5,7 +5,7 @@
 #include <optional>
 
 #include <trisect/bsp/interference/coherent/coherent_walk.h>
-#include <trisect/bsp/interference/coherent/pose_reserve.h>
+#include <trisect/bsp/interference/coherent/motion_bound.h>
 #include <trisect/bsp/interference/relation/boundary_flags.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
@@ -28,7 +28,7 @@ struct InterferenceQuery::State {
     InterferenceModel b;
     CoherentWalk walk;
     std::optional<Relation> last_apart;  // the relation, when the walk's last answer was apart
-    detail::PoseReserve reserve;
+    detail::MotionBound reserve;
     Relation reserved = Relation::Disjoint;  // the relation that it is for
     InterferenceQueryCounters counters;
 };

@@ -34,9 +34,9 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
     if (pose.is_apart()) return;
     Pairs leaves;
     Pairs coarse;
-    if (parting_ != nullptr) {
-        parting_->set(over, swept);
-        walk_.refine(pose, swept.sweep, front, leaves, coarse, *parting_);
+    if (separating_ != nullptr) {
+        separating_->set(over, swept);
+        walk_.refine(pose, swept.sweep, front, leaves, coarse, *separating_);
     } else {
         walk_.refine(pose, swept.sweep, front, leaves, coarse);
     }

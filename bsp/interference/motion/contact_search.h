@@ -27,8 +27,12 @@ public:
     /// `parting`, if given, leaves out what moves apart: for the first contact of solids that are
     /// apart at the beginning.
     ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs,
-                  PartingFaces* parting = nullptr)
-        : a_(a), b_(b), pairs_(pairs), parting_(parting), walk_(a.data().boxes, b.data().boxes) {}
+                  RecedingFaces* parting = nullptr)
+        : a_(a),
+          b_(b),
+          pairs_(pairs),
+          separating_(parting),
+          walk_(a.data().boxes, b.data().boxes) {}
 
     /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
     void run(const BallMotion& over, EarliestEvents& events);
@@ -48,7 +52,7 @@ private:
     const EventModel& a_;
     const EventModel& b_;
     PairEvents& pairs_;
-    PartingFaces* parting_;
+    RecedingFaces* separating_;
     SweptWalk walk_;
     SearchCounters counters_;
 };

@@ -77,22 +77,22 @@ std::vector<std::uint32_t> triangles_below(const ObbTree& tree, ObbId box) {
 }  // namespace
 
 // A ball around B.
-struct PartingFaces::Extent {
+struct RecedingFaces::Extent {
     Vector3 center{};
     double radius = 0;
 };
 
 // What two coefficients say of the velocity of a point p: turn p + way. `size` bounds what was
 // added up for it.
-struct PartingFaces::Step {
+struct RecedingFaces::Step {
     Matrix turn{};
     Vector3 way{};
     double size = 0;
 };
 
-PartingFaces::Step PartingFaces::step_between(const BallMotion::Maps& m0,
-                                              const BallMotion::Maps& m1, const SweptMap& swept,
-                                              const Extent& extent) {
+RecedingFaces::Step RecedingFaces::step_between(const BallMotion::Maps& m0,
+                                                const BallMotion::Maps& m1, const SweptMap& swept,
+                                                const Extent& extent) {
     Step s;
     const double w = m1.weight.value - m0.weight.value;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -112,8 +112,8 @@ PartingFaces::Step PartingFaces::step_between(const BallMotion::Maps& m0,
 }
 
 // Of the balls' errors in such a sum.
-double PartingFaces::errors_of(const BallMotion::Maps& m, const SweptMap& swept,
-                               const Extent& extent) {
+double RecedingFaces::errors_of(const BallMotion::Maps& m, const SweptMap& swept,
+                                const Extent& extent) {
     double errors = m.weight.error * (norm(swept.map.m) * (length(extent.center) + extent.radius) +
                                       length(swept.map.t));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -193,7 +193,7 @@ void FacingCones::append_normal(FaceId face) {
     normals_.push_back(n);
 }
 
-void PartingFaces::set(const BallMotion& over, const SweptMap& swept) {
+void RecedingFaces::set(const BallMotion& over, const SweptMap& swept) {
     error_ = HUGE_VAL;
     inverse_error_ = HUGE_VAL;
     if (over.degree == 0) return;
@@ -205,7 +205,7 @@ void PartingFaces::set(const BallMotion& over, const SweptMap& swept) {
     set_inverse(over, swept, least_weight);
 }
 
-void PartingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
+void RecedingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
     const InterferenceModelData& b = b_.data();
     const Extent extent{b.boxes.origin, b.boxes.radius * b.boxes.unit};
     // The mean over k telescopes to the last coefficient minus the first.
@@ -234,7 +234,7 @@ void PartingFaces::set_velocity(const BallMotion& over, const SweptMap& swept) {
 }
 
 // Of all points of B.
-double PartingFaces::deviation_of(const Step& step, const Extent& extent) const {
+double RecedingFaces::deviation_of(const Step& step, const Extent& extent) const {
     Matrix turn = step.turn;
     Vector3 way = step.way;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -245,7 +245,8 @@ double PartingFaces::deviation_of(const Step& step, const Extent& extent) const 
 }
 
 // Entries of M are those of the map in the middle within what the coefficients deviate from it.
-void PartingFaces::set_inverse(const BallMotion& over, const SweptMap& swept, double least_weight) {
+void RecedingFaces::set_inverse(const BallMotion& over, const SweptMap& swept,
+                                double least_weight) {
     double squares = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
@@ -266,7 +267,7 @@ void PartingFaces::set_inverse(const BallMotion& over, const SweptMap& swept, do
                      0x1p-46 * inverse_norm_ * inverse_norm_ * norm(swept.map.m);
 }
 
-bool PartingFaces::operator()(ObbId a, ObbId b) {
+bool RecedingFaces::operator()(ObbId a, ObbId b) {
     if (!(error_ < HUGE_VAL)) return false;
     const ObbTree& tree = b_.data().boxes;
     const ObbNode& node = tree.nodes[b.node()];
@@ -279,7 +280,7 @@ bool PartingFaces::operator()(ObbId a, ObbId b) {
     Vector3 v = product(turn_, p);
     for (std::size_t k = 0; k < 3; ++k) v[k] += way_[k];
     const double slack = error_ + bound_slack * turn_norm_ * length(half);
-    const auto is_parting = [&] {
+    const auto is_separating = [&] {
         if (cones_a_.of(a).is_all_along(v, slack)) return true;
         if (!(inverse_error_ < HUGE_VAL)) return false;
         Vector3 back = product(inverse_, v);
@@ -287,7 +288,7 @@ bool PartingFaces::operator()(ObbId a, ObbId b) {
         return cones_b_.of(b).is_all_along(
             back, inverse_norm_ * slack + inverse_error_ * (length(v) + slack));
     };
-    if (!is_parting()) return false;
+    if (!is_separating()) return false;
     ++left_out_;
     return true;
 }

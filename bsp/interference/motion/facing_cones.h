@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacingCones, PartingFaces: parts of two boundaries that move away from each other.
+// FacingCones, RecedingFaces: parts of two boundaries that move away from each other.
 // No first contact begins there.
 #pragma once
 
@@ -48,10 +48,10 @@ private:
 };
 
 /// Hierarchical back-face culling over an interval of a motion.
-class PartingFaces {
+class RecedingFaces {
 public:
     /// `model_b` is the model of the cones of B.
-    PartingFaces(FacingCones& a, FacingCones& b, const EventModel& model_b)
+    RecedingFaces(FacingCones& a, FacingCones& b, const EventModel& model_b)
         : cones_a_(a), cones_b_(b), b_(model_b) {}
 
     void set(const BallMotion& over, const SweptMap& swept);

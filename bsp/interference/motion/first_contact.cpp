@@ -101,10 +101,10 @@ public:
         }
         bool apart = result_.at_start == Relation::Disjoint;
         // Where solids touch already they may come apart, and that is an event, too.
-        if (event == ContactEvent::Touch && options.leave_out_parting) {
+        if (event == ContactEvent::Touch && options.leave_out_receding) {
             cones_a_ = std::make_unique<detail::FacingCones>(events_a_);
             cones_b_ = std::make_unique<detail::FacingCones>(events_b_);
-            parting_ = std::make_unique<detail::PartingFaces>(*cones_a_, *cones_b_, events_b_);
+            separating_ = std::make_unique<detail::RecedingFaces>(*cones_a_, *cones_b_, events_b_);
         }
         for (std::size_t i = 0; i < pieces && !result_.exists(); ++i) {
             if (event == ContactEvent::Touch)
@@ -185,12 +185,12 @@ private:
                     pairs_->find_exactly(i, j, {0, 1}, events);
             return;
         }
-        detail::ContactSearch search(events_a_, events_b_, *pairs_, parting_.get());
+        detail::ContactSearch search(events_a_, events_b_, *pairs_, separating_.get());
         search.run(*filter_, events);
         result_.stats.intervals += search.counters().intervals;
         result_.stats.box_tests += search.counters().box_tests;
         result_.stats.triangle_pairs += search.counters().triangle_pairs;
-        if (parting_ != nullptr) result_.stats.parting_pairs = parting_->left_out();
+        if (separating_ != nullptr) result_.stats.separating_pairs = separating_->left_out();
     }
 
     void answer(std::size_t piece, const detail::EventsAtATime& events) {
@@ -229,7 +229,7 @@ private:
     std::unique_ptr<detail::BallMotion> filter_;  // null when degrees are too high
     std::unique_ptr<detail::FacingCones> cones_a_;
     std::unique_ptr<detail::FacingCones> cones_b_;
-    std::unique_ptr<detail::PartingFaces> parting_;  // null when nothing may be left out
+    std::unique_ptr<detail::RecedingFaces> separating_;  // null when nothing may be left out
     FirstContact result_;
 };
 

@@ -111,22 +111,22 @@ std::optional<Relation> quick_relation(const InterferenceModelData& a, const Pos
     ObbWalk walk(a.boxed(), b.boxed(), to_a, stack);
     constexpr std::size_t many = 1024;
     TellingCrossings crossings(a, b, to_a);
-    CandidatePairs doubtful;
-    bool is_doubtful = false;
+    CandidatePairs uncertain;
+    bool is_uncertain = false;
     const bool stopped = walk.run([&](std::uint32_t i, std::uint32_t j, PairVerdict verdict) {
         if (verdict == PairVerdict::Crossing && crossings.tells(i, j)) return true;
-        is_doubtful = true;
+        is_uncertain = true;
         if (candidates == nullptr) return false;
-        doubtful.pairs.push_back({i, j, verdict});
-        if (doubtful.pairs.size() == many)
-            doubtful.may_coincide = may_coincide(a, b, to_a, doubtful.pairs);
-        return doubtful.may_coincide;
+        uncertain.pairs.push_back({i, j, verdict});
+        if (uncertain.pairs.size() == many)
+            uncertain.may_coincide = may_coincide(a, b, to_a, uncertain.pairs);
+        return uncertain.may_coincide;
     });
     if (counters != nullptr) *counters += walk.counters();
-    if (stopped && !doubtful.may_coincide) return Relation::Overlapping;
-    if (is_doubtful) {
-        doubtful.is_complete = !stopped;
-        if (candidates != nullptr) *candidates = std::move(doubtful);
+    if (stopped && !uncertain.may_coincide) return Relation::Overlapping;
+    if (is_uncertain) {
+        uncertain.is_complete = !stopped;
+        if (candidates != nullptr) *candidates = std::move(uncertain);
         return std::nullopt;
     }
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tests of plain_pairs.cpp on two triangles in doubles, of four pairs in single precision: the
-// sides of the corners, and the order of the points where edges pierce the other support. Most of
-// what boxes leave is parted by a plane, half of the rest is apart along the line that the supports
-// have in common, and what crosses surely needs no more from doubles than the ends of the segment.
+// The tests of filtered_pairs.cpp on two triangles in doubles, of four pairs in single precision:
+// the sides of the corners, and the order of the points where edges pierce the other support. Most
+// of what boxes leave is parted by a plane, half of the rest is apart along the line that the
+// supports have in common, and what crosses surely needs no more from doubles than the ends of the
+// segment.
 //
 // Bounds, with u = 2^-24; see facet_rows.cpp for coordinates, which are at most 1 in magnitude, and
 // values v of planes, which are off by less than b.
 //
 // The line's direction d is the product of the normals, of which no component is above 1. They are
 // off by t and t' each: by rounding to single and before that, as doubles, by 2^-52 times the sum
-// of the minors' permanents, which is the slope (plain_facets.cpp); t has four times both. So d is
-// off by less than 2.1 (t + t') + 6 u in each component; with t and t' at least 4 u that is below
-// 3 (t + t'). Where the largest component of d is above three times that the angle between d and
-// the true direction is acute, so the order of points of the line is that of their products with d,
-// the computed one: it is one linear function for all points.
+// of the minors' permanents, which is the slope (filtered_facets.cpp); t has four times both. So d
+// is off by less than 2.1 (t + t') + 6 u in each component; with t and t' at least 4 u that is
+// below 3 (t + t'). Where the largest component of d is above three times that the angle between d
+// and the true direction is acute, so the order of points of the line is that of their products
+// with d, the computed one: it is one linear function for all points.
 //
 // Such a product s has three terms of at most 2, with coordinates and products rounded, and two
 // sums: it is off by less than 24 u. Where an edge with the values v and -w at its ends pierces,

@@ -4,12 +4,13 @@
 // supports, and nearly always by much. Single precision finds that for four facets with a few
 // dozen instructions. Doubles look at what is left.
 //
-// Bounds, with u = 2^-24. The plane in doubles has a normal n and a bound (plain_facets.h); the
-// bound covers what n is off. Scaled by s it becomes single: components, coordinates and products
-// are off by a factor of 1 + u each, the two sums above a product by another two. So a value is off
-// by less than 5.1 u times the sum of |s n_k p_k|, and 3.1 u times |s n · origin|. Both sums are at
-// most that of |s n_k| times the leaf's extent, since all points and the origin are within it. That
-// makes 8.2 u; 16 u is taken, which also is far more than what vanishes below the smallest number.
+// Bounds, with u = 2^-24. The plane in doubles has a normal n and a bound (filtered_facets.h); the
+// bound containments what n is off. Scaled by s it becomes single: components, coordinates and
+// products are off by a factor of 1 + u each, the two sums above a product by another two. So a
+// value is off by less than 5.1 u times the sum of |s n_k p_k|, and 3.1 u times |s n · origin|.
+// Both sums are at most that of |s n_k| times the leaf's extent, since all points and the origin
+// are within it. That makes 8.2 u; 16 u is taken, which also is far more than what vanishes below
+// the smallest number.
 //
 // A line from a in the direction d passes a triangle where the determinants of d and two corners,
 // both taken from a, have different signs. Differences of coordinates are at most 1 and off by 3 u,
@@ -79,7 +80,7 @@ void FacetRows::start(const Vector3& extent) {
     for (std::size_t k = 0; k < 3; ++k) extent_[k] = scale_ * extent[k];
 }
 
-void FacetRows::add(const std::array<Vector3, 3>& corners, const PlainPlane& plane) {
+void FacetRows::add(const std::array<Vector3, 3>& corners, const FilteredPlane& plane) {
     const std::size_t i = size_++ % 4;
     if (i == 0) rows_.emplace_back();
     Row& r = rows_.back();

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
 
 namespace trisect::detail {
 
@@ -17,9 +17,9 @@ namespace trisect::detail {
 /// they leave open is for doubles.
 class FacetRows {
 public:
-    /// For a leaf whose points differ by no more than this, see PlainFacets::extent().
+    /// For a leaf whose points differ by no more than this, see FilteredFacets::extent().
     void start(const Vector3& extent);
-    void add(const std::array<Vector3, 3>& corners, const PlainPlane& plane);
+    void add(const std::array<Vector3, 3>& corners, const FilteredPlane& plane);
 
     using Four = std::array<float, 4>;
     /// A facet to be compared with the others: every number four times.

@@ -32,7 +32,7 @@ namespace trisect::detail {
 
 std::optional<LeafResult> ExactLeaf::try_to_arrange(const LeafProblem& problem,
                                                     LeafFindings& findings) {
-    findings.note_doubtful(problem);
+    findings.note_uncertain(problem);
     work_.start(problem, findings.stats);
     pairs_.relate_all(work_);
     if (std::ranges::all_of(problem.operands, &LeafOperand::embedded)) {

@@ -26,7 +26,7 @@ bool runs_through(const Cell& cell, const LatticePoint& a, const LatticePoint& b
     double to = 1;
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
-        const auto scale = static_cast<double>(wall_scale);
+        const auto scale = static_cast<double>(splitting_scale);
         const double p = static_cast<double>(a[k]);
         const double d = static_cast<double>(b[k]) - p;
         const double lo = static_cast<double>(cell.lo[i]) / scale - p;
@@ -91,7 +91,7 @@ bool LeafAnchors::is_in_cell(LeafIndex i, std::size_t corner) {
     const Approximation& a = work_->bench.approximation(p);
     for (std::size_t k = 0; k < 3; ++k) {
         const double slack = 1.001 * a.error + 0x1p-45 * std::fabs(a.c[k]);
-        const auto scale = static_cast<double>(wall_scale);
+        const auto scale = static_cast<double>(splitting_scale);
         if ((a.c[k] - slack) * scale <= static_cast<double>(cell.lo[k]) ||
             (a.c[k] + slack) * scale >= static_cast<double>(cell.hi[k]))
             return false;
@@ -102,7 +102,7 @@ bool LeafAnchors::is_in_cell(LeafIndex i, std::size_t corner) {
 LeafIndex LeafAnchors::vertex_of(LeafIndex i, std::size_t corner) {
     const LeafItem& item = work_->item(i);
     // Corners of the source by name, so that facets need no shape; other points by the bench's.
-    Key128 key{static_cast<std::uint64_t>(item.sheet), 0};
+    Key128 key{static_cast<std::uint64_t>(item.surface), 0};
     if (is_facet(item)) {
         key.b = item.ref.source->corner_index(item.ref.facet, static_cast<int>(corner));
     } else {
@@ -141,7 +141,7 @@ LeafIndex LeafAnchors::edge_of(LeafIndex i, int edge) {
     if (!runs_through(cell, a, b)) return no_edge;
     const std::uint64_t v = source.corner_index(item.ref.facet, edge);
     const std::uint64_t w = source.corner_index(item.ref.facet, (edge + 1) % 3);
-    const Key128 key{(std::uint64_t{1} << 41) | static_cast<std::uint64_t>(item.sheet),
+    const Key128 key{(std::uint64_t{1} << 41) | static_cast<std::uint64_t>(item.surface),
                      (std::min(v, w) << 32) | std::max(v, w)};
     const auto [id, inserted] = ids_.insert(key, static_cast<std::int32_t>(vertex_of_id_.size()));
     if (inserted) {
@@ -178,7 +178,8 @@ bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
     const LeafItem& item = work_->item(v.item);
     if (is_facet(item)) {
         const LatticePoint& c = item.ref.source->corner(item.ref.facet, v.corner);
-        const TraceTarget target(FinePoint{{c.x * wall_scale, c.y * wall_scale, c.z * wall_scale}});
+        const TraceTarget target(
+            FinePoint{{c.x * splitting_scale, c.y * splitting_scale, c.z * splitting_scale}});
         return windings_->at_point(target, item.operand, w);
     }
     const PointId p = work_->shape(v.item).points[static_cast<std::size_t>(v.corner)];

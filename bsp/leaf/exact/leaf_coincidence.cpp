@@ -11,15 +11,15 @@
 
 namespace trisect::detail {
 
-bool covered_by(const Workbench& bench, const WorkPolygon& piece, const WorkPolygon& cover) {
-    return std::all_of(cover.edges.begin(), cover.edges.end(), [&](const WorkEdge& e) {
+bool is_within(const Workbench& bench, const WorkPolygon& piece, const WorkPolygon& other) {
+    return std::all_of(other.edges.begin(), other.edges.end(), [&](const WorkEdge& e) {
         const int outside = e.above ? -1 : 1;
         return std::all_of(piece.points.begin(), piece.points.end(),
                            [&](PointId p) { return bench.side(p, e.plane) * outside <= 0; });
     });
 }
 
-bool speaks_before(const LeafWork& work, LeafIndex a, LeafIndex b) {
+bool represents_before(const LeafWork& work, LeafIndex a, LeafIndex b) {
     const auto key = [&](LeafIndex i) {
         const LeafItem& item = work.item(i);
         return std::tuple(work.operand_of(item).slot, item.ref.source->serial(), item.ref.facet, i);
@@ -36,10 +36,10 @@ void resolve_coincidence(LeafWork& work, std::size_t first) {
         step[as_index(item.operand)] += item.orientation;
         bool alone = true;
         for (const LeafContact& c : work.contacts(piece.item)) {
-            if (!c.covers || !covered_by(work.bench, piece.shape, work.with_edges(c.other)))
+            if (!c.overlaps || !is_within(work.bench, piece.shape, work.with_edges(c.other)))
                 continue;
             alone = false;
-            if (speaks_before(work, c.other, piece.item)) {
+            if (represents_before(work, c.other, piece.item)) {
                 piece.dropped = true;
                 if (!item.contained)
                     work.incomplete.push_back({item.ref.source->serial(), item.ref.facet});

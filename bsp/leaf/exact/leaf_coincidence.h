@@ -12,10 +12,10 @@ namespace trisect::detail {
 void resolve_coincidence(LeafWork& work, std::size_t first);
 
 /// Whether a piece lies in a polygon of the same plane. \pre the polygon has its edges.
-[[nodiscard]] bool covered_by(const Workbench& bench, const WorkPolygon& piece,
-                              const WorkPolygon& cover);
+[[nodiscard]] bool is_within(const Workbench& bench, const WorkPolygon& piece,
+                             const WorkPolygon& other);
 
 /// Of two coincident items, which one represents both?
-[[nodiscard]] bool speaks_before(const LeafWork& work, LeafIndex a, LeafIndex b);
+[[nodiscard]] bool represents_before(const LeafWork& work, LeafIndex a, LeafIndex b);
 
 }  // namespace trisect::detail

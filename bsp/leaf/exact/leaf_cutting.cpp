@@ -67,7 +67,7 @@ void LeafCutting::set_start(const WorkPolygon& part) {
     start_.vertex = -1;
     // In the plane of another facet it is not clear whether the point lies on that.
     for (const LeafContact& c : work_->contacts(item_)) {
-        if (!c.covers) continue;
+        if (!c.overlaps) continue;
         const std::size_t operand = as_index(work_->item(c.other).operand);
         start_.windings[operand] = unknown_winding;
         known_[operand] = 1;
@@ -85,11 +85,11 @@ bool LeafCutting::may_bound(const Part& part) {
 
 // Drops what lies in a coincident facet that represents both. That comes first: a part may be
 // decided to bound the result long before all is known about the operand of that facet.
-void LeafCutting::leave_to_speakers() {
+void LeafCutting::leave_to_representatives() {
     const LeafItem& item = work_->item(item_);
-    if (!item.covered) return;
+    if (!item.overlapped) return;
     for (const LeafContact& c : work_->contacts(item_)) {
-        if (!c.covers || !speaks_before(*work_, c.other, item_)) continue;
+        if (!c.overlaps || !represents_before(*work_, c.other, item_)) continue;
         const std::size_t before = count_;
         for (std::size_t k = 0; k < before; ++k) {
             if (parts_[k].state != Part::State::Open || !is_near(parts_[k], c.other)) continue;
@@ -99,7 +99,7 @@ void LeafCutting::leave_to_speakers() {
             parts_[first] = parts_[k];
             split_along_edges(first, c.other);
             for (std::size_t j = first; j < count_; ++j) {
-                if (!is_covered(parts_[j], c.other)) continue;
+                if (!is_overlapped(parts_[j], c.other)) continue;
                 parts_[j].state = Part::State::Dropped;
                 if (!item.contained)
                     work_->incomplete.push_back({item.ref.source->serial(), item.ref.facet});
@@ -169,12 +169,12 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
         const std::span<const LeafContact> contacts = work_->contacts(i);
         known_windings_ = start_.windings;
         for (const LeafContact& c : contacts)
-            if (c.cuts || c.covers)
+            if (c.cuts || c.overlaps)
                 known_windings_[as_index(work_->item(c.other).operand)] = unknown_winding;
         set_sides(part.sides, known_windings_);
         if (!may_bound(part)) return {};
     }
-    leave_to_speakers();
+    leave_to_representatives();
     for (std::size_t k = 0; k < count_; ++k)
         if (parts_[k].state == Part::State::Open) settle(parts_[k]);
     const std::span<const LeafContact> contacts = work_->contacts(i);
@@ -187,7 +187,7 @@ LeafRemains LeafCutting::cut(LeafIndex i) {
             const auto group = contacts.subspan(begin, end - begin);
             if ((start_.windings[as_index(operand_at(begin))] > 0) == around &&
                 std::any_of(group.begin(), group.end(),
-                            [](const LeafContact& c) { return c.cuts || c.covers; }))
+                            [](const LeafContact& c) { return c.cuts || c.overlaps; }))
                 cut_by(operand_at(begin), group);
             begin = end;
         }
@@ -221,7 +221,7 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
     for (std::size_t k = 0; k < before; ++k) {
         if (parts_[k].state != Part::State::Open) continue;
         if (std::none_of(contacts.begin(), contacts.end(), [&](const LeafContact& c) {
-                return (c.cuts || c.covers) && is_near(parts_[k], c.other);
+                return (c.cuts || c.overlaps) && is_near(parts_[k], c.other);
             })) {
             find_sides(parts_[k], operand, contacts);
             settle(parts_[k]);
@@ -289,8 +289,8 @@ bool LeafCutting::is_near(const Part& part, LeafIndex item) const {
     return true;
 }
 
-bool LeafCutting::is_covered(const Part& part, LeafIndex cover) {
-    return is_near(part, cover) && covered_by(work_->bench, part.shape, work_->with_edges(cover));
+bool LeafCutting::is_overlapped(const Part& part, LeafIndex other) {
+    return is_near(part, other) && is_within(work_->bench, part.shape, work_->with_edges(other));
 }
 
 void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cutter, bool sure) {
@@ -309,27 +309,27 @@ void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cu
     }
 }
 
-// The edges of a overlapping facet are lines in the plane of the item.
-void LeafCutting::split_along_edges(std::size_t first, LeafIndex cover) {
-    for (const WorkEdge& e : work_->with_edges(cover).edges)
-        split_along_line(first, e.plane, cover, false);
+// The edges of an overlapping facet are lines in the plane of the item.
+void LeafCutting::split_along_edges(std::size_t first, LeafIndex other) {
+    for (const WorkEdge& e : work_->with_edges(other).edges)
+        split_along_line(first, e.plane, other, false);
 }
 
 void LeafCutting::split(std::size_t first, std::span<const LeafContact> contacts) {
     // Nothing but the first cutter can have cut a whole item in the cell: it need not be tested.
-    bool sure = first == 1 && !work_->item(item_).covered && work_->item(item_).contained;
+    bool sure = first == 1 && !work_->item(item_).overlapped && work_->item(item_).contained;
     for (const LeafContact& c : contacts) {
         if (!c.cuts) continue;
         split_along_line(first, work_->with_edges(c.other).support, c.other, sure);
         sure = false;
     }
     for (const LeafContact& c : contacts)
-        if (c.covers) split_along_edges(first, c.other);
+        if (c.overlaps) split_along_edges(first, c.other);
 }
 
 void LeafCutting::find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts) {
     for (const LeafContact& c : contacts) {
-        if (!c.covers || !is_covered(part, c.other)) continue;
+        if (!c.overlaps || !is_overlapped(part, c.other)) continue;
         const LeafItem& other = work_->item(c.other);
         const bool same = same_orientation(work_->bench.plane_at(part.shape.support),
                                            work_->bench.plane_at(other.shape.support));
@@ -381,16 +381,16 @@ std::optional<int> LeafCutting::crossing(LeafIndex cutter, const Approximation& 
     const int step = at_start * work_->item(cutter).orientation;
     const auto x = approximate_crossing(start_.at, end, support);
     if (!x) return std::nullopt;
-    bool doubtful = false;
+    bool uncertain = false;
     for (const WorkEdge& e : shape.edges) {
         const auto s = filtered_side(*x, bench.plane_at(e.plane));
         if (!s) {
-            doubtful = true;
+            uncertain = true;
         } else if ((*s == Side::Above) != e.above) {
             return 0;
         }
     }
-    if (!doubtful) return step;
+    if (!uncertain) return step;
     const PlaneId plane = work_->item(item_).shape.support;
     Few<int> sides;
     for (const PointId p : shape.points) sides.push_back(bench.side(p, plane));

@@ -74,14 +74,14 @@ private:
     void set_sides(Sides& sides, const std::vector<int>& windings) const;
     [[nodiscard]] bool may_bound(const Part& part);
     void settle(Part& part);
-    void leave_to_speakers();
+    void leave_to_representatives();
     void cut_by(LeafIndex operand, std::span<const LeafContact> contacts);
     void split(std::size_t first, std::span<const LeafContact> contacts);
-    void split_along_edges(std::size_t first, LeafIndex cover);
+    void split_along_edges(std::size_t first, LeafIndex other);
     void split_along_line(std::size_t first, PlaneId line, LeafIndex cutter, bool sure);
     void set_box(Part& part) const;
     [[nodiscard]] bool is_near(const Part& part, LeafIndex item) const;
-    [[nodiscard]] bool is_covered(const Part& part, LeafIndex cover);
+    [[nodiscard]] bool is_overlapped(const Part& part, LeafIndex other);
     void find_sides(Part& part, LeafIndex operand, std::span<const LeafContact> contacts);
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;

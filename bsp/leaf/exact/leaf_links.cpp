@@ -28,8 +28,8 @@ bool is_own_edge(const PolygonRef& ref, const PlaneName& plane) {
     return plane.is_edge() && plane.source() == ref.source && plane.facet == ref.facet;
 }
 
-bool is_wall_of(const Cell& cell, const PlaneName& plane) {
-    if (!plane.is_wall()) return false;
+bool is_splitter_of(const Cell& cell, const PlaneName& plane) {
+    if (!plane.is_splitter()) return false;
     return plane.position() == cell.lo[plane.facet] || plane.position() == cell.hi[plane.facet];
 }
 
@@ -42,8 +42,8 @@ bool certainly_enters(const Cell& cell, const Approximation& p, const Approximat
     double to = 1 - 0x1p-6;
     double largest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = static_cast<double>(cell.lo[k]) / static_cast<double>(wall_scale);
-        hi[k] = static_cast<double>(cell.hi[k]) / static_cast<double>(wall_scale);
+        lo[k] = static_cast<double>(cell.lo[k]) / static_cast<double>(splitting_scale);
+        hi[k] = static_cast<double>(cell.hi[k]) / static_cast<double>(splitting_scale);
         largest = std::max({largest, std::fabs(p.c[k]), std::fabs(q.c[k])});
         const double d = q.c[k] - p.c[k];
         if (d == 0) continue;
@@ -131,7 +131,7 @@ void LeafLinks::add_node(LeafNode node) {
 Key128 LeafLinks::key_of_edge(const LeafItem& item, const PlaneName& edge) {
     const auto v = edge.source()->corner_index(edge.facet, static_cast<int>(edge.kind));
     const auto w = edge.source()->corner_index(edge.facet, static_cast<int>((edge.kind + 1) % 3));
-    return {static_cast<std::uint64_t>(item.sheet),
+    return {static_cast<std::uint64_t>(item.surface),
             (std::uint64_t{std::min(v, w)} << 32) | std::max(v, w)};
 }
 
@@ -139,10 +139,10 @@ void LeafLinks::add_edge(LeafNode node, int k, const PlaneName& plane) {
     const LeafItem& item = item_of(node);
     if (is_own_edge(item.ref, plane)) {
         add_to_line(key_of_edge(item, plane), false, node, k);
-    } else if (!is_wall_of(work_->problem->cell, plane)) {
+    } else if (!is_splitter_of(work_->problem->cell, plane)) {
         // More names than bits: try_within_facet() compares them.
         const std::uint64_t facet =
-            (std::uint64_t{item.ref.facet} << 32) | static_cast<std::uint64_t>(item.sheet);
+            (std::uint64_t{item.ref.facet} << 32) | static_cast<std::uint64_t>(item.surface);
         const std::uint64_t name =
             plane.owner ^ mix64((std::uint64_t{plane.facet} << 3) | plane.kind);
         add_to_line({name | (std::uint64_t{1} << 63), facet}, true, node, k);
@@ -303,7 +303,7 @@ void LeafLinks::try_within_facet(const Edge& a, const Edge& b) {
     const LeafItem& i = item_of(a.node);
     const LeafItem& j = item_of(b.node);
     const bool same_line =
-        i.sheet == j.sheet && i.ref.facet == j.ref.facet && plane_name(a) == plane_name(b);
+        i.surface == j.surface && i.ref.facet == j.ref.facet && plane_name(a) == plane_name(b);
     if (!same_line || !overlap(a, b)) return;
     // Of two edges the shorter one is less likely to be partly overlapped.
     const auto length = [&](const Edge& e) {

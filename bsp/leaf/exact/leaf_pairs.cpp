@@ -55,7 +55,7 @@ public:
             bench_.declare_same(a_.support, b_.support);
             if (separated_by_edges(s_, b_) || separated_by_edges(t_, a_))
                 return !(same_mesh_ && shared_corners() == 2);
-            of_first.covers = of_second.covers = true;
+            of_first.overlaps = of_second.overlaps = true;
             return true;
         }
         const SideRange a_range = range(a_, b_);
@@ -132,7 +132,7 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             const double slack =
                 2 * (a.error + b.error) + 0x1p-45 * (std::fabs(a.c[k]) + std::fabs(b.c[k]));
-            const auto scale = static_cast<double>(wall_scale);
+            const auto scale = static_cast<double>(splitting_scale);
             const double lo = (std::min(a.c[k], b.c[k]) - slack) * scale;
             const double hi = (std::max(a.c[k], b.c[k]) + slack) * scale;
             if (hi < static_cast<double>(cell.lo[k]) || lo > static_cast<double>(cell.hi[k]))
@@ -258,7 +258,7 @@ void LeafPairs::list_facets(const LeafWork& work) {
         const LeafItem& item = work.item(candidates_[i].item);
         if (item.ref.fragment != nullptr || item.ref.source->is_half_space()) continue;
         Facet& f = facets_[i];
-        f.sheet = item.sheet;
+        f.surface = item.surface;
         for (int v = 0; v < 3; ++v) {
             const auto c = static_cast<std::size_t>(v);
             f.corners[c] = approximate(item.ref.source->corner(item.ref.facet, v)).c;
@@ -288,7 +288,7 @@ bool LeafPairs::separates(LeafWork& work, std::size_t i, std::size_t j) {
     if (facets_[i].bound < 0) make_plane(work, i);
     const Facet& f = facets_[i];
     const Facet& g = facets_[j];
-    const bool same_mesh = f.sheet == g.sheet;
+    const bool same_mesh = f.surface == g.surface;
     bool above = true;
     bool below = true;
     int shared = 0;
@@ -319,7 +319,7 @@ void LeafPairs::sweep(LeafWork& work) {
             if (a.lo[1] > b.hi[1] || b.lo[1] > a.hi[1] || a.lo[2] > b.hi[2] || b.lo[2] > a.hi[2])
                 continue;
             ++work.stats->pairs_boxes;
-            if (facets_[i].sheet >= 0 && facets_[j].sheet >= 0 &&
+            if (facets_[i].surface >= 0 && facets_[j].surface >= 0 &&
                 (separates(work, i, j) || separates(work, j, i))) {
                 ++separated;
                 continue;
@@ -332,7 +332,7 @@ void LeafPairs::sweep(LeafWork& work) {
         LeafItem& item = work.item(i);
         item.ref.touched = true;
         item.cut = item.cut || contact.cuts;
-        item.covered = item.covered || contact.covers;
+        item.overlapped = item.overlapped || contact.overlaps;
     }
 }
 

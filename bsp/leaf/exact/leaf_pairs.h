@@ -13,7 +13,7 @@
 namespace trisect::detail {
 
 /// Compares the polygons whose boxes meet and that are not of one embedded operand. Finds their
-/// contacts, fills in `cut` and `covered`, and declares planes the same that are.
+/// contacts, fills in `cut` and `overlapped`, and declares planes the same that are.
 ///
 /// Candidates come from a sweep along the axis on which the boxes are shortest; then the supports
 /// separate most of them exactly, with signs that the filter decides. Scratch memory that is kept
@@ -35,7 +35,7 @@ private:
     struct Facet {
         std::array<std::array<double, 3>, 3> corners{};
         std::array<std::uint32_t, 3> vertices{};
-        LeafIndex sheet = -1;  // -1: not a whole facet
+        LeafIndex surface = -1;  // -1: not a whole facet
         std::array<double, 3> normal{};
         double offset = 0;
         double bound = -1;  // of the error of a side; -1: the plane is not made yet

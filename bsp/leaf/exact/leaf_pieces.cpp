@@ -41,13 +41,13 @@ void make_pieces(LeafWork& work, LeafIndex i) {
         const WorkPolygon& cutter = work.with_edges(c.other);
         split_all(work, first, cutter.support, cutter);
     }
-    if (item.covered) {
+    if (item.overlapped) {
         for (const LeafContact& c : work.contacts(i)) {
-            if (!c.covers) continue;
+            if (!c.overlaps) continue;
             // The edges of the overlapping facet are lines in the plane of the item, given by its
             // edge planes.
-            const WorkPolygon& cover = work.with_edges(c.other);
-            for (const WorkEdge& e : cover.edges) split_all(work, first, e.plane, cover);
+            const WorkPolygon& other = work.with_edges(c.other);
+            for (const WorkEdge& e : other.edges) split_all(work, first, e.plane, other);
         }
         resolve_coincidence(work, first);
     }

@@ -139,10 +139,10 @@ void LeafWindings::next_reference() {
     for (int k = 0; k < 200; ++k) {
         FinePoint p;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t lo =
-                std::max(work_->problem->cell.lo[axis] + 1, (around.lo[axis] - 1) * wall_scale);
-            const std::int64_t hi =
-                std::min(work_->problem->cell.hi[axis] - 1, (around.hi[axis] + 1) * wall_scale);
+            const std::int64_t lo = std::max(work_->problem->cell.lo[axis] + 1,
+                                             (around.lo[axis] - 1) * splitting_scale);
+            const std::int64_t hi = std::min(work_->problem->cell.hi[axis] - 1,
+                                             (around.hi[axis] + 1) * splitting_scale);
             const auto seed = static_cast<std::uint64_t>(++reference_attempt_) * 3 + axis;
             const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
             const auto c = lo + static_cast<std::int64_t>(mix64(seed) % range);

@@ -95,8 +95,8 @@ RectangleCorners corners_of(const RectangleSides& sides, bool up) {
 
 // A coordinate of a place that is given in 1/256 units.
 void set(Approximation& a, std::size_t axis, std::int64_t at) {
-    a.c[axis] = static_cast<double>(at) / static_cast<double>(wall_scale);
-    if (at % wall_scale != 0) a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));
+    a.c[axis] = static_cast<double>(at) / static_cast<double>(splitting_scale);
+    if (at % splitting_scale != 0) a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));
 }
 
 // Doubles of places in the plane of a polygon.
@@ -119,9 +119,9 @@ public:
         set(x, plane_.axis, plane_.position);
         set(x, axis(fixed), a.at[fixed]);
         const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
-        const Int128 way = a.at[fixed] - Int128{line.from[fixed]} * wall_scale;
-        const double shift =
-            static_cast<double>(way * step(free)) / static_cast<double>(step(fixed) * wall_scale);
+        const Int128 way = a.at[fixed] - Int128{line.from[fixed]} * splitting_scale;
+        const double shift = static_cast<double>(way * step(free)) /
+                             static_cast<double>(step(fixed) * splitting_scale);
         const auto from = static_cast<double>(line.from[free]);
         x.c[axis(free)] = from + shift;
         x.error = std::max(x.error, 0x1p-51 * (std::fabs(from) + 2 * std::fabs(shift)));
@@ -136,8 +136,8 @@ private:
 // 1 on the polygon's side of its slanted edge, 0 on it.
 int side_of_line(const SlantedEdge& line, const RectangleCorner& c) {
     const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
-    const Int128 turn = step(0) * (c.at[1] - Int128{line.from[1]} * wall_scale) -
-                        step(1) * (c.at[0] - Int128{line.from[0]} * wall_scale);
+    const Int128 turn = step(0) * (c.at[1] - Int128{line.from[1]} * splitting_scale) -
+                        step(1) * (c.at[0] - Int128{line.from[0]} * splitting_scale);
     return turn > 0 ? 1 : (turn < 0 ? -1 : 0);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where everything is axis-perpendicular everything coincides: walls of rooms, teeth of combs, a
-// thousand cubes with common faces. Comparing facets pair by pair then finds nothing but contacts,
-// vertices lie on other surfaces, and every segment runs through an edge. But the planes cut the
-// cell into at most 64³ units, each wholly inside or outside of every operand, because the boundary
-// of an embedded operand turns only where two of these planes meet. So a facet is the centres of
-// units in it; which units are inside follows from one that is known, the reference's, by crossing
-// facets; the formula is evaluated word by word; and what bounds the result is where neighbouring
-// units differ. The exact arithmetic that is left is one determinant of integers for the diagonal
-// of a triangle.
+// Where everything is axis-perpendicular everything coincides: splitters of rooms, teeth of combs,
+// a thousand cubes with common faces. Comparing facets pair by pair then finds nothing but
+// contacts, vertices lie on other surfaces, and every segment runs through an edge. But the planes
+// cut the cell into at most 64³ units, each wholly inside or outside of every operand, because the
+// boundary of an embedded operand turns only where two of these planes meet. So a facet is the
+// centres of units in it; which units are inside follows from one that is known, the reference's,
+// by crossing facets; the formula is evaluated word by word; and what bounds the result is where
+// neighbouring units differ. The exact arithmetic that is left is one determinant of integers for
+// the diagonal of a triangle.
 //
 // Rank compression and bitmaps are the usual way to the area of a union of rectangles (Bentley
 // 1977, "Solutions to Klee's rectangle problems"), one dimension up.
@@ -31,7 +31,7 @@ namespace {
 // Words of all operands together.
 constexpr std::size_t most_words = std::size_t{1} << 20;
 
-auto sheet_key(const AxisPolygon& p) {
+auto plane_polygons_key(const AxisPolygon& p) {
     return std::tuple(p.operand, p.plane.axis, p.plane.position);
 }
 
@@ -58,11 +58,11 @@ std::optional<LeafResult> AxisLeaf::try_to_arrange(const LeafProblem& problem,
     if (!list() || !make_grid()) return std::nullopt;
     find_result();
     bench_.clear();
-    if (pictures_) emit_picture();
-    if (!pictures_) emit_all();
+    if (occupancies_) emit_occupancy();
+    if (!occupancies_) emit_all();
     findings.incomplete.insert(findings.incomplete.end(), incomplete_.begin(), incomplete_.end());
-    findings.note_doubtful(problem);
-    if (pictures_ && any_cut_) return LeafPicture{make_picture()};
+    findings.note_uncertain(problem);
+    if (occupancies_ && any_cut_) return LeafPicture{make_occupancy()};
     return LeafPolygons{listed()};
 }
 
@@ -101,7 +101,7 @@ bool AxisLeaf::list() {
     polygons_.clear();
     parts_.clear();
     any_cut_ = needs_parts_ = false;
-    pictures_ = problem_->may_defer;
+    occupancies_ = problem_->may_defer;
     const Cell& cell = problem_->cell;
     for (std::size_t o = 0; o < problem_->operands.size(); ++o) {
         const LeafOperand& operand = problem_->operands[o];
@@ -110,8 +110,8 @@ bool AxisLeaf::list() {
             AxisPolygon p;
             if (!p.read(ref)) return false;
             const PolygonRef& first = operand.polygons[0];
-            pictures_ = pictures_ && ref.fragment == nullptr && !ref.touched &&
-                        ref.source == first.source && ref.flipped == first.flipped;
+            occupancies_ = occupancies_ && ref.fragment == nullptr && !ref.touched &&
+                           ref.source == first.source && ref.flipped == first.flipped;
             if (!p.meets(cell)) continue;
             p.contained = true;
             for (std::size_t k = 0; k < 3; ++k)
@@ -120,10 +120,11 @@ bool AxisLeaf::list() {
             polygons_.push_back(p);
         }
     }
-    std::stable_sort(
-        polygons_.begin(), polygons_.end(), [](const AxisPolygon& a, const AxisPolygon& b) {
-            return std::tuple(sheet_key(a), group_key(a)) < std::tuple(sheet_key(b), group_key(b));
-        });
+    std::stable_sort(polygons_.begin(), polygons_.end(),
+                     [](const AxisPolygon& a, const AxisPolygon& b) {
+                         return std::tuple(plane_polygons_key(a), group_key(a)) <
+                                std::tuple(plane_polygons_key(b), group_key(b));
+                     });
     return true;
 }
 
@@ -258,44 +259,45 @@ AxisLeaf::Sides AxisLeaf::sides(const std::uint64_t* units, std::size_t axis, st
 void AxisLeaf::start_planes() {
     for (std::size_t k = 0; k < 3; ++k) {
         claimed_[k].assign(grid_.units(k).count() + 1, UnitRows{});
-        found_[k].assign(pictures_ ? grid_.units(k).count() + 1 : 0, 0);
+        found_[k].assign(occupancies_ ? grid_.units(k).count() + 1 : 0, 0);
     }
 }
 
 void AxisLeaf::emit_all() {
     start_planes();
-    for_each_run(polygons_, sheet_key, [&](Polygons sheet) { emit_sheet(sheet); });
+    for_each_run(polygons_, plane_polygons_key,
+                 [&](Polygons plane_polygons) { emit_plane(plane_polygons); });
 }
 
 // A plane is outlined as a whole where all of its facets have changed; any other needs the parts of
 // its facets, and then an occupancy grid was made in vain.
-void AxisLeaf::emit_picture() {
+void AxisLeaf::emit_occupancy() {
     const std::uint64_t untouched = stats_->untouched_polygons;
     start_planes();
-    for_each_run(polygons_, sheet_key, [&](Polygons sheet) {
-        if (!needs_parts_) emit_sheet(sheet);
+    for_each_run(polygons_, plane_polygons_key, [&](Polygons plane_polygons) {
+        if (!needs_parts_) emit_plane(plane_polygons);
     });
     if (!needs_parts_) return;
-    pictures_ = false;
+    occupancies_ = false;
     stats_->untouched_polygons = untouched;
     out_.clear();
     incomplete_.clear();
 }
 
 // All polygons of an operand in one plane.
-void AxisLeaf::emit_sheet(Polygons sheet) {
-    start_sheet(sheet);
+void AxisLeaf::emit_plane(Polygons plane_polygons) {
+    start_plane(plane_polygons);
     std::uint64_t any = 0;
     for (std::size_t r = first_row_; r < end_row_; ++r) any |= up_[r] | down_[r];
-    clean_.assign(sheet.size(), 0);
+    clean_.assign(plane_polygons.size(), 0);
     if (any != 0) {
-        find_clean(sheet);
-    } else if (pictures_) {
-        for (const AxisPolygon& p : sheet)
+        find_clean(plane_polygons);
+    } else if (occupancies_) {
+        for (const AxisPolygon& p : plane_polygons)
             if (!p.contained) note_incomplete(p, overlapped(p));
     }
-    if (pictures_) return;
-    for_each_run(sheet, group_key, [&](Polygons group) { emit_group(group); });
+    if (occupancies_) return;
+    for_each_run(plane_polygons, group_key, [&](Polygons group) { emit_group(group); });
 }
 
 // Of a facet in the plane.
@@ -305,19 +307,20 @@ void AxisLeaf::note_found(std::uint8_t what) {
     if (found == (found_clean | found_cut)) needs_parts_ = true;
 }
 
-void AxisLeaf::start_sheet(Polygons sheet) {
-    axis_ = sheet[0].plane.axis;
-    plane_ = grid_.units(axis_).plane_at(sheet[0].plane.position);
-    sheet_ = sheet;
+void AxisLeaf::start_plane(Polygons plane_polygons) {
+    axis_ = plane_polygons[0].plane.axis;
+    plane_ = grid_.units(axis_).plane_at(plane_polygons[0].plane.position);
+    plane_polygons_ = plane_polygons;
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
     first_row_ = axis_units_limit;
     end_row_ = 0;
-    for (const AxisPolygon& p : sheet) {
+    for (const AxisPolygon& p : plane_polygons) {
         const AxisGrid::Reach reach = grid_.reach(p, frame);
         first_row_ = std::min(first_row_, reach.first_row);
         end_row_ = std::max(end_row_, reach.end_row);
     }
-    const Sides own = sides(units_of(sheet[0].operand), axis_, plane_, first_row_, end_row_);
+    const Sides own =
+        sides(units_of(plane_polygons[0].operand), axis_, plane_, first_row_, end_row_);
     const Sides whole = sides(result_.data(), axis_, plane_, first_row_, end_row_);
     UnitRows& claimed = claimed_[axis_][plane_];
     own_ = up_ = down_ = bounds_ = {};
@@ -342,14 +345,14 @@ UnitRows AxisLeaf::overlapped(const AxisPolygon& p) const {
 }
 
 // A polygon is clean if it stays as it is.
-void AxisLeaf::find_clean(Polygons sheet) {
-    for (std::size_t i = 0; i < sheet.size(); ++i) {
-        const UnitRows units = overlapped(sheet[i]);
+void AxisLeaf::find_clean(Polygons plane_polygons) {
+    for (std::size_t i = 0; i < plane_polygons.size(); ++i) {
+        const UnitRows units = overlapped(plane_polygons[i]);
         if (is_clean(units)) {
             clean_[i] = 1;
-            emit_clean(sheet[i], units);
-        } else if (pictures_) {
-            emit_uncut(sheet[i], units);
+            emit_clean(plane_polygons[i], units);
+        } else if (occupancies_) {
+            emit_uncut(plane_polygons[i], units);
         }
     }
 }
@@ -372,7 +375,7 @@ void AxisLeaf::emit_clean(const AxisPolygon& p, const UnitRows& units) {
     ref.touched = ref.touched || touches_others(p, units);
     if (!ref.touched) ++stats_->untouched_polygons;
     make_room(out_);
-    if (pictures_) {
+    if (occupancies_) {
         note_found(found_clean);
         needs_parts_ = needs_parts_ || ref.touched;
         parts_.push_back({false, corners_in(p, units)});
@@ -416,7 +419,7 @@ void AxisLeaf::emit_uncut(const AxisPolygon& p, const UnitRows& units) {
 std::uint8_t AxisLeaf::corners_in(const AxisPolygon& p, const UnitRows& units) const {
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
     const auto units_at = [&](const LatticePoint& corner, std::size_t axis) {
-        return grid_.units(axis).units_at(corner[static_cast<int>(axis)] * wall_scale);
+        return grid_.units(axis).units_at(corner[static_cast<int>(axis)] * splitting_scale);
     };
     std::uint8_t out = 0;
     for (int i = 0; i < 3; ++i) {
@@ -429,8 +432,8 @@ std::uint8_t AxisLeaf::corners_in(const AxisPolygon& p, const UnitRows& units) c
     return out;
 }
 
-std::unique_ptr<AxisPicture> AxisLeaf::make_picture() {
-    auto out = std::make_unique<AxisPicture>();
+std::unique_ptr<OccupancyGrid> AxisLeaf::make_occupancy() {
+    auto out = std::make_unique<OccupancyGrid>();
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t i = 0; i <= grid_.units(k).count(); ++i)
             out->planes[k].push_back(grid_.units(k).plane(i).at);
@@ -516,7 +519,8 @@ std::optional<PolygonRef> AxisLeaf::clip_slowly(const AxisPolygon& p, const Axis
 void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low) {
     const AxisRectangle rectangle = with_names(r);
     for (const AxisPolygon& p : group) {
-        if (clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 || !overlaps(p, r)) continue;
+        if (clean_[static_cast<std::size_t>(&p - plane_polygons_.data())] != 0 || !overlaps(p, r))
+            continue;
         make_room(out_);
         std::optional<PolygonRef> part =
             p.slanted_count < 2 ? clip_to_rectangle(p, rectangle) : clip_slowly(p, rectangle);
@@ -532,7 +536,7 @@ void AxisLeaf::emit_clipped(Polygons group, const Rectangle& r, bool inside_low)
 void AxisLeaf::note_incomplete(Polygons group, std::size_t first_made) {
     const auto made = std::span(out_).subspan(first_made);
     for (const AxisPolygon& p : group) {
-        if (p.contained || clean_[static_cast<std::size_t>(&p - sheet_.data())] != 0 ||
+        if (p.contained || clean_[static_cast<std::size_t>(&p - plane_polygons_.data())] != 0 ||
             std::ranges::any_of(made, [&](const PolygonRef& m) {
                 return m.source == p.ref.source && m.facet == p.ref.facet;
             }))

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <trisect/bsp/cells/axis_grid.h>
-#include <trisect/bsp/cells/axis_picture.h>
 #include <trisect/bsp/cells/axis_polygon.h>
 #include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/bsp/leaf/grid/axis_clip.h>
@@ -67,16 +67,16 @@ private:
                               std::size_t first_row, std::size_t end_row) const;
     void start_planes();
     void emit_all();
-    void emit_picture();
-    void emit_sheet(Polygons sheet);
-    void start_sheet(Polygons sheet);
-    void find_clean(Polygons sheet);
+    void emit_occupancy();
+    void emit_plane(Polygons plane_polygons);
+    void start_plane(Polygons plane_polygons);
+    void find_clean(Polygons plane_polygons);
     [[nodiscard]] bool is_clean(const UnitRows& units) const;
     void emit_clean(const AxisPolygon& p, const UnitRows& units);
     void emit_uncut(const AxisPolygon& p, const UnitRows& units);
     void note_found(std::uint8_t what);
     [[nodiscard]] std::uint8_t corners_in(const AxisPolygon& p, const UnitRows& units) const;
-    [[nodiscard]] std::unique_ptr<AxisPicture> make_picture();
+    [[nodiscard]] std::unique_ptr<OccupancyGrid> make_occupancy();
     void emit_group(Polygons group);
     void emit_rectangles(Polygons group, UnitRows rows, bool inside_low);
     void emit_clipped(Polygons group, const Rectangle& r, bool inside_low);
@@ -113,15 +113,15 @@ private:
     UnitRows down_{};       // kept, with the inside on the higher side
     UnitRows bounds_{};     // of the result
     UnitRows whole_low_{};  // the result on the lower side
-    Polygons sheet_;
+    Polygons plane_polygons_;
     std::vector<std::uint8_t> clean_;  // by polygon, see find_clean()
-    bool pictures_ = false;            // an occupancy grid is made instead of parts of facets
+    bool occupancies_ = false;         // an occupancy grid is made instead of parts of facets
     bool needs_parts_ = false;         // an occupancy grid is not enough
     bool any_cut_ = false;
     static constexpr std::uint8_t found_clean = 1;
     static constexpr std::uint8_t found_cut = 2;
     std::array<std::vector<std::uint8_t>, 3> found_;  // by axis and plane
-    std::vector<AxisPicture::Part> parts_;            // of the occupancy grid
+    std::vector<OccupancyGrid::Part> parts_;          // of the occupancy grid
     Workbench bench_;
 };
 

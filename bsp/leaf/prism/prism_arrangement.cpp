@@ -37,11 +37,11 @@ namespace trisect::detail {
 std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& problem,
                                                            LeafFindings& findings) {
     EvaluateStats& stats = findings.stats;
-    cover_edges_.clear();
+    cap_edges_.clear();
     outlines_ = {};
-    if (!facets_.list(problem) || !crossings_.find(problem, facets_.walls(), stats))
+    if (!facets_.list(problem) || !crossings_.find(problem, facets_.side_faces(), stats))
         return std::nullopt;
-    if (!has_few_layers() || !sheets_.list(problem, facets_)) return std::nullopt;
+    if (!has_few_layers() || !components_.list(problem, facets_)) return std::nullopt;
     formula_.start(problem);
     row_size_ = formula_.row_size();
     const std::size_t layers = facets_.positions().size() + 1;
@@ -52,10 +52,10 @@ std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& pr
     }
     changed_.clear();
     is_changed_.assign(problem.operands.size(), false);
-    odd_.assign(sheets_.size(), 0);
+    odd_.assign(components_.size(), 0);
     find_chains();
     if (!walk_chains(problem, stats)) return std::nullopt;
-    finish_covers();
+    finish_caps();
     return LeafOutlines{listed(), std::move(outlines_)};
 }
 
@@ -64,36 +64,37 @@ bool PrismArrangement::has_few_layers() const {
     constexpr std::size_t few = 16;
     std::size_t looked_at = 0;
     std::size_t all = 0;
-    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i) {
+    for (LeafIndex i = 0; as_index(i) < facets_.side_faces().size(); ++i) {
         const std::size_t places = 1 + crossings_.of(i).size();
-        looked_at += places * (wall(i).end_layer - wall(i).first_layer);
+        looked_at += places * (side_face(i).end_layer - side_face(i).first_layer);
         all += places;
     }
-    return looked_at <= few * all && facets_.positions().size() <= few * facets_.walls().size();
+    return looked_at <= few * all &&
+           facets_.positions().size() <= few * facets_.side_faces().size();
 }
 
 // --- Outlines.
 
 void PrismArrangement::find_chains() {
-    const auto walls = static_cast<LeafIndex>(facets_.walls().size());
+    const auto side_faces = static_cast<LeafIndex>(facets_.side_faces().size());
     // Ends of side faces by their edges along the axis, as lists.
-    std::vector<std::int32_t> first(sheets_.edge_count(), -1);
-    std::vector<std::int32_t> next(2 * facets_.walls().size());
-    for (std::int32_t end = 2 * walls; end-- > 0;) {
-        std::int32_t& head = first[sheets_.edge_at(end / 2, as_index(end) % 2)];
+    std::vector<std::int32_t> first(components_.edge_count(), -1);
+    std::vector<std::int32_t> next(2 * facets_.side_faces().size());
+    for (std::int32_t end = 2 * side_faces; end-- > 0;) {
+        std::int32_t& head = first[components_.edge_at(end / 2, as_index(end) % 2)];
         next[as_index(end)] = head;
         head = end;
     }
-    std::vector<bool> walked(facets_.walls().size(), false);
+    std::vector<bool> walked(facets_.side_faces().size(), false);
     steps_.clear();
     chain_begin_.clear();
-    for (LeafIndex i = 0; i < walls; ++i) {
+    for (LeafIndex i = 0; i < side_faces; ++i) {
         if (walked[as_index(i)]) continue;
         chain_begin_.push_back(steps_.size());
-        for (Step step{i, false}; step.wall >= 0;) {
+        for (Step step{i, false}; step.side_face >= 0;) {
             steps_.push_back(step);
-            walked[as_index(step.wall)] = true;
-            std::int32_t end = first[sheets_.edge_at(step.wall, step.backwards ? 0 : 1)];
+            walked[as_index(step.side_face)] = true;
+            std::int32_t end = first[components_.edge_at(step.side_face, step.backwards ? 0 : 1)];
             while (end >= 0 && walked[as_index(end / 2)]) end = next[as_index(end)];
             step = end < 0 ? Step{-1, false} : Step{end / 2, end % 2 == 1};
         }
@@ -103,32 +104,36 @@ void PrismArrangement::find_chains() {
 
 // False where too many side faces lie across the lines of chains, as in PrismCrossings.
 bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
-    const auto low = [&](LeafIndex i) { return std::min(wall(i).from[1], wall(i).to[1]); };
-    const auto high = [&](LeafIndex i) { return std::max(wall(i).from[1], wall(i).to[1]); };
-    std::vector<std::pair<std::int64_t, LeafIndex>> walls;  // by their lower ends
-    for (LeafIndex i = 0; as_index(i) < facets_.walls().size(); ++i)
-        if (low(i) != high(i)) walls.emplace_back(low(i), i);
-    std::ranges::sort(walls);
+    const auto low = [&](LeafIndex i) {
+        return std::min(side_face(i).from[1], side_face(i).to[1]);
+    };
+    const auto high = [&](LeafIndex i) {
+        return std::max(side_face(i).from[1], side_face(i).to[1]);
+    };
+    std::vector<std::pair<std::int64_t, LeafIndex>> side_faces;  // by their lower ends
+    for (LeafIndex i = 0; as_index(i) < facets_.side_faces().size(); ++i)
+        if (low(i) != high(i)) side_faces.emplace_back(low(i), i);
+    std::ranges::sort(side_faces);
     const auto start = [&](std::size_t chain) -> const FlatPoint& {
-        return wall(steps_[chain_begin_[chain]].wall).from;
+        return side_face(steps_[chain_begin_[chain]].side_face).from;
     };
     std::vector<std::pair<std::int64_t, std::size_t>> chains;
     for (std::size_t c = 0; c + 1 < chain_begin_.size(); ++c) chains.emplace_back(start(c)[1], c);
     std::ranges::sort(chains);
     std::vector<std::pair<std::int64_t, LeafIndex>> across;  // the line of the start: upper ends
     std::vector<LeafIndex> crossed;
-    auto next = walls.begin();
+    auto next = side_faces.begin();
     std::size_t looked_at = 0;
     for (const auto& [v, chain] : chains) {
         check_budget(*problem.options, stats);
-        if (looked_at > PrismCrossings::most_per_wall * walls.size()) return false;
-        for (; next != walls.end() && next->first <= v; ++next)
+        if (looked_at > PrismCrossings::most_per_side_face * side_faces.size()) return false;
+        for (; next != side_faces.end() && next->first <= v; ++next)
             across.emplace_back(high(next->second), next->second);
         std::erase_if(across, [v = v](const auto& w) { return w.first <= v; });
         crossed.clear();
         looked_at += across.size();
         for (const auto& w : across)
-            if (crosses_way(wall(w.second), start(chain))) crossed.push_back(w.second);
+            if (crosses_way(side_face(w.second), start(chain))) crossed.push_back(w.second);
         const std::size_t begin = chain_begin_[chain];
         walk_chain(std::span(steps_).subspan(begin, chain_begin_[chain + 1] - begin), crossed);
         ++stats.traces;
@@ -138,25 +143,26 @@ bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& st
 
 // All side faces of a chain are in the same layers, and bound the same two components.
 void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crossed) {
-    const PrismWall& w = wall(chain[0].wall);
+    const PrismSideFace& w = side_face(chain[0].side_face);
     layers_here_ = w.end_layer - w.first_layer + 2;
-    const std::array<std::int32_t, 2> own = sheets_.of_wall(chain[0].wall);
+    const std::array<std::int32_t, 2> own = components_.of_side_face(chain[0].side_face);
     around_.clear();
     met_.clear();
     for (const LeafIndex c : crossed) {
-        for (const std::int32_t sheet : sheets_.of_wall(c)) {
-            odd_[as_index(sheet)] ^= 1U;
-            met_.push_back(sheet);
+        for (const std::int32_t component : components_.of_side_face(c)) {
+            odd_[as_index(component)] ^= 1U;
+            met_.push_back(component);
         }
-        turn_over(wall(c), w);
+        turn_over(side_face(c), w);
     }
-    for (const std::int32_t sheet : met_) {
-        if (odd_[as_index(sheet)] != 0 && sheet != own[0] && sheet != own[1]) enter_sheet(sheet);
-        odd_[as_index(sheet)] = 0;
+    for (const std::int32_t component : met_) {
+        if (odd_[as_index(component)] != 0 && component != own[0] && component != own[1])
+            enter_component(component);
+        odd_[as_index(component)] = 0;
     }
     for (const Step& step : chain) {
-        walk_wall(step);
-        judge_wall(step.wall);
+        walk_side_face(step);
+        judge_side_face(step.side_face);
     }
     for (const LeafIndex operand : changed_) {
         for (std::size_t i = 0; i < layers_here_; ++i)
@@ -168,10 +174,10 @@ void PrismArrangement::walk_chain(Chain chain, std::span<const LeafIndex> crosse
 }
 
 // Components in the planes of other layers do no harm: they are not used.
-void PrismArrangement::enter_sheet(std::int32_t sheet) {
-    const auto at = std::ranges::find(around_, sheet);
+void PrismArrangement::enter_component(std::int32_t component) {
+    const auto at = std::ranges::find(around_, component);
     if (at == around_.end()) {
-        around_.push_back(sheet);
+        around_.push_back(component);
     } else {
         *at = around_.back();
         around_.pop_back();
@@ -187,7 +193,7 @@ void PrismArrangement::set_row(std::size_t layer, LeafIndex operand, bool in) {
 
 // What a side face's operand is on its other side, in the layers of another side face and next to
 // them.
-void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) {
+void PrismArrangement::turn_over(const PrismSideFace& crossed, const PrismSideFace& by) {
     const std::size_t first = std::max(crossed.first_layer, by.first_layer - 1);
     const std::size_t end = std::min(crossed.end_layer, by.end_layer + 1);
     for (std::size_t layer = first; layer < end; ++layer)
@@ -196,37 +202,38 @@ void PrismArrangement::turn_over(const PrismWall& crossed, const PrismWall& by) 
 
 // --- Along a side face.
 
-void PrismArrangement::walk_wall(const Step& step) {
-    const PrismWall& w = wall(step.wall);
+void PrismArrangement::walk_side_face(const Step& step) {
+    const PrismSideFace& w = side_face(step.side_face);
     begins_.clear();
     insides_.clear();
     for (std::size_t end = 0; end < 2; ++end) {
         const bool beyond =
             row(end == 0 ? w.first_layer - 1 : w.end_layer)[as_index(w.operand)] != 0;
-        cover_is_left_[end] = beyond != w.inside_is_left;
+        cap_is_left_[end] = beyond != w.inside_is_left;
     }
     look(w, step.backwards ? at_to : at_from);
-    const auto all = crossings_.of(step.wall);
+    const auto all = crossings_.of(step.side_face);
     const auto place = [&](std::size_t i) -> const PrismCrossing& {
         return all[step.backwards ? all.size() - 1 - i : i];
     };
     for (std::size_t i = 0; i < all.size();) {
         const std::size_t first = i;
-        Bound name = place(i).wall;
+        Bound name = place(i).side_face;
         do {
-            const LeafIndex other = place(i).wall;
+            const LeafIndex other = place(i).side_face;
             name = std::min(name, other);
-            turn_over(wall(other), w);
-            for (const std::int32_t sheet : sheets_.of_wall(other)) enter_sheet(sheet);
+            turn_over(side_face(other), w);
+            for (const std::int32_t component : components_.of_side_face(other))
+                enter_component(component);
             ++i;
         } while (i < all.size() && crossings_.compare(place(first), place(i)) == 0);
         look(w, name);
     }
-    if (step.backwards) turn_stretches();
+    if (step.backwards) turn_intervals();
 }
 
 // Begins an interval, unless all is as it was before.
-void PrismArrangement::look(const PrismWall& w, Bound begin) {
+void PrismArrangement::look(const PrismSideFace& w, Bound begin) {
     const std::size_t first = w.first_layer - 1;
     const std::size_t before = insides_.size();
     for (std::size_t i = 0; i < layers_here_; ++i) {
@@ -244,12 +251,12 @@ void PrismArrangement::look(const PrismWall& w, Bound begin) {
     }
     const auto here = std::span(insides_).subspan(before);
     for (const std::int32_t s : around_) {
-        PrismSheets::Sheet& sheet = sheets_[s];
-        if (sheet.position < first || sheet.position >= w.end_layer) continue;
-        const auto [left, right] = bounds(here, sheet.position - first);
-        sheet.whole = sheet.whole && left == right;
+        PrismComponents::Component& component = components_[s];
+        if (component.position < first || component.position >= w.end_layer) continue;
+        const auto [left, right] = bounds(here, component.position - first);
+        component.whole = component.whole && left == right;
     }
-    if (!begins_.empty() && std::ranges::equal(here, stretch(begins_.size() - 1))) {
+    if (!begins_.empty() && std::ranges::equal(here, interval(begins_.size() - 1))) {
         insides_.resize(before);
     } else {
         begins_.push_back(begin);
@@ -257,7 +264,7 @@ void PrismArrangement::look(const PrismWall& w, Bound begin) {
 }
 
 // What begins where the walk began ends there.
-void PrismArrangement::turn_stretches() {
+void PrismArrangement::turn_intervals() {
     const std::size_t n = begins_.size();
     std::reverse(begins_.begin() + 1, begins_.end());
     begins_[0] = at_from;
@@ -277,10 +284,10 @@ std::array<int, 2> PrismArrangement::bounds(std::span<const Inside> layers, std:
 
 // --- What bounds the result.
 
-void PrismArrangement::judge_wall(LeafIndex i) {
-    const WallState state = state_of(i);
+void PrismArrangement::judge_side_face(LeafIndex i) {
+    const SideFaceState state = state_of(i);
     faces_here_ = {-1, -1};
-    add_whole_halves(wall(i), state);
+    add_whole_halves(side_face(i), state);
     add_horizontal_edges(i, state);
     if (state.outlined == both_halves) {
         add_vertical_edges(i, state);
@@ -289,12 +296,12 @@ void PrismArrangement::judge_wall(LeafIndex i) {
     }
 }
 
-PrismArrangement::WallState PrismArrangement::state_of(LeafIndex i) const {
-    const PrismWall& w = wall(i);
-    WallState out;
+PrismArrangement::SideFaceState PrismArrangement::state_of(LeafIndex i) const {
+    const PrismSideFace& w = side_face(i);
+    SideFaceState out;
     out.facing = facing(insides_[1]);
     for (std::size_t s = 0; s < begins_.size(); ++s)
-        for (const Inside& in : stretch(s).subspan(1, layers_here_ - 2))
+        for (const Inside& in : interval(s).subspan(1, layers_here_ - 2))
             if (facing(in) != out.facing) return {0, both_halves, Facing::None};
     if (out.facing == Facing::None) return out;
     for (std::size_t half = 0; half < 2; ++half)
@@ -304,7 +311,7 @@ PrismArrangement::WallState PrismArrangement::state_of(LeafIndex i) const {
 }
 
 // Whether a half of a side face has its edge perpendicular to the axis at the lower end.
-bool PrismArrangement::is_low(const PrismWall& w, std::size_t half) const {
+bool PrismArrangement::is_low(const PrismSideFace& w, std::size_t half) const {
     const PolygonRef& f = w.facets[half];
     const int third = (facets_.upright_edge(w, half).edge + 2) % 3;
     return f.source->corner(f.facet, third)[static_cast<int>(facets_.axis())] == w.lo;
@@ -318,10 +325,10 @@ bool PrismArrangement::is_unbroken(std::size_t position) const {
 
 // Whether two intervals have the same on all four sides of a position (of those here).
 bool PrismArrangement::is_same_beside(std::size_t position, std::size_t s, std::size_t t) const {
-    return std::ranges::equal(stretch(s).subspan(position, 2), stretch(t).subspan(position, 2));
+    return std::ranges::equal(interval(s).subspan(position, 2), interval(t).subspan(position, 2));
 }
 
-void PrismArrangement::add_whole_halves(const PrismWall& w, const WallState& state) {
+void PrismArrangement::add_whole_halves(const PrismSideFace& w, const SideFaceState& state) {
     for (std::size_t half = 0; half < 2; ++half) {
         if ((state.whole >> half & 1U) == 0) continue;
         PolygonRef ref = w.facets[half];
@@ -330,8 +337,8 @@ void PrismArrangement::add_whole_halves(const PrismWall& w, const WallState& sta
     }
 }
 
-void PrismArrangement::add_horizontal_edges(LeafIndex i, const WallState& state) {
-    const PrismWall& w = wall(i);
+void PrismArrangement::add_horizontal_edges(LeafIndex i, const SideFaceState& state) {
+    const PrismSideFace& w = side_face(i);
     for (std::size_t p = 0; p + 1 < layers_here_; ++p) {
         const bool is_end = p == 0 || p + 2 == layers_here_;
         bool wanted = state.outlined == both_halves;
@@ -342,79 +349,79 @@ void PrismArrangement::add_horizontal_edges(LeafIndex i, const WallState& state)
         for (std::size_t s = 0; s < begins_.size();) {
             std::size_t t = s + 1;
             while (t < begins_.size() && is_same_beside(p, s, t)) ++t;
-            if (is_end) note_sheet(i, p, bounds(stretch(s), p), unbroken);
-            add_cover_edges(i, p, s, t);
-            if (wanted) add_wall_edges(i, p, s, t, state);
+            if (is_end) note_component(i, p, bounds(interval(s), p), unbroken);
+            add_cap_edges(i, p, s, t);
+            if (wanted) add_side_face_edges(i, p, s, t, state);
             s = t;
         }
     }
 }
 
-void PrismArrangement::note_sheet(LeafIndex i, std::size_t p, std::array<int, 2> bounds,
-                                  bool unbroken) {
+void PrismArrangement::note_component(LeafIndex i, std::size_t p, std::array<int, 2> bounds,
+                                      bool unbroken) {
     const std::size_t end = p == 0 ? 0 : 1;
-    PrismSheets::Sheet& sheet = sheets_[sheets_.of_wall(i)[end]];
-    const std::size_t side = cover_is_left_[end] ? 0 : 1;
+    PrismComponents::Component& component = components_[components_.of_side_face(i)[end]];
+    const std::size_t side = cap_is_left_[end] ? 0 : 1;
     const int here = bounds[side];
-    sheet.whole = sheet.whole && unbroken && here != 0 && here != bounds[1 - side] &&
-                  (sheet.bounds == 0 || sheet.bounds == here);
-    sheet.bounds = here;
+    component.whole = component.whole && unbroken && here != 0 && here != bounds[1 - side] &&
+                      (component.bounds == 0 || component.bounds == here);
+    component.bounds = here;
 }
 
 // Of the faces in the plane of the position, to the left and to the right of intervals [s, t).
-void PrismArrangement::add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t) {
-    const PrismWall& w = wall(i);
+void PrismArrangement::add_cap_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t) {
+    const PrismSideFace& w = side_face(i);
     const std::size_t position = w.first_layer - 1 + p;
-    const auto beside = bounds(stretch(s), p);
+    const auto beside = bounds(interval(s), p);
     if (beside[0] == beside[1]) return;
     for (std::size_t side = 0; side < 2; ++side) {
         if (beside[side] == 0) continue;
         const bool up = beside[side] > 0;
         const bool left = side == 0;
-        CoverEdge out;
+        CapEdge out;
         for (std::size_t end = 0; end < 2; ++end)
-            if (p == (end == 0 ? 0 : layers_here_ - 2) && cover_is_left_[end] == left)
-                out.sheet = sheets_.of_wall(i)[end];
+            if (p == (end == 0 ? 0 : layers_here_ - 2) && cap_is_left_[end] == left)
+                out.component = components_.of_side_face(i)[end];
         out.edge.from = vertex(i, begins_[s], position);
-        out.edge.to = vertex(i, end_of_stretch(t - 1), position);
+        out.edge.to = vertex(i, end_of_interval(t - 1), position);
         if (left != up) std::swap(out.edge.from, out.edge.to);
         out.edge.line = {support_of(i), left == w.above_is_left[0]};
         out.edge.face = static_cast<std::uint32_t>(2 * position + (up ? 1 : 0));
-        cover_edges_.push_back(out);
+        cap_edges_.push_back(out);
     }
 }
 
 // Where intervals [s, t) of the side face begin or end to bound the result, along the axis.
-void PrismArrangement::add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
-                                      const WallState& state) {
-    const PrismWall& w = wall(i);
+void PrismArrangement::add_side_face_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
+                                           const SideFaceState& state) {
+    const PrismSideFace& w = side_face(i);
     const std::size_t position = w.first_layer - 1 + p;
-    const Facing below = facing(stretch(s)[p]);
-    const Facing above = facing(stretch(s)[p + 1]);
+    const Facing below = facing(interval(s)[p]);
+    const Facing above = facing(interval(s)[p + 1]);
     if (below == above) return;
-    const bool upper_is_above = facets_.faces_up(facets_.cover_at(position));
+    const bool upper_is_above = facets_.faces_up(facets_.cap_at(position));
     for (const Facing f : {below, above}) {
         if (f == Facing::None) continue;
         const bool is_above = f == above;
         NamedOutlines::Edge e;
         e.from = vertex(i, begins_[s], position);
-        e.to = vertex(i, end_of_stretch(t - 1), position);
+        e.to = vertex(i, end_of_interval(t - 1), position);
         if ((f == Facing::InsideLeft) != is_above) std::swap(e.from, e.to);
         e.line = {plane_at(position), is_above == upper_is_above};
-        e.face = face_of_wall(i, f, state);
+        e.face = face_of_side_face(i, f, state);
         outlines_.edges.push_back(e);
     }
 }
 
-void PrismArrangement::add_vertical_edges(LeafIndex i, const WallState& state) {
+void PrismArrangement::add_vertical_edges(LeafIndex i, const SideFaceState& state) {
     for (std::size_t layer = 1; layer + 1 < layers_here_; ++layer)
         for (std::size_t s = 0; s < begins_.size();) {
-            const Facing f = facing(stretch(s)[layer]);
+            const Facing f = facing(interval(s)[layer]);
             std::size_t t = s + 1;
-            while (t < begins_.size() && facing(stretch(t)[layer]) == f) ++t;
+            while (t < begins_.size() && facing(interval(t)[layer]) == f) ++t;
             if (f != Facing::None) {
                 add_upright(i, begins_[s], true, layer, layer + 1, f, state);
-                add_upright(i, end_of_stretch(t - 1), false, layer, layer + 1, f, state);
+                add_upright(i, end_of_interval(t - 1), false, layer, layer + 1, f, state);
             }
             s = t;
         }
@@ -423,21 +430,22 @@ void PrismArrangement::add_vertical_edges(LeafIndex i, const WallState& state) {
 // The edge in which a face of the side face begins (or ends, seen from `from` to `to`), in layers
 // [first, end) of those here.
 void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_t first,
-                                   std::size_t end, Facing f, const WallState& state) {
-    const std::size_t below = wall(i).first_layer - 2;  // the position below layer 0 of those here
+                                   std::size_t end, Facing f, const SideFaceState& state) {
+    const std::size_t below =
+        side_face(i).first_layer - 2;  // the position below layer 0 of those here
     NamedOutlines::Edge e;
     e.from = vertex(i, b, below + first);
     e.to = vertex(i, b, below + end);
     if ((f == Facing::InsideLeft) == begins) std::swap(e.from, e.to);
     e.line = side_of_bound(i, b, begins);
-    e.face = face_of_wall(i, f, state);
+    e.face = face_of_side_face(i, f, state);
     outlines_.edges.push_back(e);
 }
 
 // One half of a side face that bounds the result as a whole: vertices lie in the edge that it ends
 // with.
-void PrismArrangement::add_half(LeafIndex i, const WallState& state) {
-    const PrismWall& w = wall(i);
+void PrismArrangement::add_half(LeafIndex i, const SideFaceState& state) {
+    const PrismSideFace& w = side_face(i);
     const std::size_t half = state.outlined == 1 ? 0 : 1;
     add_upright(i, half == 0 ? at_from : at_to, half == 0, 1, layers_here_ - 1, state.facing,
                 state);
@@ -453,13 +461,14 @@ void PrismArrangement::add_half(LeafIndex i, const WallState& state) {
     e.to = NamedOutlines::Vertex::corner_of(f.source, f.facet, (k + 1) % 3);
     if ((state.facing == Facing::InsideLeft) == w.above_is_left[half]) std::swap(e.from, e.to);
     e.line = {PlaneName::edge(f.source, f.facet, k % 3), false};
-    e.face = face_of_wall(i, state.facing, state);
+    e.face = face_of_side_face(i, state.facing, state);
     outlines_.edges.push_back(e);
 }
 
 // Named after the half that is outlined, or the first one.
-std::uint32_t PrismArrangement::face_of_wall(LeafIndex i, Facing f, const WallState& state) {
-    const PrismWall& w = wall(i);
+std::uint32_t PrismArrangement::face_of_side_face(LeafIndex i, Facing f,
+                                                  const SideFaceState& state) {
+    const PrismSideFace& w = side_face(i);
     const bool left = f == Facing::InsideLeft;
     std::int32_t& face = faces_here_[left ? 0 : 1];
     if (face < 0) {
@@ -475,7 +484,7 @@ std::uint32_t PrismArrangement::face_of_wall(LeafIndex i, Facing f, const WallSt
 NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t position) const {
     using Vertex = NamedOutlines::Vertex;
     if (b >= 0) return Vertex::meet(support_of(i), support_of(b), plane_at(position));
-    const PrismWall& w = wall(i);
+    const PrismSideFace& w = side_face(i);
     const std::size_t end = b == at_from ? 0 : 1;
     const PolygonRef& f = w.facets[end];
     const PrismFacets::Upright upright = facets_.upright_edge(w, end);
@@ -488,13 +497,13 @@ NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t
 // The line of a face's upright edge at a bound. `keeps_to`: the face lies towards the side face's
 // `to`.
 EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) const {
-    const PrismWall& w = wall(i);
+    const PrismSideFace& w = side_face(i);
     if (b < 0) {
         const std::size_t end = b == at_from ? 0 : 1;
         const PolygonRef& f = w.facets[end];
         return {PlaneName::edge(f.source, f.facet, facets_.upright_edge(w, end).edge), false};
     }
-    const PrismWall& other = wall(b);
+    const PrismSideFace& other = side_face(b);
     const bool left = flat_turn(other.from, other.to, keeps_to ? w.to : w.from) > 0;
     return {support_of(b), left == other.above_is_left[0]};
 }
@@ -509,31 +518,31 @@ bool are_of_one_face(const PolygonRef& a, const PolygonRef& b) {
 
 }  // namespace
 
-void PrismArrangement::finish_covers() {
+void PrismArrangement::finish_caps() {
     constexpr std::size_t none = ~std::size_t{0};
     std::vector<std::size_t> first(facets_.positions().size(), none);  // that is not whole
-    const auto covers = facets_.covers();
-    for (std::size_t c = 0; c < covers.size(); ++c) {
-        const PrismSheets::Sheet& sheet = sheets_[sheets_.of_cover(c)];
-        if (!sheet.whole) {
-            std::size_t& named = first[sheet.position];
+    const auto caps = facets_.caps();
+    for (std::size_t c = 0; c < caps.size(); ++c) {
+        const PrismComponents::Component& component = components_[components_.of_cap(c)];
+        if (!component.whole) {
+            std::size_t& named = first[component.position];
             named = std::min(named, c);
-            if (!are_of_one_face(covers[named].ref, covers[c].ref))
+            if (!are_of_one_face(caps[named].ref, caps[c].ref))
                 outlines_.names_hold_everywhere = false;
             continue;
         }
-        PolygonRef ref = covers[c].ref;
-        ref.flipped = (sheet.bounds > 0) != facets_.faces_up(ref);
+        PolygonRef ref = caps[c].ref;
+        ref.flipped = (component.bounds > 0) != facets_.faces_up(ref);
         out_.push_back(ref);
     }
     std::vector<std::int32_t> faces(2 * first.size(), -1);
-    for (const CoverEdge& c : cover_edges_) {
-        if (c.sheet >= 0 && sheets_[c.sheet].whole) continue;
+    for (const CapEdge& c : cap_edges_) {
+        if (c.component >= 0 && components_[c.component].whole) continue;
         std::int32_t& face = faces[c.edge.face];
         if (face < 0) {
             TRISECT_EXPECTS(first[c.edge.face / 2] != none,
-                            "an outline where all sheets are whole");
-            const PolygonRef& ref = covers[first[c.edge.face / 2]].ref;
+                            "an outline where all components are whole");
+            const PolygonRef& ref = caps[first[c.edge.face / 2]].ref;
             const bool up = c.edge.face % 2 == 1;
             face = static_cast<std::int32_t>(outlines_.faces.size());
             outlines_.faces.push_back({ref.source, ref.facet, up != facets_.faces_up(ref)});

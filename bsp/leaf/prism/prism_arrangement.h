@@ -15,9 +15,9 @@
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
+#include <trisect/bsp/leaf/prism/prism_components.h>
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
-#include <trisect/bsp/leaf/prism/prism_sheets.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -46,7 +46,7 @@ private:
     };
     /// A side face in the walk around its outline.
     struct Step {
-        LeafIndex wall = 0;
+        LeafIndex side_face = 0;
         bool backwards = false;  // from its `to` to its `from`
     };
     using Chain = std::span<const Step>;
@@ -56,63 +56,66 @@ private:
         return i.left == i.right ? Facing::None
                                  : (i.left ? Facing::InsideLeft : Facing::InsideRight);
     }
-    struct CoverEdge {
+    struct CapEdge {
         NamedOutlines::Edge edge;
-        std::int32_t sheet = -1;  // of whose facets it is an edge if they are whole
+        std::int32_t component = -1;  // of whose facets it is an edge if they are whole
     };
     /// How much of a side face bounds the result: bits for its two halves.
-    struct WallState {
+    struct SideFaceState {
         unsigned whole = 0;
         unsigned outlined = 0;
         Facing facing = Facing::None;
     };
     static constexpr unsigned both_halves = 3;
-    [[nodiscard]] const PrismWall& wall(LeafIndex i) const { return facets_.walls()[as_index(i)]; }
+    [[nodiscard]] const PrismSideFace& side_face(LeafIndex i) const {
+        return facets_.side_faces()[as_index(i)];
+    }
     [[nodiscard]] bool has_few_layers() const;
     void find_chains();
     [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);
     void walk_chain(Chain chain, std::span<const LeafIndex> crossed);
-    void enter_sheet(std::int32_t sheet);
+    void enter_component(std::int32_t component);
     void set_row(std::size_t layer, LeafIndex operand, bool in);
-    void turn_over(const PrismWall& crossed, const PrismWall& by);
+    void turn_over(const PrismSideFace& crossed, const PrismSideFace& by);
 
-    void walk_wall(const Step& step);
-    void look(const PrismWall& w, Bound begin);
-    void turn_stretches();
-    [[nodiscard]] std::span<const Inside> stretch(std::size_t i) const {
+    void walk_side_face(const Step& step);
+    void look(const PrismSideFace& w, Bound begin);
+    void turn_intervals();
+    [[nodiscard]] std::span<const Inside> interval(std::size_t i) const {
         return std::span(insides_).subspan(i * layers_here_, layers_here_);
     }
-    [[nodiscard]] Bound end_of_stretch(std::size_t i) const {
+    [[nodiscard]] Bound end_of_interval(std::size_t i) const {
         return i + 1 < begins_.size() ? begins_[i + 1] : at_to;
     }
     [[nodiscard]] static std::array<int, 2> bounds(std::span<const Inside> layers, std::size_t i);
 
-    void judge_wall(LeafIndex i);
-    [[nodiscard]] WallState state_of(LeafIndex i) const;
-    [[nodiscard]] bool is_low(const PrismWall& w, std::size_t half) const;
+    void judge_side_face(LeafIndex i);
+    [[nodiscard]] SideFaceState state_of(LeafIndex i) const;
+    [[nodiscard]] bool is_low(const PrismSideFace& w, std::size_t half) const;
     [[nodiscard]] bool is_unbroken(std::size_t position) const;
     [[nodiscard]] bool is_same_beside(std::size_t position, std::size_t s, std::size_t t) const;
-    void add_whole_halves(const PrismWall& w, const WallState& state);
-    void add_horizontal_edges(LeafIndex i, const WallState& state);
-    void note_sheet(LeafIndex i, std::size_t p, std::array<int, 2> bounds, bool unbroken);
-    void add_cover_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t);
-    void add_wall_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
-                        const WallState& state);
-    void add_vertical_edges(LeafIndex i, const WallState& state);
+    void add_whole_halves(const PrismSideFace& w, const SideFaceState& state);
+    void add_horizontal_edges(LeafIndex i, const SideFaceState& state);
+    void note_component(LeafIndex i, std::size_t p, std::array<int, 2> bounds, bool unbroken);
+    void add_cap_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t);
+    void add_side_face_edges(LeafIndex i, std::size_t p, std::size_t s, std::size_t t,
+                             const SideFaceState& state);
+    void add_vertical_edges(LeafIndex i, const SideFaceState& state);
     void add_upright(LeafIndex i, Bound b, bool begins, std::size_t first, std::size_t end,
-                     Facing f, const WallState& state);
-    void add_half(LeafIndex i, const WallState& state);
-    void finish_covers();
+                     Facing f, const SideFaceState& state);
+    void add_half(LeafIndex i, const SideFaceState& state);
+    void finish_caps();
 
-    [[nodiscard]] std::uint32_t face_of_wall(LeafIndex i, Facing f, const WallState& state);
+    [[nodiscard]] std::uint32_t face_of_side_face(LeafIndex i, Facing f,
+                                                  const SideFaceState& state);
     [[nodiscard]] NamedOutlines::Vertex vertex(LeafIndex i, Bound b, std::size_t position) const;
     [[nodiscard]] EdgeName side_of_bound(LeafIndex i, Bound b, bool keeps_to) const;
     [[nodiscard]] PlaneName support_of(LeafIndex i) const {
-        const PolygonRef& f = wall(i).facets[0];
+        const PolygonRef& f = side_face(i).facets[0];
         return PlaneName::support(f.source, f.facet);
     }
     [[nodiscard]] PlaneName plane_at(std::size_t position) const {
-        const PolygonRef& f = facets_.cover_at(position);
+        const PolygonRef& f = facets_.cap_at(position);
         return PlaneName::support(f.source, f.facet);
     }
     [[nodiscard]] std::span<int> row(std::size_t layer) {
@@ -121,7 +124,7 @@ private:
 
     PrismFacets facets_;
     PrismCrossings crossings_;
-    PrismSheets sheets_;
+    PrismComponents components_;
     LeafFormula formula_;
     std::vector<Step> steps_;
     std::vector<std::size_t> chain_begin_;
@@ -141,10 +144,10 @@ private:
     std::size_t layers_here_ = 0;
     // Of the same side face: where the caps are that end it, below and above, and its faces by
     // facing.
-    std::array<bool, 2> cover_is_left_{};
+    std::array<bool, 2> cap_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
 
-    std::vector<CoverEdge> cover_edges_;  // their faces: twice the position, one more if it is up
+    std::vector<CapEdge> cap_edges_;  // their faces: twice the position, one more if it is up
     NamedOutlines outlines_;
 };
 

@@ -15,7 +15,7 @@ namespace trisect::detail {
 namespace {
 
 // Two neighbours in one outline: in a common corner, and nowhere else.
-bool are_neighbours(const PrismWall& s, const PrismWall& t, bool in_line) {
+bool are_neighbours(const PrismSideFace& s, const PrismSideFace& t, bool in_line) {
     if (s.operand != t.operand || s.lo != t.lo || s.hi != t.hi) return false;
     // `from` is the smaller end, so side faces in one line that share the same end overlap.
     if (s.to == t.from || s.from == t.to) return true;
@@ -30,7 +30,7 @@ struct Fraction {
     /// From the sides of the other side face on which its ends lie.
     Fraction(Int128 from, Int128 to)
         : part(magnitude(from)), whole(magnitude(from) + magnitude(to)) {}
-    Fraction(const PrismWall& on, const PrismWall& other)
+    Fraction(const PrismSideFace& on, const PrismSideFace& other)
         : Fraction(flat_turn(other.from, other.to, on.from),
                    flat_turn(other.from, other.to, on.to)) {}
     [[nodiscard]] double rounded() const {
@@ -43,7 +43,7 @@ struct Fraction {
 int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) const {
     if (const double gap = a.at - b.at; std::fabs(gap) > 0x1p-50) return gap < 0 ? -1 : 1;
     const auto place = [&](const PrismCrossing& c) {
-        return Fraction(walls_[as_index(c.on)], walls_[as_index(c.wall)]);
+        return Fraction(side_faces_[as_index(c.on)], side_faces_[as_index(c.side_face)]);
     };
     const Fraction f = place(a);
     const Fraction g = place(b);
@@ -52,24 +52,28 @@ int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) cons
     return s < t ? -1 : (t < s ? 1 : 0);
 }
 
-bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall> walls,
+bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideFace> side_faces,
                           EvaluateStats& stats) {
-    walls_ = walls;
+    side_faces_ = side_faces;
     found_.clear();
-    order_.resize(walls.size());
+    order_.resize(side_faces.size());
     std::iota(order_.begin(), order_.end(), 0);
-    const auto wall = [&](LeafIndex i) -> const PrismWall& { return walls[as_index(i)]; };
+    const auto side_face = [&](LeafIndex i) -> const PrismSideFace& {
+        return side_faces[as_index(i)];
+    };
     std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
-        return wall(a).from[0] != wall(b).from[0] ? wall(a).from[0] < wall(b).from[0] : a < b;
+        return side_face(a).from[0] != side_face(b).from[0]
+                   ? side_face(a).from[0] < side_face(b).from[0]
+                   : a < b;
     });
     std::size_t looked_at = 0;
     for (std::size_t i = 0; i < order_.size(); ++i) {
         check_budget(*problem.options, stats);
-        if (looked_at > most_per_wall * order_.size()) return false;
-        const PrismWall& s = wall(order_[i]);
+        if (looked_at > most_per_side_face * order_.size()) return false;
+        const PrismSideFace& s = side_face(order_[i]);
         const auto [low, high] = std::minmax(s.from[1], s.to[1]);
         for (std::size_t j = i + 1; j < order_.size(); ++j) {
-            const PrismWall& t = wall(order_[j]);
+            const PrismSideFace& t = side_face(order_[j]);
             if (t.from[0] > s.to[0]) break;
             ++looked_at;
             if (std::max(t.from[1], t.to[1]) < low || std::min(t.from[1], t.to[1]) > high ||
@@ -84,9 +88,9 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
     std::sort(found_.begin(), found_.end(), [&](const PrismCrossing& a, const PrismCrossing& b) {
         if (a.on != b.on) return a.on < b.on;
         const int order = compare(a, b);
-        return order != 0 ? order < 0 : a.wall < b.wall;
+        return order != 0 ? order < 0 : a.side_face < b.side_face;
     });
-    first_.assign(walls.size() + 1, 0);
+    first_.assign(side_faces.size() + 1, 0);
     for (const PrismCrossing& c : found_) ++first_[as_index(c.on) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     return true;
@@ -94,8 +98,8 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismWall>
 
 // Notes where two side faces cross, if they do; false when they touch otherwise than as neighbours.
 bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
-    const PrismWall& a = walls_[as_index(s)];
-    const PrismWall& b = walls_[as_index(t)];
+    const PrismSideFace& a = side_faces_[as_index(s)];
+    const PrismSideFace& b = side_faces_[as_index(t)];
     const Int128 b_from = flat_turn(a.from, a.to, b.from);
     const Int128 b_to = flat_turn(a.from, a.to, b.to);
     if (sign(b_from) * sign(b_to) > 0) return true;

@@ -15,8 +15,8 @@ namespace trisect::detail {
 
 /// A place on a side face where another one crosses it.
 struct PrismCrossing {
-    LeafIndex on = 0;    ///< that side face
-    LeafIndex wall = 0;  ///< the other one
+    LeafIndex on = 0;         ///< that side face
+    LeafIndex side_face = 0;  ///< the other one
     double at = 0;  ///< part of the way from its `from` to its `to`; relative error below 2^-51
 };
 
@@ -26,16 +26,16 @@ class PrismCrossings {
 public:
     /// How many other side faces each one may have beside it, on average. Where they are more,
     /// looking at all of them once takes longer than cells do.
-    static constexpr std::size_t most_per_wall = 2048;
+    static constexpr std::size_t most_per_side_face = 2048;
 
     /// False when side faces touch or overlap without crossing each other, and where too many lie
-    /// side by side. `walls` must outlive later queries. Time O(n log n + n m) for n side faces
-    /// with m others beside each.
-    [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismWall> walls,
+    /// side by side. `side_faces` must outlive later queries. Time O(n log n + n m) for n side
+    /// faces with m others beside each.
+    [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismSideFace> side_faces,
                             EvaluateStats& stats);
     /// In their order along the side face.
-    [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex wall) const {
-        const std::size_t i = as_index(wall);
+    [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex side_face) const {
+        const std::size_t i = as_index(side_face);
         return std::span(found_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
     /// Exact order of two places on one side face.
@@ -44,7 +44,7 @@ public:
 private:
     [[nodiscard]] bool cross(LeafIndex s, LeafIndex t);
 
-    std::span<const PrismWall> walls_;
+    std::span<const PrismSideFace> side_faces_;
     std::vector<LeafIndex> order_;
     std::vector<PrismCrossing> found_;  // by side face, and in their order there
     std::vector<std::size_t> first_;    // by side face

@@ -13,11 +13,11 @@ namespace trisect::detail {
 
 namespace {
 
-auto wall_key(const PrismWall& w) {
+auto side_face_key(const PrismSideFace& w) {
     return std::tuple(w.operand, w.from, w.to, w.lo, w.hi, w.facets[0].source != nullptr ? 0 : 1);
 }
 
-bool same_rectangle(const PrismWall& a, const PrismWall& b) {
+bool same_rectangle(const PrismSideFace& a, const PrismSideFace& b) {
     return a.operand == b.operand && a.from == b.from && a.to == b.to && a.lo == b.lo &&
            a.hi == b.hi;
 }
@@ -28,13 +28,14 @@ FlatPoint PrismFacets::flat(const LatticePoint& p) const {
     return {coordinate(p, (axis_ + 1) % 3), coordinate(p, (axis_ + 2) % 3)};
 }
 
-bool PrismFacets::faces_up(const PolygonRef& cover) const {
-    const auto corner = [&](int i) { return flat(cover.source->corner(cover.facet, i)); };
+bool PrismFacets::faces_up(const PolygonRef& cap) const {
+    const auto corner = [&](int i) { return flat(cap.source->corner(cap.facet, i)); };
     return flat_turn(corner(0), corner(1), corner(2)) > 0;
 }
 
-PrismFacets::Upright PrismFacets::upright_edge(const PrismWall& wall, std::size_t end) const {
-    const PolygonRef& ref = wall.facets[end];
+PrismFacets::Upright PrismFacets::upright_edge(const PrismSideFace& side_face,
+                                               std::size_t end) const {
+    const PolygonRef& ref = side_face.facets[end];
     const auto corner = [&](int i) -> const LatticePoint& {
         return ref.source->corner(ref.facet, i % 3);
     };
@@ -74,8 +75,8 @@ bool PrismFacets::list(const LeafProblem& problem) {
 
 bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
     axis_ = axis;
-    walls_.clear();
-    covers_.clear();
+    side_faces_.clear();
+    caps_.clear();
     for (std::size_t o = 0; o < problem.operands.size(); ++o)
         for (const PolygonRef& ref : problem.operands[o].polygons) {
             if (ref.fragment != nullptr || ref.source->is_half_space() ||
@@ -84,8 +85,9 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
                 return false;
         }
     // Where everything is axis-perpendicular other ways are shorter.
-    const bool is_grid = std::ranges::all_of(
-        walls_, [](const PrismWall& w) { return w.from[0] == w.to[0] || w.from[1] == w.to[1]; });
+    const bool is_grid = std::ranges::all_of(side_faces_, [](const PrismSideFace& w) {
+        return w.from[0] == w.to[0] || w.from[1] == w.to[1];
+    });
     if (is_grid || !join_halves() || !find_layers()) return false;
     find_outside(problem);
     return true;
@@ -100,7 +102,7 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
         height[static_cast<std::size_t>(i)] = coordinate(p, axis_);
     }
     if (height[0] == height[1] && height[0] == height[2]) {
-        covers_.push_back({operand, ref, 0});
+        caps_.push_back({operand, ref, 0});
         return true;
     }
     // The edge along the axis.
@@ -110,7 +112,7 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     const std::size_t third = (i + 2) % 3;
     const auto [lo, hi] = std::minmax(height[i], height[(i + 1) % 3]);
     if (height[third] != lo && height[third] != hi) return false;
-    PrismWall w;
+    PrismSideFace w;
     w.operand = operand;
     w.lo = lo;
     w.hi = hi;
@@ -125,27 +127,29 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     w.above_is_left[half] = up != turned;
     const bool outside_above = ref.flipped == flipped;
     w.inside_is_left = outside_above != w.above_is_left[half];
-    walls_.push_back(w);
+    side_faces_.push_back(w);
     return true;
 }
 
 bool PrismFacets::join_halves() {
-    if (walls_.size() % 2 != 0) return false;
-    std::sort(walls_.begin(), walls_.end(),
-              [](const PrismWall& a, const PrismWall& b) { return wall_key(a) < wall_key(b); });
-    for (std::size_t i = 0; i < walls_.size(); i += 2) {
-        PrismWall& a = walls_[i];
-        const PrismWall& b = walls_[i + 1];
+    if (side_faces_.size() % 2 != 0) return false;
+    std::sort(side_faces_.begin(), side_faces_.end(),
+              [](const PrismSideFace& a, const PrismSideFace& b) {
+                  return side_face_key(a) < side_face_key(b);
+              });
+    for (std::size_t i = 0; i < side_faces_.size(); i += 2) {
+        PrismSideFace& a = side_faces_[i];
+        const PrismSideFace& b = side_faces_[i + 1];
         if (!same_rectangle(a, b) || a.facets[0].source == nullptr ||
             b.facets[1].source == nullptr || a.inside_is_left != b.inside_is_left)
             return false;
         a.facets[1] = b.facets[1];
         a.above_is_left[1] = b.above_is_left[1];
-        walls_[i / 2] = a;
+        side_faces_[i / 2] = a;
     }
-    walls_.resize(walls_.size() / 2);
-    for (std::size_t i = 1; i < walls_.size(); ++i)
-        if (same_rectangle(walls_[i - 1], walls_[i])) return false;
+    side_faces_.resize(side_faces_.size() / 2);
+    for (std::size_t i = 1; i < side_faces_.size(); ++i)
+        if (same_rectangle(side_faces_[i - 1], side_faces_[i])) return false;
     return true;
 }
 
@@ -154,14 +158,14 @@ bool PrismFacets::find_layers() {
         return coordinate(ref.source->corner(ref.facet, 0), axis_);
     };
     positions_.clear();
-    for (const PrismCover& c : covers_) positions_.push_back(height(c.ref));
+    for (const PrismCap& c : caps_) positions_.push_back(height(c.ref));
     std::ranges::sort(positions_);
     positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
     const auto index = [&](std::int64_t p) {
         return static_cast<std::size_t>(std::ranges::lower_bound(positions_, p) -
                                         positions_.begin());
     };
-    for (PrismWall& w : walls_) {
+    for (PrismSideFace& w : side_faces_) {
         w.first_layer = index(w.lo) + 1;
         w.end_layer = index(w.hi) + 1;
         // Ends where it meets no cap.
@@ -170,15 +174,15 @@ bool PrismFacets::find_layers() {
             return false;
     }
     named_.assign(positions_.size(), PolygonRef{});
-    for (PrismCover& c : covers_) {
+    for (PrismCap& c : caps_) {
         c.position = index(height(c.ref));
         if (named_[c.position].source == nullptr) named_[c.position] = c.ref;
     }
-    const auto key = [](const PrismCover& c) {
+    const auto key = [](const PrismCap& c) {
         return std::tuple(c.position, c.operand, c.ref.source->serial(), c.ref.facet);
     };
-    std::sort(covers_.begin(), covers_.end(),
-              [&](const PrismCover& a, const PrismCover& b) { return key(a) < key(b); });
+    std::sort(caps_.begin(), caps_.end(),
+              [&](const PrismCap& a, const PrismCap& b) { return key(a) < key(b); });
     return true;
 }
 
@@ -189,14 +193,14 @@ void PrismFacets::find_outside(const LeafProblem& problem) {
         outside_.push_back(is_inside(o.winding, problem.options->winding) ? 1 : 0);
     const FinePoint& r = problem.reference;
     const auto layer = static_cast<std::size_t>(
-        std::ranges::partition_point(positions_,
-                                     [&](std::int64_t p) { return p * wall_scale <= r.c[axis_]; }) -
+        std::ranges::partition_point(
+            positions_, [&](std::int64_t p) { return p * splitting_scale <= r.c[axis_]; }) -
         positions_.begin());
     const FlatPoint point{r.c[(axis_ + 1) % 3], r.c[(axis_ + 2) % 3]};
-    for (const PrismWall& w : walls_) {
+    for (const PrismSideFace& w : side_faces_) {
         if (!w.is_in(layer)) continue;
-        const FlatPoint from{w.from[0] * wall_scale, w.from[1] * wall_scale};
-        const FlatPoint to{w.to[0] * wall_scale, w.to[1] * wall_scale};
+        const FlatPoint from{w.from[0] * splitting_scale, w.from[1] * splitting_scale};
+        const FlatPoint to{w.to[0] * splitting_scale, w.to[1] * splitting_scale};
         if ((from[1] > point[1]) == (to[1] > point[1])) continue;
         if ((flat_turn(from, to, point) > 0) == (to[1] > from[1]))
             outside_[as_index(w.operand)] ^= 1;

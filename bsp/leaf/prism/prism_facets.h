@@ -24,7 +24,7 @@ using FlatPoint = std::array<std::int64_t, 2>;
 }
 
 /// A rectangle along the axis: two facets with a common diagonal.
-struct PrismWall {
+struct PrismSideFace {
     LeafIndex operand = 0;
     FlatPoint from{};
     FlatPoint to{};
@@ -43,7 +43,7 @@ struct PrismWall {
 
 /// Whether the way from p along the first of the two coordinates, upwards, crosses a side face. Its
 /// ends count as above the way.
-[[nodiscard]] inline bool crosses_way(const PrismWall& w, const FlatPoint& p) {
+[[nodiscard]] inline bool crosses_way(const PrismSideFace& w, const FlatPoint& p) {
     if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
     return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
 }
@@ -52,7 +52,7 @@ struct PrismWall {
 inline constexpr std::uint32_t prism_leaf_factor = 40;
 
 /// A facet perpendicular to the axis.
-struct PrismCover {
+struct PrismCap {
     LeafIndex operand = 0;
     PolygonRef ref;
     std::size_t position = 0;  ///< see PrismFacets
@@ -69,16 +69,14 @@ public:
     /// False for polygons that are of no prism along any axis.
     [[nodiscard]] static bool may_be_of_prism(const PolygonRef& polygon);
 
-    [[nodiscard]] std::span<const PrismWall> walls() const { return walls_; }
+    [[nodiscard]] std::span<const PrismSideFace> side_faces() const { return side_faces_; }
     /// By position, operand, source and facet.
-    [[nodiscard]] std::span<const PrismCover> covers() const { return covers_; }
+    [[nodiscard]] std::span<const PrismCap> caps() const { return caps_; }
     [[nodiscard]] std::span<const std::int64_t> positions() const { return positions_; }
     /// A facet perpendicular to the axis there.
-    [[nodiscard]] const PolygonRef& cover_at(std::size_t position) const {
-        return named_[position];
-    }
+    [[nodiscard]] const PolygonRef& cap_at(std::size_t position) const { return named_[position]; }
     /// Whether a cap's support has its upper side towards greater positions.
-    [[nodiscard]] bool faces_up(const PolygonRef& cover) const;
+    [[nodiscard]] bool faces_up(const PolygonRef& cap) const;
     [[nodiscard]] std::size_t axis() const { return axis_; }
     /// The edge along the axis of the half of a side face that has one at its `from` (end 0) or
     /// `to` (end 1): numbers of the facet's corners. `edge` is that of the edge.
@@ -87,7 +85,7 @@ public:
         int high = 0;
         int edge = 0;
     };
-    [[nodiscard]] Upright upright_edge(const PrismWall& wall, std::size_t end) const;
+    [[nodiscard]] Upright upright_edge(const PrismSideFace& side_face, std::size_t end) const;
     [[nodiscard]] FlatPoint flat(const LatticePoint& p) const;
     /// Winding numbers of the operands far away from all of them.
     [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }
@@ -100,8 +98,8 @@ private:
     void find_outside(const LeafProblem& problem);
 
     std::size_t axis_ = 0;
-    std::vector<PrismWall> walls_;
-    std::vector<PrismCover> covers_;
+    std::vector<PrismSideFace> side_faces_;
+    std::vector<PrismCap> caps_;
     std::vector<std::int64_t> positions_;
     std::vector<PolygonRef> named_;
     std::vector<std::uint8_t> outside_;

@@ -38,7 +38,8 @@ constexpr std::size_t on_left = 0;
 constexpr std::size_t on_right = 1;
 
 // crosses_way() from a point in doubles; nothing when they cannot decide.
-std::optional<bool> crosses_way(const PrismWall& w, const std::array<double, 2>& p, double error) {
+std::optional<bool> crosses_way(const PrismSideFace& w, const std::array<double, 2>& p,
+                                double error) {
     const double from_v = static_cast<double>(w.from[1]) - p[1];
     const double to_v = static_cast<double>(w.to[1]) - p[1];
     const double slack = 1.001 * error + 0x1p-52 * (std::fabs(from_v) + std::fabs(to_v));
@@ -60,78 +61,80 @@ std::optional<LeafResult> PrismLeaf::try_to_arrange(const LeafProblem& problem,
                                                     LeafFindings& findings) {
     if (!facets_.list(problem)) return std::nullopt;
     // Fragments without owners end here, whatever is thrown or given up.
-    struct EndCovers {
-        std::vector<PolygonRef>& covers;
-        ~EndCovers() {
-            if (!covers.empty()) end_fragments(covers);
+    struct EndCaps {
+        std::vector<PolygonRef>& caps;
+        ~EndCaps() {
+            if (!caps.empty()) end_fragments(caps);
         }
-    } const end_covers{covers_};
+    } const end_caps{caps_};
     EvaluateStats& stats = findings.stats;
     if (!arrange_listed(problem, stats)) return std::nullopt;
     emit_walls();
-    out_.insert(out_.end(), covers_.begin(), covers_.end());
-    stats.pieces += wall_parts_.size() + covers_.size();
-    covers_.clear();
-    findings.note_doubtful(problem);
+    out_.insert(out_.end(), caps_.begin(), caps_.end());
+    stats.pieces += side_face_parts_.size() + caps_.size();
+    caps_.clear();
+    findings.note_uncertain(problem);
     return LeafPolygons{listed()};
 }
 
 void PrismLeaf::emit_walls() {
-    for (std::size_t i = 0; i < wall_parts_.size();) {
+    for (std::size_t i = 0; i < side_face_parts_.size();) {
         std::size_t j = i + 1;
-        while (j < wall_parts_.size() && wall_parts_[j].stretch.wall == wall_parts_[i].stretch.wall)
+        while (j < side_face_parts_.size() &&
+               side_face_parts_[j].interval.side_face == side_face_parts_[i].interval.side_face)
             ++j;
-        emit_wall(i, j);
+        emit_side_face(i, j);
         i = j;
     }
 }
 
 bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats) {
     stats_ = &stats;
-    if (!crossings_.find(problem, facets_.walls(), stats)) return false;
+    if (!crossings_.find(problem, facets_.side_faces(), stats)) return false;
     bench_.clear();
     formula_.start(problem);
     operands_ = problem.operands.size();
     row_size_ = formula_.row_size();
     rows_.assign(4 * row_size_, 0);
     insides_.assign(4 * operands_, 0);
-    wall_parts_.clear();
-    covers_.clear();
+    side_face_parts_.clear();
+    caps_.clear();
     outlines_.resize(operands_);
-    const auto walls = static_cast<LeafIndex>(facets_.walls().size());
-    auto cover = facets_.covers().begin();
+    const auto side_faces = static_cast<LeafIndex>(facets_.side_faces().size());
+    auto cap = facets_.caps().begin();
     for (std::size_t position = 0; position < facets_.positions().size(); ++position) {
-        for (auto& stretches : outlines_) stretches.clear();
-        for (LeafIndex i = 0; i < walls; ++i) {
-            const PrismWall& w = facets_.walls()[as_index(i)];
+        for (auto& intervals : outlines_) intervals.clear();
+        for (LeafIndex i = 0; i < side_faces; ++i) {
+            const PrismSideFace& w = facets_.side_faces()[as_index(i)];
             if (!w.is_in(position) && !w.is_in(position + 1)) continue;
             check_budget(*problem.options, stats);
             walk(i, position);
         }
-        for (; cover != facets_.covers().end() && cover->position == position; ++cover) {
+        for (; cap != facets_.caps().end() && cap->position == position; ++cap) {
             check_budget(*problem.options, stats);
-            if (!cut_cover(*cover)) return false;
+            if (!cut_cap(*cap)) return false;
         }
     }
-    std::stable_sort(
-        wall_parts_.begin(), wall_parts_.end(),
-        [](const WallPart& a, const WallPart& b) { return a.stretch.wall < b.stretch.wall; });
+    std::stable_sort(side_face_parts_.begin(), side_face_parts_.end(),
+                     [](const SideFacePart& a, const SideFacePart& b) {
+                         return a.interval.side_face < b.interval.side_face;
+                     });
     return true;
 }
 
 // --- Along a side face.
 
 void PrismLeaf::walk(LeafIndex i, std::size_t position) {
-    const PrismWall& wall = facets_.walls()[as_index(i)];
-    start_walk(wall, position);
-    Stretch stretch{i, open, open};
+    const PrismSideFace& side_face = facets_.side_faces()[as_index(i)];
+    start_walk(side_face, position);
+    Interval interval{i, open, open};
     Sides now = sides();
     const auto crossings = crossings_.of(i);
     for (std::size_t c = 0; c < crossings.size();) {
         const std::size_t first = c;
         bool changed = false;
         do {
-            const PrismWall& other = facets_.walls()[as_index(crossings[c].wall)];
+            const PrismSideFace& other = facets_.side_faces()[as_index(crossings[c].side_face)];
             for (std::size_t layer = 0; layer < 2; ++layer) {
                 if (!other.is_in(position + layer)) continue;
                 cross(other.operand, layer);
@@ -142,28 +145,28 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
         if (!changed) continue;
         const Sides next = sides();
         if (next == now) continue;
-        stretch.end = crossings[first].wall;
-        add_stretch(stretch, now, position);
-        stretch.begin = stretch.end;
+        interval.end = crossings[first].side_face;
+        add_interval(interval, now, position);
+        interval.begin = interval.end;
         now = next;
     }
-    stretch.end = open;
-    add_stretch(stretch, now, position);
+    interval.end = open;
+    add_interval(interval, now, position);
 }
 
 // What is where the side face begins. On its own operand's side there it is known without looking.
-void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
+void PrismLeaf::start_walk(const PrismSideFace& side_face, std::size_t position) {
     for (std::size_t layer = 0; layer < 2; ++layer) {
         std::uint8_t* in = insides(layer, on_left);
         std::copy(facets_.outside().begin(), facets_.outside().end(), in);
-        for (const PrismWall& w : facets_.walls())
-            if (w.is_in(position + layer) && crosses_way(w, wall.from))
+        for (const PrismSideFace& w : facets_.side_faces())
+            if (w.is_in(position + layer) && crosses_way(w, side_face.from))
                 in[as_index(w.operand)] ^= 1;
         std::uint8_t* other = insides(layer, on_right);
         std::copy_n(in, operands_, other);
-        if (wall.is_in(position + layer)) {
-            in[as_index(wall.operand)] = wall.inside_is_left ? 1 : 0;
-            other[as_index(wall.operand)] = wall.inside_is_left ? 0 : 1;
+        if (side_face.is_in(position + layer)) {
+            in[as_index(side_face.operand)] = side_face.inside_is_left ? 1 : 0;
+            other[as_index(side_face.operand)] = side_face.inside_is_left ? 0 : 1;
         }
         for (const std::size_t side : {on_left, on_right}) {
             const std::span<int> r = row(layer, side);
@@ -172,10 +175,10 @@ void PrismLeaf::start_walk(const PrismWall& wall, std::size_t position) {
         }
     }
     for (const std::size_t side : {on_left, on_right}) {
-        covered_[side].assign(operands_ / 64 + 1, 0);
+        capped_[side].assign(operands_ / 64 + 1, 0);
         for (std::size_t o = 0; o < operands_; ++o)
             if (insides(0, side)[o] != insides(1, side)[o])
-                covered_[side][o / 64] |= std::uint64_t{1} << o % 64;
+                capped_[side][o / 64] |= std::uint64_t{1} << o % 64;
     }
 }
 
@@ -185,7 +188,7 @@ void PrismLeaf::cross(LeafIndex operand, std::size_t layer) {
         std::uint8_t& in = insides(layer, side)[o];
         in ^= 1;
         formula_.set(row(layer, side), o, in);
-        covered_[side][o / 64] ^= std::uint64_t{1} << o % 64;
+        capped_[side][o / 64] ^= std::uint64_t{1} << o % 64;
     }
 }
 
@@ -200,75 +203,76 @@ PrismLeaf::Sides PrismLeaf::sides() const {
         out[side].above = value(1);
         if (!out[side].bounds()) continue;
         std::size_t word = 0;
-        while (covered_[side][word] == 0) ++word;
-        out[side].speaker = static_cast<LeafIndex>(
-            64 * word + static_cast<std::size_t>(std::countr_zero(covered_[side][word])));
+        while (capped_[side][word] == 0) ++word;
+        out[side].representative = static_cast<LeafIndex>(
+            64 * word + static_cast<std::size_t>(std::countr_zero(capped_[side][word])));
     }
     return out;
 }
 
-void PrismLeaf::add_stretch(const Stretch& stretch, const Sides& s, std::size_t position) {
+void PrismLeaf::add_interval(const Interval& interval, const Sides& s, std::size_t position) {
     if (s[on_left].below != s[on_right].below) {
         const bool inside_left = s[on_left].below == 1;
-        WallPart* last = wall_parts_.empty() ? nullptr : &wall_parts_.back();
-        if (last != nullptr && last->stretch.wall == stretch.wall && last->layer == position &&
-            last->inside_left == inside_left && last->stretch.end == stretch.begin &&
-            stretch.begin != open) {
-            last->stretch.end = stretch.end;
+        SideFacePart* last = side_face_parts_.empty() ? nullptr : &side_face_parts_.back();
+        if (last != nullptr && last->interval.side_face == interval.side_face &&
+            last->layer == position && last->inside_left == inside_left &&
+            last->interval.end == interval.begin && interval.begin != open) {
+            last->interval.end = interval.end;
         } else {
-            wall_parts_.push_back({stretch, position, inside_left});
+            side_face_parts_.push_back({interval, position, inside_left});
         }
     }
     const auto share = [](const Side& side) {
-        return side.bounds() ? 2 * side.speaker + side.below : -1;
+        return side.bounds() ? 2 * side.representative + side.below : -1;
     };
     if (share(s[on_left]) == share(s[on_right])) return;
     for (const std::size_t side : {on_left, on_right})
-        if (s[side].bounds() &&
-            (side == on_left || !s[on_left].bounds() || s[on_left].speaker != s[on_right].speaker))
-            outlines_[as_index(s[side].speaker)].push_back(stretch);
+        if (s[side].bounds() && (side == on_left || !s[on_left].bounds() ||
+                                 s[on_left].representative != s[on_right].representative))
+            outlines_[as_index(s[side].representative)].push_back(interval);
 }
 
 // --- Caps.
 
 // A side face along an interval: its support, and the planes that end it.
-WorkPolygon PrismLeaf::cutter_of(const Stretch& stretch) {
-    const PrismWall& wall = facets_.walls()[as_index(stretch.wall)];
+WorkPolygon PrismLeaf::cutter_of(const Interval& interval) {
+    const PrismSideFace& side_face = facets_.side_faces()[as_index(interval.side_face)];
     WorkPolygon out;
-    out.support = bench_.plane(PlaneName::support(wall.facets[0].source, wall.facets[0].facet));
+    out.support =
+        bench_.plane(PlaneName::support(side_face.facets[0].source, side_face.facets[0].facet));
     const auto bound = [&](Bound b, std::size_t end) {
-        const FlatPoint& kept = end == 0 ? wall.to : wall.from;
+        const FlatPoint& kept = end == 0 ? side_face.to : side_face.from;
         if (b != open) {
-            const PrismWall& other = facets_.walls()[as_index(b)];
+            const PrismSideFace& other = facets_.side_faces()[as_index(b)];
             const PolygonRef& f = other.facets[0];
             out.edges.push_back({bench_.plane(PlaneName::support(f.source, f.facet)),
                                  is_left(b, kept) == other.above_is_left[0]});
             return;
         }
-        const PolygonRef& f = wall.facets[end];
+        const PolygonRef& f = side_face.facets[end];
         int i = 0;
         const auto corner = [&](int k) { return facets_.flat(f.source->corner(f.facet, k % 3)); };
         while (corner(i) != corner(i + 1)) ++i;
         out.edges.push_back({bench_.plane(PlaneName::edge(f.source, f.facet, i)), false});
     };
-    bound(stretch.begin, 0);
-    bound(stretch.end, 1);
+    bound(interval.begin, 0);
+    bound(interval.end, 1);
     return out;
 }
 
-bool PrismLeaf::is_left(LeafIndex wall, const FlatPoint& p) const {
-    const PrismWall& w = facets_.walls()[as_index(wall)];
+bool PrismLeaf::is_left(LeafIndex side_face, const FlatPoint& p) const {
+    const PrismSideFace& w = facets_.side_faces()[as_index(side_face)];
     return flat_turn(w.from, w.to, p) > 0;
 }
 
-bool PrismLeaf::cut_cover(const PrismCover& cover) {
+bool PrismLeaf::cut_cap(const PrismCap& cap) {
     parts_.clear();
-    cover_parts_.clear();
+    cap_parts_.clear();
     keep_bench_small();
-    WorkPolygon whole = bench_.polygon(cover.ref);
-    bench_.with_edges(whole, cover.ref);
+    WorkPolygon whole = bench_.polygon(cap.ref);
+    bench_.with_edges(whole, cap.ref);
     parts_.push_back(whole);
-    for (const Stretch& s : outlines_[as_index(cover.operand)]) {
+    for (const Interval& s : outlines_[as_index(cap.operand)]) {
         const WorkPolygon cutter = cutter_of(s);
         const std::size_t end = parts_.size();
         for (std::size_t i = 0; i < end; ++i) {
@@ -279,17 +283,17 @@ bool PrismLeaf::cut_cover(const PrismCover& cover) {
     }
     bool all = true;
     for (WorkPolygon& p : parts_) {
-        const auto side = side_of_middle(p, cover.position);
+        const auto side = side_of_middle(p, cap.position);
         if (!side) return false;
-        const bool kept = side->bounds() && side->speaker == cover.operand;
+        const bool kept = side->bounds() && side->representative == cap.operand;
         all = all && kept;
-        if (kept) cover_parts_.push_back({std::move(p), side->below == 1});
+        if (kept) cap_parts_.push_back({std::move(p), side->below == 1});
     }
-    const bool whole_cover = all && std::ranges::all_of(cover_parts_, [&](const CoverPart& p) {
-                                 return p.inside_below == cover_parts_[0].inside_below;
-                             });
-    if (whole_cover) cover_parts_.resize(1);
-    for (const CoverPart& p : cover_parts_) emit_cover(cover, p, whole_cover);
+    const bool whole_cap = all && std::ranges::all_of(cap_parts_, [&](const CapPart& p) {
+                               return p.inside_below == cap_parts_[0].inside_below;
+                           });
+    if (whole_cap) cap_parts_.resize(1);
+    for (const CapPart& p : cap_parts_) emit_cap(cap, p, whole_cap);
     return true;
 }
 
@@ -323,7 +327,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
         bool sure = true;
         for (std::size_t layer = 0; layer < 2; ++layer)
             std::copy(facets_.outside().begin(), facets_.outside().end(), insides(layer, on_left));
-        for (const PrismWall& w : facets_.walls()) {
+        for (const PrismSideFace& w : facets_.side_faces()) {
             if (!w.is_in(position) && !w.is_in(position + 1)) continue;
             const auto crosses = crosses_way(w, middle, error);
             sure = crosses.has_value();
@@ -336,7 +340,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
         Side out;
         for (std::size_t o = operands_; o-- > 0;)
             if (insides(0, on_left)[o] != insides(1, on_left)[o])
-                out.speaker = static_cast<LeafIndex>(o);
+                out.representative = static_cast<LeafIndex>(o);
         for (std::size_t layer = 0; layer < 2; ++layer) {
             const std::span<int> r = row(layer, on_left);
             std::copy_n(insides(layer, on_left), operands_, r.begin());
@@ -351,31 +355,31 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
 // --- What bounds the result.
 
 // The parts of one side face.
-void PrismLeaf::emit_wall(std::size_t first, std::size_t last) {
+void PrismLeaf::emit_side_face(std::size_t first, std::size_t last) {
     keep_bench_small();
-    const auto parts = std::span(wall_parts_).subspan(first, last - first);
-    const PrismWall& wall = facets_.walls()[as_index(parts[0].stretch.wall)];
-    const bool whole = parts.size() == wall.end_layer - wall.first_layer &&
-                       std::ranges::all_of(parts, [&](const WallPart& p) {
-                           return p.stretch.begin == open && p.stretch.end == open &&
+    const auto parts = std::span(side_face_parts_).subspan(first, last - first);
+    const PrismSideFace& side_face = facets_.side_faces()[as_index(parts[0].interval.side_face)];
+    const bool whole = parts.size() == side_face.end_layer - side_face.first_layer &&
+                       std::ranges::all_of(parts, [&](const SideFacePart& p) {
+                           return p.interval.begin == open && p.interval.end == open &&
                                   p.inside_left == parts[0].inside_left;
                        });
     if (!whole) {
-        for (const WallPart& p : parts) emit_wall_part(p);
+        for (const SideFacePart& p : parts) emit_side_face_part(p);
         return;
     }
     for (std::size_t half = 0; half < 2; ++half) {
-        PolygonRef ref = wall.facets[half];
-        ref.flipped = parts[0].inside_left == wall.above_is_left[half];
+        PolygonRef ref = side_face.facets[half];
+        ref.flipped = parts[0].inside_left == side_face.above_is_left[half];
         ref.touched = true;
         out_.push_back(ref);
     }
 }
 
-void PrismLeaf::emit_wall_part(const WallPart& part) {
-    const PrismWall& wall = facets_.walls()[as_index(part.stretch.wall)];
+void PrismLeaf::emit_side_face_part(const SideFacePart& part) {
+    const PrismSideFace& side_face = facets_.side_faces()[as_index(part.interval.side_face)];
     for (std::size_t half = 0; half < 2; ++half) {
-        const PolygonRef& ref = wall.facets[half];
+        const PolygonRef& ref = side_face.facets[half];
         WorkPolygon shape = bench_.polygon(ref);
         bench_.with_edges(shape, ref);
         const auto clip = [&](const PolygonRef& by, bool above) {
@@ -386,31 +390,31 @@ void PrismLeaf::emit_wall_part(const WallPart& part) {
         };
         const auto clip_at = [&](Bound b, const FlatPoint& kept) {
             if (b == open) return;
-            const PrismWall& other = facets_.walls()[as_index(b)];
+            const PrismSideFace& other = facets_.side_faces()[as_index(b)];
             clip(other.facets[0], is_left(b, kept) == other.above_is_left[0]);
         };
-        clip_at(part.stretch.begin, wall.to);
-        clip_at(part.stretch.end, wall.from);
-        if (part.layer > wall.first_layer) {
-            const PolygonRef& cover = facets_.cover_at(part.layer - 1);
-            clip(cover, facets_.faces_up(cover));
+        clip_at(part.interval.begin, side_face.to);
+        clip_at(part.interval.end, side_face.from);
+        if (part.layer > side_face.first_layer) {
+            const PolygonRef& cap = facets_.cap_at(part.layer - 1);
+            clip(cap, facets_.faces_up(cap));
         }
-        if (part.layer + 1 < wall.end_layer) {
-            const PolygonRef& cover = facets_.cover_at(part.layer);
-            clip(cover, !facets_.faces_up(cover));
+        if (part.layer + 1 < side_face.end_layer) {
+            const PolygonRef& cap = facets_.cap_at(part.layer);
+            clip(cap, !facets_.faces_up(cap));
         }
         if (shape.is_empty()) continue;
         make_room(out_);
         out_.push_back(make_fragment(bench_, ref, shape));
-        out_.back().flipped = part.inside_left == wall.above_is_left[half];
+        out_.back().flipped = part.inside_left == side_face.above_is_left[half];
     }
 }
 
-void PrismLeaf::emit_cover(const PrismCover& cover, const CoverPart& part, bool whole) {
-    make_room(covers_);
-    covers_.push_back(whole ? cover.ref : make_fragment(bench_, cover.ref, part.shape));
-    covers_.back().touched = covers_.back().touched || whole;
-    covers_.back().flipped = part.inside_below != facets_.faces_up(cover.ref);
+void PrismLeaf::emit_cap(const PrismCap& cap, const CapPart& part, bool whole) {
+    make_room(caps_);
+    caps_.push_back(whole ? cap.ref : make_fragment(bench_, cap.ref, part.shape));
+    caps_.back().touched = caps_.back().touched || whole;
+    caps_.back().flipped = part.inside_below != facets_.faces_up(cap.ref);
 }
 
 }  // namespace trisect::detail

@@ -29,14 +29,14 @@ private:
     // face itself.
     using Bound = LeafIndex;
     static constexpr Bound open = -1;
-    struct Stretch {
-        LeafIndex wall = 0;
+    struct Interval {
+        LeafIndex side_face = 0;
         Bound begin = open;
         Bound end = open;
     };
-    // A interval that bounds the result within a layer.
-    struct WallPart {
-        Stretch stretch;
+    // An interval that bounds the result within a layer.
+    struct SideFacePart {
+        Interval interval;
         std::size_t layer = 0;
         bool inside_left = false;
     };
@@ -44,32 +44,32 @@ private:
     struct Side {
         int below = 0;
         int above = 0;
-        LeafIndex speaker = -1;  // the first operand of which a cap is there
+        LeafIndex representative = -1;  // the first operand of which a cap is there
         [[nodiscard]] bool bounds() const { return below != above; }
         friend bool operator==(const Side&, const Side&) = default;
     };
     using Sides = std::array<Side, 2>;  // left and right of a side face
-    struct CoverPart {
+    struct CapPart {
         WorkPolygon shape;
         bool inside_below = false;
     };
     [[nodiscard]] bool arrange_listed(const LeafProblem& problem, EvaluateStats& stats);
-    void walk(LeafIndex wall, std::size_t position);
+    void walk(LeafIndex side_face, std::size_t position);
     // Sets what is on both sides of the side face at its beginning.
-    void start_walk(const PrismWall& wall, std::size_t position);
+    void start_walk(const PrismSideFace& side_face, std::size_t position);
     void cross(LeafIndex operand, std::size_t layer);
     [[nodiscard]] Sides sides() const;
-    void add_stretch(const Stretch& stretch, const Sides& sides, std::size_t position);
-    [[nodiscard]] bool cut_cover(const PrismCover& cover);
+    void add_interval(const Interval& interval, const Sides& sides, std::size_t position);
+    [[nodiscard]] bool cut_cap(const PrismCap& cap);
     void keep_bench_small();
     [[nodiscard]] std::optional<Side> side_of_middle(const WorkPolygon& part, std::size_t position);
-    [[nodiscard]] WorkPolygon cutter_of(const Stretch& stretch);
-    [[nodiscard]] bool is_left(LeafIndex wall, const FlatPoint& p) const;
+    [[nodiscard]] WorkPolygon cutter_of(const Interval& interval);
+    [[nodiscard]] bool is_left(LeafIndex side_face, const FlatPoint& p) const;
 
     void emit_walls();
-    void emit_wall(std::size_t first, std::size_t last);
-    void emit_wall_part(const WallPart& part);
-    void emit_cover(const PrismCover& cover, const CoverPart& part, bool whole);
+    void emit_side_face(std::size_t first, std::size_t last);
+    void emit_side_face_part(const SideFacePart& part);
+    void emit_cap(const PrismCap& cap, const CapPart& part, bool whole);
 
     [[nodiscard]] std::span<int> row(std::size_t layer, std::size_t side) {
         return std::span(rows_).subspan((2 * layer + side) * row_size_, row_size_);
@@ -88,11 +88,11 @@ private:
     // By layer (below or above the position) and side (left or right of the side face).
     std::vector<int> rows_;
     std::vector<std::uint8_t> insides_;
-    std::array<std::vector<std::uint64_t>, 2> covered_;  // by side: a bit for each operand
-    std::vector<WallPart> wall_parts_;
-    std::vector<std::vector<Stretch>> outlines_;  // by operand: of what it represents
-    std::vector<CoverPart> cover_parts_;          // of one cap
-    std::vector<PolygonRef> covers_;              // what of all of them bounds the result
+    std::array<std::vector<std::uint64_t>, 2> capped_;  // by side: a bit for each operand
+    std::vector<SideFacePart> side_face_parts_;
+    std::vector<std::vector<Interval>> outlines_;  // by operand: of what it represents
+    std::vector<CapPart> cap_parts_;               // of one cap
+    std::vector<PolygonRef> caps_;                 // what of all of them bounds the result
     std::vector<WorkPolygon> parts_;
 };
 

@@ -34,7 +34,7 @@ DoubleBox root_cell() {
 
 DoubleBox child_cell(const DoubleBox& cell, const IndexTree::Node& n, bool above) {
     DoubleBox c = cell;
-    (above ? c.lo : c.hi)[n.axis()] = n.rounded_wall();
+    (above ? c.lo : c.hi)[n.axis()] = n.rounded_splitter();
     return c;
 }
 
@@ -43,8 +43,8 @@ DoubleBox block_cell(const DoubleBox& cell, const IndexBlock& block, std::uint32
     const std::array<std::uint32_t, 3> at{x, y, z};
     DoubleBox c = cell;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (at[k] != 0) c.lo[k] = block.wall(k, at[k]);
-        if (at[k] + 1 != block.n[k]) c.hi[k] = block.wall(k, at[k] + 1);
+        if (at[k] != 0) c.lo[k] = block.splitter(k, at[k]);
+        if (at[k] + 1 != block.n[k]) c.hi[k] = block.splitter(k, at[k] + 1);
     }
     return c;
 }
@@ -53,8 +53,8 @@ IndexCell cell_at(const IndexBase& index, const IndexPoint& point) {
     const IndexTree& tree = index.tree;
     DoubleBox box = root_cell();
     const IndexTree::Node* n = &tree.node(0);
-    while (n->has_wall()) {
-        const bool above = IndexTree::side_of_wall(*n, point) > 0;
+    while (n->has_splitter()) {
+        const bool above = IndexTree::side_of_splitter(*n, point) > 0;
         box = child_cell(box, *n, above);
         n = &tree.node(n->next + (above ? 1U : 0U));
     }
@@ -68,9 +68,9 @@ IndexCell cell_at(const IndexBase& index, const IndexPoint& point) {
     const IndexTree::Cell cell = tree.cell_at(g, at);
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t i = at.fine[k] >> cell.shift;
-        if (i != 0) out.lo[k] = g.wall(k, i << cell.shift);
+        if (i != 0) out.lo[k] = g.splitter(k, i << cell.shift);
         if ((i + 1) << cell.shift != g.n[k] << g.shift())
-            out.hi[k] = g.wall(k, (i + 1) << cell.shift);
+            out.hi[k] = g.splitter(k, (i + 1) << cell.shift);
     }
     out.inside = cell.is_inside();
     if (cell.is_mixed()) out.polygons = tree.leaf(cell.leaf).count;

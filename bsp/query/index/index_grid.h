@@ -61,7 +61,7 @@ struct IndexBlock {
     std::array<double, 3> size{1, 1, 1};
     std::array<std::uint32_t, 3> n{1, 1, 1};
 
-    [[nodiscard]] double wall(std::size_t axis, std::uint32_t i) const {
+    [[nodiscard]] double splitter(std::size_t axis, std::uint32_t i) const {
         return origin[axis] + size[axis] * static_cast<double>(i);
     }
     /// The index along an axis of a coordinate up to rounding; clamped to the block.
@@ -101,7 +101,7 @@ struct IndexGrid {
         return (std::size_t{z} * n[1] + y) * n[0] + x;
     }
     [[nodiscard]] unsigned shift() const { return 2U * static_cast<unsigned>(levels); }
-    [[nodiscard]] double wall(std::size_t axis, std::uint32_t i) const {
+    [[nodiscard]] double splitter(std::size_t axis, std::uint32_t i) const {
         return origin[axis] + fine[axis] * static_cast<double>(i);
     }
     /// The exact cell of a point.
@@ -138,7 +138,9 @@ struct IndexGrid {
     /// The cells of the grid, or of the brick of size 4^level finest cells that begins there.
     [[nodiscard]] IndexBlock block() const { return {origin, scaled(levels), n}; }
     [[nodiscard]] IndexBlock brick(const std::array<std::uint32_t, 3>& low, int level) const {
-        return {{wall(0, low[0]), wall(1, low[1]), wall(2, low[2])}, scaled(level - 1), {4, 4, 4}};
+        return {{splitter(0, low[0]), splitter(1, low[1]), splitter(2, low[2])},
+                scaled(level - 1),
+                {4, 4, 4}};
     }
 
 private:
@@ -149,8 +151,8 @@ private:
     [[nodiscard]] std::uint32_t corrected(std::size_t axis, const IndexPoint& p,
                                           std::uint32_t i) const {
         const std::uint32_t end = n[axis] << shift();
-        while (i > 0 && p.compare(axis, wall(axis, i)) < 0) --i;
-        while (i + 1 < end && p.compare(axis, wall(axis, i + 1)) >= 0) ++i;
+        while (i > 0 && p.compare(axis, splitter(axis, i)) < 0) --i;
+        while (i + 1 < end && p.compare(axis, splitter(axis, i + 1)) >= 0) ++i;
         return i;
     }
 };
@@ -198,8 +200,8 @@ void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo
         if (!(s.lo > -HUGE_VAL && s.hi < HUGE_VAL)) return Indices{0, g.n[k] - 1};
         const std::uint32_t i = g.clamped(k, s.lo);
         // A coordinate just below a splitting plane may have been rounded to it.
-        const bool on_wall = g.wall(k, i) >= s.lo;
-        return Indices{on_wall && i > 0 ? i - 1 : i, g.clamped(k, s.hi)};
+        const bool on_splitter = g.splitter(k, i) >= s.lo;
+        return Indices{on_splitter && i > 0 ? i - 1 : i, g.clamped(k, s.hi)};
     };
     const Indices slabs = indices(a, span(a, lo, hi));
     const std::uint32_t count = slabs.hi - slabs.lo + 1;
@@ -208,10 +210,10 @@ void for_cells_along(const IndexBlock& g, const ApproximateLine& line, double lo
         double t0 = lo;
         double t1 = hi;
         if (count > 1) {
-            const double enter = g.wall(a, d > 0 ? i : i + 1);
-            const double leave = g.wall(a, d > 0 ? i + 1 : i);
-            const auto at = [&](double wall, double sign) {
-                const double t = (wall - line.origin[a]) / d;
+            const double enter = g.splitter(a, d > 0 ? i : i + 1);
+            const double leave = g.splitter(a, d > 0 ? i + 1 : i);
+            const auto at = [&](double splitter, double sign) {
+                const double t = (splitter - line.origin[a]) / d;
                 const double e =
                     std::fabs(t) * (0x1p-49 + 1.01 * line.direction_error / std::fabs(d)) +
                     1.01 * line.origin_error / std::fabs(d) + 0x1p-1000;

@@ -71,14 +71,15 @@ IndexPoint::IndexPoint(const Point& p) : c_(p.approximation().c), error_(p.appro
 IndexPoint::IndexPoint(const FinePoint& p) {
     bool rounded = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        c_[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
-        if (static_cast<std::int64_t>(c_[k] * static_cast<double>(wall_scale)) == p.c[k]) continue;
+        c_[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
+        if (static_cast<std::int64_t>(c_[k] * static_cast<double>(splitting_scale)) == p.c[k])
+            continue;
         rounded = true;
         error_ = std::max(error_, std::fabs(c_[k]) * last_place);
     }
     if (!rounded) return;
     homogeneous_ = {{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
-                    WideInt<6>(wall_scale)};
+                    WideInt<6>(splitting_scale)};
 }
 
 IndexPoint::IndexPoint(Rational p) : fits_(false) {
@@ -183,12 +184,12 @@ int IndexPoint::compare_slowly(std::size_t k, double position) const {
 }
 
 int IndexPoint::compare_fine(std::size_t k, std::int64_t position) const {
-    const double at = static_cast<double>(position) * (1.0 / static_cast<double>(wall_scale));
+    const double at = static_cast<double>(position) * (1.0 / static_cast<double>(splitting_scale));
     const double d = c_[k] - at;
     const double slack = 2 * error_ + std::fabs(at) * last_place;
     if (d > slack) return 1;
     if (d < -slack) return -1;
-    return (rational()[k].scaled(wall_bits) - ExactRational(position)).sign();
+    return (rational()[k].scaled(splitting_bits) - ExactRational(position)).sign();
 }
 
 ExactRational value_at(const IndexPoint::Rational& p, const Plane& plane) {

@@ -143,10 +143,10 @@ IndexPolygons::Id IndexPolygons::add_clipped(const PolygonRef& ref, bool flipped
         for (int i = 0; i < 3; ++i) edges.push_back(ref.source->edge_plane(ref.facet, i, support));
     for (int k = 0; k < 3; ++k) {
         const auto kk = static_cast<std::size_t>(k);
-        if (box.lo[kk] <= (cell.lo[kk] >> wall_bits))
-            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.lo[kk]).flipped());
-        if (box.hi[kk] > (cell.hi[kk] >> wall_bits))
-            edges.push_back(Plane::axis_aligned(k, wall_scale, cell.hi[kk]));
+        if (box.lo[kk] <= (cell.lo[kk] >> splitting_bits))
+            edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.lo[kk]).flipped());
+        if (box.hi[kk] > (cell.hi[kk] >> splitting_bits))
+            edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.hi[kk]));
     }
     edges = edges_in_order(support, edges);
     if (edges.size() < 3) return none;

@@ -80,7 +80,7 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base
 
 Fine coordinates(const LatticePoint& p) { return {p.x, p.y, p.z}; }
 Fine fine_coordinates(const LatticePoint& p) {
-    return {p.x * wall_scale, p.y * wall_scale, p.z * wall_scale};
+    return {p.x * splitting_scale, p.y * splitting_scale, p.z * splitting_scale};
 }
 
 Normal exact_cross(const Fine& u, const Fine& v) {
@@ -116,7 +116,7 @@ int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoi
                        const LatticePoint& b) {
     Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
-    if (const int s = sign_linear(p, n, r.c, wall_bits); s != 0) return s;
+    if (const int s = sign_linear(p, n, r.c, splitting_bits); s != 0) return s;
     ++predicate_counters().symbolic;
     for (std::size_t k = 0; k < 3; ++k)
         if (const int s = exact_turn(p, a, b, k); s != 0) return s;
@@ -210,7 +210,7 @@ int filtered_sign(const Reference& r, const Plane& plane) {
 }
 
 WideInt<4> exact_value(const FinePoint& r, const Plane& plane) {
-    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(wall_bits);
+    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(splitting_bits);
     for (int k = 0; k < 3; ++k)
         sum +=
             multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
@@ -277,7 +277,7 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
 
 void Reference::set_error() {
     for (std::size_t k = 0; k < 3; ++k)
-        if (static_cast<std::int64_t>(c[k] * static_cast<double>(wall_scale)) != fine.c[k])
+        if (static_cast<std::int64_t>(c[k] * static_cast<double>(splitting_scale)) != fine.c[k])
             error = std::max(error, std::fabs(c[k]) * last_place);
 }
 

@@ -19,7 +19,7 @@ namespace trisect::detail {
 struct Reference {
     explicit Reference(const FinePoint& p) : fine(p) {
         for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(wall_scale));
+            c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
             if (!(c[k] < 0x1p45 && c[k] > -0x1p45)) set_error();
         }
     }

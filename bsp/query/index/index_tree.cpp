@@ -158,7 +158,7 @@ FinePoint IndexTree::reference(const Cell& c, const IndexGrid::Position& at) con
     if (c.grid == nullptr) return references_[c.reference];
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
-        p.c[k] = fine_position(c.grid->wall(k, at.fine[k] >> c.shift << c.shift));
+        p.c[k] = fine_position(c.grid->splitter(k, at.fine[k] >> c.shift << c.shift));
     return p;
 }
 
@@ -195,8 +195,9 @@ private:
     IndexTree& t_;
     IndexCells& cells_;
     IndexPolygons& polygons_;
-    double quantum_ = 1.0 / static_cast<double>(wall_scale);  // positions are odd multiples of it
-    std::vector<Id> ids_;                                     // of a leaf
+    double quantum_ =
+        1.0 / static_cast<double>(splitting_scale);  // positions are odd multiples of it
+    std::vector<Id> ids_;                            // of a leaf
 };
 
 void IndexTreeBuilder::build(const SolidState& state) {
@@ -250,8 +251,8 @@ void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref
     const CellNode& n = *ref.node;
     if (!n.is_leaf()) {
         with_enough_stack([&] {
-            note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.wall()));
-            note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.wall()));
+            note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.splitter()));
+            note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.splitter()));
         });
         return;
     }
@@ -272,10 +273,10 @@ void IndexTreeBuilder::add_cells(const CellRef& ref, bool turned, const Cell& ce
     if (n.is_leaf()) return add_leaf_cell(n, turned, cell, node, depth);
     const auto children = static_cast<std::uint32_t>(t_.nodes_.size());
     t_.nodes_.resize(t_.nodes_.size() + 2);
-    t_.nodes_[node] = {n.wall(), children, static_cast<std::uint32_t>(n.axis())};
+    t_.nodes_[node] = {n.splitter(), children, static_cast<std::uint32_t>(n.axis())};
     with_enough_stack([&] {
-        add_cells(n.child(0), turned, cell.below(n.axis(), n.wall()), children, depth + 1);
-        add_cells(n.child(1), turned, cell.above(n.axis(), n.wall()), children + 1, depth + 1);
+        add_cells(n.child(0), turned, cell.below(n.axis(), n.splitter()), children, depth + 1);
+        add_cells(n.child(1), turned, cell.above(n.axis(), n.splitter()), children + 1, depth + 1);
     });
 }
 
@@ -333,8 +334,8 @@ IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const Box& 
     Place p;
     p.whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double lo = static_cast<double>(cell.lo[k]) / static_cast<double>(wall_scale);
-        const double hi = static_cast<double>(cell.hi[k]) / static_cast<double>(wall_scale);
+        const double lo = static_cast<double>(cell.lo[k]) / static_cast<double>(splitting_scale);
+        const double hi = static_cast<double>(cell.hi[k]) / static_cast<double>(splitting_scale);
         const auto first = static_cast<double>(polygons.lo[k]);
         const auto last = static_cast<double>(polygons.hi[k]);
         const double around = room + std::floor(relative_room * (last - first));

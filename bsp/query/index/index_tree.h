@@ -66,14 +66,14 @@ public:
         std::uint32_t next = none;
         std::uint32_t flags = leaf;
 
-        [[nodiscard]] bool has_wall() const { return (flags & 3U) != leaf; }
+        [[nodiscard]] bool has_splitter() const { return (flags & 3U) != leaf; }
         [[nodiscard]] bool is_grid() const { return (flags & grid_flag) != 0; }
-        [[nodiscard]] bool is_leaf() const { return !has_wall() && !is_grid(); }
+        [[nodiscard]] bool is_leaf() const { return !has_splitter() && !is_grid(); }
         [[nodiscard]] std::size_t axis() const { return flags & 3U; }
         [[nodiscard]] bool is_inside() const { return (flags & inside) != 0; }
         [[nodiscard]] bool is_mixed() const { return next != none; }  // of a leaf
-        [[nodiscard]] double rounded_wall() const {
-            return static_cast<double>(position) * (1.0 / static_cast<double>(wall_scale));
+        [[nodiscard]] double rounded_splitter() const {
+            return static_cast<double>(position) * (1.0 / static_cast<double>(splitting_scale));
         }
     };
 
@@ -155,7 +155,7 @@ public:
     template <class Visit>
     void for_leaves_at(const IndexPoint& p, Visit&& visit) const;
     /// -1, 0, 1: the point below, on, above a node's splitting plane.
-    [[nodiscard]] static int side_of_wall(const Node& n, const IndexPoint& p) {
+    [[nodiscard]] static int side_of_splitter(const Node& n, const IndexPoint& p) {
         return p.compare_fine(n.axis(), n.position);
     }
     /// The cell of a grid that holds a point.
@@ -223,8 +223,8 @@ void IndexTree::for_leaves_at(const IndexPoint& p, Visit&& visit) const {
     std::uint32_t at = 0;
     for (;;) {
         const Node& n = nodes_[at];
-        if (n.has_wall()) {
-            const int s = side_of_wall(n, p);
+        if (n.has_splitter()) {
+            const int s = side_of_splitter(n, p);
             at = n.next + (s > 0 ? 1U : 0U);
             if (s == 0) pending.push_back(n.next + 1);
             continue;

@@ -32,7 +32,7 @@ IntegerRange integers(double lo, double hi, std::uint32_t n) {
 }  // namespace
 
 std::int64_t fine_position(double v) {
-    return static_cast<std::int64_t>(v * static_cast<double>(wall_scale));
+    return static_cast<std::int64_t>(v * static_cast<double>(splitting_scale));
 }
 
 void IndexWindings::reset(const Vector& origin, const Vector& step,

@@ -241,16 +241,17 @@ void IndexHandles::list_edges(const IndexBase& base) {
                 continue;
             }
             const std::size_t k = n.axis();
-            const double wall = n.rounded_wall();
-            const double size = std::max({std::fabs(wall), std::fabs(a.c[k]), std::fabs(b.c[k])});
+            const double splitter = n.rounded_splitter();
+            const double size =
+                std::max({std::fabs(splitter), std::fabs(a.c[k]), std::fabs(b.c[k])});
             const double slack = 2 * (a.error + b.error) + size * 0x1p-45;
             const double step = b.c[k] - a.c[k];
             const double at_lo = a.c[k] + p.lo * step;
             const double at_hi = a.c[k] + p.hi * step;
-            const bool below = std::min(at_lo, at_hi) <= wall + slack;
-            const bool above = std::max(at_lo, at_hi) >= wall - slack;
+            const bool below = std::min(at_lo, at_hi) <= splitter + slack;
+            const bool above = std::max(at_lo, at_hi) >= splitter - slack;
             if (below && above && std::fabs(step) > 4 * slack) {
-                const double t = (wall - a.c[k]) / step;
+                const double t = (splitter - a.c[k]) / step;
                 const double margin = slack / std::fabs(step) * 1.01 + 0x1p-45;
                 Pending first = p;
                 Pending second = p;

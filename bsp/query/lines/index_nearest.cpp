@@ -221,8 +221,8 @@ private:
     void slab_distances(const DoubleBox& whole, const IndexBlock& block, std::size_t k,
                         std::span<double> out) const {
         for (std::uint32_t i = 0; i < block.n[k]; ++i) {
-            const double lo = i == 0 ? whole.lo[k] : block.wall(k, i);
-            const double hi = i + 1 == block.n[k] ? whole.hi[k] : block.wall(k, i + 1);
+            const double lo = i == 0 ? whole.lo[k] : block.splitter(k, i);
+            const double hi = i + 1 == block.n[k] ? whole.hi[k] : block.splitter(k, i + 1);
             const double d = std::max({0.0, std::max(lo, core_.tree().lo()[k]) - p_[k],
                                        p_[k] - std::min(hi, core_.tree().hi()[k])});
             out[i] = d * d;
@@ -255,7 +255,7 @@ private:
             near.distance = distance_to(near.cell);
             far.distance = distance_to(far.cell);
             if (far.distance < near.distance ||
-                (far.distance == near.distance && p_[n.axis()] > n.rounded_wall()))
+                (far.distance == near.distance && p_[n.axis()] > n.rounded_splitter()))
                 std::swap(near, far);
             pending.push_back(far);
             pending.push_back(near);

@@ -141,7 +141,7 @@ private:
             const double place = (base + t0 * step_[k]) / size;
             const double last = static_cast<double>(n[k] - 1);
             at[k] = static_cast<std::uint32_t>(place > 0 ? std::min(place, last) : 0.0);
-            next[k] = wall_after(k, low[k], at[k], n[k], size);
+            next[k] = splitter_after(k, low[k], at[k], n[k], size);
         }
         double from = t0;
         for (;;) {
@@ -154,17 +154,18 @@ private:
             if (!(next[axis] < t1)) return true;
             at[axis] += step_[axis] > 0 ? 1U : 0xffffffffU;
             from = to;
-            next[axis] = wall_after(axis, low[axis], at[axis], n[axis], size);
+            next[axis] = splitter_after(axis, low[axis], at[axis], n[axis], size);
         }
     }
 
     // Where the line leaves a cell along an axis; never in the last one, which goes on.
-    [[nodiscard]] double wall_after(std::size_t k, std::uint32_t low, std::uint32_t at,
-                                    std::uint32_t n, double size) const {
+    [[nodiscard]] double splitter_after(std::size_t k, std::uint32_t low, std::uint32_t at,
+                                        std::uint32_t n, double size) const {
         const bool up = step_[k] > 0;
         if (step_[k] == 0 || (up ? at + 1 == n : at == 0)) return HUGE_VAL;
-        const double wall = static_cast<double>(low) + static_cast<double>(up ? at + 1 : at) * size;
-        return (wall - at_[k]) * inverse_[k];
+        const double splitter =
+            static_cast<double>(low) + static_cast<double>(up ? at + 1 : at) * size;
+        return (splitter - at_[k]) * inverse_[k];
     }
 
     const IndexGrid& grid_;

@@ -40,11 +40,12 @@ struct ParameterRange {
 };
 
 // The enclosure of the parameter at which the line passes a splitting plane.
-ParameterRange at_wall(const IndexLine& line, std::size_t axis, double wall, double wall_error) {
+ParameterRange at_splitter(const IndexLine& line, std::size_t axis, double splitter,
+                           double splitter_error) {
     const double d = line.direction()[axis];
-    const double t = (wall - line.origin()[axis]) / d;
+    const double t = (splitter - line.origin()[axis]) / d;
     const double e = std::fabs(t) * (0x1p-50 + line.direction_error() / std::fabs(d) * 1.01) +
-                     (wall_error + line.origin().error()) / std::fabs(d) * 1.01 + 0x1p-1000;
+                     (splitter_error + line.origin().error()) / std::fabs(d) * 1.01 + 0x1p-1000;
     return {t - e, t + e};
 }
 
@@ -97,8 +98,8 @@ private:
                 continue;
             }
             if (line_.direction()[k] == 0) continue;  // too small for a double
-            const ParameterRange a = at_wall(line_, k, tree.lo()[k], 0);
-            const ParameterRange b = at_wall(line_, k, tree.hi()[k], 0);
+            const ParameterRange a = at_splitter(line_, k, tree.lo()[k], 0);
+            const ParameterRange b = at_splitter(line_, k, tree.hi()[k], 0);
             const double lo = std::min(a.lo, b.lo);
             const double hi = std::max(a.hi, b.hi);
             if (lo > range.hi || hi < range.lo) return false;
@@ -117,7 +118,7 @@ private:
             pending_.pop_back();
             if (first_only_ && at.range.lo > nearest_) continue;
             const IndexTree::Node* n = &index_.tree.node(at.node);
-            while (n->has_wall()) {
+            while (n->has_splitter()) {
                 step(*n, at);
                 n = &index_.tree.node(at.node);
             }
@@ -149,11 +150,11 @@ private:
     // Goes to the child that the line is in first; the other one waits, if the line gets there.
     void step(const IndexTree::Node& n, Pending& at) {
         const std::size_t axis = n.axis();
-        const double wall = n.rounded_wall();
-        const double wall_error = std::fabs(wall) * last_place;
+        const double splitter = n.rounded_splitter();
+        const double splitter_error = std::fabs(splitter) * last_place;
         if (line_.is_parallel(axis)) {
-            const double d = line_.origin()[axis] - wall;
-            const double slack = wall_error + 2 * line_.origin().error();
+            const double d = line_.origin()[axis] - splitter;
+            const double slack = splitter_error + 2 * line_.origin().error();
             if (d < -slack) {
                 at.node = n.next;
             } else if (d > slack) {
@@ -165,7 +166,7 @@ private:
             return;
         }
         const std::uint32_t far = line_.direction()[axis] > 0 ? 1 : 0;
-        const ParameterRange t = at_wall(line_, axis, wall, wall_error);
+        const ParameterRange t = at_splitter(line_, axis, splitter, splitter_error);
         if (at.range.hi < t.lo) {
             at.node = n.next + 1 - far;
         } else if (at.range.lo > t.hi) {

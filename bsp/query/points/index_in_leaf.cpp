@@ -173,7 +173,7 @@ FinePoint PointInLeaf::corner_point() const {
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t i = (at_.fine[k] >> cell_.shift) + (corner_ >> k & 1U);
-        p.c[k] = fine_position(cell_.grid->wall(k, i << cell_.shift));
+        p.c[k] = fine_position(cell_.grid->splitter(k, i << cell_.shift));
     }
     return p;
 }

@@ -308,7 +308,7 @@ void random_boxes(int rounds, bool coincident) {
         for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
-            options.wall_offset = leaf == 4 ? 1 : 83;
+            options.splitting_offset = leaf == 4 ? 1 : 83;
             const Solid divided = evaluate(formula, options);
             const PolygonMesh other = divided.to_mesh();
             expect_matching_edges(other);
@@ -379,7 +379,7 @@ TEST(AssemblyOrder, TrianglesDoNotDependOnTheTree) {
         for (const std::uint32_t offset : {83U, 1U, 127U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
-            options.wall_offset = offset;
+            options.splitting_offset = offset;
             EXPECT_EQ(evaluate(formula, options).to_mesh(), first) << leaf << ' ' << offset;
         }
     }

@@ -51,8 +51,8 @@ protected:
     void check(const CellNode& node, const Cell& cell) {
         const CellNode* at = trisect::detail::unfolded(&node);
         if (at->is_leaf()) return check_leaf(*at, cell);
-        check(*at->child(0).node, cell.below(at->axis(), at->wall()));
-        check(*at->child(1).node, cell.above(at->axis(), at->wall()));
+        check(*at->child(0).node, cell.below(at->axis(), at->splitter()));
+        check(*at->child(1).node, cell.above(at->axis(), at->splitter()));
     }
     void check_leaf(const CellNode& leaf, const Cell& cell) {
         ++leaves_;

@@ -52,7 +52,7 @@ std::string name_of(std::uint64_t EvaluateStats::*counter) {
         {&EvaluateStats::shared_cells, "`shared_cells`"},
         {&EvaluateStats::divided_cells, "`divided_cells`"},
         {&EvaluateStats::grid_leaves, "`grid_leaves`"},
-        {&EvaluateStats::plain_leaves, "`plain_leaves`"},
+        {&EvaluateStats::filtered_leaves, "`filtered_leaves`"},
         {&EvaluateStats::prism_leaves, "`prism_leaves`"},
         {&EvaluateStats::exact_leaves, "`exact_leaves`"},
     };

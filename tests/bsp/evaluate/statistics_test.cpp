@@ -81,7 +81,7 @@ TEST_F(TwoBalls, AllLeavesAreArrangedInDoubles) {
         EvaluateStats stats;
         (void)evaluate(a - b, options, &stats);
         EXPECT_GT(stats.mixed_leaves, 0U);
-        EXPECT_EQ(stats.plain_leaves, stats.mixed_leaves);
+        EXPECT_EQ(stats.filtered_leaves, stats.mixed_leaves);
     }
 }
 
@@ -92,8 +92,8 @@ TEST_F(TwoBalls, CountersOfRulesAddUp) {
          {trisect::Expression(a) ^ b, c | b, c - Solid::from_mesh(trisect::make_icosphere(1, 1))}) {
         EvaluateStats stats;
         (void)evaluate(e, dividing(), &stats);
-        EXPECT_EQ(stats.mixed_leaves,
-                  stats.grid_leaves + stats.plain_leaves + stats.prism_leaves + stats.exact_leaves);
+        EXPECT_EQ(stats.mixed_leaves, stats.grid_leaves + stats.filtered_leaves +
+                                          stats.prism_leaves + stats.exact_leaves);
         EXPECT_EQ(stats.cells, stats.constant_cells + stats.shared_cells + stats.mixed_leaves +
                                    stats.divided_cells);
         EXPECT_GT(stats.divided_cells, 0U);

@@ -17,13 +17,13 @@ using trisect::Location;
 using trisect::Place;
 using trisect::Solid;
 
-// A point moved onto a wall of the cell that it is in.
+// A point moved onto a splitter of the cell that it is in.
 std::array<double, 3> onto_wall(const BrepIndex& index, std::array<double, 3> p,
                                 reference::Random& random) {
     const trisect::IndexCell cell = index.cell_at(p);
     const std::size_t k = random.below(3);
-    const double wall = random.chance(1, 2) ? cell.lo[k] : cell.hi[k];
-    if (std::abs(wall) < 1e15) p[k] = wall;
+    const double splitter = random.chance(1, 2) ? cell.lo[k] : cell.hi[k];
+    if (std::abs(splitter) < 1e15) p[k] = splitter;
     return p;
 }
 

@@ -155,7 +155,7 @@ LatticeMesh moved(LatticeMesh mesh, std::int64_t by) {
     return mesh;
 }
 
-// Results have walls of their own tree, whose leaves list facets that go on behind them.
+// Results have splitters of their own tree, whose leaves list facets that go on behind them.
 TEST_F(Torus, UnionOfTwoIsWhereOneOfThemIs) {
     const LatticeMesh other_mesh = moved(mesh_, 1777);
     const Solid other = Solid::from_lattice_mesh(other_mesh);

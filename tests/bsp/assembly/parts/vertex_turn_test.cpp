@@ -36,7 +36,7 @@ struct Count {
     std::size_t turns = 0;
     std::size_t straight = 0;
     std::size_t named = 0;
-    std::size_t doubtful = 0;  // which doubles cannot tell
+    std::size_t uncertain = 0;  // which doubles cannot tell
 };
 
 void compare(const Workbench& bench, const BoundaryFacet& f, const BoundaryEdge& in,
@@ -56,7 +56,7 @@ void compare(const Workbench& bench, const BoundaryFacet& f, const BoundaryEdge&
     count.turns += expected != 0;
     count.straight += expected == 0;
     count.named += named;
-    count.doubtful += expected != 0 && !sure;
+    count.uncertain += expected != 0 && !sure;
 }
 
 // All edges that follow each other, where one leaves a vertex of a facet.
@@ -119,7 +119,7 @@ TEST(VertexTurn, SidesOfTurnedBoxes) {
     Count count;
     compare_all(trisect::evaluate(all), count);
     EXPECT_GT(count.turns, 1000U);
-    EXPECT_GT(count.doubtful, 50U);
+    EXPECT_GT(count.uncertain, 50U);
     EXPECT_GT(3 * count.named, count.turns);
 }
 

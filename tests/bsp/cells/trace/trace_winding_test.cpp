@@ -16,7 +16,7 @@ using reference::Operand;
 using trisect::detail::CellNode;
 using trisect::detail::FinePoint;
 using trisect::detail::Source;
-using trisect::detail::wall_scale;
+using trisect::detail::splitting_scale;
 
 // All polygons of an operand in one leaf.
 std::shared_ptr<const CellNode> leaf(const Operand& operand) {
@@ -27,7 +27,7 @@ std::shared_ptr<const CellNode> leaf(const Operand& operand) {
 // Positions in units of the lattice; multiples of 1/128.
 FinePoint at(double x, double y, double z) {
     const auto fine = [](double v) {
-        return static_cast<std::int64_t>(v * static_cast<double>(wall_scale));
+        return static_cast<std::int64_t>(v * static_cast<double>(splitting_scale));
     };
     return {{fine(x), fine(y), fine(z)}};
 }
@@ -82,8 +82,8 @@ TEST(TraceWinding, IsNotMisledByPlanesCrossedBesideTheFace) {
 TEST(TraceWinding, LongSegmentsFarFromTheOrigin) {
     const std::int64_t far = (std::int64_t{1} << 52) - 8;
     const Operand distant = reference::box({far, far, far}, {far + 4, far + 4, far + 4});
-    const FinePoint target{
-        {(far + 2) * wall_scale, (far + 1) * wall_scale + 34, (far + 1) * wall_scale + 98}};
+    const FinePoint target{{(far + 2) * splitting_scale, (far + 1) * splitting_scale + 34,
+                            (far + 1) * splitting_scale + 98}};
     EXPECT_EQ(trace(distant, at(-2, 1.25, 1.75), target), 1);
 }
 
@@ -107,7 +107,7 @@ TEST(TraceWinding, RandomBoxesAreCounted) {
         const auto random_point = [&] {
             FinePoint p;
             for (auto& c : p.c)
-                c = random.between(-1, 12) * wall_scale + 2 * random.between(1, 127);
+                c = random.between(-1, 12) * splitting_scale + 2 * random.between(1, 127);
             return p;
         };
         const auto winding = [&](const FinePoint& p) {
@@ -115,7 +115,8 @@ TEST(TraceWinding, RandomBoxesAreCounted) {
             for (const auto& [low, high] : boxes) {
                 bool in = true;
                 for (std::size_t k = 0; k < 3; ++k)
-                    in = in && low[k] * wall_scale < p.c[k] && p.c[k] < high[k] * wall_scale;
+                    in = in && low[k] * splitting_scale < p.c[k] &&
+                         p.c[k] < high[k] * splitting_scale;
                 w += in ? 1 : 0;
             }
             return w;

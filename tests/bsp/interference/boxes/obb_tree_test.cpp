@@ -12,7 +12,7 @@
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/bsp/interference/boxes/obb_pose.h>
 #include <trisect/bsp/interference/boxes/obb_tree.h>
-#include <trisect/bsp/interference/coherent/parting_planes.h>
+#include <trisect/bsp/interference/coherent/separating_planes.h>
 
 #include "reference/random_solids.h"
 #include "support/triangle_oracle.h"
@@ -30,8 +30,8 @@ using trisect::detail::ObbNode;
 using trisect::detail::ObbPose;
 using trisect::detail::ObbTree;
 using trisect::detail::OrientedBox;
-using trisect::detail::PartingPlanes;
 using trisect::detail::PlanePose;
+using trisect::detail::SeparatingPlanes;
 using trisect::detail::Vector3;
 
 struct Soup {
@@ -340,7 +340,7 @@ TEST(ObbPose, PlanesKeptFromAnotherPoseNeverSayTooMuch) {
                 Float4 gaps{};
                 Float4 kept{};
                 for (const ObbPose& from : {ObbPose(frame, frame, before), pose}) {
-                    PartingPlanes planes;
+                    SeparatingPlanes planes;
                     const PlanePose then(from, 0.25);
                     const PlanePose now(pose, 0.25 + pose.turn_from(from));
                     if (single_a) {

@@ -55,7 +55,7 @@ Motion falling(double by) { return Motion::translation(Pose(), {0, 0, -by}); }
 
 trisect::FirstContactOptions facing_only() {
     trisect::FirstContactOptions options;
-    options.leave_out_parting = true;
+    options.leave_out_receding = true;
     return options;
 }
 
@@ -236,7 +236,7 @@ TEST(FirstContact, PartsThatMoveApartAreLeftOut) {
             ASSERT_EQ(c.exists(), whole.exists());
             EXPECT_EQ(c.time, whole.time);
             EXPECT_EQ(c.witnesses, whole.witnesses);
-            left_out += c.stats.parting_pairs;
+            left_out += c.stats.separating_pairs;
             pairs += c.stats.triangle_pairs;
             all_pairs += whole.stats.triangle_pairs;
             // And the other one moving.
@@ -457,7 +457,7 @@ void compare_with_brute_force(const Scene& scene, std::size_t& contacts, std::si
     ASSERT_EQ(c.exists(), whole.exists());
     EXPECT_EQ(c.time, whole.time);
     EXPECT_EQ(c.witnesses, whole.witnesses);
-    EXPECT_EQ(whole.stats.parting_pairs, 0U);
+    EXPECT_EQ(whole.stats.separating_pairs, 0U);
     const auto meet = [&scene](const Rational& s) {
         return oracle::boundaries_meet(scene.a, scene.pa, scene.b, scene.pb, s);
     };

@@ -97,7 +97,7 @@ protected:
             // Some in the plane of the one before.
             if (i % 5 == 1) t = {triangles_.back()[0], triangles_.back()[2], t[0]};
             triangles_.push_back(t);
-            rows_.add(t, PlainFacets::plane_of(t, extent));
+            rows_.add(t, FilteredFacets::plane_of(t, extent));
         }
     }
     // Both for every facet.

@@ -6,7 +6,7 @@
 // facet's plane there; whether it goes through the facet or beside it is seen along the axis that
 // is nearest to the normal. A segment so near to an edge that doubles cannot decide is given up.
 
-#include <trisect/bsp/leaf/doubles/plain_windings.h>
+#include <trisect/bsp/leaf/doubles/filtered_windings.h>
 
 #include <algorithm>
 #include <bit>
@@ -23,7 +23,7 @@ namespace {
 
 // Whether a segment surely has a part of some length in a cell: it is clipped by the splitting
 // planes, in doubles and with a margin.
-bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b) {
+bool runs_through(const FilteredFacets& facets, const Vector3& a, const Vector3& b) {
     const Vector3& lo = facets.inner_lo();
     const Vector3& hi = facets.inner_hi();
     for (std::size_t k = 0; k < 3; ++k)
@@ -45,7 +45,7 @@ bool runs_through(const PlainFacets& facets, const Vector3& a, const Vector3& b)
 // Whether a point of a facet's support, known up to its error, lies in the facet: 1 inside, -1
 // outside, 0 when doubles cannot decide.
 template <class Corner>
-int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x) {
+int is_inside(const FilteredFacet& f, const Corner& corner, const Approximation& x) {
     const Vector3& n = f.plane.normal;
     std::size_t k = std::fabs(n[0]) > std::fabs(n[1]) ? 0 : 1;
     if (std::fabs(n[2]) > std::fabs(n[k])) k = 2;
@@ -78,7 +78,7 @@ int is_inside(const PlainFacet& f, const Corner& corner, const Approximation& x)
     return inside;
 }
 
-int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximation& x) {
+int is_inside(const FilteredFacets& facets, const FilteredFacet& f, const Approximation& x) {
     struct Exact {
         const Vector3& c;
         double error = 0;
@@ -93,7 +93,7 @@ int is_inside(const PlainFacets& facets, const PlainFacet& f, const Approximatio
 
 }  // namespace
 
-void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
+void FilteredWindings::start(FilteredFacets& facets, const FilteredPairs& pairs) {
     facets_ = &facets;
     pairs_ = &pairs;
     operands_ = facets.operand_count();
@@ -125,7 +125,7 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
         }
         const bool free = pairs.contacts(i).empty();
         add_corners(i, free);
-        const PlainFacet& f = facets[i];
+        const FilteredFacet& f = facets[i];
         if (free && !f.contained && f.is_whole()) add_edges(i);
     }
 }
@@ -133,15 +133,16 @@ void PlainWindings::start(PlainFacets& facets, const PlainPairs& pairs) {
 // A part of the cell beside the box of the other operand has none of its facets and is convex, so
 // the winding number is the same all over it. -1: the item has no point that surely is in such a
 // part of the cell.
-int PlainWindings::region_of(LeafIndex item) const {
+int FilteredWindings::region_of(LeafIndex item) const {
     if (operands_ != 2 || pairs_->is_candidate(item)) return -1;
-    const PlainFacet& f = (*facets_)[item];
+    const FilteredFacet& f = (*facets_)[item];
     const auto in_cell = [&](const Vector3& p) { return facets_->in_cell(p); };
     if (!f.contained && !(f.is_whole() && std::ranges::any_of(f.corners, in_cell))) return -1;
     return region_beside(f.operand, f.lo, f.hi);
 }
 
-int PlainWindings::region_beside(LeafIndex operand, const Vector3& low, const Vector3& high) const {
+int FilteredWindings::region_beside(LeafIndex operand, const Vector3& low,
+                                    const Vector3& high) const {
     const auto& [lo, hi] = facets_->reach(as_index(1 - operand));
     for (int k = 0; k < 3; ++k) {
         const auto axis = static_cast<std::size_t>(k);
@@ -152,7 +153,7 @@ int PlainWindings::region_beside(LeafIndex operand, const Vector3& low, const Ve
 }
 
 // The winding numbers in a region, if they are known: the reference may lie there.
-LeafIndex PlainWindings::windings_in(int region) {
+LeafIndex FilteredWindings::windings_in(int region) {
     LeafIndex& known = regions_[static_cast<std::size_t>(region)];
     if (known >= 0) return known;
     const auto axis = static_cast<std::size_t>(region % 6 / 2);
@@ -166,8 +167,8 @@ LeafIndex PlainWindings::windings_in(int region) {
 
 // A fragment has a node for each corner of its facet that is left of that. At a corner on another
 // operand there is no winding number; the owner of that corner has it.
-void PlainWindings::add_corners(LeafIndex item, bool free) {
-    const PlainFacet& f = (*facets_)[item];
+void FilteredWindings::add_corners(LeafIndex item, bool free) {
+    const FilteredFacet& f = (*facets_)[item];
     auto& vertices = vertices_[as_index(item)];
     vertices.fill(-1);
     for (std::size_t c = 0; c < f.size; ++c) {
@@ -175,15 +176,15 @@ void PlainWindings::add_corners(LeafIndex item, bool free) {
         if (corner < 0 || (f.resting >> c & 1U) != 0) continue;
         const auto m = static_cast<std::size_t>(corner);
         if (!f.contained && !facets_->in_cell(f.corners[m])) continue;
-        vertices[m] = node_of({f.vertices[m], static_cast<std::uint32_t>(f.sheet)}, item,
+        vertices[m] = node_of({f.vertices[m], static_cast<std::uint32_t>(f.surface)}, item,
                               static_cast<int>(c));
         if (free) join_item(item, vertices[m]);
     }
 }
 
 // Edges of a whole facet that run through the cell and have no end there.
-void PlainWindings::add_edges(LeafIndex item) {
-    const PlainFacet& f = (*facets_)[item];
+void FilteredWindings::add_edges(LeafIndex item) {
+    const FilteredFacet& f = (*facets_)[item];
     const auto& vertices = vertices_[as_index(item)];
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t d = c == 2 ? 0 : c + 1;
@@ -193,11 +194,11 @@ void PlainWindings::add_edges(LeafIndex item) {
         const std::uint64_t v = std::min(f.vertices[c], f.vertices[d]);
         const std::uint64_t w = std::max(f.vertices[c], f.vertices[d]);
         join_item(item,
-                  node_of({(w + 1) << 32 | v, static_cast<std::uint32_t>(f.sheet)}, item, -1));
+                  node_of({(w + 1) << 32 | v, static_cast<std::uint32_t>(f.surface)}, item, -1));
     }
 }
 
-LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int corner) {
+LeafIndex FilteredWindings::node_of(const StampMap::Key& key, LeafIndex item, int corner) {
     const auto next = static_cast<LeafIndex>(nodes_.size());
     const auto [id, inserted] = ids_.insert(key, next);
     if (inserted) {
@@ -205,7 +206,7 @@ LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int c
         n.parent = next;
         n.item = item;
         n.corner = static_cast<std::int8_t>(corner);
-        const PlainFacet& f = (*facets_)[item];
+        const FilteredFacet& f = (*facets_)[item];
         if (corner >= 0 && operands_ == 2) {
             const auto m =
                 static_cast<std::size_t>(f.mesh_corner(static_cast<std::size_t>(corner)));
@@ -216,7 +217,7 @@ LeafIndex PlainWindings::node_of(const StampMap::Key& key, LeafIndex item, int c
     return id;
 }
 
-void PlainWindings::join_item(LeafIndex item, LeafIndex node) {
+void FilteredWindings::join_item(LeafIndex item, LeafIndex node) {
     LeafIndex& first = first_[as_index(item)];
     if (first < 0) {
         first = node;
@@ -225,7 +226,7 @@ void PlainWindings::join_item(LeafIndex item, LeafIndex node) {
     }
 }
 
-LeafIndex PlainWindings::root(LeafIndex v) {
+LeafIndex FilteredWindings::root(LeafIndex v) {
     while (nodes_[as_index(v)].parent != v) {
         LeafIndex& parent = nodes_[as_index(v)].parent;
         v = parent = nodes_[as_index(parent)].parent;
@@ -233,7 +234,7 @@ LeafIndex PlainWindings::root(LeafIndex v) {
     return v;
 }
 
-void PlainWindings::join(LeafIndex a, LeafIndex b) {
+void FilteredWindings::join(LeafIndex a, LeafIndex b) {
     a = root(a);
     b = root(b);
     if (a == b) return;
@@ -248,7 +249,7 @@ void PlainWindings::join(LeafIndex a, LeafIndex b) {
 }
 
 // There are few different ones: inside and outside, in a leaf of two operands.
-LeafIndex PlainWindings::keep(std::span<const int> windings) {
+LeafIndex FilteredWindings::keep(std::span<const int> windings) {
     constexpr LeafIndex looked_at = 8;
     const auto at = static_cast<LeafIndex>(known_.size() / operands_);
     for (LeafIndex i = at - 1; i >= 0 && i >= at - looked_at; --i)
@@ -257,8 +258,8 @@ LeafIndex PlainWindings::keep(std::span<const int> windings) {
     return at;
 }
 
-const PlainWindings::Start& PlainWindings::nearest_start(const Approximation& target,
-                                                         LeafIndex own) const {
+const FilteredWindings::Start& FilteredWindings::nearest_start(const Approximation& target,
+                                                               LeafIndex own) const {
     constexpr std::size_t looked_at = 24;
     const auto distance = [&](const Start& s) {
         double d = 0;
@@ -277,8 +278,8 @@ const PlainWindings::Start& PlainWindings::nearest_start(const Approximation& ta
     return *nearest;
 }
 
-bool PlainWindings::at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
-                             std::vector<int>& w) {
+bool FilteredWindings::at_point(const Approximation& target, LeafIndex own, EvaluateStats& stats,
+                                std::vector<int>& w) {
     check_budget(*facets_->problem().options, stats);
     ++stats.traces;
     const Start& start = nearest_start(target, own);
@@ -293,8 +294,8 @@ bool PlainWindings::at_point(const Approximation& target, LeafIndex own, Evaluat
     return true;
 }
 
-bool PlainWindings::trace(const Start& start, const Approximation& target, LeafIndex own,
-                          std::vector<int>& w) {
+bool FilteredWindings::trace(const Start& start, const Approximation& target, LeafIndex own,
+                             std::vector<int>& w) {
     const auto known = windings(start.windings);
     w.assign(known.begin(), known.end());
     Vector3 lo;
@@ -366,13 +367,13 @@ bool near_target(const AtEnds& plane, const Approximation& start, const Approxim
 
 }  // namespace
 
-// Counts a facet of another operand if the segment goes through it; false when that is doubtful.
-bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
-                                 const Approximation& target, const Vector3& lo, const Vector3& hi,
-                                 std::vector<int>& w) {
-    PlainFacet& f = (*facets_)[i];
+// Counts a facet of another operand if the segment goes through it; false when that is uncertain.
+bool FilteredWindings::add_crossing(LeafIndex i, const Approximation& start,
+                                    const Approximation& target, const Vector3& lo,
+                                    const Vector3& hi, std::vector<int>& w) {
+    FilteredFacet& f = (*facets_)[i];
     if (!f.meets(lo, hi)) return true;
-    const PlainPlane& plane = facets_->plane(i);
+    const FilteredPlane& plane = facets_->plane(i);
     const AtEnds at{plane.value(start.c), plane.error(start), plane.value(target.c),
                     plane.error(target)};
     if (!(std::fabs(at.start) > at.start_error)) return false;
@@ -391,19 +392,19 @@ bool PlainWindings::add_crossing(LeafIndex i, const Approximation& start,
     return true;
 }
 
-const BoxRows& PlainWindings::boxes_of(std::size_t operand) {
+const BoxRows& FilteredWindings::boxes_of(std::size_t operand) {
     OperandBoxes& boxes = boxes_[operand];
     if (boxes.made) return boxes.rows;
     boxes.made = true;
     boxes.rows.clear();
     for (LeafIndex i = boxes.first; i < boxes.last; ++i) {
-        const PlainFacet& f = (*facets_)[i];
+        const FilteredFacet& f = (*facets_)[i];
         boxes.rows.add(f.lo, f.hi, f.operand);
     }
     return boxes.rows;
 }
 
-void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
+void FilteredWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
     const int region = nodes_[as_index(r)].region;
     if (region >= 0 && windings_in(region) >= 0) {
         ++stats.linked;
@@ -418,7 +419,7 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
         if (at < 0) continue;
         const Node& n = nodes_[as_index(at)];
         if (n.corner < 0) continue;  // edges only: see remember()
-        const PlainFacet& f = (*facets_)[n.item];
+        const FilteredFacet& f = (*facets_)[n.item];
         facets_->make_outline(n.item);
         if (!at_point(facets_->corner(f, static_cast<std::size_t>(n.corner)), f.operand, stats,
                       traced_))
@@ -431,7 +432,7 @@ void PlainWindings::find_windings(LeafIndex r, EvaluateStats& stats) {
     }
 }
 
-void PlainWindings::list_ways() {
+void FilteredWindings::list_ways() {
     has_ways_ = true;
     found_.clear();
     for (LeafIndex i = 0; i < facets_->size(); ++i) {
@@ -458,7 +459,7 @@ void PlainWindings::list_ways() {
 }
 
 // From a tree that has become known to all that edges connect it with.
-void PlainWindings::spread(LeafIndex r) {
+void FilteredWindings::spread(LeafIndex r) {
     if (!has_ways_) list_ways();
     reached_.assign(1, r);
     while (!reached_.empty()) {
@@ -481,12 +482,12 @@ void PlainWindings::spread(LeafIndex r) {
 
 // What changes along an edge, which lies in the cell: all that it pierces is known. False where it
 // meets an edge.
-bool PlainWindings::follow(const Way& way, std::span<int> w) const {
-    for (const PlainContact& c : pairs_->contacts(way.item)) {
-        const PlainCrossing& crossing = pairs_->crossing(c.crossing);
+bool FilteredWindings::follow(const Way& way, std::span<int> w) const {
+    for (const FilteredContact& c : pairs_->contacts(way.item)) {
+        const FilteredCrossing& crossing = pairs_->crossing(c.crossing);
         const bool above = (crossing.above[c.is_second ? 1 : 0] >> way.corner & 1U) != 0;
-        const PlainFacet& f = (*facets_)[c.other];
-        for (const PlainEnd& end : crossing.ends) {
+        const FilteredFacet& f = (*facets_)[c.other];
+        for (const FilteredEnd& end : crossing.ends) {
             if (end.edge_of(c.is_second) != way.edge) continue;
             if (end.other_edge >= 0) return false;
             w[as_index(f.operand)] += above ? f.orientation : -f.orientation;
@@ -495,8 +496,8 @@ bool PlainWindings::follow(const Way& way, std::span<int> w) const {
     return true;
 }
 
-PlainWindings::ClearBox PlainWindings::clear_box(LeafIndex item, LeafIndex windings) const {
-    const PlainFacet& f = (*facets_)[item];
+FilteredWindings::ClearBox FilteredWindings::clear_box(LeafIndex item, LeafIndex windings) const {
+    const FilteredFacet& f = (*facets_)[item];
     ClearBox box{f.lo, f.hi, windings};
     for (std::size_t k = 0; k < 3; ++k) {
         box.lo[k] = std::max(box.lo[k], facets_->inner_lo()[k]);
@@ -507,7 +508,7 @@ PlainWindings::ClearBox PlainWindings::clear_box(LeafIndex item, LeafIndex windi
 
 // Within a box without facets of the other operand its winding number is the same everywhere, and
 // so it is in two that meet in the cell. Fragments mostly have no corner in common by name.
-LeafIndex PlainWindings::from_clear_boxes(LeafIndex item, EvaluateStats& stats) {
+LeafIndex FilteredWindings::from_clear_boxes(LeafIndex item, EvaluateStats& stats) {
     if (!is_clear(item)) return -1;
     ClearBox box = clear_box(item, -1);
     for (std::size_t i = clear_boxes_.size(); i-- > 0;) {
@@ -524,7 +525,7 @@ LeafIndex PlainWindings::from_clear_boxes(LeafIndex item, EvaluateStats& stats) 
     return -1;
 }
 
-LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings) {
+LeafIndex FilteredWindings::remember(LeafIndex item, std::span<const int> windings) {
     const LeafIndex kept = keep(windings);
     if (const int region = regions_of_[as_index(item)]; region >= 0)
         regions_[static_cast<std::size_t>(region)] = kept;
@@ -537,7 +538,7 @@ LeafIndex PlainWindings::remember(LeafIndex item, std::span<const int> windings)
     return kept;
 }
 
-PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& stats) {
+FilteredWindings::Anchor FilteredWindings::anchor_of(LeafIndex item, EvaluateStats& stats) {
     if (const int region = regions_of_[as_index(item)]; region >= 0) {
         const LeafIndex known = windings_in(region);
         if (known >= 0) ++stats.linked;
@@ -549,7 +550,7 @@ PlainWindings::Anchor PlainWindings::anchor_of(LeafIndex item, EvaluateStats& st
         if (nodes_[as_index(r)].state == State::Unknown) find_windings(r, stats);
         return {nodes_[as_index(r)].windings, 0};
     }
-    const PlainFacet& f = (*facets_)[item];
+    const FilteredFacet& f = (*facets_)[item];
     if (f.contained) {
         if (const LeafIndex known = from_clear_boxes(item, stats); known >= 0) return {known, 0};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PoseReserve: a bound on motion within which an answer stays valid.
+// MotionBound: a bound on motion within which an answer stays valid.
 // It is that of two placed bodies (conservative advancement).
 #pragma once
 
@@ -14,10 +14,10 @@ namespace trisect::detail {
 
 /// Two poses, and by how much any point of B may have moved since, as A sees it, before what was
 /// known about them may be wrong. Asking takes no inverse and no product of poses, some 20 ns.
-class PoseReserve {
+class MotionBound {
 public:
     /// Models must outlive it.
-    PoseReserve(const InterferenceModelData& a, const InterferenceModelData& b);
+    MotionBound(const InterferenceModelData& a, const InterferenceModelData& b);
 
     /// `reserve` in lattice units of A; `b_to_a` is the map of these poses.
     void set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a, double reserve);

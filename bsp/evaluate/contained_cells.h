@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CoveredCells: cells contained in one operand, with polygons of others.
+// ContainedCells: cells contained in one operand, with polygons of others.
 // These polygons are not compared with each other.
 #pragma once
 
@@ -18,12 +18,12 @@ namespace trisect::detail {
 
 /// Remembers such cells until all other crossings are known. Then it shows which facets may bound
 /// the result elsewhere: only of those the crossings in such cells count (traced_facets.h).
-class CoveredCells {
+class ContainedCells {
 public:
     /// \pre all operands of the task with polygons are lists of whole facets of one source each
     void add(const CellTask& task);
     /// What another thread has remembered of the same formula.
-    void append(const CoveredCells& part);
+    void append(const ContainedCells& part);
     /// Adds the crossings in these cells of all facets that leaves have `seen` crossed, by number;
     /// other facets of crossings are hidden. \pre `crossings` has what all leaves have found, not
     /// yet arranged

@@ -5,20 +5,21 @@
 // end in exact arithmetic. Here a leaf is a few flat arrays: corners in doubles, which hold lattice
 // points exactly, pairs of facets by orientations of corners, and constructed points by doubles
 // with a bound. A point on a line that was cut before is known to be on it by name
-// (plain_cutting.cpp), and single signs are decided exactly where that is likely to help, such as
-// those of corners on other facets (plain_pair_relation.cpp); every other sign that doubles cannot
-// decide ends the attempt, and the leaf takes the exact path. So the filtered path never guesses;
-// leaves with coincident facets, or with edges along others, lose the attempt, which mostly ends at
-// the first such pair.
+// (filtered_cutting.cpp), and single signs are decided exactly where that is likely to help, such
+// as those of corners on other facets (filtered_pair_relation.cpp); every other sign that doubles
+// cannot decide ends the attempt, and the leaf takes the exact path. So the filtered path never
+// guesses; leaves with coincident facets, or with edges along others, lose the attempt, which
+// mostly ends at the first such pair.
 //
 // Fragments of earlier results are convex polygons whose vertices are kept as doubles with a bound,
 // and whose edges name the planes that cut them out. So they are items like whole facets, of up to
 // twenty corners, and what is constructed from them is known by names as well. Along a chain of
 // cuts nearly all leaves hold some.
 //
-// EvaluateStats::plain_leaves counts the leaves that it served, plain_fragments their fragments.
+// EvaluateStats::filtered_leaves counts the leaves that it served, filtered_fragments their
+// fragments.
 
-#include <trisect/bsp/leaf/doubles/plain_leaf.h>
+#include <trisect/bsp/leaf/doubles/filtered_leaf.h>
 
 #include <algorithm>
 
@@ -27,14 +28,14 @@
 
 namespace trisect::detail {
 
-std::optional<LeafResult> PlainLeaf::try_to_arrange(const LeafProblem& problem,
-                                                    LeafFindings& findings) {
+std::optional<LeafResult> FilteredLeaf::try_to_arrange(const LeafProblem& problem,
+                                                       LeafFindings& findings) {
     if (!facets_.list(problem)) return std::nullopt;
     defers_ = problem.may_defer && findings.crossings && problem.operands.size() >= 2;
     // Crossings are of whole facets.
     if (defers_ && facets_.fragment_count() != 0) return std::nullopt;
     findings_ = &findings;
-    covers_before_ = defers_ ? findings.crossings->covers.size() : 0;
+    covers_before_ = defers_ ? findings.crossings->containments.size() : 0;
     seen_before_ = findings.seen.size();
     bool done = false;
     try {
@@ -53,14 +54,14 @@ std::optional<LeafResult> PlainLeaf::try_to_arrange(const LeafProblem& problem,
     return LeafUncrossed{listed(), crossed_};
 }
 
-void PlainLeaf::undo() {
-    if (defers_) findings_->crossings->covers.resize(covers_before_);
+void FilteredLeaf::undo() {
+    if (defers_) findings_->crossings->containments.resize(covers_before_);
     findings_->seen.resize(seen_before_);
     end_fragments(out_);  // those made so far
     out_.clear();
 }
 
-bool PlainLeaf::arrange_listed() {
+bool FilteredLeaf::arrange_listed() {
     EvaluateStats& stats = findings_->stats;
     if (!pairs_.relate_all(facets_, defers_, stats)) return false;
     windings_.start(facets_, pairs_);
@@ -80,19 +81,19 @@ bool PlainLeaf::arrange_listed() {
         } else if (!facets_[i].ref.touched) {
             ++stats.untouched_polygons;
         }
-        const PlainCutting::Result result = crossed ? cutting_.cut(i) : cutting_.whole(i);
-        if (result.kind == PlainCutting::Remains::Doubtful) return false;
+        const FilteredCutting::Result result = crossed ? cutting_.cut(i) : cutting_.whole(i);
+        if (result.kind == FilteredCutting::Remains::Uncertain) return false;
         emit(i, result);
     }
-    stats.plain_fragments += facets_.fragment_count();
+    stats.filtered_fragments += facets_.fragment_count();
     return true;
 }
 
 // Whether a crossing surely has an end in the cell.
-bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
+bool FilteredLeaf::is_crossed_inside(LeafIndex item) const {
     const auto contacts = pairs_.contacts(item);
-    return std::ranges::any_of(contacts, [&](const PlainContact& c) {
-        return std::ranges::any_of(pairs_.crossing(c.crossing).ends, [&](const PlainEnd& end) {
+    return std::ranges::any_of(contacts, [&](const FilteredContact& c) {
+        return std::ranges::any_of(pairs_.crossing(c.crossing).ends, [&](const FilteredEnd& end) {
             for (std::size_t k = 0; k < 3; ++k)
                 if (end.at.c[k] - end.at.error < facets_.inner_lo()[k] ||
                     end.at.c[k] + end.at.error > facets_.inner_hi()[k])
@@ -102,7 +103,7 @@ bool PlainLeaf::is_crossed_inside(LeafIndex item) const {
     });
 }
 
-void PlainLeaf::start_covers() {
+void FilteredLeaf::start_covers() {
     open_.clear();
     slots_.clear();
     if (!defers_) return;
@@ -114,7 +115,7 @@ void PlainLeaf::start_covers() {
 
 // Notes a facet that something crosses, and the operands that it lies in here, of those that do not
 // cross it. One whose part in the cell is empty belongs to other cells.
-bool PlainLeaf::add_covers(LeafIndex item) {
+bool FilteredLeaf::add_covers(LeafIndex item) {
     Crossings& crossings = *findings_->crossings;
     std::vector<std::uint32_t>& seen = findings_->seen;
     if (crossings.operands.size() == 2) return true;
@@ -124,7 +125,7 @@ bool PlainLeaf::add_covers(LeafIndex item) {
     // They come operand by operand.
     std::size_t crossing = 0;
     LeafIndex last = -1;
-    for (const PlainContact& c : contacts) {
+    for (const FilteredContact& c : contacts) {
         const LeafIndex operand = facets_[c.other].operand;
         crossing += operand != last ? 1 : 0;
         last = operand;
@@ -139,29 +140,29 @@ bool PlainLeaf::add_covers(LeafIndex item) {
     seen.push_back(number);
     for (std::size_t o = 0; o < open_.size(); ++o) {
         if ((*windings)[o] == open_[o] || o == own) continue;
-        const bool crosses = std::ranges::any_of(contacts, [&](const PlainContact& c) {
+        const bool crosses = std::ranges::any_of(contacts, [&](const FilteredContact& c) {
             return as_index(facets_[c.other].operand) == o;
         });
-        if (!crosses) crossings.covers.push_back({number, slots_[o]});
+        if (!crosses) crossings.containments.push_back({number, slots_[o]});
     }
     return true;
 }
 
 // The outside faces upwards, unless flipped.
-void PlainLeaf::emit(LeafIndex item, const PlainCutting::Result& result) {
+void FilteredLeaf::emit(LeafIndex item, const FilteredCutting::Result& result) {
     const auto add = [&](PolygonRef ref, bool inside_above) {
         ref.flipped = inside_above;
         out_.push_back(ref);
     };
-    if (result.kind == PlainCutting::Remains::Uncut) {
+    if (result.kind == FilteredCutting::Remains::Uncut) {
         // What cuts a facet somewhere must show in every cell (see PolygonRef), so only a facet
         // within the cell stays whole.
         const bool part = !pairs_.contacts(item).empty() && cutting_.was_clipped();
         make_room(out_);
         add(part ? cutting_.fragment(cutting_.clipped()) : facets_[item].ref, result.inside_above);
-    } else if (result.kind == PlainCutting::Remains::Parts) {
-        for (const PlainPart& p : cutting_.parts()) {
-            if (p.state != PlainPart::State::Kept) continue;
+    } else if (result.kind == FilteredCutting::Remains::Parts) {
+        for (const FilteredPart& p : cutting_.parts()) {
+            if (p.state != FilteredPart::State::Kept) continue;
             make_room(out_);
             add(cutting_.fragment(p), p.inside_above);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/divide/choose_wall.h>
+#include <trisect/bsp/divide/choose_splitting_plane.h>
 
 #include <array>
 #include <vector>
@@ -32,9 +32,9 @@ CellOperand operand_of(const std::vector<PackedBox>& row) {
     return o;
 }
 
-class PeelingWall : public testing::Test {
+class TrimmingPlane : public testing::Test {
 protected:
-    PeelingWall(const std::vector<PackedBox>& a, const std::vector<PackedBox>& b)
+    TrimmingPlane(const std::vector<PackedBox>& a, const std::vector<PackedBox>& b)
         : a_(a), b_(b), operands_{operand_of(a_), operand_of(b_)} {
         task_.operands = operands_;
     }
@@ -45,47 +45,47 @@ protected:
     CellTask task_;
 };
 
-class RowsThatOverlap : public PeelingWall {
+class RowsThatOverlap : public TrimmingPlane {
 protected:
-    RowsThatOverlap() : PeelingWall(row_of_boxes(0, 30), row_of_boxes(20, 60)) {}
+    RowsThatOverlap() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(20, 60)) {}
 };
 
 TEST_F(RowsThatOverlap, WallEndsTheLongerPartThatIsAlone) {
-    const auto wall = peeling_wall(task_, 10, 0);
-    ASSERT_TRUE(wall.has_value());
-    EXPECT_EQ(wall->axis, 0);
+    const auto splitter = trimming_plane(task_, 10, 0);
+    ASSERT_TRUE(splitter.has_value());
+    EXPECT_EQ(splitter->axis, 0);
     // The first row ends at 59, and the boxes from 60 on are alone.
-    EXPECT_EQ(wall->last_below(), 59);
+    EXPECT_EQ(splitter->last_below(), 59);
 }
 
 TEST_F(RowsThatOverlap, NothingIsPeeledOffWhereTooFewAreAlone) {
-    EXPECT_TRUE(peeling_wall(task_, 30, 0).has_value());
-    EXPECT_FALSE(peeling_wall(task_, 31, 0).has_value());
+    EXPECT_TRUE(trimming_plane(task_, 30, 0).has_value());
+    EXPECT_FALSE(trimming_plane(task_, 31, 0).has_value());
 }
 
 TEST_F(RowsThatOverlap, WhatMayMeetItselfIsNowhereAlone) {
     operands_[1].embedded = false;
-    const auto wall = peeling_wall(task_, 10, 0);
-    ASSERT_TRUE(wall.has_value());
-    EXPECT_EQ(wall->last_below(), 39);
+    const auto splitter = trimming_plane(task_, 10, 0);
+    ASSERT_TRUE(splitter.has_value());
+    EXPECT_EQ(splitter->last_below(), 39);
 }
 
-class RowsApart : public PeelingWall {
+class RowsApart : public TrimmingPlane {
 protected:
-    RowsApart() : PeelingWall(row_of_boxes(0, 30), row_of_boxes(40, 60)) {}
+    RowsApart() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(40, 60)) {}
 };
 
-TEST_F(RowsApart, NothingIsContested) { EXPECT_FALSE(peeling_wall(task_, 1, 0).has_value()); }
+TEST_F(RowsApart, NothingIsContested) { EXPECT_FALSE(trimming_plane(task_, 1, 0).has_value()); }
 
-class RowWithinARow : public PeelingWall {
+class RowWithinARow : public TrimmingPlane {
 protected:
-    RowWithinARow() : PeelingWall(row_of_boxes(0, 30), row_of_boxes(12, 20)) {}
+    RowWithinARow() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(12, 20)) {}
 };
 
 TEST_F(RowWithinARow, BothEndsOfTheLongerRowAreAlone) {
-    EXPECT_EQ(peeling_wall(task_, 5, 0)->last_below(), 23);
-    EXPECT_TRUE(peeling_wall(task_, 12, 0).has_value());
-    EXPECT_FALSE(peeling_wall(task_, 13, 0).has_value());
+    EXPECT_EQ(trimming_plane(task_, 5, 0)->last_below(), 23);
+    EXPECT_TRUE(trimming_plane(task_, 12, 0).has_value());
+    EXPECT_FALSE(trimming_plane(task_, 13, 0).has_value());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PartingPlanes: four separating planes between boxes of two bodies.
+// SeparatingPlanes: four separating planes between boxes of two bodies.
 // They are tested again under other poses at very little cost.
 #pragma once
 
@@ -66,7 +66,7 @@ private:
     Float4 turn_{};
 };
 
-struct alignas(64) PartingPlanes {
+struct alignas(64) SeparatingPlanes {
     ObbPose::Directions along{};    ///< from A to B
     std::array<Float4, 3> point{};  ///< the centre of B's box
     Float4 radius{};                ///< half its diagonal

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Pairs of facets whose boxes meet: all with all four at once where they are few or of two
-// operands, else by a sweep. How two facets are related is in plain_pair_relation.cpp.
+// operands, else by a sweep. How two facets are related is in filtered_pair_relation.cpp.
 
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 
 #include <algorithm>
 #include <bit>
@@ -27,7 +27,7 @@ constexpr std::size_t many_pairs = 4096;
 // All facets of two operands. They are few, and four boxes are compared at once: to compare those
 // of one operand with all of the other takes less than to sort them. Facets of the first operand
 // come first.
-bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
+bool FilteredPairs::relate_two(FilteredFacets& facets, EvaluateStats& stats) {
     const std::size_t n = as_index(facets.size());
     has_all_boxes_ = true;
     has_planes_ = false;
@@ -35,7 +35,7 @@ bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
     for (LeafIndex i = 0; i < facets.size(); ++i)
         boxes_.add(facets[i].lo, facets[i].hi, facets[i].operand);
     const auto reach_of = [&](LeafIndex operand) {
-        const PlainFacets::Reach& r = facets.reach(as_index(operand));
+        const FilteredFacets::Reach& r = facets.reach(as_index(operand));
         return BoxRows::probe(r.lo, r.hi, operand);
     };
     const std::array reaches{reach_of(0), reach_of(1)};
@@ -65,7 +65,7 @@ bool PlainPairs::relate_two(PlainFacets& facets, EvaluateStats& stats) {
 // Facets that may meet one of another operand. Those of small leaves are compared all with all, as
 // they are: rows of one operand after the other, four neighbours in each, are mostly kept or left
 // out as one.
-void PlainPairs::list_candidates(PlainFacets& facets, LeafIndex few) {
+void FilteredPairs::list_candidates(FilteredFacets& facets, LeafIndex few) {
     const std::size_t n = facets.operand_count();
     candidates_.clear();
     boxes_.clear();
@@ -74,7 +74,7 @@ void PlainPairs::list_candidates(PlainFacets& facets, LeafIndex few) {
     // With many operands the boxes of the others overlap nearly everything.
     const bool all = has_all_boxes_ || n > 8;
     for (LeafIndex i = 0; i < facets.size(); ++i) {
-        const PlainFacet& f = facets[i];
+        const FilteredFacet& f = facets[i];
         bool candidate = all;
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate = o != as_index(f.operand) && f.meets(facets.reach(o).lo, facets.reach(o).hi);
@@ -95,13 +95,13 @@ void PlainPairs::list_candidates(PlainFacets& facets, LeafIndex few) {
 
 // Along the axis on which the fewest boxes overlap: where their lengths sum up to the smallest part
 // of the whole extent.
-void PlainPairs::sort_candidates(const PlainFacets& facets) {
+void FilteredPairs::sort_candidates(const FilteredFacets& facets) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector3 lengths{};
     Vector3 low{infinity, infinity, infinity};
     Vector3 high{-infinity, -infinity, -infinity};
     for (const Candidate& c : candidates_) {
-        const PlainFacet& f = facets[c.item];
+        const FilteredFacet& f = facets[c.item];
         for (std::size_t k = 0; k < 3; ++k) {
             lengths[k] += f.hi[k] - f.lo[k];
             low[k] = std::min(low[k], f.lo[k]);
@@ -120,13 +120,13 @@ void PlainPairs::sort_candidates(const PlainFacets& facets) {
         return Vector3{v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3]};
     };
     for (const Candidate& c : candidates_) {
-        const PlainFacet& f = facets[c.item];
+        const FilteredFacet& f = facets[c.item];
         boxes_.add(turned(f.lo), turned(f.hi), f.operand);
     }
 }
 
 // Which boxes of a row are marked, and which row is the next one that has some.
-void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
+void FilteredPairs::mark_rows(std::span<const std::uint8_t> marks) {
     const std::size_t rows = boxes_.row_count();
     marked_.assign(rows, 0);
     next_marked_.assign(rows + 1, rows);
@@ -139,7 +139,7 @@ void PlainPairs::mark_rows(std::span<const std::uint8_t> marks) {
 
 // Rows from the candidate `i` on of which boxes meet that of the candidate: the number of the row
 // and four bits for its boxes, of those that come behind it, and are marked if it is not.
-std::span<const std::uint64_t> PlainPairs::find_rows(std::size_t i, bool all) {
+std::span<const std::uint64_t> FilteredPairs::find_rows(std::size_t i, bool all) {
     const BoxRows::Probe probe = boxes_.probe(i);
     const std::size_t first = (i + 1) / 4;
     std::uint64_t* const begin = rows_.data();
@@ -164,8 +164,8 @@ std::span<const std::uint64_t> PlainPairs::find_rows(std::size_t i, bool all) {
     return {begin, end};
 }
 
-bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
-                       EvaluateStats& stats) {
+bool FilteredPairs::sweep(FilteredFacets& facets, std::span<const std::uint8_t> marks,
+                          EvaluateStats& stats) {
     // With marks most rows are left out, and sorting pays sooner.
     list_candidates(facets, marks.empty() ? 840 : 512);
     pairs_.clear();
@@ -202,7 +202,7 @@ bool PlainPairs::sweep(PlainFacets& facets, std::span<const std::uint8_t> marks,
 }
 
 // The pairs that were listed, four at once: single precision is enough for nearly all of them.
-bool PlainPairs::add_pairs(PlainFacets& facets) {
+bool FilteredPairs::add_pairs(FilteredFacets& facets) {
     for (std::size_t first = 0; first < pairs_.size(); first += 4) {
         const std::size_t count = std::min<std::size_t>(4, pairs_.size() - first);
         std::array<FacetRows::Pair, 4> four;
@@ -221,8 +221,8 @@ bool PlainPairs::add_pairs(PlainFacets& facets) {
     return true;
 }
 
-bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks, bool edges_apart,
-                        EvaluateStats& stats) {
+bool FilteredPairs::relate(FilteredFacets& facets, std::span<const std::uint8_t> marks,
+                           bool edges_apart, EvaluateStats& stats) {
     edges_apart_ = edges_apart;
     crossings_.clear();
     has_partner_.assign(as_index(facets.size()), 0);
@@ -234,20 +234,21 @@ bool PlainPairs::relate(PlainFacets& facets, std::span<const std::uint8_t> marks
     return true;
 }
 
-void PlainPairs::add_to(Crossings& crossings, const PlainFacets& facets) const {
-    for (const PlainCrossing& c : crossings_) {
+void FilteredPairs::add_to(Crossings& crossings, const FilteredFacets& facets) const {
+    for (const FilteredCrossing& c : crossings_) {
         FacetCrossing& made = crossings.pairs.emplace_back();
         for (std::size_t k = 0; k < 2; ++k) {
-            const PlainFacet& f = facets[c.items[k]];
+            const FilteredFacet& f = facets[c.items[k]];
             const std::int32_t slot = facets.problem().operands[as_index(f.operand)].slot;
             made.facets[k] = crossings.number_of(static_cast<std::size_t>(slot), f.ref.facet);
-            const PlainEnd& end = c.ends[k];
+            const FilteredEnd& end = c.ends[k];
             made.ends[k] = {facets.in_lattice(end.at), end.of_second, end.edge};
         }
     }
 }
 
-bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, EvaluateStats& stats) {
+bool FilteredPairs::compare(FilteredFacets& facets, LeafIndex s, LeafIndex t,
+                            EvaluateStats& stats) {
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
     has_partner_[as_index(s)] = has_partner_[as_index(t)] = 1;
@@ -255,9 +256,9 @@ bool PlainPairs::compare(PlainFacets& facets, LeafIndex s, LeafIndex t, Evaluate
 }
 
 // Counting sort by item: `first_contact_[i + 1]` runs from the start of item i to its end.
-void PlainPairs::list_contacts(LeafIndex count) {
+void FilteredPairs::list_contacts(LeafIndex count) {
     first_contact_.assign(as_index(count) + 1, 0);
-    for (const PlainCrossing& c : crossings_)
+    for (const FilteredCrossing& c : crossings_)
         for (const LeafIndex i : c.items) ++first_contact_[as_index(i) + 1];
     std::size_t before = 0;
     for (std::size_t i = 1; i < first_contact_.size(); ++i) {
@@ -277,8 +278,9 @@ void PlainPairs::list_contacts(LeafIndex count) {
         const auto at = [&](std::size_t k) {
             return contacts_.begin() + static_cast<std::ptrdiff_t>(first_contact_[k]);
         };
-        std::sort(at(i), at(i + 1),
-                  [](const PlainContact& a, const PlainContact& b) { return a.other < b.other; });
+        std::sort(at(i), at(i + 1), [](const FilteredContact& a, const FilteredContact& b) {
+            return a.other < b.other;
+        });
     }
 }
 

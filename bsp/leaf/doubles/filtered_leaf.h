@@ -10,10 +10,10 @@
 
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/leaf_problem.h>
-#include <trisect/bsp/leaf/doubles/plain_cutting.h>
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
-#include <trisect/bsp/leaf/doubles/plain_windings.h>
+#include <trisect/bsp/leaf/doubles/filtered_cutting.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_windings.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
 
@@ -29,7 +29,7 @@ namespace trisect::detail {
 /// numbers to `seen` if the formula has more than two operands.
 ///
 /// Not for leaves of another kind, nor where doubles cannot decide.
-class PlainLeaf final : public LeafArrangement {
+class FilteredLeaf final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
                                                            LeafFindings& findings) override;
@@ -41,12 +41,12 @@ private:
     [[nodiscard]] std::size_t slot_of(std::size_t operand) const {
         return static_cast<std::size_t>(facets_.problem().operands[operand].slot);
     }
-    void emit(LeafIndex item, const PlainCutting::Result& result);
+    void emit(LeafIndex item, const FilteredCutting::Result& result);
 
-    PlainFacets facets_;
-    PlainPairs pairs_;
-    PlainWindings windings_;
-    PlainCutting cutting_;
+    FilteredFacets facets_;
+    FilteredPairs pairs_;
+    FilteredWindings windings_;
+    FilteredCutting cutting_;
     LeafFormula formula_;
     LeafFindings* findings_ = nullptr;
     bool defers_ = false;      // facets that are crossed are not cut

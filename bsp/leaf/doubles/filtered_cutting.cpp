@@ -9,7 +9,7 @@
 //
 // Facets of one plane with a common edge, the two halves of a quadrilateral say, give one line.
 
-#include <trisect/bsp/leaf/doubles/plain_cutting.h>
+#include <trisect/bsp/leaf/doubles/filtered_cutting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,8 +44,9 @@ std::size_t longest_axis(const Approximation& a, const Approximation& b) {
 
 }  // namespace
 
-void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWindings& windings,
-                         LeafFormula& formula, std::span<const int> open, EvaluateStats& stats) {
+void FilteredCutting::start(FilteredFacets& facets, const FilteredPairs& pairs,
+                            FilteredWindings& windings, LeafFormula& formula,
+                            std::span<const int> open, EvaluateStats& stats) {
     facets_ = &facets;
     pairs_ = &pairs;
     windings_ = &windings;
@@ -57,27 +58,28 @@ void PlainCutting::start(PlainFacets& facets, const PlainPairs& pairs, PlainWind
     answers_.fill({});
 }
 
-PlainPart& PlainCutting::add_part() {
+FilteredPart& FilteredCutting::add_part() {
     if (count_ == parts_.size()) parts_.emplace_back();
-    PlainPart& p = parts_[count_++];
-    p.state = PlainPart::State::Open;
+    FilteredPart& p = parts_[count_++];
+    p.state = FilteredPart::State::Open;
     p.sides = sides_.size();
     sides_.resize(sides_.size() + 2 * row_);
     return p;
 }
 
 // The whole outline.
-bool PlainCutting::make_shape() {
+bool FilteredCutting::make_shape() {
     vertices_.clear();
-    const PlainFacet& f = (*facets_)[item_];
+    const FilteredFacet& f = (*facets_)[item_];
     facets_->make_outline(item_);
     clipped_.size = 0;
     clipped_.above = 0;
     for (std::size_t c = 0; c < f.size; ++c) {
-        PlainVertex& v = vertices_.emplace_back();
+        FilteredVertex& v = vertices_.emplace_back();
         v.at = facets_->corner(f, c);
-        v.lines = {static_cast<PlainLine>(c == 0 ? f.size - 1U : c - 1), static_cast<PlainLine>(c)};
-        clipped_.add(static_cast<std::int16_t>(c), static_cast<PlainLine>(c), f.edge(c).above);
+        v.lines = {static_cast<FilteredLine>(c == 0 ? f.size - 1U : c - 1),
+                   static_cast<FilteredLine>(c)};
+        clipped_.add(static_cast<std::int16_t>(c), static_cast<FilteredLine>(c), f.edge(c).above);
     }
     was_clipped_ = false;
     return contacts_.size() <= many_contacts;
@@ -85,14 +87,14 @@ bool PlainCutting::make_shape() {
 
 // Whether two items lie in one plane. Whole facets are compared where they have an edge in common
 // only; fragments, of which a plane may have many that do not meet, always.
-PlainCutting::Planes PlainCutting::compare_planes(LeafIndex a, LeafIndex b) {
-    const PlainFacet& f = (*facets_)[a];
-    const PlainFacet& g = (*facets_)[b];
-    if (f.sheet == g.sheet && f.ref.facet == g.ref.facet) return Planes::Same;
+FilteredCutting::Planes FilteredCutting::compare_planes(LeafIndex a, LeafIndex b) {
+    const FilteredFacet& f = (*facets_)[a];
+    const FilteredFacet& g = (*facets_)[b];
+    if (f.surface == g.surface && f.ref.facet == g.ref.facet) return Planes::Same;
     const bool whole = f.is_whole() && g.is_whole();
     std::size_t apex = 3;
     if (whole) {
-        if (f.sheet != g.sheet) return Planes::Apart;
+        if (f.surface != g.surface) return Planes::Apart;
         std::size_t apart = 0;
         for (std::size_t c = 0; c < 3; ++c) {
             if (f.has_vertex(g.vertices[c])) continue;
@@ -114,7 +116,7 @@ PlainCutting::Planes PlainCutting::compare_planes(LeafIndex a, LeafIndex b) {
     return same_orientation(p, q) ? Planes::Same : Planes::Opposite;
 }
 
-bool PlainCutting::join_coplanar() {
+bool FilteredCutting::join_coplanar() {
     line_.resize(contacts_.size());
     for (std::size_t b = 0; b < contacts_.size(); ++b) {
         line_[b] = static_cast<std::int16_t>(b);
@@ -134,36 +136,37 @@ bool PlainCutting::join_coplanar() {
 
 // --- Points and lines.
 
-bool PlainCutting::passes(const PlainVertex& vertex, std::size_t contact) const {
-    const PlainLine line = line_of(contact);
+bool FilteredCutting::passes(const FilteredVertex& vertex, std::size_t contact) const {
+    const FilteredLine line = line_of(contact);
     if (vertex.lines[0] == line || vertex.lines[1] == line) return true;
-    if (vertex.sheet < 0) return false;
+    if (vertex.surface < 0) return false;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         if (line_[c] != line_[contact]) continue;
-        const PlainFacet& f = (*facets_)[contacts_[c].other];
-        if (f.sheet == vertex.sheet && f.has_vertex(vertex.pierced[0]) &&
+        const FilteredFacet& f = (*facets_)[contacts_[c].other];
+        if (f.surface == vertex.surface && f.has_vertex(vertex.pierced[0]) &&
             f.has_vertex(vertex.pierced[1]))
             return true;
     }
     return false;
 }
 
-PlaneName PlainCutting::plane_of(PlainLine line) const {
-    if (line < first_wall_line) return (*facets_)[item_].edge(static_cast<std::size_t>(line)).plane;
+PlaneName FilteredCutting::plane_of(FilteredLine line) const {
+    if (line < first_splitter_line)
+        return (*facets_)[item_].edge(static_cast<std::size_t>(line)).plane;
     if (line < first_contact_line) {
         const Cell& cell = facets_->problem().cell;
-        const int wall = line - first_wall_line;
-        const auto axis = static_cast<std::size_t>(wall / 2);
-        return PlaneName::wall(wall / 2, wall % 2 != 0 ? cell.hi[axis] : cell.lo[axis]);
+        const int splitter = line - first_splitter_line;
+        const auto axis = static_cast<std::size_t>(splitter / 2);
+        return PlaneName::splitter(splitter / 2, splitter % 2 != 0 ? cell.hi[axis] : cell.lo[axis]);
     }
-    const PlainContact& c = contacts_[static_cast<std::size_t>(line - first_contact_line)];
+    const FilteredContact& c = contacts_[static_cast<std::size_t>(line - first_contact_line)];
     const PolygonRef& other = (*facets_)[c.other].ref;
     return PlaneName::support(other.source, other.facet);
 }
 
-int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
-    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
-    const PlainFacet& f = (*facets_)[item_];
+int FilteredCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
+    const FilteredVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const FilteredFacet& f = (*facets_)[item_];
     const PolygonRef& ref = f.ref;
     if (f.is_whole() && vertex < f.size)
         return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
@@ -173,7 +176,7 @@ int PlainCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
 }
 
 // Where two lines meet, for lines that are nearly parallel.
-Approximation PlainCutting::exact_point(const std::array<PlainLine, 2>& lines) const {
+Approximation FilteredCutting::exact_point(const std::array<FilteredLine, 2>& lines) const {
     const PolygonRef& ref = (*facets_)[item_].ref;
     Approximation at = approximate(ref.source->support(ref.facet), plane_of(lines[0]).plane(),
                                    plane_of(lines[1]).plane());
@@ -186,8 +189,8 @@ Approximation PlainCutting::exact_point(const std::array<PlainLine, 2>& lines) c
 }
 
 // -1 below the contact's support, 0 on it, 1 above.
-int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
-    const PlainContact& c = contacts_[contact];
+int FilteredCutting::sign_at(std::int16_t vertex, std::size_t contact) {
+    const FilteredContact& c = contacts_[contact];
     const auto v = static_cast<std::size_t>(vertex);
     if (v < (*facets_)[item_].size) return side_of_corner(contact, v);
     if (passes(vertices_[v], contact)) return 0;
@@ -199,8 +202,8 @@ int PlainCutting::sign_at(std::int16_t vertex, std::size_t contact) {
 
 // The same for the middle of a part; 0 when nothing decides. Where its corners are on one side of
 // the support, so is the middle.
-int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& middle, int attempt,
-                                 std::size_t contact) {
+int FilteredCutting::sign_at_middle(const FilteredPart& part, const Approximation& middle,
+                                    int attempt, std::size_t contact) {
     const int s = facets_->plane(contacts_[contact].other).sign(middle);
     if (s != 0 || attempt > 0) return s;
     int low = 1;
@@ -214,14 +217,14 @@ int PlainCutting::sign_at_middle(const PlainPart& part, const Approximation& mid
 }
 
 // Whether a vertex on a contact's line is strictly on the inner side of an end of its segment.
-bool PlainCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
-                                 const LineDirection& direction) const {
-    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
-    const PlainEnd& end = end_of(contact, last);
+bool FilteredCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
+                                    const LineDirection& direction) const {
+    const FilteredVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const FilteredEnd& end = end_of(contact, last);
     if (is_end(v, contact, end)) return false;
     const int order = direction.order(v.at, end.at);
     if (order != 0) return last ? order < 0 : order > 0;
-    const PlainContact& c = contacts_[contact];
+    const FilteredContact& c = contacts_[contact];
     const LeafIndex owner = end.of_second == c.is_second ? item_ : c.other;
     const EdgeName edge = (*facets_)[owner].edge(static_cast<std::size_t>(end.edge));
     const int side = exact_sign(vertex, edge.plane.plane());
@@ -229,25 +232,25 @@ bool PlainCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool 
 }
 
 // Where two contacts' lines meet, the edge that their facets have in common pierces the item.
-void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
+void FilteredCutting::name_pierced_edge(FilteredVertex& vertex) const {
     if (vertex.lines[0] < first_contact_line || vertex.lines[1] < first_contact_line) return;
     for (std::size_t a = 0; a < contacts_.size(); ++a) {
         if (line_of(a) != vertex.lines[0]) continue;
-        const PlainFacet& f = (*facets_)[contacts_[a].other];
+        const FilteredFacet& f = (*facets_)[contacts_[a].other];
         for (std::size_t b = 0; b < contacts_.size(); ++b) {
             if (line_of(b) != vertex.lines[1]) continue;
-            const PlainFacet& g = (*facets_)[contacts_[b].other];
-            if (f.sheet != g.sheet) continue;
+            const FilteredFacet& g = (*facets_)[contacts_[b].other];
+            if (f.surface != g.surface) continue;
             std::size_t found = 0;
             std::array<std::uint32_t, 3> common{};
             for (const std::uint32_t v : g.vertices)
                 if (f.has_vertex(v)) common[found++] = v;
             if (found != 2) continue;
-            vertex.sheet = f.sheet;
+            vertex.surface = f.surface;
             vertex.pierced = {common[0], common[1]};
             // Where that edge pierces is known better than where two lines meet that may be nearly
             // parallel.
-            for (const PlainEnd& end : crossing_of(a).ends)
+            for (const FilteredEnd& end : crossing_of(a).ends)
                 if (is_end(vertex, a, end)) vertex.at = end.at;
             return;
         }
@@ -256,20 +259,20 @@ void PlainCutting::name_pierced_edge(PlainVertex& vertex) const {
 
 // Whether a vertex on a contact's line is an end of the contact's segment. Points of different
 // names that are the same are left to doubles, which cannot decide.
-bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
-                          const PlainEnd& end) const {
-    const PlainContact& c = contacts_[contact];
+bool FilteredCutting::is_end(const FilteredVertex& vertex, std::size_t contact,
+                             const FilteredEnd& end) const {
+    const FilteredContact& c = contacts_[contact];
     const int own = end.edge_of(c.is_second);
     if (own >= 0 && (vertex.lines[0] == own || vertex.lines[1] == own)) return true;
     const int other = end.edge_of(!c.is_second);
     if (other < 0) return false;
-    const PlainFacet& f = (*facets_)[c.other];
+    const FilteredFacet& f = (*facets_)[c.other];
     const int mesh_edge = f.mesh_edge(static_cast<std::size_t>(other));
     if (mesh_edge < 0) {
         const PlaneName name = f.edge(static_cast<std::size_t>(other)).plane;
         return plane_of(vertex.lines[0]) == name || plane_of(vertex.lines[1]) == name;
     }
-    if (vertex.sheet != f.sheet) return false;
+    if (vertex.surface != f.surface) return false;
     const auto e = static_cast<std::size_t>(mesh_edge);
     const std::uint32_t v = f.vertices[e];
     const std::uint32_t w = f.vertices[e == 2 ? 0 : e + 1];
@@ -278,7 +281,7 @@ bool PlainCutting::is_end(const PlainVertex& vertex, std::size_t contact,
 }
 
 // A point in the interior of a part.
-Approximation PlainCutting::middle_of(const PlainPart& part, int attempt) const {
+Approximation FilteredCutting::middle_of(const FilteredPart& part, int attempt) const {
     static constexpr std::array<std::array<double, 3>, 4> weights{
         {{1, 1, 1}, {3, 5, 11}, {7, 2, 4}, {1, 6, 2}}};
     const auto& weight = weights[static_cast<std::size_t>(attempt)];
@@ -304,9 +307,9 @@ Approximation PlainCutting::middle_of(const PlainPart& part, int attempt) const 
 
 // Both parts of a part whose vertices have these signs with respect to a line's plane. `cuts`: the
 // new vertices in the order in which a walk around the part comes to them.
-void PlainCutting::divide(const PlainPart& from, PlainLine line, const Signs& signs,
-                          const std::array<std::int16_t, 2>& cuts, PlainPart& below,
-                          PlainPart& above) const {
+void FilteredCutting::divide(const FilteredPart& from, FilteredLine line, const Signs& signs,
+                             const std::array<std::int16_t, 2>& cuts, FilteredPart& below,
+                             FilteredPart& above) const {
     below.size = above.size = 0;
     below.above = above.above = 0;
     std::size_t cut = 0;
@@ -314,7 +317,7 @@ void PlainCutting::divide(const PlainPart& from, PlainLine line, const Signs& si
         const int here = signs[i];
         const int next = signs[i + 1 < from.size ? i + 1 : 0];
         const std::int16_t v = from.vertices[i];
-        const PlainLine e = from.lines[i];
+        const FilteredLine e = from.lines[i];
         const bool side = (from.above >> i & 1U) != 0;
         if (here < 0) below.add(v, e, side);
         if (here > 0) above.add(v, e, side);
@@ -337,8 +340,8 @@ void PlainCutting::divide(const PlainPart& from, PlainLine line, const Signs& si
     }
 }
 
-PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, bool sure) {
-    const PlainPart from = parts_[part];
+FilteredCutting::Split FilteredCutting::split(std::size_t part, std::size_t contact, bool sure) {
+    const FilteredPart from = parts_[part];
     Signs signs;
     bool below = false;
     bool above = false;
@@ -349,9 +352,9 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
         above = above || s > 0;
     }
     if (!below || !above) return Split::Missed;
-    if (from.size + 2U > PlainPart::max_size) return Split::Doubtful;
+    if (from.size + 2U > FilteredPart::max_size) return Split::Uncertain;
     // Where the line enters the part and where it leaves it, in its direction.
-    const PlainPlane& plane = facets_->plane(contacts_[contact].other);
+    const FilteredPlane& plane = facets_->plane(contacts_[contact].other);
     std::array<std::int16_t, 2> ends{-1, -1};
     std::array<std::int16_t, 2> cuts{};
     std::size_t made = 0;
@@ -359,14 +362,14 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
         const std::size_t next = i + 1 < from.size ? i + 1 : 0;
         if (signs[i] != 0 && signs[i] * signs[next] >= 0) continue;
         std::int16_t& end = ends[signs[next] > 0 ? 0 : 1];
-        if (end >= 0 || signs[next] == 0) return Split::Doubtful;
+        if (end >= 0 || signs[next] == 0) return Split::Uncertain;
         if (signs[i] == 0) {
             end = from.vertices[i];
             continue;
         }
         const Approximation u = vertices_[static_cast<std::size_t>(from.vertices[i])].at;
         const Approximation w = vertices_[static_cast<std::size_t>(from.vertices[next])].at;
-        PlainVertex x;
+        FilteredVertex x;
         x.lines = {from.lines[i], line_of(contact)};
         if (!interpolate(u, plane.value(u.c), w, plane.value(w.c), plane.error(u) + plane.error(w),
                          x.at))
@@ -375,7 +378,7 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
         cuts[made++] = end = static_cast<std::int16_t>(vertices_.size());
         vertices_.push_back(x);
     }
-    if (ends[0] < 0 || ends[1] < 0) return Split::Doubtful;
+    if (ends[0] < 0 || ends[1] < 0) return Split::Uncertain;
     if (!sure) {
         // Does the segment have more than a point in common with what of the line is in the part?
         const LineDirection direction = direction_of(contact);
@@ -383,8 +386,8 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
             !is_inside_end(ends[1], contact, false, direction))
             return Split::Missed;
     }
-    PlainPart& upper = add_part();
-    PlainPart& lower = parts_[part];
+    FilteredPart& upper = add_part();
+    FilteredPart& lower = parts_[part];
     std::copy_n(sides_.begin() + static_cast<std::ptrdiff_t>(from.sides), 2 * row_,
                 sides_.begin() + static_cast<std::ptrdiff_t>(upper.sides));
     divide(from, line_of(contact), signs, cuts, lower, upper);
@@ -395,15 +398,15 @@ PlainCutting::Split PlainCutting::split(std::size_t part, std::size_t contact, b
     return Split::Done;
 }
 
-bool PlainCutting::clip_at(std::size_t axis, bool high) {
-    const double wall = high ? facets_->wall_hi()[axis] : facets_->wall_lo()[axis];
-    const PlainPart from = clipped_;
-    if (from.size + 2U > PlainPart::max_size) return false;
+bool FilteredCutting::clip_at(std::size_t axis, bool high) {
+    const double splitter = high ? facets_->splitter_hi()[axis] : facets_->splitter_lo()[axis];
+    const FilteredPart from = clipped_;
+    if (from.size + 2U > FilteredPart::max_size) return false;
     const auto point = [&](std::size_t i) -> const Approximation& {
         return vertices_[static_cast<std::size_t>(from.vertices[i])].at;
     };
     const auto error = [&](const Approximation& a) {
-        return a.error + 0x1p-51 * (std::fabs(a.c[axis]) + std::fabs(wall));
+        return a.error + 0x1p-51 * (std::fabs(a.c[axis]) + std::fabs(splitter));
     };
     Signs signs;
     bool below = false;
@@ -415,7 +418,7 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
         } else {
-            const double gap = point(i).c[axis] - wall;
+            const double gap = point(i).c[axis] - splitter;
             if (std::fabs(gap) <= error(point(i))) return false;
             s = gap > 0 ? 1 : -1;
         }
@@ -429,32 +432,33 @@ bool PlainCutting::clip_at(std::size_t axis, bool high) {
         clipped_.size = 0;
         return true;
     }
-    const auto line = static_cast<PlainLine>(first_wall_line + 2 * static_cast<int>(axis) +
-                                             static_cast<int>(high));
+    const auto line = static_cast<FilteredLine>(first_splitter_line + 2 * static_cast<int>(axis) +
+                                                static_cast<int>(high));
     std::array<std::int16_t, 2> cuts{};
     std::size_t made = 0;
     for (std::size_t i = 0; i < from.size; ++i) {
         const std::size_t next = i + 1 < from.size ? i + 1 : 0;
         if (signs[i] == signs[next]) continue;
         if (made == 2) return false;
-        PlainVertex x;
-        if (!interpolate(point(i), point(i).c[axis] - wall, point(next), point(next).c[axis] - wall,
-                         error(point(i)) + error(point(next)), x.at))
+        FilteredVertex x;
+        if (!interpolate(point(i), point(i).c[axis] - splitter, point(next),
+                         point(next).c[axis] - splitter, error(point(i)) + error(point(next)),
+                         x.at))
             return false;
         x.lines = {from.lines[i], line};
         cuts[made++] = static_cast<std::int16_t>(vertices_.size());
         vertices_.push_back(x);
     }
-    PlainPart rest;
+    FilteredPart rest;
     divide(from, line, signs, cuts, high ? clipped_ : rest, high ? rest : clipped_);
     return true;
 }
 
-bool PlainCutting::clip_to_cell() {
-    const PlainFacet& f = (*facets_)[item_];
+bool FilteredCutting::clip_to_cell() {
+    const FilteredFacet& f = (*facets_)[item_];
     if (f.contained) return true;
     for (std::size_t k = 0; k < 3; ++k) {
-        const unsigned ends = f.walls >> 2 * k;
+        const unsigned ends = f.splitters >> 2 * k;
         if (clipped_.size != 0 && f.lo[k] < facets_->inner_lo()[k] && (ends & 1U) == 0 &&
             !clip_at(k, false))
             return false;
@@ -467,14 +471,14 @@ bool PlainCutting::clip_to_cell() {
 
 // --- Winding numbers.
 
-bool PlainCutting::trace_start() {
+bool FilteredCutting::trace_start() {
     for (int attempt = 0; attempt < 4; ++attempt) {
         start_ = middle_of(clipped_, attempt);
         if (!windings_->at_point(start_, (*facets_)[item_].operand, *stats_, start_windings_))
             continue;
         bool sure = true;
         start_sides_.clear();
-        for (const PlainContact& c : contacts_) {
+        for (const FilteredContact& c : contacts_) {
             start_sides_.push_back(static_cast<std::int8_t>(facets_->plane(c.other).sign(start_)));
             sure = sure && start_sides_.back() != 0;
         }
@@ -484,7 +488,7 @@ bool PlainCutting::trace_start() {
 }
 
 // Starts at a corner of the item that lies in the cell.
-void PlainCutting::start_at(const PlainWindings::Anchor& anchor) {
+void FilteredCutting::start_at(const FilteredWindings::Anchor& anchor) {
     const auto known = windings_->windings(anchor.windings);
     start_windings_.assign(known.begin(), known.end());
     const auto corner = static_cast<std::size_t>(anchor.corner);
@@ -495,12 +499,12 @@ void PlainCutting::start_at(const PlainWindings::Anchor& anchor) {
 }
 
 // How winding numbers change on the straight way from the start to a point of the item.
-bool PlainCutting::change_to(const PlainPart& part, int attempt, std::size_t begin, std::size_t end,
-                             int& change) {
+bool FilteredCutting::change_to(const FilteredPart& part, int attempt, std::size_t begin,
+                                std::size_t end, int& change) {
     const Approximation middle = middle_of(part, attempt);
     change = 0;
     for (std::size_t c = begin; c < end; ++c) {
-        const PlainPlane& plane = facets_->plane(contacts_[c].other);
+        const FilteredPlane& plane = facets_->plane(contacts_[c].other);
         const int at_end = sign_at_middle(part, middle, attempt, c);
         if (at_end == 0) return false;
         const int at_start = start_sides_[c];
@@ -519,8 +523,8 @@ bool PlainCutting::change_to(const PlainPart& part, int attempt, std::size_t beg
     return true;
 }
 
-bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::size_t begin,
-                              std::size_t end) {
+bool FilteredCutting::find_sides(const FilteredPart& part, LeafIndex operand, std::size_t begin,
+                                 std::size_t end) {
     ++stats_->traces_within;
     const auto set = [&](int w) {
         formula_->set(above(part), as_index(operand), w);
@@ -540,8 +544,8 @@ bool PlainCutting::find_sides(const PlainPart& part, LeafIndex operand, std::siz
 }
 
 // An embedded operand has 0 outside its own facets and 1 inside.
-void PlainCutting::set_sides(const PlainPart& part, std::span<const int> windings) {
-    const PlainFacet& f = (*facets_)[item_];
+void FilteredCutting::set_sides(const FilteredPart& part, std::span<const int> windings) {
+    const FilteredFacet& f = (*facets_)[item_];
     std::copy(windings.begin(), windings.end(), above(part).begin());
     std::copy(windings.begin(), windings.end(), below(part).begin());
     above(part)[as_index(f.operand)] = f.orientation > 0 ? 0 : 1;
@@ -550,18 +554,18 @@ void PlainCutting::set_sides(const PlainPart& part, std::span<const int> winding
     formula_->fill(below(part));
 }
 
-void PlainCutting::settle(PlainPart& part) {
+void FilteredCutting::settle(FilteredPart& part) {
     const int over = formula_->value(above(part));
     if (over < 0) return;
     const int under = formula_->value(below(part));
     if (under < 0) return;
-    part.state = over == under ? PlainPart::State::Dropped : PlainPart::State::Kept;
+    part.state = over == under ? FilteredPart::State::Dropped : FilteredPart::State::Kept;
     part.inside_above = over == 1;
 }
 
 // --- Items.
 
-void PlainCutting::start_item(LeafIndex item) {
+void FilteredCutting::start_item(LeafIndex item) {
     item_ = item;
     contacts_ = pairs_->contacts(item);
     sides_.clear();
@@ -569,15 +573,15 @@ void PlainCutting::start_item(LeafIndex item) {
 }
 
 // Whether an operand other than a facet's own decides the formula on both of its sides.
-bool PlainCutting::is_covered(LeafIndex operand, std::span<const int> windings) const {
+bool FilteredCutting::is_covered(LeafIndex operand, std::span<const int> windings) const {
     for (std::size_t o = 0; o < open_.size(); ++o)
         if (windings[o] != open_[o] && o != as_index(operand)) return true;
     return false;
 }
 
-PlainCutting::Result PlainCutting::whole(LeafIndex item) {
+FilteredCutting::Result FilteredCutting::whole(LeafIndex item) {
     start_item(item);
-    const PlainFacet& f = (*facets_)[item];
+    const FilteredFacet& f = (*facets_)[item];
     LeafIndex windings = windings_->anchor_of(item, *stats_).windings;
     const int key = 2 * f.operand + (f.orientation > 0 ? 1 : 0);
     const auto answer_for = [&](LeafIndex w) -> Answer& {
@@ -591,27 +595,27 @@ PlainCutting::Result PlainCutting::whole(LeafIndex item) {
         if (!f.contained && f.is_whole() &&
             certainly_misses(f.ref, facets_->problem().cell.lattice_box()))
             return {};
-        if (!make_shape() || !clip_to_cell()) return {Remains::Doubtful, false};
+        if (!make_shape() || !clip_to_cell()) return {Remains::Uncertain, false};
         if (clipped_.size == 0) return {};  // listed for its box, but not in the cell
         windings = windings_->from_clear_boxes(item, *stats_);
         if (windings < 0) {
-            if (!trace_start()) return {Remains::Doubtful, false};
+            if (!trace_start()) return {Remains::Uncertain, false};
             windings = windings_->remember(item, start_windings_);
         }
         if (is_known(windings)) return answer_for(windings).result;
     }
     Result result;
     if (!is_covered(f.operand, windings_->windings(windings))) {
-        PlainPart& part = add_part();
+        FilteredPart& part = add_part();
         set_sides(part, windings_->windings(windings));
         settle(part);
-        if (part.state == PlainPart::State::Kept) result = {Remains::Uncut, part.inside_above};
+        if (part.state == FilteredPart::State::Kept) result = {Remains::Uncut, part.inside_above};
     }
     answer_for(windings) = {windings, key, result};
     return result;
 }
 
-std::optional<std::span<const int>> PlainCutting::windings_on(LeafIndex item) {
+std::optional<std::span<const int>> FilteredCutting::windings_on(LeafIndex item) {
     start_item(item);
     if (const auto at = windings_->anchor_of(item, *stats_).windings; at >= 0)
         return windings_->windings(at);
@@ -622,35 +626,35 @@ std::optional<std::span<const int>> PlainCutting::windings_on(LeafIndex item) {
 }
 
 // Makes the item its first part, without a shape. False when it cannot bound the result.
-bool PlainCutting::add_item() {
+bool FilteredCutting::add_item() {
     known_windings_.assign(start_windings_.begin(), start_windings_.end());
-    for (const PlainContact& c : contacts_)
+    for (const FilteredContact& c : contacts_)
         known_windings_[as_index((*facets_)[c.other].operand)] = unknown_winding;
-    const PlainPart& part = add_part();
+    const FilteredPart& part = add_part();
     set_sides(part, known_windings_);
     const int over = formula_->value(above(part));
     return over < 0 || over != formula_->value(below(part));
 }
 
-PlainCutting::Result PlainCutting::cut(LeafIndex item) {
-    constexpr Result doubtful{Remains::Doubtful, false};
+FilteredCutting::Result FilteredCutting::cut(LeafIndex item) {
+    constexpr Result uncertain{Remains::Uncertain, false};
     start_item(item);
     const auto operand_at = [&](std::size_t c) { return (*facets_)[contacts_[c].other].operand; };
     // Winding numbers at a corner may show at once that the item lies within some other solid.
-    const PlainWindings::Anchor anchor = windings_->anchor_of(item, *stats_);
+    const FilteredWindings::Anchor anchor = windings_->anchor_of(item, *stats_);
     if (anchor.windings >= 0) {
         start_at(anchor);
         if (!add_item()) return {};
     }
-    if (!make_shape() || !join_coplanar() || !clip_to_cell()) return doubtful;
+    if (!make_shape() || !join_coplanar() || !clip_to_cell()) return uncertain;
     if (clipped_.size == 0) return {};
     if (anchor.windings < 0) {
-        if (!trace_start()) return doubtful;
+        if (!trace_start()) return uncertain;
         if (!add_item()) return {};
     }
     const std::size_t sides = parts_[0].sides;
     parts_[0] = clipped_;
-    parts_[0].state = PlainPart::State::Open;
+    parts_[0].state = FilteredPart::State::Open;
     parts_[0].sides = sides;
     settle(parts_[0]);
     // First by those operands that the start lies in: they are likely to decide about large parts.
@@ -660,7 +664,7 @@ PlainCutting::Result PlainCutting::cut(LeafIndex item) {
             while (end < contacts_.size() && operand_at(end) == operand_at(begin)) ++end;
             if ((start_windings_[as_index(operand_at(begin))] > 0) == around &&
                 !cut_by(operand_at(begin), begin, end))
-                return doubtful;
+                return uncertain;
             begin = end;
         }
     }
@@ -668,11 +672,11 @@ PlainCutting::Result PlainCutting::cut(LeafIndex item) {
     return remains();
 }
 
-bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end) {
+bool FilteredCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end) {
     const std::size_t o = as_index(operand);
     const std::size_t before = count_;
     for (std::size_t k = 0; k < before; ++k) {
-        if (parts_[k].state != PlainPart::State::Open) continue;
+        if (parts_[k].state != FilteredPart::State::Open) continue;
         const bool above_matters = formula_->value(above(parts_[k])) < 0;
         const bool below_matters = formula_->value(below(parts_[k])) < 0;
         const std::size_t first = count_;
@@ -689,14 +693,14 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
         for (std::size_t c = begin; c < end; ++c) {
             const std::size_t last = count_;
             for (std::size_t j = first; j < last; ++j)
-                if (split(j, c, sure) == Split::Doubtful) return false;
+                if (split(j, c, sure) == Split::Uncertain) return false;
             sure = false;
         }
         for (std::size_t j = first; j < count_; ++j)
             if (!find_sides(parts_[j], operand, begin, end)) return false;
         if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
             // Undone, if anything was cut.
-            PlainPart& part = parts_[k];
+            FilteredPart& part = parts_[k];
             if (above_matters) formula_->set(above(part), o, above(parts_[first])[o]);
             if (below_matters) formula_->set(below(part), o, below(parts_[first])[o]);
             if (count_ > first + 1) ++stats_->cuts_undone;
@@ -713,8 +717,8 @@ bool PlainCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t end)
     return true;
 }
 
-bool PlainCutting::same_sides(std::size_t first, LeafIndex operand, bool above_matters,
-                              bool below_matters) const {
+bool FilteredCutting::same_sides(std::size_t first, LeafIndex operand, bool above_matters,
+                                 bool below_matters) const {
     const std::size_t o = as_index(operand);
     const auto over = [&](std::size_t j) { return sides_[parts_[j].sides + o]; };
     const auto under = [&](std::size_t j) { return sides_[parts_[j].sides + row_ + o]; };
@@ -725,13 +729,13 @@ bool PlainCutting::same_sides(std::size_t first, LeafIndex operand, bool above_m
     return true;
 }
 
-PlainCutting::Result PlainCutting::remains() const {
+FilteredCutting::Result FilteredCutting::remains() const {
     std::size_t kept = 0;
     bool uniform = true;
     bool inside_above = false;
-    for (const PlainPart& p : parts()) {
-        if (p.state == PlainPart::State::Open) return {Remains::Doubtful, false};
-        if (p.state == PlainPart::State::Dropped) continue;
+    for (const FilteredPart& p : parts()) {
+        if (p.state == FilteredPart::State::Open) return {Remains::Uncertain, false};
+        if (p.state == FilteredPart::State::Dropped) continue;
         if (kept++ == 0) inside_above = p.inside_above;
         uniform = uniform && p.inside_above == inside_above;
     }
@@ -742,9 +746,9 @@ PlainCutting::Result PlainCutting::remains() const {
 
 // A vertex of a new fragment in lattice units. Where points of one chain of cuts are made out of
 // each other errors grow, so those that are large for the fragment are made anew.
-Approximation PlainCutting::in_lattice(std::int16_t vertex, double extent) const {
-    const PlainVertex& v = vertices_[static_cast<std::size_t>(vertex)];
-    const PlainFacet& f = (*facets_)[item_];
+Approximation FilteredCutting::in_lattice(std::int16_t vertex, double extent) const {
+    const FilteredVertex& v = vertices_[static_cast<std::size_t>(vertex)];
+    const FilteredFacet& f = (*facets_)[item_];
     const bool is_corner = vertex < f.size;
     if (is_corner && !f.is_whole())
         return f.ref.fragment->vertices()[static_cast<std::size_t>(vertex)];
@@ -753,7 +757,7 @@ Approximation PlainCutting::in_lattice(std::int16_t vertex, double extent) const
                        plane_of(v.lines[1]).plane());
 }
 
-PolygonRef PlainCutting::fragment(const PlainPart& part) {
+PolygonRef FilteredCutting::fragment(const FilteredPart& part) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector3 lo{infinity, infinity, infinity};
     Vector3 hi{-infinity, -infinity, -infinity};

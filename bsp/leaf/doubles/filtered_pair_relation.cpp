@@ -15,9 +15,10 @@
 // at every step. With the sides of such corners known exactly the rest is the same: an interval may
 // begin at a corner, or be a single point. Two polygons with no more than a point in common do not
 // change each other's winding numbers; but at a corner on another operand there are none, so such
-// corners are marked (PlainFacet::resting). An edge in another support is left to the exact path.
+// corners are marked (FilteredFacet::resting). An edge in another support is left to the exact
+// path.
 
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/kernel/number/orientation.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ struct CornerSides {
     int above = 0;
     int below = 0;
 
-    CornerSides(const PlainPlane& plane, const std::array<Vector3, 3>& corners)
+    CornerSides(const FilteredPlane& plane, const std::array<Vector3, 3>& corners)
         : bound(plane.bound) {
         for (std::size_t i = 0; i < 3; ++i) {
             value[i] = plane.value(corners[i]);
@@ -108,7 +109,7 @@ unsigned bits_at(const std::array<unsigned, 3>& bits, unsigned i) {
 }
 
 // Where one of those edges pierces the plane. False when doubles say too little.
-bool pierce(const std::array<Vector3, 3>& corners, const PlainPlane& plane, const Lonely& lonely,
+bool pierce(const std::array<Vector3, 3>& corners, const FilteredPlane& plane, const Lonely& lonely,
             bool up, Approximation& x) {
     const Vector3& from = corners[lonely.corner()];
     const Vector3& to = corners[lonely.other(up)];
@@ -117,7 +118,7 @@ bool pierce(const std::array<Vector3, 3>& corners, const PlainPlane& plane, cons
 }
 
 // -1, 0, 1: on which side of a plane a corner of an item's outline is. Exact.
-int exact_side(const PlainFacet& f, std::size_t i, const Plane& plane) {
+int exact_side(const FilteredFacet& f, std::size_t i, const Plane& plane) {
     const PolygonRef& ref = f.ref;
     if (const int corner = f.mesh_corner(i); corner >= 0)
         return sign_of(side_of(ref.source->corner(ref.facet, corner), plane));
@@ -132,7 +133,7 @@ bool is_single(std::uint32_t bits) { return bits != 0 && (bits & (bits - 1)) == 
 // A polygon and the side of another one's support on which its corners are.
 class Across {
 public:
-    Across(const PlainFacets& facets, const PlainFacet& f, const PlainPlane& plane)
+    Across(const FilteredFacets& facets, const FilteredFacet& f, const FilteredPlane& plane)
         : facets_(facets), f_(f) {
         const auto add = [&](std::size_t i, double value, double error) {
             value_[i] = value;
@@ -151,7 +152,7 @@ public:
     }
     /// Corners that doubles do not decide count as being on the support until this is called.
     [[nodiscard]] bool is_sure() const { return on_ == 0; }
-    void make_sure(const PlainFacet& other) {
+    void make_sure(const FilteredFacet& other) {
         const Plane plane = other.ref.source->support(other.ref.facet);
         for (std::uint32_t rest = on_; rest != 0; rest &= rest - 1) {
             const std::uint32_t bit = rest & (~rest + 1);
@@ -197,10 +198,10 @@ private:
         return corners >> 1 | (corners & 1U) << (f_.size - 1U);
     }
 
-    const PlainFacets& facets_;
-    const PlainFacet& f_;
-    std::array<double, PlainFacet::max_outline> value_;
-    std::array<double, PlainFacet::max_outline> error_;
+    const FilteredFacets& facets_;
+    const FilteredFacet& f_;
+    std::array<double, FilteredFacet::max_outline> value_;
+    std::array<double, FilteredFacet::max_outline> error_;
     std::uint32_t above_ = 0;
     std::uint32_t below_ = 0;
     std::uint32_t on_ = 0;
@@ -210,12 +211,12 @@ private:
 
 // The point `at` where an edge of a pierces the support of b, upwards or downwards: 1 on the inner
 // side of an edge of b, -1 on the outer one, 0 on it. Exact.
-int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approximation& at,
-                 const PlainFacets& facets, const PlainFacet& b, std::size_t edge_b) {
+int side_of_edge(const FilteredFacet& a, std::size_t edge_a, bool up, const Approximation& at,
+                 const FilteredFacets& facets, const FilteredFacet& b, std::size_t edge_b) {
     const int mesh_a = a.mesh_edge(edge_a);
     const int mesh_b = b.mesh_edge(edge_b);
     if (mesh_a >= 0 && mesh_b >= 0) {
-        const auto end = [](const PlainFacet& f, int i) -> const Vector3& {
+        const auto end = [](const FilteredFacet& f, int i) -> const Vector3& {
             return f.corners[static_cast<std::size_t>(i % 3)];
         };
         // For a line that goes up through p, det(w - u, p - u, q - u) > 0 where it passes on the
@@ -234,10 +235,10 @@ int side_of_edge(const PlainFacet& a, std::size_t edge_a, bool up, const Approxi
 }
 
 // Surely: a segment on a splitting plane is not.
-bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Approximation& b) {
+bool is_outside_cell(const FilteredFacets& facets, const Approximation& a, const Approximation& b) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const double low = facets.wall_lo()[k];
-        const double high = facets.wall_hi()[k];
+        const double low = facets.splitter_lo()[k];
+        const double high = facets.splitter_hi()[k];
         const double slack = 2 * (a.error + b.error) + 0x1p-50 * (std::fabs(low) + std::fabs(high));
         if (std::max(a.c[k], b.c[k]) + slack < low || std::min(a.c[k], b.c[k]) - slack > high)
             return true;
@@ -247,25 +248,25 @@ bool is_outside_cell(const PlainFacets& facets, const Approximation& a, const Ap
 
 }  // namespace
 
-bool PlainPairs::add_pair(PlainFacets& facets, LeafIndex s, LeafIndex t) {
+bool FilteredPairs::add_pair(FilteredFacets& facets, LeafIndex s, LeafIndex t) {
     const Relation r = relate(facets, std::min(s, t), std::max(s, t), found_);
     // Outside the cell is as good as nowhere.
     if (r == Relation::Crossing && !is_outside_cell(facets, found_.ends[0].at, found_.ends[1].at))
         crossings_.push_back(found_);
-    return r != Relation::Doubtful;
+    return r != Relation::Uncertain;
 }
 
 // A pair of which the crossing is known but for where its ends are; `i`: its place among four.
-bool PlainPairs::add_crossing(const PlainFacets& facets, LeafIndex s, LeafIndex t,
-                              const FacetRows::Relation& relation, unsigned i) {
-    PlainCrossing& out = found_;
+bool FilteredPairs::add_crossing(const FilteredFacets& facets, LeafIndex s, LeafIndex t,
+                                 const FacetRows::Relation& relation, unsigned i) {
+    FilteredCrossing& out = found_;
     const std::size_t first = s < t ? 0 : 1;
     out.items[first] = s;
     out.items[1 - first] = t;
     out.above[first] = bits_at(relation.above[0], i);
     out.above[1 - first] = bits_at(relation.above[1], i);
     out.on = {};
-    const auto set_end = [&](PlainEnd& end, bool second, bool up) {
+    const auto set_end = [&](FilteredEnd& end, bool second, bool up) {
         end.of_second = (first == 0) == second;
         const std::size_t side = end.of_second ? 1 : 0;
         const Lonely lonely(out.above[side]);
@@ -284,11 +285,11 @@ bool PlainPairs::add_crossing(const PlainFacets& facets, LeafIndex s, LeafIndex 
     return true;
 }
 
-PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIndex t,
-                                        PlainCrossing& out) const {
+FilteredPairs::Relation FilteredPairs::relate(FilteredFacets& facets, LeafIndex s, LeafIndex t,
+                                              FilteredCrossing& out) const {
     if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
-    const PlainFacet& a = facets[s];
-    const PlainFacet& b = facets[t];
+    const FilteredFacet& a = facets[s];
+    const FilteredFacet& b = facets[t];
     const CornerSides of_b(facets.plane(s), b.corners);
     if (of_b.is_off()) return Relation::Apart;
     const CornerSides of_a(facets.plane(t), a.corners);
@@ -320,7 +321,7 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
         out.above[0] |= (of_a.value[i] > 0 ? 1U : 0U) << i;
         out.above[1] |= (of_b.value[i] > 0 ? 1U : 0U) << i;
     }
-    const auto set_end = [&](PlainEnd& end, bool of_second, std::size_t corner) {
+    const auto set_end = [&](FilteredEnd& end, bool of_second, std::size_t corner) {
         end.of_second = of_second;
         end.edge = (of_second ? q : p).edge_to(corner);
         end.other_edge = -1;
@@ -330,28 +331,28 @@ PlainPairs::Relation PlainPairs::relate(PlainFacets& facets, LeafIndex s, LeafIn
     const std::size_t start = turned_a != turned_b ? 1 : 0;
     const bool sure = set_end(out.ends[start], starts < 0, starts < 0 ? 1 : 2) &&
                       set_end(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
-    return sure ? Relation::Crossing : Relation::Doubtful;
+    return sure ? Relation::Crossing : Relation::Uncertain;
 }
 
-PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex s, LeafIndex t,
-                                                 PlainCrossing& out) const {
-    const PlainPlane& plane_s = facets.plane(s);
-    const PlainPlane& plane_t = facets.plane(t);
+FilteredPairs::Relation FilteredPairs::relate_outlines(FilteredFacets& facets, LeafIndex s,
+                                                       LeafIndex t, FilteredCrossing& out) const {
+    const FilteredPlane& plane_s = facets.plane(s);
+    const FilteredPlane& plane_t = facets.plane(t);
     Across b(facets, facets[t], plane_s);
     if (b.is_off()) return Relation::Apart;
     Across a(facets, facets[s], plane_t);
     if (a.is_off()) return Relation::Apart;
     if (!a.is_sure() || !b.is_sure()) {
-        if (edges_apart_) return Relation::Doubtful;
+        if (edges_apart_) return Relation::Uncertain;
         a.make_sure(facets[t]);
         b.make_sure(facets[s]);
         if (a.is_off() || b.is_off()) return Relation::Apart;
         facets[s].resting |= a.on();
         facets[t].resting |= b.on();
     }
-    if (!a.find_edges() || !b.find_edges()) return Relation::Doubtful;
+    if (!a.find_edges() || !b.find_edges()) return Relation::Uncertain;
     const LineDirection direction(plane_s, plane_t);
-    if (direction.sign == 0) return Relation::Doubtful;
+    if (direction.sign == 0) return Relation::Uncertain;
     // In the direction of the normals' product, what is below a support is to the left of the line
     // in the other one's plane, if that comes first, and to the right if it comes second. So a
     // begins with the edge that goes up, b with the one that goes down.
@@ -359,7 +360,7 @@ PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex 
     std::array<Approximation, 2> ends_b;
     if (!a.pierce(true, ends_a[0]) || !a.pierce(false, ends_a[1]) || !b.pierce(false, ends_b[0]) ||
         !b.pierce(true, ends_b[1]))
-        return Relation::Doubtful;
+        return Relation::Uncertain;
     // -1: end i of a comes before end j of b.
     bool edges_meet = false;
     const auto order = [&](std::size_t i, std::size_t j) {
@@ -375,7 +376,7 @@ PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex 
     const int starts = apart ? 0 : order(0, 0);
     const int ends = apart ? 0 : order(1, 1);
     if (edges_meet) {
-        if (edges_apart_) return Relation::Doubtful;
+        if (edges_apart_) return Relation::Uncertain;
         facets[s].ref.touched = facets[t].ref.touched = true;
     }
     if (apart) return Relation::Apart;
@@ -392,7 +393,7 @@ PlainPairs::Relation PlainPairs::relate_outlines(PlainFacets& facets, LeafIndex 
         const bool of_b = which > 0;
         const auto edge_a = static_cast<std::int8_t>(a.edge(i == 0));
         const auto edge_b = static_cast<std::int8_t>(b.edge(i == 1));
-        PlainEnd end{of_b, of_b ? edge_b : edge_a, -1, (of_b ? ends_b : ends_a)[i]};
+        FilteredEnd end{of_b, of_b ? edge_b : edge_a, -1, (of_b ? ends_b : ends_a)[i]};
         if (which == 0) end.other_edge = edge_b;
         return end;
     };

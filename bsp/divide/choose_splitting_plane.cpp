@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/divide/choose_wall.h>
+#include <trisect/bsp/divide/choose_splitting_plane.h>
 
 #include <algorithm>
 #include <array>
@@ -58,40 +58,42 @@ int contested_extent(const CellTask& task) {
     return longest;
 }
 
-std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset) {
+std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task, std::int64_t offset) {
     const Extents e = extents(task);
     if (e.all.is_empty()) return std::nullopt;
     const auto below = [&](std::size_t axis, int q) {
-        return Wall{static_cast<int>(axis), task.frame.last_below(axis, q) * wall_scale + offset};
+        return SplittingPlane{static_cast<int>(axis),
+                              task.frame.last_below(axis, q) * splitting_scale + offset};
     };
-    std::optional<Wall> wall;
-    double best_peel = 0.3;
+    std::optional<SplittingPlane> splitter;
+    double best_trim = 0.3;
     for (std::size_t k = 0; k < 3; ++k) {
         const double extent = e.all.high(k) - e.all.low(k);
         if (extent <= 0) continue;
         const double low = (e.contested.low(k) - e.all.low(k)) / extent;
         const double high = (e.all.high(k) - e.contested.high(k)) / extent;
-        if (low > best_peel) {
-            best_peel = low;
-            wall = below(k, e.contested.low(k));
+        if (low > best_trim) {
+            best_trim = low;
+            splitter = below(k, e.contested.low(k));
         }
-        if (high > best_peel) {
-            best_peel = high;
-            wall = below(k, e.contested.high(k) + 1);
+        if (high > best_trim) {
+            best_trim = high;
+            splitter = below(k, e.contested.high(k) + 1);
         }
     }
-    if (wall) return wall;
+    if (splitter) return splitter;
     int longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const int extent = e.contested.high(k) - e.contested.low(k);
         if (extent <= longest) continue;
         longest = extent;
-        wall = below(k, e.contested.low(k) + (extent + 1) / 2);
+        splitter = below(k, e.contested.low(k) + (extent + 1) / 2);
     }
-    return wall;
+    return splitter;
 }
 
-std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least, std::int64_t offset) {
+std::optional<SplittingPlane> trimming_plane(const CellTask& task, std::size_t least,
+                                             std::int64_t offset) {
     const PackedBox contested = extents(task).contested;
     if (contested.is_empty()) return std::nullopt;
     // Polygons below and above the contested box, by axis.
@@ -102,16 +104,17 @@ std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least, std::i
                 beyond[k][0] += e.high(k) < contested.low(k) ? 1 : 0;
                 beyond[k][1] += e.low(k) > contested.high(k) ? 1 : 0;
             }
-    std::optional<Wall> wall;
+    std::optional<SplittingPlane> splitter;
     std::size_t most = least - 1;
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t side = 0; side < 2; ++side) {
             if (beyond[k][side] <= most) continue;
             most = beyond[k][side];
             const int q = side == 0 ? contested.low(k) : contested.high(k) + 1;
-            wall = Wall{static_cast<int>(k), task.frame.last_below(k, q) * wall_scale + offset};
+            splitter = SplittingPlane{static_cast<int>(k),
+                                      task.frame.last_below(k, q) * splitting_scale + offset};
         }
-    return wall;
+    return splitter;
 }
 
 }  // namespace trisect::detail

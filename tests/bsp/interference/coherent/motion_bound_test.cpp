@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/interference/coherent/pose_reserve.h>
+#include <trisect/bsp/interference/coherent/motion_bound.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using trisect::Pose;
 using trisect::Solid;
 using trisect::detail::approximate_map;
 using trisect::detail::DueList;
-using trisect::detail::PoseReserve;
+using trisect::detail::MotionBound;
 
 double uniform(Random& random) { return static_cast<double>(random.between(-1000, 1000)) / 1000; }
 
@@ -40,11 +40,11 @@ std::array<double, 12> random_rows(Random& random, bool turned) {
 }
 
 // Whenever a reserve covers new poses, no vertex of B has moved by as much in A's coordinates.
-TEST(PoseReserve, NoVertexMovesFartherThanACoveredReserve) {
+TEST(MotionBound, NoVertexMovesFartherThanACoveredReserve) {
     const InterferenceModel a(Solid::from_mesh(trisect::make_box({1, 2, 3}, {2, 3, 5})));
     const InterferenceModel b(Solid::from_mesh(trisect::make_torus(1, 0.25, 16, 8)));
     Random random(91);
-    PoseReserve reserve(trisect::detail::data_of(a), trisect::detail::data_of(b));
+    MotionBound reserve(trisect::detail::data_of(a), trisect::detail::data_of(b));
     int covered = 0;
     double most = 0;
     for (int trial = 0; trial < 3000; ++trial) {

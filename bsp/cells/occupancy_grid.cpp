@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/cells/axis_picture.h>
+#include <trisect/bsp/cells/occupancy_grid.h>
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ void transpose(UnitRows& rows) {
     }
 }
 
-std::vector<AxisPicture::Layer> AxisPicture::layers(std::size_t axis) const {
+std::vector<OccupancyGrid::Layer> OccupancyGrid::layers(std::size_t axis) const {
     std::vector<Layer> out(planes[axis].size() - 1);
     const std::size_t row_count = planes[1].size() - 1;
     for (std::size_t z = 0; z + 1 < planes[2].size(); ++z) {
@@ -37,7 +37,7 @@ std::vector<AxisPicture::Layer> AxisPicture::layers(std::size_t axis) const {
     return out;
 }
 
-std::size_t AxisPicture::bytes() const {
+std::size_t OccupancyGrid::bytes() const {
     std::size_t out =
         units.size() * sizeof(std::uint64_t) + parts.size() * sizeof(Part) + facets.bytes();
     for (const auto& p : planes) out += p.size() * sizeof(std::int64_t);

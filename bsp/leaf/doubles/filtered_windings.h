@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Winding numbers in leaves in general position (plain_leaf.h).
+// Winding numbers in leaves in general position (filtered_leaf.h).
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <trisect/bsp/leaf/doubles/box_rows.h>
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -22,7 +22,7 @@ namespace trisect::detail {
 /// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles. Facets
 /// beside the box of the only other operand are not even looked at, and where boxes of facets meet
 /// in which it has none, one of them determines the others: EvaluateStats::linked counts both.
-class PlainWindings {
+class FilteredWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.
     struct Anchor {
@@ -30,7 +30,7 @@ public:
         int corner = 0;           ///< of the item's outline
     };
 
-    void start(PlainFacets& facets, const PlainPairs& pairs);
+    void start(FilteredFacets& facets, const FilteredPairs& pairs);
     [[nodiscard]] Anchor anchor_of(LeafIndex item, EvaluateStats& stats);
     /// The windings() of a facet with a part in the cell whose box has no facet of the only other
     /// operand and meets another such box; -1 when there is none.
@@ -107,8 +107,8 @@ private:
                                     const Approximation& target, const Vector3& lo,
                                     const Vector3& hi, std::vector<int>& w);
 
-    PlainFacets* facets_ = nullptr;
-    const PlainPairs* pairs_ = nullptr;
+    FilteredFacets* facets_ = nullptr;
+    const FilteredPairs* pairs_ = nullptr;
     std::size_t operands_ = 0;
     std::vector<Start> starts_;  // the reference, and where traces have ended
     StampMap ids_;

@@ -17,15 +17,16 @@ namespace trisect::detail {
 /// polygons cannot be parted in the task's frame. `offset` is that of splitting planes from lattice
 /// positions, in 1/256 units.
 /// \pre all operands are lists.
-[[nodiscard]] std::optional<Wall> choose_wall(const CellTask& task, std::int64_t offset);
+[[nodiscard]] std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task,
+                                                                   std::int64_t offset);
 
 /// The splitting plane beyond which most polygons lie that are beside the box of what is contested;
 /// nothing where these are fewer than `least`, which is not 0. Looks at all polygons.
 /// \pre all operands are lists.
-[[nodiscard]] std::optional<Wall> peeling_wall(const CellTask& task, std::size_t least,
-                                               std::int64_t offset);
+[[nodiscard]] std::optional<SplittingPlane> trimming_plane(const CellTask& task, std::size_t least,
+                                                           std::int64_t offset);
 
-/// The extent of what choose_wall() would halve, in rounded positions.
+/// The extent of what choose_splitting_plane() would halve, in rounded positions.
 [[nodiscard]] int contested_extent(const CellTask& task);
 
 }  // namespace trisect::detail

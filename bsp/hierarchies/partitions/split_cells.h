@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WallCells: a boundary divided into cells by axis-perpendicular splitting planes.
+// SplitCells: a boundary divided into cells by axis-perpendicular splitting planes.
 // A cell has few polygons. Below it is a tree of face planes.
 #pragma once
 
@@ -22,14 +22,14 @@ namespace trisect::hierarchies {
 ///
 /// A tree of face planes is as deep as the solid makes it: a convex one's is a list. Under
 /// splitting planes it is the depth of a balanced tree and the few planes of a cell.
-struct WallCells {
+struct SplitCells {
     /// A splitting plane by its number, or a cell.
     using Ref = std::int32_t;
     [[nodiscard]] static constexpr Ref cell_ref(std::size_t cell) {
         return ~static_cast<Ref>(cell);
     }
 
-    struct Wall {
+    struct SplittingPlane {
         Plane plane;
         Ref below = 0;
         Ref above = 0;
@@ -39,20 +39,20 @@ struct WallCells {
     struct Cell {
         std::vector<ConvexPolygon> polygons;   ///< of triangles, their parts within the cell
         std::vector<std::uint32_t> triangles;  ///< of which each polygon is a part
-        std::vector<Plane> walls;              ///< the cell is below all of them
+        std::vector<Plane> splitters;          ///< the cell is below all of them
         trisect::detail::BodyBox box;          ///< around the polygons, where vertices are exact
     };
 
-    std::vector<Wall> walls;  ///< the first one is the root
+    std::vector<SplittingPlane> splitters;  ///< the first one is the root
     std::vector<Cell> cells;
 
-    [[nodiscard]] Ref root() const { return walls.empty() ? cell_ref(0) : 0; }
+    [[nodiscard]] Ref root() const { return splitters.empty() ? cell_ref(0) : 0; }
 
     /// Cells of more than `most` polygons are divided, unless every splitting plane leaves nearly
     /// all of them on one side. O(n log n) exact cuts and signs. \pre all vertices of the model are
     /// lattice points, and it is not empty.
-    [[nodiscard]] static WallCells over(const detail::InterferenceModelData& model,
-                                        std::size_t most);
+    [[nodiscard]] static SplitCells over(const detail::InterferenceModelData& model,
+                                         std::size_t most);
 };
 
 }  // namespace trisect::hierarchies

@@ -5,11 +5,11 @@
 // is left, along the axis where the longer of both lists is shortest. Where to put them, boxes in
 // doubles say; what is on which side, exact cuts.
 //
-// Source: the splitting planes of the modeller's own tree (bsp/divide/choose_wall.h); B. Naylor,
-// Constructing good partitioning trees (Graphics Interface 1993), on why balance has to come from
-// elsewhere than from the faces.
+// Source: the splitting planes of the modeller's own tree (bsp/divide/choose_splitting_plane.h); B.
+// Naylor, Constructing good partitioning trees (Graphics Interface 1993), on why balance has to
+// come from elsewhere than from the faces.
 
-#include <trisect/bsp/hierarchies/partitions/wall_cells.h>
+#include <trisect/bsp/hierarchies/partitions/split_cells.h>
 
 #include <algorithm>
 #include <array>
@@ -46,17 +46,17 @@ std::optional<Position> best_position(const std::vector<Piece>& pieces) {
             centres[i] = 0.5 * (pieces[i].box.lo[axis] + pieces[i].box.hi[axis]);
         const auto middle = centres.begin() + static_cast<std::ptrdiff_t>(n / 2);
         std::nth_element(centres.begin(), middle, centres.end());
-        const Position wall{axis, 2 * static_cast<std::int64_t>(std::floor(*middle)) + 1};
+        const Position splitter{axis, 2 * static_cast<std::int64_t>(std::floor(*middle)) + 1};
         std::size_t below = 0;
         std::size_t above = 0;
         for (const Piece& p : pieces) {
-            below += p.box.lo[axis] < wall.at() ? 1 : 0;
-            above += p.box.hi[axis] > wall.at() ? 1 : 0;
+            below += p.box.lo[axis] < splitter.at() ? 1 : 0;
+            above += p.box.hi[axis] > splitter.at() ? 1 : 0;
         }
         const std::size_t longer = std::max(below, above);
         if (longer >= least) continue;
         least = longer;
-        best = wall;
+        best = splitter;
     }
     return best;
 }
@@ -82,7 +82,7 @@ class Divider {
 public:
     explicit Divider(std::size_t most) : most_(most) {}
 
-    WallCells run(std::vector<Piece> pieces) {
+    SplitCells run(std::vector<Piece> pieces) {
         open_.push_back({std::move(pieces), {}, nullptr, 0});
         while (!open_.empty()) {
             Task task = std::move(open_.back());
@@ -94,32 +94,34 @@ public:
     }
 
 private:
-    using Ref = WallCells::Ref;
+    using Ref = SplitCells::Ref;
     struct Task {
         std::vector<Piece> pieces;
-        std::vector<Plane> walls;
-        Ref WallCells::Wall::*side;  // of its parent; null for all of space
+        std::vector<Plane> splitters;
+        Ref SplitCells::SplittingPlane::*side;  // of its parent; null for all of space
         std::size_t parent;
     };
 
     void link(const Task& task, Ref ref) {
-        if (task.side != nullptr) result_.walls[task.parent].*task.side = ref;
+        if (task.side != nullptr) result_.splitters[task.parent].*task.side = ref;
     }
 
     bool divide(Task& task) {
         if (task.pieces.size() <= most_) return false;
         const auto position = best_position(task.pieces);
         if (!position) return false;
-        const Plane wall =
+        const Plane splitter =
             Plane::axis_aligned(static_cast<int>(position->axis), 2, position->twice);
-        Task below{{}, task.walls, &WallCells::Wall::below, result_.walls.size()};
-        Task above{{}, task.walls, &WallCells::Wall::above, result_.walls.size()};
-        below.walls.push_back(wall);
-        above.walls.push_back(wall.flipped());
+        Task below{
+            {}, task.splitters, &SplitCells::SplittingPlane::below, result_.splitters.size()};
+        Task above{
+            {}, task.splitters, &SplitCells::SplittingPlane::above, result_.splitters.size()};
+        below.splitters.push_back(splitter);
+        above.splitters.push_back(splitter.flipped());
         for (const Piece& p : task.pieces) {
             ConvexPolygon low;
             ConvexPolygon high;
-            const auto parts = p.shape.split(wall, low, high);
+            const auto parts = p.shape.split(splitter, low, high);
             if (!parts.is_cut()) {
                 (parts.below > 0 ? below : above).pieces.push_back(p);
                 continue;
@@ -133,22 +135,22 @@ private:
         if (std::max(below.pieces.size(), above.pieces.size()) >= task.pieces.size() ||
             below.pieces.empty() || above.pieces.empty())
             return false;
-        link(task, static_cast<Ref>(result_.walls.size()));
-        result_.walls.push_back({wall, 0, 0, {}, {}});
+        link(task, static_cast<Ref>(result_.splitters.size()));
+        result_.splitters.push_back({splitter, 0, 0, {}, {}});
         open_.push_back(std::move(above));
         open_.push_back(std::move(below));
         return true;
     }
 
     void finish(Task&& task) {
-        link(task, WallCells::cell_ref(result_.cells.size()));
-        WallCells::Cell& cell = result_.cells.emplace_back();
+        link(task, SplitCells::cell_ref(result_.cells.size()));
+        SplitCells::Cell& cell = result_.cells.emplace_back();
         for (Piece& p : task.pieces) {
             cell.polygons.push_back(std::move(p.shape));
             cell.triangles.push_back(p.triangle);
             cell.box = cell.triangles.size() == 1 ? p.box : around(cell.box, p.box);
         }
-        cell.walls = std::move(task.walls);
+        cell.splitters = std::move(task.splitters);
     }
 
     static BodyBox around(BodyBox a, const BodyBox& b) {
@@ -163,24 +165,25 @@ private:
     void fit_boxes() {
         const auto box_of = [this](Ref ref) {
             if (ref < 0) return result_.cells[static_cast<std::size_t>(~ref)].box;
-            const WallCells::Wall& wall = result_.walls[static_cast<std::size_t>(ref)];
-            return around(wall.box_below, wall.box_above);
+            const SplitCells::SplittingPlane& splitter =
+                result_.splitters[static_cast<std::size_t>(ref)];
+            return around(splitter.box_below, splitter.box_above);
         };
-        for (std::size_t i = result_.walls.size(); i-- > 0;) {
-            WallCells::Wall& wall = result_.walls[i];
-            wall.box_below = box_of(wall.below);
-            wall.box_above = box_of(wall.above);
+        for (std::size_t i = result_.splitters.size(); i-- > 0;) {
+            SplitCells::SplittingPlane& splitter = result_.splitters[i];
+            splitter.box_below = box_of(splitter.below);
+            splitter.box_above = box_of(splitter.above);
         }
     }
 
     std::size_t most_;
     std::vector<Task> open_;
-    WallCells result_;
+    SplitCells result_;
 };
 
 }  // namespace
 
-WallCells WallCells::over(const detail::InterferenceModelData& model, std::size_t most) {
+SplitCells SplitCells::over(const detail::InterferenceModelData& model, std::size_t most) {
     return Divider(most).run(pieces_of(model));
 }
 

@@ -9,18 +9,18 @@
 // or there would be no end. So a facet that no leaf has seen crossed needs nothing from here, and
 // most facets in such cells are of that kind.
 
-#include <trisect/bsp/evaluate/covered_cells.h>
+#include <trisect/bsp/evaluate/contained_cells.h>
 
 #include <algorithm>
 #include <span>
 
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/kernel/contract.h>
 
 namespace trisect::detail {
 
-void CoveredCells::add(const CellTask& task) {
+void ContainedCells::add(const CellTask& task) {
     for (const CellOperand& o : task.operands) {
         if (o.size() == 0) continue;
         const PolygonList& names = o.node->polygons();
@@ -31,7 +31,7 @@ void CoveredCells::add(const CellTask& task) {
     cells_.push_back({task.cell, task.reference, operands_.size()});
 }
 
-void CoveredCells::append(const CoveredCells& part) {
+void ContainedCells::append(const ContainedCells& part) {
     const std::size_t operands = operands_.size();
     const std::size_t facets = facets_.size();
     for (Covered c : part.cells_) {
@@ -45,8 +45,8 @@ void CoveredCells::append(const CoveredCells& part) {
     facets_.insert(facets_.end(), part.facets_.begin(), part.facets_.end());
 }
 
-void CoveredCells::compare(std::span<const std::uint32_t> seen, const EvaluateOptions& options,
-                           EvaluateStats& stats, Crossings& crossings) const {
+void ContainedCells::compare(std::span<const std::uint32_t> seen, const EvaluateOptions& options,
+                             EvaluateStats& stats, Crossings& crossings) const {
     if (crossings.operands.size() <= 2) return;
     std::vector<bool> is_seen(seen.empty() ? 0 : std::size_t{std::ranges::max(seen)} + 1);
     for (const std::uint32_t facet : seen) is_seen[facet] = true;
@@ -60,10 +60,10 @@ void CoveredCells::compare(std::span<const std::uint32_t> seen, const EvaluateOp
 }
 
 template <class IsCrossed>
-void CoveredCells::add_crossings(const IsCrossed& is_crossed, const EvaluateOptions& options,
-                                 EvaluateStats& stats, Crossings& crossings) const {
-    PlainFacets facets;
-    PlainPairs pairs;
+void ContainedCells::add_crossings(const IsCrossed& is_crossed, const EvaluateOptions& options,
+                                   EvaluateStats& stats, Crossings& crossings) const {
+    FilteredFacets facets;
+    FilteredPairs pairs;
     std::vector<std::uint8_t> marks;
     std::vector<PolygonRef> polygons;
     std::vector<LeafOperand> listed;
@@ -103,7 +103,7 @@ void CoveredCells::add_crossings(const IsCrossed& is_crossed, const EvaluateOpti
         }
         for (const LeafOperand& o : listed)
             for (const PolygonRef& r : o.polygons)
-                crossings.doubtful.push_back(
+                crossings.uncertain.push_back(
                     crossings.number_of(static_cast<std::size_t>(o.slot), r.facet));
     }
 }

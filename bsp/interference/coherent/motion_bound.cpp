@@ -13,7 +13,7 @@
 // are less than 2^-46 of the largest size here, and are taken from the reserve; the rest is
 // relative and paid for by a factor.
 
-#include <trisect/bsp/interference/coherent/pose_reserve.h>
+#include <trisect/bsp/interference/coherent/motion_bound.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ double stretch_of_inverse(const std::array<double, 12>& m) {
 
 }  // namespace
 
-struct PoseReserve::Difference {
+struct MotionBound::Difference {
     Rows rows{};
     double norm = 0;
     // Of points in a ball.
@@ -79,14 +79,14 @@ struct PoseReserve::Difference {
     }
 };
 
-PoseReserve::Difference PoseReserve::difference(const Rows& now, const Rows& before) {
+MotionBound::Difference MotionBound::difference(const Rows& now, const Rows& before) {
     Difference d;
     for (std::size_t i = 0; i < 12; ++i) d.rows[i] = now[i] - before[i];
     d.norm = trisect::detail::norm(d.rows);
     return d;
 }
 
-PoseReserve::Body PoseReserve::body_of(const InterferenceModelData& model) {
+MotionBound::Body MotionBound::body_of(const InterferenceModelData& model) {
     Body r;
     const int exponent = model.brep.lattice().exponent;
     for (std::size_t k = 0; k < 3; ++k) r.center[k] = std::ldexp(model.boxes.origin[k], exponent);
@@ -94,10 +94,10 @@ PoseReserve::Body PoseReserve::body_of(const InterferenceModelData& model) {
     return r;
 }
 
-PoseReserve::PoseReserve(const InterferenceModelData& a, const InterferenceModelData& b)
+MotionBound::MotionBound(const InterferenceModelData& a, const InterferenceModelData& b)
     : a_(&a), b_model_(&b), b_(body_of(b)) {}
 
-void PoseReserve::set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a, double reserve) {
+void MotionBound::set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a, double reserve) {
     const double unit = std::ldexp(1.0, a_->brep.lattice().exponent);
     if (stretch_ == 0 || rows_a_ != a.approximate()) {
         rows_a_ = a.approximate();
@@ -125,7 +125,7 @@ void PoseReserve::set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a
     reserve_ = 0.9999 * unit * reserve / stretch_ - 0x1p-46 * size;
 }
 
-bool PoseReserve::covers(const Pose& a, const Pose& b) const {
+bool MotionBound::covers(const Pose& a, const Pose& b) const {
     if (!(reserve_ > 0)) return false;
     double moved = difference(b.approximate(), rows_b_).at(b_);
     if (a.approximate() == rows_a_) return moved < reserve_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PlainFacets: polygons of a leaf in general position, in doubles (plain_leaf.h).
+// FilteredFacets: polygons of a leaf in general position, in doubles (filtered_leaf.h).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace trisect::detail {
 
 /// The support of a facet: points p with normal · (p - origin) = 0. Exact points of the leaf have a
 /// value within `bound` of the computed one; points with an error add `slope` times that.
-struct PlainPlane {
+struct FilteredPlane {
     Vector3 origin;
     Vector3 normal;
     double slope;
@@ -45,33 +45,33 @@ struct PlainPlane {
 /// A facet of an embedded operand, whole or a fragment of it. Its corners are lattice points, taken
 /// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
 /// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
-struct PlainFacet {
+struct FilteredFacet {
     /// Fragments with more corners are left to the exact path.
     static constexpr std::size_t max_outline = 20;
     static constexpr std::uint32_t no_outline = ~0U;  ///< not made yet
 
     // Without this an item is filled with zeros before it is filled with what it has.
-    PlainFacet() {}  // NOLINT(modernize-use-equals-default)
+    FilteredFacet() {}  // NOLINT(modernize-use-equals-default)
 
     PolygonRef ref;
     LeafIndex operand = 0;
-    LeafIndex sheet = 0;  ///< one number for each operand and source in it
+    LeafIndex surface = 0;  ///< one number for each operand and source in it
     std::int8_t orientation = 1;
     std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot decide, 2: not computed
     bool contained = false;             ///< lies in the cell
     std::uint8_t size = 3;              ///< corners of the outline
-    std::uint8_t walls = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
-                             ///< ends at that bounding plane of the cell by name
-    std::uint32_t outline = no_outline;  ///< of a fragment, see PlainFacets::corner()
+    std::uint8_t splitters = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
+                                 ///< ends at that bounding plane of the cell by name
+    std::uint32_t outline = no_outline;  ///< of a fragment, see FilteredFacets::corner()
     /// Bit i: corner i of the outline lies in the support of some item of another operand whose box
     /// meets that of this one, so perhaps on that item.
     std::uint32_t resting = 0;
-    // What PlainFacets::list() always sets.
+    // What FilteredFacets::list() always sets.
     std::array<std::uint32_t, 3> vertices;  ///< of the whole facet
     std::array<Vector3, 3> corners;         ///< of the whole facet
     Vector3 lo;                             ///< of the box, within the cell
     Vector3 hi;
-    PlainPlane plane;
+    FilteredPlane plane;
 
     [[nodiscard]] bool is_whole() const { return ref.fragment == nullptr; }
     /// The plane of an edge, from a corner of the outline to the next one.
@@ -105,17 +105,19 @@ struct PlainFacet {
 };
 
 /// The polygons of one leaf after the other; keeps its memory.
-class PlainFacets {
+class FilteredFacets {
 public:
     /// False when something else than facets of embedded operands and fragments of such is listed,
     /// or the leaf is too large for doubles.
     [[nodiscard]] bool list(const LeafProblem& leaf);
 
     [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
-    [[nodiscard]] PlainFacet& operator[](LeafIndex i) { return facets_[as_index(i)]; }
-    [[nodiscard]] const PlainFacet& operator[](LeafIndex i) const { return facets_[as_index(i)]; }
-    [[nodiscard]] const PlainPlane& plane(LeafIndex i) {
-        PlainFacet& f = facets_[as_index(i)];
+    [[nodiscard]] FilteredFacet& operator[](LeafIndex i) { return facets_[as_index(i)]; }
+    [[nodiscard]] const FilteredFacet& operator[](LeafIndex i) const {
+        return facets_[as_index(i)];
+    }
+    [[nodiscard]] const FilteredPlane& plane(LeafIndex i) {
+        FilteredFacet& f = facets_[as_index(i)];
         if (f.plane.bound < 0) {
             f.plane = plane_of(f.corners, extent_);
             make_outline(i);
@@ -123,19 +125,19 @@ public:
         return f.plane;
     }
     /// The plane of three points of a leaf of that extent.
-    [[nodiscard]] static PlainPlane plane_of(const std::array<Vector3, 3>& corners,
-                                             const Vector3& extent);
+    [[nodiscard]] static FilteredPlane plane_of(const std::array<Vector3, 3>& corners,
+                                                const Vector3& extent);
     /// Corners of most fragments are never used.
     void make_outline(LeafIndex i) {
-        PlainFacet& f = facets_[as_index(i)];
-        if (!f.is_whole() && f.outline == PlainFacet::no_outline) add_outline(f);
+        FilteredFacet& f = facets_[as_index(i)];
+        if (!f.is_whole() && f.outline == FilteredFacet::no_outline) add_outline(f);
     }
     /// A corner of an item's outline. \pre an item of which plane() or make_outline() was called
-    [[nodiscard]] Approximation corner(const PlainFacet& f, std::size_t i) const {
+    [[nodiscard]] Approximation corner(const FilteredFacet& f, std::size_t i) const {
         return f.is_whole() ? Approximation{f.corners[i], 0.0} : outlines_[f.outline + i];
     }
     /// All of them, of a fragment.
-    [[nodiscard]] const Approximation* outline(const PlainFacet& f) const {
+    [[nodiscard]] const Approximation* outline(const FilteredFacet& f) const {
         return &outlines_[f.outline];
     }
     /// How many fragments are listed.
@@ -160,8 +162,8 @@ public:
     [[nodiscard]] const Vector3& inner_lo() const { return inner_lo_; }
     [[nodiscard]] const Vector3& inner_hi() const { return inner_hi_; }
     /// The splitting planes themselves, rounded.
-    [[nodiscard]] const Vector3& wall_lo() const { return wall_lo_; }
-    [[nodiscard]] const Vector3& wall_hi() const { return wall_hi_; }
+    [[nodiscard]] const Vector3& splitter_lo() const { return splitter_lo_; }
+    [[nodiscard]] const Vector3& splitter_hi() const { return splitter_hi_; }
     [[nodiscard]] const Approximation& reference() const { return reference_; }
     /// How far apart whole facets' corners, the origin and the reference point are along each axis,
     /// and at least 1.
@@ -181,19 +183,20 @@ public:
 
 private:
     void set_origin(const LatticePoint& origin);
-    void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number, LeafIndex sheet);
-    void add_box(PlainFacet& f);
-    void add_outline(PlainFacet& f);
-    [[nodiscard]] bool is_contained_but_for_walls(unsigned walls, const Vector3& lo,
-                                                  const Vector3& hi) const;
-    [[nodiscard]] std::uint8_t walls_of(const Fragment& fragment) const;
+    void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
+             LeafIndex surface);
+    void add_box(FilteredFacet& f);
+    void add_outline(FilteredFacet& f);
+    [[nodiscard]] bool is_contained_but_for_splitters(unsigned splitters, const Vector3& lo,
+                                                      const Vector3& hi) const;
+    [[nodiscard]] std::uint8_t splitters_of(const Fragment& fragment) const;
 
     const LeafProblem* problem_ = nullptr;
-    std::vector<PlainFacet> facets_;
+    std::vector<FilteredFacet> facets_;
     std::vector<Approximation> outlines_;  // of fragments, one after the other
     std::vector<Reach> reaches_;           // by operand
     std::size_t fragments_ = 0;
-    StampMap sheets_;
+    StampMap surfaces_;
     std::array<std::int64_t, 3> origin_{};
     Approximation reference_;
     Vector3 inner_lo_{};
@@ -201,8 +204,8 @@ private:
     // A cell without lattice points still has an inside: boxes keep one unit around it.
     Vector3 outer_lo_{};
     Vector3 outer_hi_{};
-    Vector3 wall_lo_{};
-    Vector3 wall_hi_{};
+    Vector3 splitter_lo_{};
+    Vector3 splitter_hi_{};
     Vector3 extent_{};  // of all facets, unclipped, and the reference point
 };
 
@@ -226,7 +229,7 @@ struct LineDirection {
     std::size_t axis = 0;
     int sign = 0;
 
-    LineDirection(const PlainPlane& first, const PlainPlane& second) {
+    LineDirection(const FilteredPlane& first, const FilteredPlane& second) {
         const Vector3& n = first.normal;
         const Vector3& m = second.normal;
         const Vector3 d{n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2],

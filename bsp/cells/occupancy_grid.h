@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// AxisPicture: occupancy grid of a set in a cell of axis-perpendicular facets.
+// OccupancyGrid: occupancy grid of a set in a cell of axis-perpendicular facets.
 // It bounds the set before any facet is cut.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace trisect::detail {
 
 /// A set as bits of the units of a grid, and the facets that bound it. Who writes the result as a
 /// mesh needs no more where all facets of a plane have changed (axis_faces.h).
-struct AxisPicture {
+struct OccupancyGrid {
     /// What of a facet bounds the set.
     struct Part {
         bool is_cut = false;  ///< some of the facet does not, or faces the other way

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/leaf/prism/prism_sheets.h>
+#include <trisect/bsp/leaf/prism/prism_components.h>
 
 #include <algorithm>
 #include <numeric>
@@ -10,17 +10,17 @@
 
 namespace trisect::detail {
 
-std::uint32_t PrismSheets::root(std::uint32_t v) {
+std::uint32_t PrismComponents::root(std::uint32_t v) {
     while (root_[v] != v) v = root_[v] = root_[root_[v]];
     return v;
 }
 
-void PrismSheets::join(std::uint32_t v, std::uint32_t w) {
+void PrismComponents::join(std::uint32_t v, std::uint32_t w) {
     const auto [low, high] = std::minmax({root(v), root(w)});
     root_[high] = low;
 }
 
-bool PrismSheets::list(const LeafProblem& problem, const PrismFacets& facets) {
+bool PrismComponents::list(const LeafProblem& problem, const PrismFacets& facets) {
     first_.clear();
     std::uint32_t points = 0;
     for (const LeafOperand& o : problem.operands) {
@@ -32,24 +32,24 @@ bool PrismSheets::list(const LeafProblem& problem, const PrismFacets& facets) {
     const auto point = [&](LeafIndex operand, const PolygonRef& ref, int i) {
         return first_[as_index(operand)] + ref.source->corner_index(ref.facet, i);
     };
-    for (const PrismCover& c : facets.covers()) {
+    for (const PrismCap& c : facets.caps()) {
         const std::uint32_t v = point(c.operand, c.ref, 0);
         for (int i = 1; i < 3; ++i) join(v, point(c.operand, c.ref, i));
     }
-    sheets_.clear();
+    components_.clear();
     number_.assign(points, -1);
-    of_cover_.clear();
-    for (const PrismCover& c : facets.covers()) {
+    of_cap_.clear();
+    for (const PrismCap& c : facets.caps()) {
         std::int32_t& n = number_[root(point(c.operand, c.ref, 0))];
         if (n < 0) {
-            n = static_cast<std::int32_t>(sheets_.size());
-            sheets_.push_back({c.position});
+            n = static_cast<std::int32_t>(components_.size());
+            components_.push_back({c.position});
         }
-        of_cover_.push_back(n);
+        of_cap_.push_back(n);
     }
-    of_wall_.clear();
+    of_side_face_.clear();
     edges_.clear();
-    for (const PrismWall& w : facets.walls()) {
+    for (const PrismSideFace& w : facets.side_faces()) {
         std::array<std::uint32_t, 2> low{};
         std::array<std::uint32_t, 2> high{};
         for (std::size_t end = 0; end < 2; ++end) {
@@ -58,8 +58,8 @@ bool PrismSheets::list(const LeafProblem& problem, const PrismFacets& facets) {
             high[end] = point(w.operand, w.facets[end], at.high);
         }
         edges_.push_back(low);
-        of_wall_.push_back({number_[root(low[0])], number_[root(high[0])]});
-        if (of_wall_.back()[0] < 0 || of_wall_.back()[1] < 0) return false;
+        of_side_face_.push_back({number_[root(low[0])], number_[root(high[0])]});
+        if (of_side_face_.back()[0] < 0 || of_side_face_.back()[1] < 0) return false;
     }
     return true;
 }

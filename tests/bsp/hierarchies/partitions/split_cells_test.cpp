@@ -2,7 +2,7 @@
 //
 // Walls above a boundary: every cell has some of it, few polygons, and all that is in the cell.
 
-#include <trisect/bsp/hierarchies/partitions/wall_cells.h>
+#include <trisect/bsp/hierarchies/partitions/split_cells.h>
 
 #include <gtest/gtest.h>
 
@@ -22,19 +22,19 @@ namespace {
 using namespace trisect;
 using namespace trisect::hierarchies;
 
-TEST(WallCells, ATorusInCellsOfThirtyTwoPolygons) {
+TEST(SplitCells, ATorusInCellsOfThirtyTwoPolygons) {
     const InterferenceModel torus(Solid::from_mesh(make_torus(1, 0.25, 40, 20)));
-    const WallCells walls = WallCells::over(trisect::detail::data_of(torus), 32);
-    EXPECT_EQ(walls.cells.size(), walls.walls.size() + 1);
+    const SplitCells splitters = SplitCells::over(trisect::detail::data_of(torus), 32);
+    EXPECT_EQ(splitters.cells.size(), splitters.splitters.size() + 1);
     std::set<std::uint32_t> triangles;
-    for (const WallCells::Cell& cell : walls.cells) {
+    for (const SplitCells::Cell& cell : splitters.cells) {
         EXPECT_FALSE(cell.polygons.empty());
         EXPECT_LE(cell.polygons.size(), 32U);
         ASSERT_EQ(cell.polygons.size(), cell.triangles.size());
         triangles.insert(cell.triangles.begin(), cell.triangles.end());
         for (const ConvexPolygon& p : cell.polygons)
-            for (const Plane& wall : cell.walls) {
-                const auto parts = p.classify(wall);
+            for (const Plane& splitter : cell.splitters) {
+                const auto parts = p.classify(splitter);
                 EXPECT_GT(parts.below, 0U);
                 EXPECT_EQ(parts.above, 0U);
             }
@@ -42,8 +42,8 @@ TEST(WallCells, ATorusInCellsOfThirtyTwoPolygons) {
     EXPECT_EQ(triangles.size(), torus.triangle_count());
 }
 
-// All triangles share a corner: no wall helps, and a cell stays as it is.
-TEST(WallCells, AFanAroundACornerIsNotDividedForever) {
+// All triangles share a corner: no splitter helps, and a cell stays as it is.
+TEST(SplitCells, AFanAroundACornerIsNotDividedForever) {
     PolygonMesh cone;
     constexpr std::uint32_t n = 200;
     cone.points.push_back({0, 0, 1000});
@@ -58,13 +58,13 @@ TEST(WallCells, AFanAroundACornerIsNotDividedForever) {
         cone.add_triangle(1, 2 + (i + 1) % n, 2 + i);
     }
     const InterferenceModel model(Solid::from_mesh(cone));
-    const WallCells walls = WallCells::over(trisect::detail::data_of(model), 4);
+    const SplitCells splitters = SplitCells::over(trisect::detail::data_of(model), 4);
     std::size_t polygons = 0;
-    for (const WallCells::Cell& cell : walls.cells) polygons += cell.polygons.size();
+    for (const SplitCells::Cell& cell : splitters.cells) polygons += cell.polygons.size();
     EXPECT_LE(polygons, 12 * model.triangle_count());
 }
 
-TEST(WallCells, TreesOfConvexSolidsAreShallow) {
+TEST(SplitCells, TreesOfConvexSolidsAreShallow) {
     const InterferenceModel ball(Solid::from_mesh(make_uv_sphere(1, 64, 32)));
     const InterferenceModel box(Solid::from_mesh(make_box({0, 0, 0}, {4, 4, 4})));
     for (const auto make : {PlaneTree::classic, PlaneTree::multidimensional}) {

@@ -13,7 +13,7 @@
 //
 // Any doubt ends the attempt: then the whole is evaluated as all else.
 
-#include <trisect/bsp/two_meshes/undivided_meshes.h>
+#include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 
 #include <algorithm>
 #include <array>
@@ -30,11 +30,11 @@
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
-#include <trisect/bsp/divide/choose_wall.h>
+#include <trisect/bsp/divide/choose_splitting_plane.h>
 #include <trisect/bsp/divide/partition.h>
 #include <trisect/bsp/divide/reference_points.h>
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
-#include <trisect/bsp/leaf/doubles/plain_pairs.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/two_meshes/cube_grid.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -102,7 +102,7 @@ private:
     [[nodiscard]] PackedBox* boxes_of(const LatticeMesh& mesh,
                                       std::span<const std::uint32_t> facets, Frame frame);
     [[nodiscard]] bool solve(CellTask& task);
-    [[nodiscard]] bool divide(const CellTask& task, const Wall& wall);
+    [[nodiscard]] bool divide(const CellTask& task, const SplittingPlane& splitter);
     [[nodiscard]] bool compare(const CellTask& task);
     [[nodiscard]] bool leave_out(CellTask& task);
 
@@ -112,8 +112,8 @@ private:
     EvaluateStats stats_;
     Crossings crossings_;
     StackArena arena_;
-    PlainFacets facets_;
-    PlainPairs pairs_;
+    FilteredFacets facets_;
+    FilteredPairs pairs_;
     std::vector<PolygonRef> polygons_;
 };
 
@@ -166,26 +166,27 @@ bool PairFinder::solve(CellTask& task) {
     if (leave_out(task)) {
         stats_.listed_polygons += task.size();
         const bool large = task.size() > search_.options.leaf_polygons && task.stalled < 4;
-        const auto wall = large ? choose_wall(task, search_.options.wall_offset) : std::nullopt;
-        known = wall ? divide(task, *wall) : compare(task);
+        const auto splitter =
+            large ? choose_splitting_plane(task, search_.options.splitting_offset) : std::nullopt;
+        known = splitter ? divide(task, *splitter) : compare(task);
     }
     arena_.release(mark);
     return known;
 }
 
-bool PairFinder::divide(const CellTask& task, const Wall& wall) {
+bool PairFinder::divide(const CellTask& task, const SplittingPlane& splitter) {
     std::array<CellTask, 2> children;
     for (std::size_t i = 0; i < 2; ++i) {
         CellTask& c = children[i];
-        c.cell = i == 0 ? task.cell.below(wall.axis, wall.position)
-                        : task.cell.above(wall.axis, wall.position);
+        c.cell = i == 0 ? task.cell.below(splitter.axis, splitter.position)
+                        : task.cell.above(splitter.axis, splitter.position);
         c.frame = task.frame;
         c.has_frame = true;
         c.depth = task.depth + 1;
         c.operands = {arena_.take<CellOperand>(2), 2};
         for (std::size_t n = 0; n < 2; ++n) ::new (&c.operands[n]) CellOperand(task.operands[n]);
     }
-    partition(task, wall, {children[0].cell, children[1].cell}, arena_, 1,
+    partition(task, splitter, {children[0].cell, children[1].cell}, arena_, 1,
               {children[0].operands, children[1].operands});
     const auto held =
         search_.memory.hold((children[0].size() + children[1].size()) * sizeof(PackedBox));
@@ -221,9 +222,9 @@ bool PairFinder::compare(const CellTask& task) {
     FinePoint near;
     const PolygonRef& any = polygons_.front();
     const LatticePoint& corner = any.source->corner(any.facet, 0);
-    for (std::size_t k = 0; k < 3; ++k) near.c[k] = corner[static_cast<int>(k)] * wall_scale;
+    for (std::size_t k = 0; k < 3; ++k) near.c[k] = corner[static_cast<int>(k)] * splitting_scale;
     ++stats_.mixed_leaves;
-    ++stats_.plain_leaves;
+    ++stats_.filtered_leaves;
     const LeafProblem problem{task.cell, near, operands, nullptr, &search_.options};
     if (!facets_.list(problem) || !pairs_.relate_all(facets_, true, stats_)) {
         search_.in_doubt.store(true, std::memory_order_relaxed);
@@ -360,9 +361,10 @@ bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solid
            !two.common.is_empty();
 }
 
-std::optional<SolidForm> evaluate_undivided(const Residual::Ref& formula, const SolidStates& solids,
-                                            const EvaluateOptions& options, EvaluateStats& stats,
-                                            std::shared_ptr<const LazyTree> tree) {
+std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
+                                               const SolidStates& solids,
+                                               const EvaluateOptions& options, EvaluateStats& stats,
+                                               std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     const TwoMeshes two(solids);
     const bool parallel =

@@ -7,7 +7,7 @@
 // value by at most e times the sum of the normal's components, whose magnitudes the minors'
 // permanents bound.
 
-#include <trisect/bsp/leaf/doubles/plain_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
 
 #include <algorithm>
 #include <optional>
@@ -33,14 +33,14 @@ void look_ahead(std::span<const PolygonRef> polygons) {
 }
 
 // How many polygons a leaf has, if all can be held in doubles; prefetches their triangles.
-std::optional<std::size_t> plain_polygons(const LeafProblem& leaf) {
+std::optional<std::size_t> filtered_polygons(const LeafProblem& leaf) {
     std::size_t count = 0;
     for (const LeafOperand& o : leaf.operands) {
         if (!o.embedded) return std::nullopt;
         count += o.polygons.size();
         for (const PolygonRef& r : o.polygons) {
             if (r.source->is_half_space()) return std::nullopt;
-            if (r.fragment != nullptr && r.fragment->edges().size() > PlainFacet::max_outline)
+            if (r.fragment != nullptr && r.fragment->edges().size() > FilteredFacet::max_outline)
                 return std::nullopt;
             __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
         }
@@ -50,36 +50,36 @@ std::optional<std::size_t> plain_polygons(const LeafProblem& leaf) {
 
 }  // namespace
 
-void PlainFacets::set_origin(const LatticePoint& origin) {
+void FilteredFacets::set_origin(const LatticePoint& origin) {
     const Cell& cell = problem_->cell;
     origin_ = {origin.x, origin.y, origin.z};
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto from_origin = [&](std::int64_t fine) {
-            return static_cast<double>(fine - origin_[k] * wall_scale) *
-                   (1.0 / static_cast<double>(wall_scale));
+            return static_cast<double>(fine - origin_[k] * splitting_scale) *
+                   (1.0 / static_cast<double>(splitting_scale));
         };
-        wall_lo_[k] = from_origin(cell.lo[k]);
-        wall_hi_[k] = from_origin(cell.hi[k]);
+        splitter_lo_[k] = from_origin(cell.lo[k]);
+        splitter_hi_[k] = from_origin(cell.hi[k]);
         reference_.c[k] = from_origin(problem_->reference.c[k]);
         reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * unit_roundoff);
         const auto inner = [&](std::int64_t c) {
             return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
         };
-        inner_lo_[k] = inner((cell.lo[k] >> wall_bits) + 1);
-        inner_hi_[k] = inner(cell.hi[k] >> wall_bits);
+        inner_lo_[k] = inner((cell.lo[k] >> splitting_bits) + 1);
+        inner_hi_[k] = inner(cell.hi[k] >> splitting_bits);
         outer_lo_[k] = inner_lo_[k] - 1;
         outer_hi_[k] = inner_hi_[k] + 1;
     }
 }
 
-bool PlainFacets::list(const LeafProblem& leaf) {
+bool FilteredFacets::list(const LeafProblem& leaf) {
     problem_ = &leaf;
     facets_.clear();
     outlines_.clear();
     fragments_ = 0;
-    sheets_.clear();
-    const std::optional<std::size_t> count = plain_polygons(leaf);
+    surfaces_.clear();
+    const std::optional<std::size_t> count = filtered_polygons(leaf);
     if (!count) return false;
     facets_.reserve(*count);
     const auto first = std::ranges::find_if(
@@ -99,21 +99,21 @@ bool PlainFacets::list(const LeafProblem& leaf) {
         const LeafOperand& operand = leaf.operands[o];
         const auto number = static_cast<LeafIndex>(o);
         const Source* source = nullptr;
-        LeafIndex sheet = -1;
+        LeafIndex surface = -1;
         Reach& reach = reaches_[o];
         for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
             const PolygonRef& ref = operand.polygons[i];
             look_ahead(operand.polygons.subspan(i));
             if (ref.source != source) {
                 source = ref.source;
-                sheet = sheets_
-                            .insert({reinterpret_cast<std::uintptr_t>(source),
-                                     static_cast<std::uint32_t>(o)},
-                                    static_cast<LeafIndex>(sheets_.size()))
-                            .first;
+                surface = surfaces_
+                              .insert({reinterpret_cast<std::uintptr_t>(source),
+                                       static_cast<std::uint32_t>(o)},
+                                      static_cast<LeafIndex>(surfaces_.size()))
+                              .first;
             }
-            add(ref, operand, number, sheet);
-            PlainFacet& f = facets_.back();
+            add(ref, operand, number, surface);
+            FilteredFacet& f = facets_.back();
             const Vector3 lo = f.lo;
             const Vector3 hi = f.hi;
             bool contained = true;
@@ -129,7 +129,7 @@ bool PlainFacets::list(const LeafProblem& leaf) {
             }
             f.contained = contained;
             if (f.is_whole()) continue;
-            if (!contained) f.contained = is_contained_but_for_walls(f.walls, lo, hi);
+            if (!contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
             // Planes are evaluated at points relative to their first corner. What doubles hold of a
             // fragment's facet need not be near the fragment.
             for (std::size_t k = 0; k < 3; ++k) {
@@ -147,14 +147,14 @@ bool PlainFacets::list(const LeafProblem& leaf) {
     return small;
 }
 
-void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
-                      LeafIndex sheet) {
-    PlainFacet& f = facets_.emplace_back();
+void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
+                         LeafIndex surface) {
+    FilteredFacet& f = facets_.emplace_back();
     f.ref = ref;
     f.ref.flipped = ref.flipped != operand.flipped;
     f.orientation = f.ref.flipped ? -1 : 1;
     f.operand = number;
-    f.sheet = sheet;
+    f.surface = surface;
     const LatticeMesh& mesh = ref.source->mesh();
     f.vertices = mesh.triangles[ref.facet];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -173,11 +173,11 @@ void PlainFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafInd
     }
 }
 
-void PlainFacets::add_box(PlainFacet& f) {
+void FilteredFacets::add_box(FilteredFacet& f) {
     const Fragment& fragment = *f.ref.fragment;
     ++fragments_;
     f.size = static_cast<std::uint8_t>(fragment.edges().size());
-    f.walls = walls_of(fragment);
+    f.splitters = splitters_of(fragment);
     for (std::size_t k = 0; k < 3; ++k) {
         f.lo[k] = static_cast<double>(fragment.box().lo[k] - origin_[k]);
         f.hi[k] = static_cast<double>(fragment.box().hi[k] - origin_[k]);
@@ -185,17 +185,17 @@ void PlainFacets::add_box(PlainFacet& f) {
 }
 
 // Whether a box reaches beyond those bounding planes of the cell only at which its fragment ends.
-bool PlainFacets::is_contained_but_for_walls(unsigned walls, const Vector3& lo,
-                                             const Vector3& hi) const {
-    for (std::size_t k = 0; k < 3; ++k, walls >>= 2)
-        if ((lo[k] < inner_lo_[k] && (walls & 1U) == 0) ||
-            (hi[k] > inner_hi_[k] && (walls & 2U) == 0))
+bool FilteredFacets::is_contained_but_for_splitters(unsigned splitters, const Vector3& lo,
+                                                    const Vector3& hi) const {
+    for (std::size_t k = 0; k < 3; ++k, splitters >>= 2)
+        if ((lo[k] < inner_lo_[k] && (splitters & 1U) == 0) ||
+            (hi[k] > inner_hi_[k] && (splitters & 2U) == 0))
             return false;
     return true;
 }
 
 // Of a fragment: its corners from the leaf's origin, with the rounding that this takes.
-void PlainFacets::add_outline(PlainFacet& f) {
+void FilteredFacets::add_outline(FilteredFacet& f) {
     f.outline = static_cast<std::uint32_t>(outlines_.size());
     const std::span<const Approximation> vertices = f.ref.fragment->vertices();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -216,26 +216,27 @@ void PlainFacets::add_outline(PlainFacet& f) {
 
 // At which bounding planes of the cell a fragment ends: with its edge on the splitting plane it is
 // on one side of that.
-std::uint8_t PlainFacets::walls_of(const Fragment& fragment) const {
+std::uint8_t FilteredFacets::splitters_of(const Fragment& fragment) const {
     const Cell& cell = problem_->cell;
-    unsigned walls = 0;
+    unsigned splitters = 0;
     for (const EdgeName& e : fragment.edges()) {
-        if (!e.plane.is_wall()) continue;
+        if (!e.plane.is_splitter()) continue;
         const std::size_t k = e.plane.facet;
-        if (e.above && e.plane.position() == cell.lo[k]) walls |= 1U << 2 * k;
-        if (!e.above && e.plane.position() == cell.hi[k]) walls |= 2U << 2 * k;
+        if (e.above && e.plane.position() == cell.lo[k]) splitters |= 1U << 2 * k;
+        if (!e.above && e.plane.position() == cell.hi[k]) splitters |= 2U << 2 * k;
     }
-    return static_cast<std::uint8_t>(walls);
+    return static_cast<std::uint8_t>(splitters);
 }
 
-PlainPlane PlainFacets::plane_of(const std::array<Vector3, 3>& corners, const Vector3& extent) {
+FilteredPlane FilteredFacets::plane_of(const std::array<Vector3, 3>& corners,
+                                       const Vector3& extent) {
     Vector3 u;
     Vector3 v;
     for (std::size_t k = 0; k < 3; ++k) {
         u[k] = corners[1][k] - corners[0][k];
         v[k] = corners[2][k] - corners[0][k];
     }
-    PlainPlane p;
+    FilteredPlane p;
     p.origin = corners[0];
     double permanent = 0;
     double sum = 0;

@@ -16,9 +16,9 @@ namespace trisect::detail {
 
 /// Caps of one operand in one plane that have corners in common. The side faces that end at one of
 /// its corners bound it. In the result a component is whole, or may not be.
-class PrismSheets {
+class PrismComponents {
 public:
-    struct Sheet {
+    struct Component {
         std::size_t position = 0;
         bool whole = true;  ///< so far
         int bounds = 0;     ///< 1: the result is below it, -1: above it; 0: not known yet
@@ -27,18 +27,20 @@ public:
     /// False when a side face ends where its operand has no cap. \pre each operand is all facets of
     /// one source.
     [[nodiscard]] bool list(const LeafProblem& problem, const PrismFacets& facets);
-    [[nodiscard]] std::size_t size() const { return sheets_.size(); }
-    [[nodiscard]] Sheet& operator[](std::int32_t i) { return sheets_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] std::size_t size() const { return components_.size(); }
+    [[nodiscard]] Component& operator[](std::int32_t i) {
+        return components_[static_cast<std::size_t>(i)];
+    }
     /// That a side face bounds with its lower end, and with its upper one.
-    [[nodiscard]] const std::array<std::int32_t, 2>& of_wall(LeafIndex wall) const {
-        return of_wall_[static_cast<std::size_t>(wall)];
+    [[nodiscard]] const std::array<std::int32_t, 2>& of_side_face(LeafIndex side_face) const {
+        return of_side_face_[static_cast<std::size_t>(side_face)];
     }
     /// By the number of the cap.
-    [[nodiscard]] std::int32_t of_cover(std::size_t cover) const { return of_cover_[cover]; }
+    [[nodiscard]] std::int32_t of_cap(std::size_t cap) const { return of_cap_[cap]; }
     /// A number for the edge along the axis at an end of a side face (0: `from`, 1: `to`): side
     /// faces of one outline have one in common.
-    [[nodiscard]] std::uint32_t edge_at(LeafIndex wall, std::size_t end) const {
-        return edges_[static_cast<std::size_t>(wall)][end];
+    [[nodiscard]] std::uint32_t edge_at(LeafIndex side_face, std::size_t end) const {
+        return edges_[static_cast<std::size_t>(side_face)][end];
     }
     /// One more than the greatest such number.
     [[nodiscard]] std::size_t edge_count() const { return root_.size(); }
@@ -50,9 +52,9 @@ private:
     std::vector<std::uint32_t> first_;  // by operand: of its source's points, numbered in a row
     std::vector<std::uint32_t> root_;   // by point
     std::vector<std::int32_t> number_;  // of components, by root
-    std::vector<Sheet> sheets_;
-    std::vector<std::array<std::int32_t, 2>> of_wall_;
-    std::vector<std::int32_t> of_cover_;
+    std::vector<Component> components_;
+    std::vector<std::array<std::int32_t, 2>> of_side_face_;
+    std::vector<std::int32_t> of_cap_;
     std::vector<std::array<std::uint32_t, 2>> edges_;
 };
 

@@ -24,10 +24,10 @@ namespace trisect::detail {
 /// The value of such a formula, with that tree. Nothing where meshes do not cross in general
 /// position, or sides of facets are not known from that. What it returns does not depend on the
 /// number of threads. \pre are_two_large_meshes()
-[[nodiscard]] std::optional<SolidForm> evaluate_undivided(const Residual::Ref& formula,
-                                                          const SolidStates& solids,
-                                                          const EvaluateOptions& options,
-                                                          EvaluateStats& stats,
-                                                          std::shared_ptr<const LazyTree> tree);
+[[nodiscard]] std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
+                                                             const SolidStates& solids,
+                                                             const EvaluateOptions& options,
+                                                             EvaluateStats& stats,
+                                                             std::shared_ptr<const LazyTree> tree);
 
 }  // namespace trisect::detail
