@@ -79,7 +79,7 @@ void deliver_brep(Session& session, const BooleanOptions& options, const Solid& 
     });
 }
 
-/// By triangles alone. Counts and certificate are made at the same time.
+/// By triangles alone. The certificate, the bytes and the counts are made at the same time.
 void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& solid,
                   MeshFormat format, BooleanResult& result) {
     ExactMesh exact;
@@ -88,19 +88,20 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
         exact = solid.to_exact_mesh();
         mesh = to_polygon_mesh(exact);
     });
+    FormattedMesh formatted;
     session.stage("describe", [&] {
-        for_each_in_parallel(2, session.supervisor().stop_flag(), [&](std::size_t i) {
-            if (i == 0)
+        for_each_in_parallel(3, session.supervisor().stop_flag(), [&](std::size_t i) {
+            if (i == 0 && options.certificate)
+                result.certificate = certify_output(exact, mesh, format);
+            if (i == 1) formatted = format_output_mesh(options.output, format, mesh);
+            if (i == 2)
                 result.description = describe(
                     exact, [&] { return solid.to_brep(); }, description_options(session, options));
-            if (i == 1 && options.certificate)
-                result.certificate = certify_output(exact, mesh, format);
         });
         result.description.lattice = result.stats.lattice;
     });
-    session.stage("write", [&] {
-        result.written = write_output_mesh(session, options.output, format, mesh);
-    });
+    session.stage("write",
+                  [&] { result.written = write_output_mesh(session, options.output, formatted); });
 }
 
 Json document_of(const Session& session, const BooleanOptions& options,

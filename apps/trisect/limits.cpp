@@ -16,6 +16,9 @@
 
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "failure.h"
 
@@ -50,6 +53,16 @@ std::size_t affordable_threads(std::size_t threads, std::uint64_t max_memory) {
     return std::min<std::uint64_t>(threads, 1 + left / (4 * std::max<std::uint64_t>(stack, 1)));
 }
 
+/// Large blocks that were freed are used again: making new pages ready takes longer than most work
+/// that is done in them.
+void keep_freed_blocks() {
+#ifdef __GLIBC__
+    constexpr int largest = 32 << 20;
+    (void)::mallopt(M_MMAP_THRESHOLD, largest);
+    (void)::mallopt(M_TRIM_THRESHOLD, 4 * largest);
+#endif
+}
+
 /// Starts all threads that may work later. oneTBB starts them when there is work, also from its own
 /// threads, where a failure would end the process.
 void start_threads(std::size_t count) {
@@ -80,7 +93,10 @@ Limits::Limits(const CommonOptions& options) {
     if (options.max_memory != 0) threads = affordable_threads(threads, options.max_memory);
     if (options.threads > 0 || options.max_memory != 0)
         threads_ = std::make_unique<Threads>(threads);
-    if (options.max_memory == 0) return;
+    if (options.max_memory == 0) {
+        keep_freed_blocks();
+        return;
+    }
     start_threads(threads);
     rlimit limit{};
     if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;

@@ -139,12 +139,16 @@ MeshFormat output_format(const Session& session, const std::string& name) {
         name));
 }
 
-WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
-                              const PolygonMesh& mesh) {
+FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
+                                 const PolygonMesh& mesh) {
     WriteOptions options;
     options.format = format;
     const bool cut = is_stl(format) && !has_only_triangles(mesh);
-    const FormattedMesh formatted = format_mesh(cut ? triangulated(mesh) : mesh, options, name);
+    return format_mesh(cut ? triangulated(mesh) : mesh, options, name);
+}
+
+WriteReport write_output_mesh(Session& session, const std::string& name,
+                              const FormattedMesh& formatted) {
     session.write_output(name, formatted.bytes);
     if (!formatted.report.lossless) {
         session.note(fmt::format(
@@ -152,6 +156,11 @@ WriteReport write_output_mesh(Session& session, const std::string& name, MeshFor
             formatted.report.rounded_vertices, number_text(formatted.report.largest_move)));
     }
     return formatted.report;
+}
+
+WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
+                              const PolygonMesh& mesh) {
+    return write_output_mesh(session, name, format_output_mesh(name, format, mesh));
 }
 
 PolygonMesh plain_mesh(const LatticeMesh& mesh) {

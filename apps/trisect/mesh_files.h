@@ -64,7 +64,13 @@ void check_standard_input(std::span<const std::string> names);
 /// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.
 [[nodiscard]] MeshFormat output_format(const Session& session, const std::string& name);
 
-/// STL gets triangles only; returns what the format changed.
+/// The bytes of a result. STL gets triangles only. For any thread.
+[[nodiscard]] FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
+                                               const PolygonMesh& mesh);
+/// Writes them, and remarks what the format changed.
+WriteReport write_output_mesh(Session& session, const std::string& name,
+                              const FormattedMesh& formatted);
+/// Both.
 WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
                               const PolygonMesh& mesh);
 

@@ -2,7 +2,6 @@
 
 #include <trisect/brep/validate/twins.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace trisect::detail {
@@ -13,13 +12,12 @@ using Triangle = Twins::Triangle;
 
 constexpr auto none = static_cast<std::uint32_t>(-1);
 
-// A triangle at one of its corners: the other two, and the half-edge that leaves the corner.
+// A triangle at one of its corners: the other two, and the half-edges that leave and enter it
+// there.
 struct TwinCorner {
     std::uint32_t next, previous;
-    std::uint32_t halfedge;
+    std::uint32_t leaving, arriving;
 };
-
-std::uint32_t halfedge_before(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 // All triangles dealt to their corners.
 class TwinCorners {
@@ -30,86 +28,80 @@ public:
             for (const std::uint32_t c : t) ++begin_[std::size_t{c} + 2];
         for (std::size_t v = 2; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
         std::uint32_t h = 0;
-        for (const Triangle& t : triangles)
-            for (std::size_t i = 0; i < 3; ++i)
-                corners_[begin_[std::size_t{t[i]} + 1]++] = {t[(i + 1) % 3], t[(i + 2) % 3], h++};
+        for (const Triangle& t : triangles) {
+            add(t[0], {t[1], t[2], h, h + 2});
+            add(t[1], {t[2], t[0], h + 1, h});
+            add(t[2], {t[0], t[1], h + 2, h + 1});
+            h += 3;
+        }
     }
-    [[nodiscard]] std::span<TwinCorner> at(std::size_t v) {
-        return {corners_.data() + begin_[v], begin_[v + 1] - begin_[v]};
-    }
+    [[nodiscard]] std::uint32_t begin(std::size_t v) const { return begin_[v]; }
+    [[nodiscard]] std::uint32_t end(std::size_t v) const { return begin_[v + 1]; }
+    [[nodiscard]] const TwinCorner& operator[](std::uint32_t i) const { return corners_[i]; }
 
 private:
+    void add(std::uint32_t v, const TwinCorner& corner) {
+        corners_[begin_[std::size_t{v} + 1]++] = corner;
+    }
+
     std::vector<std::uint32_t> begin_;
     std::vector<TwinCorner> corners_;
 };
 
-// The triangles around one corner, in their circular order. The neighbour over the edge to `next`
-// is the one that has its own `previous` there: an edge is seen from both of its ends, so that all
+// Links the triangles around one corner after the other. The neighbour over the edge to `next` is
+// the one that has its own `previous` there: an edge is seen from both of its ends, so that all
 // twins are found, each of them once.
-class Fan {
+class FanLinker {
 public:
-    /// False unless they form one fan of three or more. Sorts them.
-    [[nodiscard]] bool link(std::span<TwinCorner> corners) {
-        if (corners.empty()) return true;  // no triangle names the corner
+    FanLinker(std::size_t point_count, const TwinCorners& corners, std::span<std::uint32_t> twin)
+        : corners_(corners), after_(point_count, 0), twin_(twin) {}
+
+    // False unless the triangles at v form one fan of three or more. Corners in rising order.
+    [[nodiscard]] bool link(std::size_t v) {
+        const std::uint32_t begin = corners_.begin(v);
+        const std::uint32_t end = corners_.end(v);
+        if (begin == end) return true;  // no triangle names the corner
         // Two would be one another's neighbours over all three edges.
-        if (corners.size() < 3) return false;
-        if (corners.size() > short_list) std::ranges::sort(corners, {}, &TwinCorner::previous);
-        neighbour_.clear();
-        for (const TwinCorner& c : corners) {
-            const std::uint32_t other = only_before(corners, c.next);
-            if (other == none || c.next == c.previous) return false;
-            neighbour_.push_back(other);
-        }
-        std::size_t count = 0;
-        std::uint32_t at = 0;
-        do {
-            at = neighbour_[at];
-            ++count;
-        } while (at != 0 && count < corners.size());
-        return at == 0 && count == corners.size();
+        return end - begin >= 3 && note_previous(begin, end) && walk(begin, end - begin);
     }
-    /// By corner, after link().
-    [[nodiscard]] std::span<const std::uint32_t> neighbour() const { return neighbour_; }
 
 private:
-    // Longer lists are sorted before they are searched.
-    static constexpr std::size_t short_list = 32;
-
-    // The only one with this previous corner.
-    static std::uint32_t only_before(std::span<const TwinCorner> corners, std::uint32_t previous) {
-        if (corners.size() > short_list) {
-            const auto before = [](const TwinCorner& c, std::uint32_t v) { return c.previous < v; };
-            const auto first = std::lower_bound(corners.begin(), corners.end(), previous, before);
-            const auto is_it = [&](auto at) {
-                return at != corners.end() && at->previous == previous;
-            };
-            if (!is_it(first) || is_it(first + 1)) return none;
-            return static_cast<std::uint32_t>(first - corners.begin());
+    [[nodiscard]] bool note_previous(std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            std::uint32_t& after = after_[corners_[i].previous];
+            if (after > begin) return false;
+            after = i + 1;
         }
-        std::uint32_t found = none;
-        for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            if (corners[i].previous != previous) continue;
-            if (found != none) return none;
-            found = i;
+        return true;
+    }
+    // As no two have the same `previous`, a walk that is back after `count` steps met all of them.
+    [[nodiscard]] bool walk(std::uint32_t begin, std::uint32_t count) {
+        std::uint32_t at = begin;
+        for (std::uint32_t steps = 1; steps <= count; ++steps) {
+            const std::uint32_t after = after_[corners_[at].next];
+            if (after <= begin) return false;
+            twin_[corners_[at].leaving] = corners_[after - 1].arriving;
+            at = after - 1;
+            if (at == begin) return steps == count;
         }
-        return found;
+        return false;
     }
 
-    std::vector<std::uint32_t> neighbour_;
+    const TwinCorners& corners_;
+    // By corner, one more than the place of the triangle that has it as `previous`. Places rise, so
+    // that those of former fans are below the present one.
+    std::vector<std::uint32_t> after_;
+    std::span<std::uint32_t> twin_;
 };
 
 }  // namespace
 
 std::optional<Twins> Twins::of(std::size_t point_count, std::span<const Triangle> triangles) {
-    TwinCorners table(point_count, triangles);
+    const TwinCorners corners(point_count, triangles);
     std::vector<std::uint32_t> twin(3 * triangles.size());
-    Fan fan;
-    for (std::size_t v = 0; v < point_count; ++v) {
-        const std::span<TwinCorner> corners = table.at(v);
-        if (!fan.link(corners)) return std::nullopt;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            twin[corners[i].halfedge] = halfedge_before(corners[fan.neighbour()[i]].halfedge);
-    }
+    FanLinker linker(point_count, corners, twin);
+    for (std::size_t v = 0; v < point_count; ++v)
+        if (!linker.link(v)) return std::nullopt;
     return Twins(std::move(twin));
 }
 

@@ -23,7 +23,7 @@ public:
     /// to two triangles that pass it in opposite directions, the triangles around every corner form
     /// one fan, and no two triangles have the same three corners.
     /// \pre corners are below point_count; fewer than 2^30 triangles.
-    /// O(n), and O(d log d) at a corner of d triangles.
+    /// O(n).
     [[nodiscard]] static std::optional<Twins> of(std::size_t point_count,
                                                  std::span<const Triangle> triangles);
 

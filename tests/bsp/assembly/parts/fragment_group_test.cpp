@@ -26,10 +26,10 @@ protected:
         : source_(Source::half_space(trisect::Plane::axis_aligned(2, 1, 0), trisect::Lattice{0})) {}
 
     PolygonRef rectangle(int x0, int y0, int x1, int y1) const {
-        const std::vector<EdgeName> edges{{PlaneName::wall(1, y0), true},
-                                          {PlaneName::wall(0, x1), false},
-                                          {PlaneName::wall(1, y1), false},
-                                          {PlaneName::wall(0, x0), true}};
+        const std::vector<EdgeName> edges{{PlaneName::splitter(1, y0), true},
+                                          {PlaneName::splitter(0, x1), false},
+                                          {PlaneName::splitter(1, y1), false},
+                                          {PlaneName::splitter(0, x0), true}};
         const auto at = [](int x, int y) {
             return Approximation{{static_cast<double>(x), static_cast<double>(y), 0.0}, 0x1p-40};
         };
@@ -67,7 +67,7 @@ TEST_F(FragmentGroups, ACommonEdgeCancels) {
     FragmentGroup group;
     ASSERT_TRUE(group.join(refs));
     EXPECT_EQ(group.edges().size(), 6U);
-    EXPECT_EQ(length_on(group, PlaneName::wall(1, 1)), 0);
+    EXPECT_EQ(length_on(group, PlaneName::splitter(1, 1)), 0);
 }
 
 TEST_F(FragmentGroups, AnEdgeCancelsAPartOfALongerOne) {
@@ -76,7 +76,7 @@ TEST_F(FragmentGroups, AnEdgeCancelsAPartOfALongerOne) {
     FragmentGroup group;
     ASSERT_TRUE(group.join(refs));
     EXPECT_EQ(group.edges().size(), 7U);
-    EXPECT_EQ(length_on(group, PlaneName::wall(1, 1)), -1);
+    EXPECT_EQ(length_on(group, PlaneName::splitter(1, 1)), -1);
 }
 
 TEST_F(FragmentGroups, TwoShortEdgesCancelPartsOfALongOne) {
@@ -85,7 +85,7 @@ TEST_F(FragmentGroups, TwoShortEdgesCancelPartsOfALongOne) {
     const PolygonList keep(refs);
     FragmentGroup group;
     ASSERT_TRUE(group.join(refs));
-    EXPECT_EQ(length_on(group, PlaneName::wall(1, 1)), -2);
+    EXPECT_EQ(length_on(group, PlaneName::splitter(1, 1)), -2);
     for (const FragmentGroup::Edge& e : group.edges()) {
         const FragmentGroup::Edge& next = group.edges()[group.first_edge(e.to)];
         EXPECT_EQ(next.from, e.to);
