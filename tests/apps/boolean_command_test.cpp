@@ -39,6 +39,24 @@ TEST_F(BooleanCommand, VolumesOfTwoBoxes) {
     }
 }
 
+// The parts of an exclusive or share edges; what is counted is what was written.
+TEST_F(BooleanCommand, CountsAreThoseOfTheFileWhereTheResultTouchesItself) {
+    const json written = run("xor", {a_, b_})["output"];
+    const json read = trisect({"info", out_, "--json"}).json();
+    for (const char* key : {"triangles", "faces", "vertices", "edges", "shells", "genus", "volume"})
+        EXPECT_EQ(written[key], read[key]) << key;
+}
+
+TEST_F(BooleanCommand, FirstBadInputIsReported) {
+    const std::string open = open_box("open.obj");
+    const Finished missing = trisect({"union", a_, path("none.obj"), open, "-o", out_});
+    EXPECT_NE(missing.err.find("none.obj"), std::string::npos) << missing.err;
+    EXPECT_EQ(missing.err.find("open.obj"), std::string::npos) << missing.err;
+    const Finished other = trisect({"union", a_, open, path("none.obj"), "-o", out_});
+    EXPECT_NE(other.err.find("open.obj"), std::string::npos) << other.err;
+    EXPECT_FALSE(exists("out.obj"));
+}
+
 TEST_F(BooleanCommand, DocumentHasItsKeys) {
     const json document = run("difference", {a_, b_});
     EXPECT_EQ(document["schema"], "trisect.boolean/1");
