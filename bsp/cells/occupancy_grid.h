@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OccupancyGrid: occupancy grid of a set in a cell of axis-perpendicular facets.
+// OccupancyGrid: the bits of a set in a cell of axis-perpendicular facets.
 // It bounds the set before any facet is cut.
 #pragma once
 

@@ -30,7 +30,7 @@ constexpr std::uint32_t small_operands_leaf = 8;
 // Operands are small where at least such a part of all their facets is in the cell.
 constexpr std::uint64_t small_operands_part = 8;
 
-// Walls in a row that do not part the polygons of a cell, weighted by stalled_after(), and its
+// Splitters in a row that do not divide the polygons of a cell, weighted by stalled_after(), and its
 // depth, after which no more are tried.
 constexpr std::uint64_t many_polygons = 400;
 constexpr int most_stalled = 3;
@@ -105,8 +105,8 @@ bool may_be_prisms(const CellView& view) {
 
 bool is_any(const CellView&) { return true; }
 
-// A splitter pays where an operand is all on one side of it, and most where it containments the
-// other side. Small operands do not containment much, and splitters cut most of their facets, so
+// A splitter pays where an operand is all on one side of it, and most where it covers the
+// other side. Small operands do not cover much, and splitters cut most of their facets, so
 // that these are listed and compared again and again.
 bool are_small_operands(const CellView& view) {
     if (view.is_small() || !view.collects || view.task.operands.size() < 3) return false;
@@ -269,7 +269,7 @@ bool walls_have_failed(const CellTask& task) {
 
 // A splitter that leaves most pairs on its sides was not worth it, and after a few such splitters
 // none will be: long thin facets cross all of them. Where many facets meet in a corner, though,
-// splitters around the corner cut off small cells at little cost. Walls that make more pairs than
+// splitters around the corner cut off small cells at little cost. Splitters that make more pairs than
 // there were never pay: a pair costs a few nanoseconds.
 int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second) {
     const auto total = static_cast<double>(task.size());

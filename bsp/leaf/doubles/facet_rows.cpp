@@ -5,7 +5,7 @@
 // dozen instructions. Doubles look at what is left.
 //
 // Bounds, with u = 2^-24. The plane in doubles has a normal n and a bound (filtered_facets.h); the
-// bound containments what n is off. Scaled by s it becomes single: components, coordinates and
+// bound covers what n is off. Scaled by s it becomes single: components, coordinates and
 // products are off by a factor of 1 + u each, the two sums above a product by another two. So a
 // value is off by less than 5.1 u times the sum of |s n_k p_k|, and 3.1 u times |s n · origin|.
 // Both sums are at most that of |s n_k| times the leaf's extent, since all points and the origin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where everything is axis-perpendicular everything coincides: splitters of rooms, teeth of combs,
+// Where everything is axis-perpendicular everything coincides: walls of rooms, teeth of combs,
 // a thousand cubes with common faces. Comparing facets pair by pair then finds nothing but
 // contacts, vertices lie on other surfaces, and every segment runs through an edge. But the planes
 // cut the cell into at most 64³ units, each wholly inside or outside of every operand, because the

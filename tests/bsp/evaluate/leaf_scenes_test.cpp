@@ -242,7 +242,7 @@ TEST(AxisParallelLeaves, CubesOfOneColourLeaveTheOthers) {
     }
 }
 
-// Small cells lie under the common containment of several plates, where all of them are one slab.
+// Small cells lie under the common part of several plates, where all of them are one slab.
 TEST(LeafScenes, PlatesThatShareACoverAreOneSlabUnderIt) {
     std::vector<Expression> plates;
     for (int i = 0; i < 6; ++i)

@@ -2,7 +2,7 @@
 //
 // Segments in which random triangles cross a facet: where they meet each other, against exact
 // predicates of all pairs. On a small grid many of them touch or run through one point, which must
-// be told as uncertain; on a large one none do.
+// be uncertain; on a large one none do.
 
 #include <gtest/gtest.h>
 
