@@ -3,7 +3,6 @@
 #include <trisect/bsp/divide/choose_splitting_plane.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace trisect::detail {
@@ -89,31 +88,6 @@ std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task, std::
         longest = extent;
         splitter = below(k, e.contested.low(k) + (extent + 1) / 2);
     }
-    return splitter;
-}
-
-std::optional<SplittingPlane> trimming_plane(const CellTask& task, std::size_t least,
-                                             std::int64_t offset) {
-    const PackedBox contested = extents(task).contested;
-    if (contested.is_empty()) return std::nullopt;
-    // Polygons below and above the contested box, by axis.
-    std::array<std::array<std::size_t, 2>, 3> beyond{};
-    for (const CellOperand& o : task.operands)
-        for (const PackedBox& e : o.list())
-            for (std::size_t k = 0; k < 3; ++k) {
-                beyond[k][0] += e.high(k) < contested.low(k) ? 1 : 0;
-                beyond[k][1] += e.low(k) > contested.high(k) ? 1 : 0;
-            }
-    std::optional<SplittingPlane> splitter;
-    std::size_t most = least - 1;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t side = 0; side < 2; ++side) {
-            if (beyond[k][side] <= most) continue;
-            most = beyond[k][side];
-            const int q = side == 0 ? contested.low(k) : contested.high(k) + 1;
-            splitter = SplittingPlane{static_cast<int>(k),
-                                      task.frame.last_below(k, q) * splitting_scale + offset};
-        }
     return splitter;
 }
 

@@ -3,7 +3,6 @@
 // Choice of a splitting plane for a cell without one.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -14,17 +13,10 @@ namespace trisect::detail {
 /// The splitting plane that separates the operands soonest: it trims off a slab that only one of
 /// them enters, when that is at least 30 % of the extent; else it halves the box of what at least
 /// two enter (or what an operand that has to be resolved by itself enters). Nothing when the
-/// polygons cannot be parted in the task's frame. `offset` is that of splitting planes from lattice
-/// positions, in 1/256 units.
-/// \pre all operands are lists.
+/// polygons cannot be separated in the task's frame. `offset` is that of splitting planes from
+/// lattice positions, in 1/256 units. \pre all operands are lists.
 [[nodiscard]] std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task,
                                                                    std::int64_t offset);
-
-/// The splitting plane beyond which most polygons lie that are beside the box of what is contested;
-/// nothing where these are fewer than `least`, which is not 0. Looks at all polygons.
-/// \pre all operands are lists.
-[[nodiscard]] std::optional<SplittingPlane> trimming_plane(const CellTask& task, std::size_t least,
-                                                           std::int64_t offset);
 
 /// The extent of what choose_splitting_plane() would halve, in rounded positions.
 [[nodiscard]] int contested_extent(const CellTask& task);

@@ -123,7 +123,6 @@ private:
                                                   CellTask& task);
     [[nodiscard]] std::optional<CellRef> make_constant(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> share(CellTask& task) override;
-    [[nodiscard]] std::optional<CellRef> trim(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> divide(CellTask& task) override;
 
     void list(CellTask& task, Listed& out);
@@ -434,20 +433,13 @@ Worker::Children Worker::children_of(const CellTask& task, const SplittingPlane&
     return out;
 }
 
-std::optional<CellRef> Worker::trim(CellTask& task) {
-    const auto splitter = trimming_plane(task, least_trimmed, options_.splitting_offset);
-    if (!splitter) return std::nullopt;
-    Children children = children_of(task, *splitter);
-    return solve_children(task, *splitter, children);
-}
-
 std::optional<CellRef> Worker::divide(CellTask& task) {
     refine_large(task);
     std::optional<SplittingPlane> splitter = splitter_of_trees(task);
     lists_.make(task, splitter, threads());
     if (!splitter) {
         lists_.refine_frame(task);
-        if (!walls_have_failed(task))
+        if (!splitters_have_failed(task))
             splitter = choose_splitting_plane(task, options_.splitting_offset);
     }
     if (!splitter) return std::nullopt;

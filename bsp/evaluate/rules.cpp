@@ -30,8 +30,8 @@ constexpr std::uint32_t small_operands_leaf = 8;
 // Operands are small where at least such a part of all their facets is in the cell.
 constexpr std::uint64_t small_operands_part = 8;
 
-// Splitters in a row that do not divide the polygons of a cell, weighted by stalled_after(), and its
-// depth, after which no more are tried.
+// Splitters in a row that do not divide the polygons of a cell, weighted by stalled_after(), and
+// its depth, after which no more are tried.
 constexpr std::uint64_t many_polygons = 400;
 constexpr int most_stalled = 3;
 constexpr int most_stalled_of_many = 12;
@@ -61,16 +61,6 @@ bool is_constant(const CellView& view) {
 
 bool is_of_one_operand(const CellView& view) {
     return view.task.operands.size() == 1 && view.task.operands[0].embedded;
-}
-
-// A leaf looks at each of its polygons for some hundred instructions more than a list that is
-// shared does. So what one operand has beside the other one is cut off where that is enough to pay
-// for two cells more. Not in chains, where every later step meets those cells again.
-bool may_be_trimmed(const CellView& view) {
-    const CellTask& task = view.task;
-    return !view.undividable && view.size <= view.options.leaf_polygons && view.collects &&
-           task.operands.size() == 2 && view.size >= least_trimmed && task.stalled == 0 &&
-           std::ranges::all_of(task.operands, &CellOperand::is_list);
 }
 
 // Whether the first and the last polygon of a list or a leaf pass a test.
@@ -156,9 +146,6 @@ constexpr std::array all_rules{
     Rule{"share", "one operand is left, and it is embedded",
          "the operand's subtree or list, or its complement", &Stats::shared_cells,
          CellRule{&is_of_one_operand, &CellSteps::share}},
-    Rule{"trim", "two lists of imported meshes in a small cell, 16 facets of one beside the other",
-         "a splitting plane and two cells", &Stats::divided_cells,
-         CellRule{&may_be_trimmed, &CellSteps::trim}},
     Rule{"grid", "up to 8 leaves; all facets axis-perpendicular",
          "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
          LeafRule{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
@@ -262,15 +249,15 @@ ValuesOfOne values_of_one(const Residual& formula, std::int32_t slot, SlotValues
     return {outside, inside};
 }
 
-bool walls_have_failed(const CellTask& task) {
+bool splitters_have_failed(const CellTask& task) {
     return task.stalled >= (task.size() > many_polygons ? most_stalled_of_many : most_stalled) ||
            task.depth > most_depth;
 }
 
 // A splitter that leaves most pairs on its sides was not worth it, and after a few such splitters
 // none will be: long thin facets cross all of them. Where many facets meet in a corner, though,
-// splitters around the corner cut off small cells at little cost. Splitters that make more pairs than
-// there were never pay: a pair costs a few nanoseconds.
+// splitters around the corner cut off small cells at little cost. Splitters that make more pairs
+// than there were never pay: a pair costs a few nanoseconds.
 int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second) {
     const auto total = static_cast<double>(task.size());
     const auto a = static_cast<double>(first);

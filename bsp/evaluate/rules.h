@@ -40,7 +40,6 @@ class CellSteps {
 public:
     [[nodiscard]] virtual std::optional<CellRef> make_constant(CellTask& task) = 0;
     [[nodiscard]] virtual std::optional<CellRef> share(CellTask& task) = 0;
-    [[nodiscard]] virtual std::optional<CellRef> trim(CellTask& task) = 0;
     [[nodiscard]] virtual std::optional<CellRef> divide(CellTask& task) = 0;
 
 protected:
@@ -123,11 +122,9 @@ struct ValuesOfOne {
 [[nodiscard]] ValuesOfOne values_of_one(const Residual& formula, std::int32_t slot,
                                         SlotValues& values);
 
-/// The fewest polygons that are worth a splitting plane that trims them off.
-inline constexpr std::size_t least_trimmed = 16;
 /// Whether splitting planes have divided the polygons so badly, or so often, that none is tried any
 /// more.
-[[nodiscard]] bool walls_have_failed(const CellTask& task);
+[[nodiscard]] bool splitters_have_failed(const CellTask& task);
 /// CellTask::stalled for the two sides of a splitter, which have so many polygons.
 [[nodiscard]] int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second);
 

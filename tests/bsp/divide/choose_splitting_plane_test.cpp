@@ -3,6 +3,7 @@
 #include <trisect/bsp/divide/choose_splitting_plane.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,11 +33,19 @@ CellOperand operand_of(const std::vector<PackedBox>& row) {
     return o;
 }
 
-class TrimmingPlane : public testing::Test {
+class SplittingPlaneOfRows : public testing::Test {
 protected:
-    TrimmingPlane(const std::vector<PackedBox>& a, const std::vector<PackedBox>& b)
-        : a_(a), b_(b), operands_{operand_of(a_), operand_of(b_)} {
+    void set(std::vector<PackedBox> a, std::vector<PackedBox> b) {
+        a_ = std::move(a);
+        b_ = std::move(b);
+        operands_ = {operand_of(a_), operand_of(b_)};
         task_.operands = operands_;
+    }
+    // The last position below the plane; it is across x.
+    std::int64_t last_below() {
+        const auto splitter = choose_splitting_plane(task_, 0);
+        EXPECT_TRUE(splitter && splitter->axis == 0);
+        return splitter ? splitter->last_below() : -1;
     }
 
     std::vector<PackedBox> a_;
@@ -45,47 +54,27 @@ protected:
     CellTask task_;
 };
 
-class RowsThatOverlap : public TrimmingPlane {
-protected:
-    RowsThatOverlap() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(20, 60)) {}
-};
-
-TEST_F(RowsThatOverlap, WallEndsTheLongerPartThatIsAlone) {
-    const auto splitter = trimming_plane(task_, 10, 0);
-    ASSERT_TRUE(splitter.has_value());
-    EXPECT_EQ(splitter->axis, 0);
+TEST_F(SplittingPlaneOfRows, TrimsTheLongerPartThatIsAlone) {
+    set(row_of_boxes(0, 30), row_of_boxes(20, 60));
     // The first row ends at 59, and the boxes from 60 on are alone.
-    EXPECT_EQ(splitter->last_below(), 59);
+    EXPECT_EQ(last_below(), 59);
 }
 
-TEST_F(RowsThatOverlap, NothingIsPeeledOffWhereTooFewAreAlone) {
-    EXPECT_TRUE(trimming_plane(task_, 30, 0).has_value());
-    EXPECT_FALSE(trimming_plane(task_, 31, 0).has_value());
+TEST_F(SplittingPlaneOfRows, HalvesTheOverlapWhereLittleIsAlone) {
+    set(row_of_boxes(0, 30), row_of_boxes(5, 35));
+    // From 10 to 59.
+    EXPECT_EQ(last_below(), 34);
 }
 
-TEST_F(RowsThatOverlap, WhatMayMeetItselfIsNowhereAlone) {
+TEST_F(SplittingPlaneOfRows, WhatMayMeetItselfIsNowhereAlone) {
+    set(row_of_boxes(0, 30), row_of_boxes(20, 60));
     operands_[1].embedded = false;
-    const auto splitter = trimming_plane(task_, 10, 0);
-    ASSERT_TRUE(splitter.has_value());
-    EXPECT_EQ(splitter->last_below(), 39);
+    EXPECT_EQ(last_below(), 39);
 }
 
-class RowsApart : public TrimmingPlane {
-protected:
-    RowsApart() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(40, 60)) {}
-};
-
-TEST_F(RowsApart, NothingIsContested) { EXPECT_FALSE(trimming_plane(task_, 1, 0).has_value()); }
-
-class RowWithinARow : public TrimmingPlane {
-protected:
-    RowWithinARow() : TrimmingPlane(row_of_boxes(0, 30), row_of_boxes(12, 20)) {}
-};
-
-TEST_F(RowWithinARow, BothEndsOfTheLongerRowAreAlone) {
-    EXPECT_EQ(trimming_plane(task_, 5, 0)->last_below(), 23);
-    EXPECT_TRUE(trimming_plane(task_, 12, 0).has_value());
-    EXPECT_FALSE(trimming_plane(task_, 13, 0).has_value());
+TEST_F(SplittingPlaneOfRows, WhatIsApartIsHalved) {
+    set(row_of_boxes(0, 30), row_of_boxes(40, 60));
+    EXPECT_EQ(last_below(), 59);
 }
 
 }  // namespace
