@@ -68,8 +68,14 @@ bool PrismFacets::list(const LeafProblem& problem) {
         if (!o.embedded || (!o.polygons.empty() && !(may_be_of_prism(o.polygons.front()) &&
                                                      may_be_of_prism(o.polygons.back()))))
             return false;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (list_along(problem, axis)) return true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!list_along(problem, axis)) continue;
+        // Where everything is axis-perpendicular other ways are shorter, whatever the axis.
+        if (is_grid()) return false;
+        if (!join_halves() || !find_layers()) continue;
+        find_outside(problem);
+        return true;
+    }
     return false;
 }
 
@@ -84,13 +90,13 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
                 !problem.cell.contains(ref.box()))
                 return false;
         }
-    // Where everything is axis-perpendicular other ways are shorter.
-    const bool is_grid = std::ranges::all_of(side_faces_, [](const PrismSideFace& w) {
+    return true;
+}
+
+bool PrismFacets::is_grid() const {
+    return std::ranges::all_of(side_faces_, [](const PrismSideFace& w) {
         return w.from[0] == w.to[0] || w.from[1] == w.to[1];
     });
-    if (is_grid || !join_halves() || !find_layers()) return false;
-    find_outside(problem);
-    return true;
 }
 
 bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {

@@ -93,6 +93,7 @@ public:
 private:
     [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis);
     [[nodiscard]] bool add(const PolygonRef& ref, LeafIndex operand, bool flipped);
+    [[nodiscard]] bool is_grid() const;
     [[nodiscard]] bool join_halves();
     [[nodiscard]] bool find_layers();
     void find_outside(const LeafProblem& problem);
