@@ -303,6 +303,18 @@ double Lattice::to_double(double lattice_units) const { return scaled(lattice_un
 
 // Files of measured or computed coordinates have bits far below any lattice with room. The first
 // such coordinate decides, so the second pass mostly ends at once.
+int span_bits(std::span<const Point3d> points) {
+    int lowest = std::numeric_limits<int>::max();
+    double largest = 0;
+    for (const Point3d& p : points)
+        for (const double c : p) {
+            if (c == 0 || !std::isfinite(c)) continue;
+            lowest = std::min(lowest, lowest_bit(c));
+            largest = std::max(largest, std::fabs(c));
+        }
+    return largest == 0 ? 0 : std::ilogb(largest) + 1 - lowest;
+}
+
 Lattice choose_lattice(std::span<const std::array<double, 3>> points, std::uint32_t threads) {
     const double largest = largest_finite(points, threads);
     if (largest == 0) return {0};

@@ -41,6 +41,11 @@ inline constexpr int growth_bits = 8;
 /// for every processor; the outcome does not depend on it.
 [[nodiscard]] Lattice choose_lattice(std::span<const Point3d> points, std::uint32_t threads = 0);
 
+/// The bits from the leading one of the largest coordinate to the last one of any: the least W for
+/// which all coordinates are whole numbers below 2^W of one power of two. 0 where all are 0.
+/// Coordinates that are not finite do not count. O(n).
+[[nodiscard]] int span_bits(std::span<const Point3d> points);
+
 /// Rounds to the nearest lattice point (ties to even) and reports.
 /// \throw LimitError when a coordinate is not finite or leaves the lattice's range; Error
 /// (InvalidSolid) when it is rounded beyond the largest double.

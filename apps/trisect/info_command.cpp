@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// info A: counts, bounds, volume, area, shells, genus, lattice.
+// info A: counts, bounds, volume, area, shells, genus, lattice, span of the coordinates.
 #include <trisect/brep/io/exact_boundary.h>
+#include <trisect/kernel/lattice.h>
+
+#include <fmt/format.h>
 
 #include <array>
+#include <optional>
 
 #include "commands.h"
 #include "description.h"
@@ -25,10 +29,11 @@ Description describe_exact(Session& session, const InfoOptions& options) {
     return session.stage("measure", [&] { return describe(brep, {options.exact}); });
 }
 
-Description describe_mesh(Session& session, const InfoOptions& options) {
+Description describe_mesh(Session& session, const InfoOptions& options, int& span) {
     const PolygonMesh mesh =
         session.stage("read", [&] { return read_input(session, options.input); });
     return session.stage("measure", [&] {
+        span = span_bits(mesh.points);
         const ImportedMesh imported = import_input(session, mesh, options.input);
         note_imports(session, std::array{ImportNote{options.input, imported.report}});
         return describe(imported, {options.exact});
@@ -39,15 +44,18 @@ Description describe_mesh(Session& session, const InfoOptions& options) {
 
 Outcome run_info(Session& session, const InfoOptions& options) {
     session.plan(2);
+    std::optional<int> span;  // an exact boundary has planes instead of coordinates
     const Description description = has_exact_boundary(options.input)
                                         ? describe_exact(session, options)
-                                        : describe_mesh(session, options);
+                                        : describe_mesh(session, options, span.emplace());
     Outcome out;
     out.document["schema"] = "trisect.info/1";
     out.document["file"] = options.input;
     out.document.update(to_json(description));
+    out.document["span_bits"] = span ? Json(*span) : Json();
     out.document["seconds"] = session.seconds();
     out.answer = to_text(description);
+    if (span) out.answer += fmt::format("{:<11}{} bits\n", "span", *span);
     return out;
 }
 

@@ -31,6 +31,7 @@ TEST_F(InfoCommand, CountsAndMeasuresOfABox) {
     EXPECT_EQ(info["lattice"]["lossless"], true);
     EXPECT_EQ(info["lattice"]["moved"], 0);
     EXPECT_EQ(info["lattice"]["max_move"], 0);
+    EXPECT_TRUE(info["span_bits"].is_number_integer());
     EXPECT_FALSE(info.contains("volume_exact"));
 }
 

@@ -32,6 +32,18 @@ LatticeReport import(const Coordinates& points, Lattice lattice) {
     return report;
 }
 
+TEST(SpanBits, FromTheLeadingBitToTheLast) {
+    using trisect::span_bits;
+    EXPECT_EQ(span_bits({}), 0);
+    EXPECT_EQ(span_bits(Coordinates{{0, -0.0, 0}}), 0);
+    EXPECT_EQ(span_bits(Coordinates{{1, 0, -4}}), 3);
+    EXPECT_EQ(span_bits(Coordinates{{6, 2, 4}}), 2) << "of 2";
+    EXPECT_EQ(span_bits(Coordinates{{0.1, 0, 0}}), 52);
+    EXPECT_EQ(span_bits(Coordinates{{0.1, 1, 0}}), 56);
+    EXPECT_EQ(span_bits(Coordinates{{0x1p-1074, 0, 0x1p1023}}), 2098);
+    EXPECT_EQ(span_bits(Coordinates{{std::numeric_limits<double>::infinity(), 3, 0}}), 2);
+}
+
 TEST(Lattice, NothingAndZeroGetUnitOne) {
     EXPECT_EQ(choose_lattice({}).exponent, 0);
     EXPECT_EQ(choose_lattice(Coordinates{{0, -0.0, 0}}).exponent, 0);
