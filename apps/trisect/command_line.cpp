@@ -16,8 +16,8 @@
 
 #include "choice.h"
 #include "commands.h"
-#include "compare_hierarchies_command.h"
 #include "failure.h"
+#include "further_command.h"
 #include "limits.h"
 #include "values.h"
 
@@ -41,7 +41,8 @@ struct Request {
     RenderOptions render;
     TreeOptions tree;
     InterfereOptions interfere;
-    CompareHierarchiesOptions compare_hierarchies;
+    FurtherCommand* further = nullptr;
+    std::string further_name;
 };
 
 constexpr const char* exit_code_help =
@@ -173,7 +174,7 @@ void declare(CLI::App& app, Request& request) {
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
     add_interfere_command(app, request.interfere);
-    add_compare_hierarchies_command(app, request.compare_hierarchies);
+    if (request.further != nullptr) request.further_name = request.further->declare(app).get_name();
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
         refuse_options_as_values(*command);
@@ -195,8 +196,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);
     if (name == "interfere") return run_interfere(session, request.interfere);
-    if (name == "compare-hierarchies")
-        return run_compare_hierarchies(session, request.compare_hierarchies);
+    if (name == request.further_name) return request.further->run(session);
     BooleanOptions options = request.boolean;
     options.operation = name;
     return run_boolean(session, options);
@@ -278,10 +278,11 @@ int run_request(Console& console, const std::string& name, const Request& reques
 }
 
 /// Parses, answers --help and --version, or runs.
-int parse_and_run(Console& console, bool json, int argc, char** argv) {
+int parse_and_run(Console& console, bool json, int argc, char** argv, FurtherCommand* further) {
     CLI::App app("Exact solid modelling: booleans, measures and checks of polygon meshes.",
                  "trisect");
     Request request;
+    request.further = further;
     declare(app, request);
     try {
         app.parse(prepared_arguments(argc, argv));
@@ -297,13 +298,13 @@ int parse_and_run(Console& console, bool json, int argc, char** argv) {
 
 }  // namespace
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, FurtherCommand* further) {
     std::signal(SIGPIPE, SIG_IGN);
     Console console;
     const bool json = asks_for_json(argc, argv);
     install_terminate_handler(console, json);
     try {
-        return parse_and_run(console, json, argc, argv);
+        return parse_and_run(console, json, argc, argv, further);
     } catch (...) {
         const Failure failure = current_failure();
         report_failure(console, json, failure);

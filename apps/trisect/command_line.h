@@ -5,7 +5,10 @@
 
 namespace trisect::app {
 
+class FurtherCommand;
+
 /// Parses the arguments, runs the sub-command, prints what it has to say and returns the exit code.
-[[nodiscard]] int run(int argc, char** argv);
+/// `further` may be null.
+[[nodiscard]] int run(int argc, char** argv, FurtherCommand* further = nullptr);
 
 }  // namespace trisect::app

@@ -12,12 +12,16 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "../scenes/comparison.h"
 #include "commands.h"
+#include "further_command.h"
 #include "motion_file.h"
 #include "operand.h"
 #include "output_name.h"
@@ -25,6 +29,15 @@
 
 namespace trisect::app {
 namespace {
+
+struct CompareHierarchiesOptions {
+    std::array<std::string, 2> inputs;
+    std::string motion;  ///< a file: how the second one moves
+    std::int64_t frames = 100;
+    std::vector<std::string> structures;  ///< by name; empty: all
+    std::string chart;                    ///< empty: none
+    OperandOptions operands;
+};
 
 std::vector<hierarchies::StructureKind> kinds_of(const std::vector<std::string>& names) {
     std::vector<hierarchies::StructureKind> kinds;
@@ -86,9 +99,7 @@ std::string answers_text(const scenes::Comparison& comparison) {
                              number_text(comparison.answers.least_distance));
 }
 
-}  // namespace
-
-void add_compare_hierarchies_command(CLI::App& app, CompareHierarchiesOptions& options) {
+CLI::App& add_command(CLI::App& app, CompareHierarchiesOptions& options) {
     CLI::App* command = app.add_subcommand(
         "compare-hierarchies", "what structures for interference queries cost while a solid moves");
     command->add_option("A", options.inputs[0], "mesh file")->required();
@@ -110,9 +121,10 @@ void add_compare_hierarchies_command(CLI::App& app, CompareHierarchiesOptions& o
         ->type_name("NAME");
     command->add_option("--svg", options.chart, "chart (SVG)")->type_name("FILE");
     add_operand_options(*command, options.operands);
+    return *command;
 }
 
-Outcome run_compare_hierarchies(Session& session, const CompareHierarchiesOptions& options) {
+Outcome run_command(Session& session, const CompareHierarchiesOptions& options) {
     check_output_name(session, options.chart, ".svg");
     check_outputs(session, {options.chart}, Answer::Printed);
     if (options.frames < 2 || options.frames > 100000)
@@ -156,6 +168,23 @@ Outcome run_compare_hierarchies(Session& session, const CompareHierarchiesOption
     (options.chart == "-" ? out.remarks : out.answer) =
         answers_text(comparison) + scenes::table_of(comparison);
     return out;
+}
+
+class CompareHierarchies : public FurtherCommand {
+public:
+    CLI::App& declare(CLI::App& app) override { return add_command(app, options_); }
+    [[nodiscard]] Outcome run(Session& session) const override {
+        return run_command(session, options_);
+    }
+
+private:
+    CompareHierarchiesOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<FurtherCommand> compare_hierarchies_command() {
+    return std::make_unique<CompareHierarchies>();
 }
 
 }  // namespace trisect::app

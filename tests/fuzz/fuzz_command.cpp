@@ -20,6 +20,8 @@
 
 #include "byte_source.h"
 #include "trisect/command_line.h"
+#include "trisect/compare_hierarchies_command.h"
+#include "trisect/further_command.h"
 
 namespace {
 
@@ -185,6 +187,7 @@ std::vector<std::string> arguments(fuzz::ByteSource& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const Folder folder;
+    const auto comparison = trisect::app::compare_hierarchies_command();
     fuzz::ByteSource bytes(data, size);
     std::vector<std::string> texts = arguments(bytes);
     std::vector<char*> argv;
@@ -193,7 +196,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     int code = 0;
     {
         const Visit visit(folder.path());
-        code = trisect::app::run(static_cast<int>(argv.size()) - 1, argv.data());
+        code = trisect::app::run(static_cast<int>(argv.size()) - 1, argv.data(), comparison.get());
     }
     require(code >= 0 && code <= 7);
     folder.clean();
