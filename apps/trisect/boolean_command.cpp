@@ -90,7 +90,7 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
     });
     FormattedMesh formatted;
     session.stage("describe", [&] {
-        for_each_in_parallel(3, session.supervisor().stop_flag(), [&](std::size_t i) {
+        for_each_in_parallel(3, session.limits(), [&](std::size_t i) {
             if (i == 0 && options.certificate)
                 result.certificate = certify_output(exact, mesh, format);
             if (i == 1) formatted = format_output_mesh(options.output, format, mesh);

@@ -2,35 +2,20 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
 #include <utility>
 #include <variant>
 
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/kernel/error.h>
-#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 
 using detail::SolidState;
-
-namespace {
-
-// Cells are kept apart from corners and from reference points, which have even coordinates in this
-// scale: an even offset could put a splitting plane through one, and so could an offset of a unit
-// or more.
-void expect_valid(const EvaluateOptions& options) {
-    if (options.splitting_offset % 2 == 0 || options.splitting_offset >= detail::splitting_scale)
-        throw UsageError("EvaluateOptions::splitting_offset: must be odd and below " +
-                         std::to_string(detail::splitting_scale));
-}
-
-}  // namespace
 
 EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
     cells += part.cells;
@@ -61,21 +46,20 @@ EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
 }
 
 Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
-    expect_valid(options);
     const detail::Translation t = detail::translate(expression);
-    const StopScope scope(options.cancel);  // for what looks at the flag of its thread
     detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
-    EvaluateOptions with_flag = options;
-    if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
+    detail::EvaluateSettings settings{options, detail::SplittingOffset::of_thread()};
+    detail::LimitedEvaluation limited(settings);
     EvaluateStats made;
     std::shared_ptr<SolidState> state;
     for (const detail::Rule& rule : detail::formula_rules())
         if (state == nullptr)
             state = detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), t.formula, states,
-                                        with_flag, made);
-    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, with_flag, made);
+                                        settings, made);
+    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, settings, made);
+    limited.finish(made);
     state->lattice = lattice.lattice;
     made.lattice = lattice;
     if (stats != nullptr) *stats = made;
