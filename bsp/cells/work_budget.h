@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <trisect/bsp/cells/evaluate_stats.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/stop_scope.h>
 

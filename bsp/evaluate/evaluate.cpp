@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -12,47 +13,63 @@
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/kernel/diagnostics.h>
 
 namespace trisect {
 
 using detail::SolidState;
 
-EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
-    cells += part.cells;
-    shared_cells += part.shared_cells;
-    constant_cells += part.constant_cells;
-    mixed_leaves += part.mixed_leaves;
-    grid_leaves += part.grid_leaves;
-    filtered_leaves += part.filtered_leaves;
-    filtered_fragments += part.filtered_fragments;
-    prism_leaves += part.prism_leaves;
-    exact_leaves += part.exact_leaves;
-    divided_cells += part.divided_cells;
-    listed_polygons += part.listed_polygons;
-    pairs_boxes += part.pairs_boxes;
-    pairs_cutting += part.pairs_cutting;
-    pieces += part.pieces;
-    traces += part.traces;
-    traces_retried += part.traces_retried;
-    traces_near += part.traces_near;
-    traces_within += part.traces_within;
-    pairs_touching += part.pairs_touching;
-    untouched_polygons += part.untouched_polygons;
-    cuts_undone += part.cuts_undone;
-    linked += part.linked;
-    memory = std::max(memory, part.memory);
-    depth = std::max(depth, part.depth);
+namespace {
+
+using Counters = EvaluateCounters;
+
+constexpr std::array counter_members{
+    &Counters::cells,
+    &Counters::shared_cells,
+    &Counters::constant_cells,
+    &Counters::mixed_leaves,
+    &Counters::grid_leaves,
+    &Counters::filtered_leaves,
+    &Counters::filtered_fragments,
+    &Counters::prism_leaves,
+    &Counters::exact_leaves,
+    &Counters::divided_cells,
+    &Counters::listed_polygons,
+    &Counters::pairs_boxes,
+    &Counters::pairs_touching,
+    &Counters::pairs_cutting,
+    &Counters::untouched_polygons,
+    &Counters::pieces,
+    &Counters::linked,
+    &Counters::traces,
+    &Counters::traces_retried,
+    &Counters::traces_near,
+    &Counters::traces_within,
+    &Counters::cuts_undone,
+};
+static_assert(sizeof(Counters) == counter_members.size() * sizeof(std::uint64_t));
+
+}  // namespace
+
+EvaluateCounters& EvaluateCounters::operator+=(const EvaluateCounters& o) {
+    for (const auto member : counter_members) this->*member += o.*member;
     return *this;
 }
 
-Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
+EvaluateCounters& EvaluateCounters::operator-=(const EvaluateCounters& o) {
+    for (const auto member : counter_members) this->*member -= o.*member;
+    return *this;
+}
+
+Solid evaluate(const Expression& expression, const EvaluateOptions& options,
+               EvaluateReport* report) {
     const detail::Translation t = detail::translate(expression);
     detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
     detail::EvaluateSettings settings{options, detail::SplittingOffset::of_thread()};
     detail::LimitedEvaluation limited(settings);
-    EvaluateStats made;
+    detail::EvaluateStats made;
     std::shared_ptr<SolidState> state;
     for (const detail::Rule& rule : detail::formula_rules())
         if (state == nullptr)
@@ -60,9 +77,9 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options, Eva
                                         settings, made);
     if (state == nullptr) state = detail::evaluate_tree(t.formula, states, settings, made);
     limited.finish(made);
+    detail::counters_of_thread<EvaluateCounters> += made;
     state->lattice = lattice.lattice;
-    made.lattice = lattice;
-    if (stats != nullptr) *stats = made;
+    if (report != nullptr) *report = {lattice, made.memory, made.depth};
     return detail::solid_of(std::move(state));
 }
 

@@ -136,7 +136,7 @@ constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellVie
     return {reach, applies, &arranger<&LeafArrangers::doubles>};
 }
 
-using Stats = EvaluateStats;
+using Stats = EvaluateCounters;
 
 constexpr std::size_t formula_rows = 2;
 constexpr std::size_t constant_rows = 2;

@@ -85,7 +85,7 @@ struct Rule {
     std::string_view name;
     std::string_view condition;
     std::string_view keeps;
-    std::uint64_t EvaluateStats::*counter;  ///< cells that it resolved
+    std::uint64_t EvaluateCounters::*counter;  ///< cells that it resolved
     std::variant<FormulaRule, CellRule, LeafRule> how;
 };
 

@@ -51,6 +51,7 @@
 #include <trisect/bsp/solid.h>
 
 #include "engines/engines.h"
+#include "engines/evaluate_stats.h"
 
 namespace {
 
@@ -331,14 +332,14 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
         operands.push_back(operand());
         const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume);
         const Timer timer(counters.microseconds_ours);
-        trisect::EvaluateStats stats;
+        trisect::test::EvaluateStats stats;
         const auto step = engines::formula(reference::pair_expression(kind), {result, tool});
         if (operands.size() == 2) {
             const auto difference = engines::undivided_difference(step, options);
             counters.undivided += difference ? 1U : 0U;
             if (!difference.value_or("").empty()) return "undivided: " + *difference;
         }
-        result = trisect::evaluate(step, options, &stats);
+        result = evaluate(step, options, &stats);
         counters.mixed_leaves += stats.mixed_leaves;
         counters.filtered_leaves += stats.filtered_leaves;
         counters.filtered_fragments += stats.filtered_fragments;

@@ -205,7 +205,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
-    trisect::EvaluateStats stats;
+    EvaluateStats stats;
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
                                     return are_two_large_meshes(formula, solids, with, 1);
                                 },

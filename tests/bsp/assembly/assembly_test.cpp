@@ -24,6 +24,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
+#include "engines/evaluate_stats.h"
 #include "support/solids.h"
 
 namespace {
@@ -31,12 +32,12 @@ namespace {
 using solids::box;
 using trisect::evaluate;
 using trisect::EvaluateOptions;
-using trisect::EvaluateStats;
 using trisect::Expression;
 using trisect::make_box;
 using trisect::PolygonMesh;
 using trisect::Solid;
 using trisect::detail::AssemblyStats;
+using trisect::test::EvaluateStats;
 
 AssemblyStats stats_of(const Solid& solid) {
     AssemblyStats stats;

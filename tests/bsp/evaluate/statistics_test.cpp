@@ -6,23 +6,32 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <thread>
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
+#include <trisect/bsp/evaluate/rules.h>
+#include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
+#include "engines/evaluate_stats.h"
+
 namespace {
 
+using trisect::Diagnostics;
 using trisect::evaluate;
-using trisect::EvaluateStats;
+using trisect::EvaluateCounters;
 using trisect::PredicateCounters;
 using trisect::Solid;
 using trisect::StopScope;
+using trisect::test::EvaluateStats;
 
 // Two balls in general position: no two of their planes or vertices coincide.
 class TwoBalls : public ::testing::Test {
@@ -54,14 +63,13 @@ TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
 }
 
 TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
-    const PredicateCounters before = trisect::predicate_counters();
+    const Diagnostics<PredicateCounters> diagnostics;
     EvaluateStats stats;
     const Solid both = divided(a & b, &stats);
     EXPECT_FALSE(both.to_brep().is_empty());
-    const PredicateCounters after = trisect::predicate_counters();
-    const auto filtered = after.filtered - before.filtered;
-    const auto exact =
-        after.exact_narrow + after.exact_wide - before.exact_narrow - before.exact_wide;
+    const PredicateCounters made = diagnostics.counters();
+    const auto filtered = made.filtered;
+    const auto exact = made.exact_narrow + made.exact_wide;
     EXPECT_GT(filtered, 1000U);
     EXPECT_LT(exact * 20, filtered);
 }
@@ -128,6 +136,65 @@ TEST_F(TwoBalls, CountersStartAtZeroForEveryEvaluation) {
     EXPECT_EQ(first.listed_polygons, second.listed_polygons);
     EXPECT_EQ(first.pairs_cutting, second.pairs_cutting);
     EXPECT_EQ(first.traces, second.traces);
+}
+
+// Each looks at what was done since it began, whatever there is beside it.
+TEST_F(TwoBalls, DiagnosticsCountFromTheirBeginning) {
+    const Diagnostics<EvaluateCounters> outer;
+    EvaluateStats first;
+    (void)evaluate(a | b, {}, &first);
+    const Diagnostics<EvaluateCounters> inner;
+    EXPECT_EQ(inner.counters(), EvaluateCounters{});
+    EvaluateStats second;
+    (void)evaluate(a ^ b, {}, &second);
+    EXPECT_GT(second.cells, 0U);
+    EXPECT_EQ(inner.counters(), second);
+    EvaluateCounters both = first;
+    both += second;
+    EXPECT_EQ(outer.counters(), both);
+    both -= first;
+    EXPECT_EQ(both, static_cast<const EvaluateCounters&>(second));
+}
+
+// What the evaluator itself has counted, by one thread or by all of them.
+TEST_F(TwoBalls, DiagnosticsAreThoseOfTheEvaluator) {
+    namespace detail = trisect::detail;
+    const Solid large = Solid::from_mesh(trisect::make_icosphere(1, 5));
+    const trisect::Expression formula = (large ^ b) - a;
+    const detail::Translation t = detail::translate(formula);
+    detail::SolidStates states;
+    for (const Solid& s : t.slots) states.push_back(detail::state_of(s));
+    (void)trisect::evaluate(formula);  // refines large leaves for good
+    std::optional<EvaluateCounters> one;
+    for (const std::uint32_t threads : {1U, 4U}) {
+        detail::EvaluateSettings settings;
+        settings.threads = threads;
+        detail::EvaluateStats expected;
+        (void)detail::evaluate_tree(t.formula, states, settings, expected);
+        const Diagnostics<EvaluateCounters> diagnostics;
+        trisect::EvaluateReport report;
+        (void)trisect::evaluate(formula, settings, &report);
+        EXPECT_GT(expected.cells, 100U);
+        EXPECT_EQ(diagnostics.counters().cells, expected.cells);
+        EXPECT_EQ(diagnostics.counters().pairs_boxes, expected.pairs_boxes);
+        EXPECT_EQ(diagnostics.counters().listed_polygons, expected.listed_polygons);
+        EXPECT_EQ(report.depth, expected.depth);
+        if (threads == 1) {
+            EXPECT_EQ(diagnostics.counters(), expected);
+            EXPECT_EQ(report.memory, expected.memory);
+            one = expected;
+        } else {
+            EXPECT_EQ(diagnostics.counters().cells, one->cells);
+        }
+    }
+}
+
+TEST_F(TwoBalls, DiagnosticsOfAThreadAreItsOwn) {
+    const Diagnostics<EvaluateCounters> here;
+    EvaluateStats stats;
+    std::thread([&] { (void)evaluate(a | b, {}, &stats); }).join();
+    EXPECT_GT(stats.cells, 0U);
+    EXPECT_EQ(here.counters(), EvaluateCounters{});
 }
 
 TEST_F(TwoBalls, AWorkBudgetThatIsSpentIsALimit) {
