@@ -8,6 +8,8 @@
 #include <exception>
 #include <vector>
 
+#include <trisect/kernel/diagnostics.h>
+
 #include "../tests/bsp/interference/motion/ccd_file.h"
 
 namespace {
@@ -24,13 +26,13 @@ struct Row {
 
 Row run(const ccd::File& file, int rounds) {
     Row row;
-    trisect::motion_counters() = {};
+    const trisect::Diagnostics<trisect::MotionCounters> diagnostics;
     for (const ccd::Query& q : file.queries) {
         ++row.queries;
         row.positive += q.is_contact ? 1U : 0U;
         row.agree += ccd::first_contact(file, q).has_value() == q.is_contact ? 1U : 0U;
     }
-    row.counters = trisect::motion_counters();
+    row.counters = diagnostics.counters();
     std::vector<double> times;
     for (int i = 0; i < rounds; ++i) {
         const auto start = Clock::now();

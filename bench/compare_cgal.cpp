@@ -34,6 +34,7 @@
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "corefinement.h"
 #include "shapes.h"
@@ -119,7 +120,8 @@ struct Times {
 };
 
 struct Outcome {
-    trisect::EvaluateStats stats;
+    trisect::EvaluateCounters counters;
+    int depth = 0;
     PolygonMesh ours;
     PolygonMesh peer;
     std::string refusal;
@@ -131,9 +133,12 @@ void run_ours(const Scene& scene, std::size_t operation, Times& times, Outcome& 
     const Solid b = Solid::from_mesh(scene.b);
     times.from_mesh.push_back(seconds_since(start));
     start = Clock::now();
-    outcome.stats = {};
-    const Solid result = trisect::evaluate(expression(operation, a, b), {}, &outcome.stats);
+    const trisect::Diagnostics<trisect::EvaluateCounters> diagnostics;
+    trisect::EvaluateReport report;
+    const Solid result = trisect::evaluate(expression(operation, a, b), {}, &report);
     times.evaluate.push_back(seconds_since(start));
+    outcome.counters = diagnostics.counters();
+    outcome.depth = report.depth;
     start = Clock::now();
     outcome.ours = result.to_mesh();
     times.to_mesh.push_back(seconds_since(start));
@@ -154,7 +159,7 @@ void run_peer(const Scene& scene, std::size_t operation, Times& times, Outcome& 
     outcome.refusal = std::move(answer.refusal);
 }
 
-json stats_of(const trisect::EvaluateStats& s) {
+json stats_of(const trisect::EvaluateCounters& s, int depth) {
     return {{"cells", s.cells},
             {"shared_cells", s.shared_cells},
             {"constant_cells", s.constant_cells},
@@ -165,7 +170,7 @@ json stats_of(const trisect::EvaluateStats& s) {
             {"pieces", s.pieces},
             {"traces", s.traces},
             {"traces_retried", s.traces_retried},
-            {"depth", s.depth}};
+            {"depth", depth}};
 }
 
 double relative(double found, double wanted) {
@@ -191,7 +196,7 @@ json measure(const Scene& scene, std::size_t operation, int runs) {
                {"to_mesh", median(times.to_mesh)},
                {"total", median(times.total)},
                {"to_brep", median(times.to_brep)},
-               {"stats", stats_of(outcome.stats)}}},
+               {"stats", stats_of(outcome.counters, outcome.depth)}}},
              {"cgal",
               {{"import", median(times.peer_import)},
                {"operation", median(times.peer_operation)},

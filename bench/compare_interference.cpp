@@ -35,6 +35,7 @@
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/pose.h>
 
 #include "interference_peers.h"
@@ -134,6 +135,7 @@ public:
         trisect::InterferenceQueryCounters query_counters;
         for (int round = 0; round < rounds; ++round) {
             trisect::InterferenceQuery query(a_, b_);
+            const trisect::Diagnostics<trisect::InterferenceQueryCounters> diagnostics;
             different = 0;
             walks = {};
             for (std::size_t i = 0; i < path_.size(); ++i) {
@@ -149,7 +151,7 @@ public:
                                                       trisect::detail::data_of(b_), path_[i], stack,
                                                       &walks);
             }
-            query_counters = query.counters();
+            query_counters = diagnostics.counters();
         }
         const double n = static_cast<double>(path_.size());
         return {{"us_fresh", quantiles(fresh)},

@@ -39,6 +39,7 @@
 #include <trisect/bsp/query/points/index_counters.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "query_peers.h"
 #include "shapes.h"
@@ -305,7 +306,7 @@ void compare_points(const std::string& scene, const std::string& what,
                          },
                          wall_seconds)));
     }
-    trisect::predicate_counters() = {};
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     trisect::detail::index_counters() = {};
     const BrepIndex other = refined();
     const double single = median_seconds(runs, [&](int run) {
@@ -315,7 +316,7 @@ void compare_points(const std::string& scene, const std::string& what,
     });
     json row = finish("Trisect locate", single);
     const std::size_t asked = each * static_cast<std::size_t>(runs);
-    row["signs"] = counted(trisect::predicate_counters(), asked);
+    row["signs"] = counted(diagnostics.counters(), asked);
     row["ways"] = ways(trisect::detail::index_counters(), asked);
     print(row);
 }
@@ -342,7 +343,7 @@ void compare_rays(const std::string& scene, const std::vector<Ray>& rays, const 
         print(row);
     }
     const auto ask = [&](const char* name, const auto& hit) {
-        trisect::predicate_counters() = {};
+        const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
         const double t = median_seconds(runs, [&](int run) {
             const auto asked = part_of(rays, run, runs);
             const auto out = part_of(hits, run, runs);
@@ -351,8 +352,7 @@ void compare_rays(const std::string& scene, const std::vector<Ray>& rays, const 
         });
         json row = row_of(scene, "first hit", name, each, t);
         if (!peers.empty()) row["different"] = differ();
-        row["signs"] =
-            counted(trisect::predicate_counters(), each * static_cast<std::size_t>(runs));
+        row["signs"] = counted(diagnostics.counters(), each * static_cast<std::size_t>(runs));
         print(row);
     };
     ask("Trisect", [&](const trisect::Ray& r) { return index.first_hit(r).has_value(); });

@@ -39,6 +39,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
 
 #if defined(TRISECT_WITH_FCL)
 #include "scene_peer.h"
@@ -338,15 +339,17 @@ Record play_ours(const std::string& name, const Options& options) {
         const double t0 = now();
         play->place(scene);
         const double t1 = now();
+        const trisect::Diagnostics<trisect::SceneCounters> diagnostics;
         const auto found = scene.interfering(query);
         const double t2 = now();
         if (f == 0) continue;  // everything is new
         all.push_back(1e6 * (t2 - t0));
         set.push_back(1e6 * (t1 - t0));
-        broad.push_back(1e6 * scene.stats().broad_seconds);
-        exact.push_back(1e6 * scene.stats().exact_seconds);
-        boxes += static_cast<double>(scene.stats().boxes_met);
-        kept += static_cast<double>(scene.stats().kept);
+        const trisect::SceneCounters counters = diagnostics.counters();
+        broad.push_back(1e6 * counters.broad_seconds);
+        exact.push_back(1e6 * counters.exact_seconds);
+        boxes += static_cast<double>(counters.boxes_met);
+        kept += static_cast<double>(counters.kept);
         auto& answers = record.answers.emplace_back();
         for (const trisect::ScenePair& p : found) {
             answers.emplace_back(Pair(p.a.index, p.b.index), p.relation);

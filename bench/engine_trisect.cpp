@@ -9,6 +9,7 @@
 #include <trisect/brep/brep.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "engine.h"
 
@@ -43,8 +44,12 @@ public:
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
-        stats_ = {};
-        return trisect::evaluate(expression(first, second, operation), options_, &stats_);
+        const trisect::Diagnostics<trisect::EvaluateCounters> diagnostics;
+        trisect::EvaluateReport report;
+        Solid result = trisect::evaluate(expression(first, second, operation), options_, &report);
+        counters_ = diagnostics.counters();
+        depth_ = report.depth;
+        return result;
     }
 
     trisect::PolygonMesh to_mesh(const Body& body) override {
@@ -57,19 +62,19 @@ public:
     }
 
     nlohmann::json counters() const override {
-        return {{"cells", stats_.cells},
-                {"shared_cells", stats_.shared_cells},
-                {"constant_cells", stats_.constant_cells},
-                {"mixed_leaves", stats_.mixed_leaves},
-                {"filtered_leaves", stats_.filtered_leaves},
-                {"listed_polygons", stats_.listed_polygons},
-                {"pairs_boxes", stats_.pairs_boxes},
-                {"pairs_cutting", stats_.pairs_cutting},
-                {"pieces", stats_.pieces},
-                {"traces", stats_.traces},
-                {"traces_retried", stats_.traces_retried},
-                {"traces_near", stats_.traces_near},
-                {"depth", stats_.depth}};
+        return {{"cells", counters_.cells},
+                {"shared_cells", counters_.shared_cells},
+                {"constant_cells", counters_.constant_cells},
+                {"mixed_leaves", counters_.mixed_leaves},
+                {"filtered_leaves", counters_.filtered_leaves},
+                {"listed_polygons", counters_.listed_polygons},
+                {"pairs_boxes", counters_.pairs_boxes},
+                {"pairs_cutting", counters_.pairs_cutting},
+                {"pieces", counters_.pieces},
+                {"traces", counters_.traces},
+                {"traces_retried", counters_.traces_retried},
+                {"traces_near", counters_.traces_near},
+                {"depth", depth_}};
     }
 
 private:
@@ -96,7 +101,8 @@ private:
     std::optional<oneapi::tbb::global_control> threads_;
     trisect::SolidOptions import_;
     trisect::EvaluateOptions options_;
-    trisect::EvaluateStats stats_;
+    trisect::EvaluateCounters counters_;
+    int depth_ = 0;
 };
 
 }  // namespace

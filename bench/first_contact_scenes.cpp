@@ -25,6 +25,7 @@
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/interference/moving_points.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "first_contact_peer.h"
 
@@ -32,6 +33,8 @@ namespace {
 
 using trisect::EnclosedMotion;
 using trisect::FirstContact;
+using trisect::FirstContactCounters;
+using SearchDiagnostics = trisect::Diagnostics<FirstContactCounters>;
 using trisect::InterferenceModel;
 using trisect::Motion;
 using trisect::PolygonMesh;
@@ -69,22 +72,27 @@ double percentile99(std::vector<double> v) {
 // One query, alone; prints what happened.
 FirstContact report(const char* name, const Body& a, const Motion& ma, const Body& b,
                     const Motion& mb) {
-    trisect::motion_counters() = {};
+    const trisect::Diagnostics<trisect::MotionCounters> of_features;
     (void)first_contact(a.model, ma, b.model, mb);
-    const trisect::MotionCounters counters = trisect::motion_counters();
+    const trisect::MotionCounters counters = of_features.counters();
     std::vector<double> times;
     FirstContact c;
+    FirstContactCounters of_c;
     for (int i = 0; i < 3; ++i) {
+        const SearchDiagnostics diagnostics;
         const auto start = Clock::now();
         c = first_contact(a.model, ma, b.model, mb);
+        of_c = diagnostics.counters();
         times.push_back(milliseconds_since(start));
     }
     // The same without faces that move apart.
     trisect::FirstContactOptions options;
     options.leave_out_receding = true;
     const auto facing_start = Clock::now();
+    const SearchDiagnostics facing_diagnostics;
     const FirstContact facing = first_contact(a.model, ma, b.model, mb, options);
     const double facing_time = milliseconds_since(facing_start);
+    const FirstContactCounters of_facing = facing_diagnostics.counters();
     if (facing.time != c.time || facing.witnesses != c.witnesses)
         throw std::runtime_error(std::string("leaving out faces changes the answer: ") + name);
     std::printf("| %s | %zu / %zu | ", name, a.model.triangle_count(), b.model.triangle_count());
@@ -93,11 +101,11 @@ FirstContact report(const char* name, const Body& a, const Motion& ma, const Bod
     else
         std::printf("none | -");
     std::printf(" | %.2f | %.2f | %llu | %llu / %llu | %llu / %llu | %llu | %llu |\n",
-                median(times), facing_time, static_cast<unsigned long long>(c.stats.intervals),
-                static_cast<unsigned long long>(c.stats.box_tests),
-                static_cast<unsigned long long>(facing.stats.box_tests),
-                static_cast<unsigned long long>(c.stats.triangle_pairs),
-                static_cast<unsigned long long>(facing.stats.triangle_pairs),
+                median(times), facing_time, static_cast<unsigned long long>(of_c.intervals),
+                static_cast<unsigned long long>(of_c.box_tests),
+                static_cast<unsigned long long>(of_facing.box_tests),
+                static_cast<unsigned long long>(of_c.triangle_pairs),
+                static_cast<unsigned long long>(of_facing.triangle_pairs),
                 static_cast<unsigned long long>(counters.questions),
                 static_cast<unsigned long long>(counters.exact));
     std::fflush(stdout);
@@ -153,9 +161,11 @@ void enclosed_report(const char* name, const Body& a, const EnclosedMotion& ma, 
                      const EnclosedMotion& mb) {
     using Outcome = trisect::EnclosedContact::Outcome;
     const auto start = Clock::now();
+    const SearchDiagnostics diagnostics;
     const trisect::EnclosedContact c =
         enclosed_first_contact(a.model, ma, b.model, mb, {1e-9 * mb.duration()});
     const double ms = milliseconds_since(start);
+    const FirstContactCounters of_c = diagnostics.counters();
     std::printf("| %s | ", name);
     switch (c.outcome) {
         case Outcome::None:
@@ -169,9 +179,9 @@ void enclosed_report(const char* name, const Body& a, const EnclosedMotion& ma, 
             break;
     }
     std::printf(" | %.2f | %llu | %llu | %llu |\n", ms,
-                static_cast<unsigned long long>(c.stats.intervals),
-                static_cast<unsigned long long>(c.stats.box_tests),
-                static_cast<unsigned long long>(c.stats.triangle_pairs));
+                static_cast<unsigned long long>(of_c.intervals),
+                static_cast<unsigned long long>(of_c.box_tests),
+                static_cast<unsigned long long>(of_c.triangle_pairs));
     std::fflush(stdout);
 }
 
@@ -247,23 +257,27 @@ void falls(const char* name, const Body& rest, const Body& falling,
     std::array<PeerTally, 2> peers;
     for (const Fall& f : falls) {
         const auto start = Clock::now();
+        const SearchDiagnostics diagnostics;
         const FirstContact c =
             first_contact(rest.model, Motion(), falling.model, Motion::translation(f.start, f.by));
         ours.push_back(milliseconds_since(start));
+        const FirstContactCounters of_c = diagnostics.counters();
         contacts += c.exists() ? 1U : 0U;
         trisect::FirstContactOptions options;
         options.leave_out_receding = true;
         const auto facing_start = Clock::now();
+        const SearchDiagnostics facing_diagnostics;
         const FirstContact facing = first_contact(rest.model, Motion(), falling.model,
                                                   Motion::translation(f.start, f.by), options);
         facing_only.push_back(milliseconds_since(facing_start));
+        const FirstContactCounters of_facing = facing_diagnostics.counters();
         if (facing.time != c.time || facing.witnesses != c.witnesses)
             throw std::runtime_error(std::string("leaving out faces changes the answer: ") + name);
-        pairs[1] += c.stats.triangle_pairs;
-        pairs[0] += facing.stats.triangle_pairs;
-        box_tests[1] += c.stats.box_tests;
-        box_tests[0] += facing.stats.box_tests;
-        left_out += facing.stats.separating_pairs;
+        pairs[1] += of_c.triangle_pairs;
+        pairs[0] += of_facing.triangle_pairs;
+        box_tests[1] += of_c.box_tests;
+        box_tests[0] += of_facing.box_tests;
+        left_out += of_facing.separating_pairs;
         for (std::size_t k = 0; k < peers.size() && peer::is_available(); ++k) {
             PeerTally& t = peers[k];
             const auto peer_start = Clock::now();

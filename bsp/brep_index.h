@@ -227,8 +227,8 @@ struct IndexCell {
     bool inside = false;         ///< of a homogeneous cell
 };
 
-/// What an index is like. Which stage decided how many signs of queries is counted per thread by
-/// predicate_counters() (kernel/counters.h).
+/// What an index is like. Which stage decided how many signs of queries is in PredicateCounters
+/// (kernel/counters.h).
 struct IndexStats {
     std::size_t polygons = 0;  ///< facets and fragments of the boundary
     std::size_t nodes = 0;     ///< inner nodes and leaves

@@ -5,7 +5,6 @@
 // intermediate solids.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -63,30 +62,20 @@ private:
 struct EvaluateOptions {
     /// A cell with at most this many polygons is resolved instead of refined.
     std::uint32_t leaf_polygons = 100;
-    /// Offset of splitting planes from lattice positions in 1/256 units: odd, below 256. For tests
-    /// of vertices on splitting planes.
-    std::uint32_t splitting_offset = 83;
     /// What counts as inside an operand that overlaps itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;
-    /// Work budget: cells visited plus polygon pairs compared in leaves, not counting what operands
-    /// owe from the operation that made them; 0: no limit. The same input always hits the same one.
-    std::uint64_t max_work = 0;
-    /// Bytes that lists and results may hold at once, operands and scratch memory not counted; 0
-    /// means no limit. Several threads hold more at once than one.
-    std::uint64_t max_memory = 0;
     /// Threads that may take part; 0 means one for every processor. The result does not depend on
-    /// it. Small work, and work under a budget, is done by the calling thread alone.
+    /// it. Small work, and work that a StopScope limits, is done by the calling thread alone.
     std::uint32_t threads = 0;
     /// What happens to operands on lattices that do not fit together, where one is too large for
     /// the unit of another: round the finer ones to the finest common lattice and report it, or
     /// refuse.
     enum class Lattices : std::uint8_t { Round, Refuse } lattices = Lattices::Round;
-    /// Set by another thread to stop: looked at for every cell and for every polygon of a leaf.
-    const std::atomic<bool>* cancel = nullptr;
 };
 
-/// What one evaluation did.
-struct EvaluateStats {
+/// What evaluations did, on all their threads (kernel/diagnostics.h). Not counted are trees of
+/// results that are made later, when they are first needed.
+struct EvaluateCounters {
     std::uint64_t cells = 0;               ///< visited
     std::uint64_t shared_cells = 0;        ///< one operand left: subtree shared
     std::uint64_t constant_cells = 0;      ///< homogeneous result
@@ -111,12 +100,17 @@ struct EvaluateStats {
     std::uint64_t traces_near = 0;     ///< that started where an earlier one had ended
     std::uint64_t traces_within = 0;   ///< winding numbers carried over within a polygon
     std::uint64_t cuts_undone = 0;     ///< because nothing differed on their two sides
-    std::uint64_t memory = 0;          ///< most bytes held at once, as max_memory counts them
-    int depth = 0;
-    LatticeReport lattice;  ///< of the result, and what moving the operands to it rounded
 
-    /// Adds the counts of another part of the same evaluation.
-    EvaluateStats& operator+=(const EvaluateStats& part);
+    EvaluateCounters& operator+=(const EvaluateCounters& o);
+    EvaluateCounters& operator-=(const EvaluateCounters& o);
+    friend bool operator==(const EvaluateCounters&, const EvaluateCounters&) = default;
+};
+
+/// What is to be said about one result.
+struct EvaluateReport {
+    LatticeReport lattice;     ///< of the result, and what moving the operands to it rounded
+    std::uint64_t memory = 0;  ///< most bytes held at once, as StopLimits::max_memory counts them
+    int depth = 0;             ///< of the cells
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
@@ -125,11 +119,13 @@ struct EvaluateStats {
 /// then, which takes up to twice as long as this call. Solid::refine() does so ahead.
 /// Operands of different lattices are moved to the finest one on which all of them fit. That is
 /// exact, except for operands of very different size: see EvaluateOptions::lattices and
-/// EvaluateStats::lattice.
+/// EvaluateReport::lattice. Counts in EvaluateCounters.
+/// What limits and cancels it is the StopScope of the calling thread, looked at for every cell and
+/// for every polygon of a leaf. Operands whose trees are made now count as well.
 /// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
-/// alternating operations, or the work or memory budget is spent; CancelledError. Operands stay as
-/// they were.
+/// alternating operations, or the work or memory of the scope is spent; CancelledError. Operands
+/// stay as they were.
 [[nodiscard]] Solid evaluate(const Expression& expression, const EvaluateOptions& options = {},
-                             EvaluateStats* stats = nullptr);
+                             EvaluateReport* report = nullptr);
 
 }  // namespace trisect

@@ -51,6 +51,7 @@
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
 #include <trisect/bsp/verify.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane_on_lattice.h>

@@ -39,9 +39,13 @@ int main() {
     // Each step works on the cells of the one before and shares those that the drill does not
     // enter.
     Solid step_by_step = plate;
-    EvaluateStats stats;
-    for (const Solid& drill : drills) step_by_step = evaluate(step_by_step - drill, {}, &stats);
-    std::cout << "last step: " << stats.cells << " cells, " << stats.shared_cells << " shared\n";
+    EvaluateCounters last;
+    for (const Solid& drill : drills) {
+        const Diagnostics<EvaluateCounters> diagnostics;
+        step_by_step = evaluate(step_by_step - drill);
+        last = diagnostics.counters();
+    }
+    std::cout << "last step: " << last.cells << " cells, " << last.shared_cells << " shared\n";
 
     const std::vector<Expression> terms(drills.begin(), drills.end());
     const Solid at_once = evaluate(plate - Expression::any_of(terms));

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
@@ -51,8 +52,9 @@ bool on_a_plane() {
 }  // namespace
 
 int main() {
+    const Diagnostics<PredicateCounters> diagnostics;
     const bool right = near_a_plane() && on_a_plane();
-    const PredicateCounters& n = predicate_counters();
+    const PredicateCounters n = diagnostics.counters();
     std::cout << n.symbolic << " signs symbolic, " << n.filtered << " filtered, " << n.exact_narrow
               << " in 256 bits, " << n.exact_wide << " in 512 bits\n";
     return right ? 0 : 1;

@@ -15,10 +15,12 @@
 namespace {
 
 using trisect::BodyId;
+using trisect::Diagnostics;
 using trisect::InterferenceModel;
 using trisect::Pose;
 using trisect::Relation;
 using trisect::Scene;
+using trisect::SceneCounters;
 using trisect::Solid;
 
 InterferenceModel block(double x, double y, double z) {
@@ -69,12 +71,13 @@ int main() {
         const double height = 4 - 0.125 * step;
         scene.set_pose(beam, turn * Pose::from_translation({-3.0 + step, -8, height}));
         std::map<Relation, int> count;
+        const Diagnostics<SceneCounters> diagnostics;
         for (const auto& pair : scene.interfering())
             if (pair.b == beam) ++count[pair.relation];
         std::cout << "step " << step << ": the beam touches " << count[Relation::Touching]
                   << " and cuts " << count[Relation::Overlapping] << " bricks; "
-                  << scene.stats().kept << " pairs were known, " << scene.stats().asked
-                  << " asked\n";
+                  << diagnostics.counters().kept << " pairs were known, "
+                  << diagnostics.counters().asked << " asked\n";
     }
     return 0;
 }

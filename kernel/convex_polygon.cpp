@@ -99,7 +99,7 @@ ConvexPolygon ConvexPolygon::from_corners(const Plane& support,
 Side ConvexPolygon::side_of_vertex(std::size_t i, const Plane& plane) const {
     const Point& v = vertices_[i];
     if (!v.is_lattice()) {
-        auto& counters = predicate_counters();
+        auto& counters = detail::counters_of_thread<PredicateCounters>;
         if (const auto s = filtered_side(v.approximation(), plane)) {
             ++counters.filtered;
             return *s;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // PredicateCounters: numbers of signs decided by each stage.
-// Counting is per thread, so that it costs one increment and needs no synchronisation.
 #pragma once
 
 #include <cstdint>
+
+#include <trisect/kernel/diagnostics.h>
 
 namespace trisect {
 
@@ -26,15 +27,14 @@ struct PredicateCounters {
         exact_wide += o.exact_wide;
         return *this;
     }
+    PredicateCounters& operator-=(const PredicateCounters& o) {
+        symbolic -= o.symbolic;
+        filtered -= o.filtered;
+        exact_short -= o.exact_short;
+        exact_narrow -= o.exact_narrow;
+        exact_wide -= o.exact_wide;
+        return *this;
+    }
 };
-
-namespace detail {
-inline constinit thread_local PredicateCounters predicate_counters_of_thread;
-}
-
-/// The counters of the calling thread.
-[[nodiscard]] inline PredicateCounters& predicate_counters() noexcept {
-    return detail::predicate_counters_of_thread;
-}
 
 }  // namespace trisect

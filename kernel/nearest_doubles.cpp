@@ -212,7 +212,7 @@ std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
 
 std::array<double, 3> nearest_doubles(const Approximation& approximation, const Plane& p,
                                       const Plane& q, const Plane& r) {
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (const auto nearest = filtered_nearest(approximation, p, q, r)) {
         ++counters.filtered;
         return *nearest;

@@ -73,7 +73,7 @@ bool operator==(const Point& a, const Point& b) {
 Side side_of(const Point& point, const Plane& plane) {
     if (point.is_lattice()) return side_of(point.lattice(), plane);
     const PlanePoint& p = *point.plane_point();
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (const auto s = filtered_side(point.approximation(), plane)) {
         ++counters.filtered;
         return *s;

@@ -251,7 +251,7 @@ std::optional<HomogeneousPoint> intersect(const Plane& p, const Plane& q, const 
 int sign_of_det(const Plane& a, const Plane& b, const Plane& c) {
     const int filtered =
         detail::filter_det(approx_normal(a), approx_normal(b), approx_normal(c)).sign();
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (filtered != 0) {
         ++counters.filtered;
         return filtered;
@@ -302,7 +302,7 @@ Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 Side side_of(const LatticePoint& point, const Plane& plane) {
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (const auto s = filtered_side(approximate(point), plane)) {
         ++counters.filtered;
         return *s;
@@ -319,7 +319,7 @@ Side side_of(const LatticePoint& point, const Plane& plane) {
 }
 
 Side side_of(const HomogeneousPoint& point, const Plane& plane) {
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (plane.is_narrow() && fits_narrow(point)) {
         ++counters.exact_narrow;
         return side_from_sign(sign_at(tier_point<Narrow>(point), plane));
@@ -330,7 +330,7 @@ Side side_of(const HomogeneousPoint& point, const Plane& plane) {
 
 Side side_of(const Approximation& approximation, const Plane& p, const Plane& q, const Plane& r,
              const Plane& plane) {
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (const auto s = filtered_side(approximation, plane)) {
         ++counters.filtered;
         return *s;
@@ -359,7 +359,7 @@ int sign_of_cross(const Plane& a, const Plane& b, int axis) {
     const int l = (axis + 2) % 3;
     const auto filtered = detail::filter_cross(a.approx_normal(j), a.approx_normal(l),
                                                b.approx_normal(j), b.approx_normal(l));
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     // The bound is 0 where both products are, and then they are exactly 0: they are of integers.
     if (filtered.sign() != 0 || filtered.bound == 0) {
         ++counters.filtered;
@@ -375,7 +375,7 @@ int sign_of_cross(const Plane& a, const Plane& b, int axis) {
 
 int sign_of_dot(const Plane& a, const Plane& b) {
     const int filtered = detail::filter_dot(approx_normal(a), approx_normal(b)).sign();
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (filtered != 0) {
         ++counters.filtered;
         return filtered;

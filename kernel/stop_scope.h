@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// StopScope: cancellation and a work limit for the current thread.
+// StopScope: cancellation and limits of what the current thread does.
 //
-// Evaluation of booleans has options for both. Reading, import, validation and assembly are linear
-// or nearly so, but a file may be large and a mesh may be made to be slow. They look at the scope
-// of their thread instead of taking an option each, so that functions in between need not pass
-// anything on:
+// A file may be large, a mesh may be made to be slow, and a formula may have more cells than fit.
+// Whatever takes long looks at the scope of its thread instead of taking options, so that functions
+// in between need not pass anything on:
 //
 //     std::atomic<bool> cancel = false;   // set by another thread
-//     const StopScope scope(&cancel, 100'000'000);
+//     const StopScope scope({.cancel = &cancel, .max_work = 100'000'000});
 //     const Solid solid = Solid::from_mesh(read_mesh(path));
-//     const PolygonMesh mesh = solid.to_mesh();
+//     const PolygonMesh mesh = evaluate(solid - tool).to_mesh();
 //
-// Work is counted, not timed: the same input hits the same limit everywhere. One unit is about a
-// facet, an edge or a pair of triangles that is looked at. Nothing changes when a call is stopped:
-// operands stay as they were, and no part of a result is handed out.
+// Work is counted, not timed: the same calls hit the same limit everywhere. One unit is about a
+// facet, an edge or a pair of triangles that is looked at. Of evaluate() it is a cell that is
+// visited, or a pair of polygons that is compared in a leaf. Nothing changes when a call is
+// stopped: operands stay as they were, and no part of a result is handed out.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include <trisect/kernel/error.h>
@@ -31,17 +33,30 @@ namespace detail {
 inline constinit thread_local StopScope* stop_scope_of_thread = nullptr;
 }
 
-/// Scopes nest: what stops the outer one stops the inner one too. To be ended in the thread that
-/// began it, in the reverse order. Work that a call gives to other threads is not counted;
-/// evaluate() counts by its own options and takes the flag of the scope when it was given none.
+struct StopLimits {
+    /// Set by another thread to stop; may be null.
+    const std::atomic<bool>* cancel = nullptr;
+    /// Units of work of all calls in the scope together; 0: no limit. evaluate() does work that is
+    /// limited on the calling thread alone.
+    std::uint64_t max_work = 0;
+    /// Bytes that lists and results of one evaluate() may hold at once, operands and scratch memory
+    /// not counted; 0: no limit. Several threads hold more at once than one.
+    std::uint64_t max_memory = 0;
+};
+
+/// Scopes nest: what stops the outer one stops the inner one too, work counts in both, and the
+/// smallest limit holds. To be ended in the thread that began it, in the reverse order. evaluate()
+/// keeps the limits on all its threads, and so do trees of results that are made later, by the
+/// first call that needs them: under the scope of that call. Of other calls, work that they give to
+/// other threads is not counted.
 class StopScope {
 public:
-    /// \param cancel set by another thread to stop; may be null
-    /// \param max_work units of work; 0 means no limit
-    explicit StopScope(const std::atomic<bool>* cancel, std::uint64_t max_work = 0)
-        : outer_(detail::stop_scope_of_thread), cancel_(cancel), max_work_(max_work) {
+    explicit StopScope(const StopLimits& limits)
+        : outer_(detail::stop_scope_of_thread), limits_(limits) {
         detail::stop_scope_of_thread = this;
     }
+    /// \param cancel set by another thread to stop; may be null
+    explicit StopScope(const std::atomic<bool>* cancel) : StopScope(StopLimits{cancel, 0, 0}) {}
     StopScope(const StopScope&) = delete;
     StopScope& operator=(const StopScope&) = delete;
     ~StopScope() { detail::stop_scope_of_thread = outer_; }
@@ -49,24 +64,63 @@ public:
     /// Units counted so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
-    /// \throw CancelledError, LimitError
-    void add(std::uint64_t units) {
-        work_ += units;
-        if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) throw CancelledError();
-        if (max_work_ != 0 && work_ > max_work_)
-            throw LimitError("the work budget of " + std::to_string(max_work_) + " is spent");
-        if (outer_ != nullptr) outer_->add(units);
+    /// Counts units of work in this scope and those around it, whatever their limits.
+    void count(std::uint64_t units) noexcept {
+        for (StopScope* s = this; s != nullptr; s = s->outer_) s->work_ += units;
     }
-    /// The flag of this scope, or of the next one around it that has one.
-    [[nodiscard]] const std::atomic<bool>* cancel() const {
-        return cancel_ != nullptr || outer_ == nullptr ? cancel_ : outer_->cancel();
+    /// The same. \throw CancelledError, LimitError
+    void add(std::uint64_t units) {
+        count(units);
+        for (const StopScope* s = this; s != nullptr; s = s->outer_) {
+            if (s->is_flag_set()) throw CancelledError();
+            if (s->limits_.max_work != 0 && s->work_ > s->limits_.max_work)
+                throw_spent(s->limits_.max_work);
+        }
+    }
+    /// Looks at the flags of this scope and those around it; other threads may call it, too.
+    /// \throw CancelledError
+    void check_flags() const {
+        for (const StopScope* s = this; s != nullptr; s = s->outer_)
+            if (s->is_flag_set()) throw CancelledError();
+    }
+
+    /// What this scope and those around it have left.
+    struct WorkLeft {
+        std::uint64_t units = std::numeric_limits<std::uint64_t>::max();
+        std::uint64_t max_work = 0;  ///< of the scope that has the least left; 0: no limit
+    };
+    [[nodiscard]] WorkLeft work_left() const {
+        WorkLeft left;
+        for (const StopScope* s = this; s != nullptr; s = s->outer_) {
+            const std::uint64_t most = s->limits_.max_work;
+            if (most == 0) continue;
+            const std::uint64_t units = most - std::min(most, s->work_);
+            if (left.max_work == 0 || units < left.units) left = {units, most};
+        }
+        return left;
+    }
+    /// The smallest limit of memory of this scope and those around it; 0: none.
+    [[nodiscard]] std::uint64_t max_memory() const {
+        std::uint64_t least = 0;
+        for (const StopScope* s = this; s != nullptr; s = s->outer_) {
+            const std::uint64_t most = s->limits_.max_memory;
+            if (most != 0 && (least == 0 || most < least)) least = most;
+        }
+        return least;
+    }
+
+    [[noreturn]] static void throw_spent(std::uint64_t max_work) {
+        throw LimitError("the work budget of " + std::to_string(max_work) + " is spent");
     }
 
 private:
+    [[nodiscard]] bool is_flag_set() const {
+        return limits_.cancel != nullptr && limits_.cancel->load(std::memory_order_relaxed);
+    }
+
     StopScope* outer_;
-    const std::atomic<bool>* cancel_;
-    std::uint64_t max_work_;
-    std::uint64_t work_ = 0;
+    StopLimits limits_;
+    mutable std::uint64_t work_ = 0;  // also of scopes that are constants
 };
 
 namespace detail {
@@ -77,14 +131,9 @@ inline void check_stop(std::uint64_t units = 1) {
     if (stop_scope_of_thread != nullptr) stop_scope_of_thread->add(units);
 }
 
-/// The flag of this thread's scope, or null.
-[[nodiscard]] inline const std::atomic<bool>* cancel_of_thread() {
-    return stop_scope_of_thread == nullptr ? nullptr : stop_scope_of_thread->cancel();
-}
-
-/// \throw CancelledError when the flag is set; null is never set.
-inline void check_flag(const std::atomic<bool>* cancel) {
-    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw CancelledError();
+/// \throw CancelledError when a flag of the scope is set; null has none.
+inline void check_flags(const StopScope* scope) {
+    if (scope != nullptr) scope->check_flags();
 }
 
 }  // namespace detail

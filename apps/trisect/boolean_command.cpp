@@ -6,6 +6,7 @@
 #include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,8 @@ struct BooleanResult {
     WriteReport written;
     std::optional<Certificate> certificate;
     std::optional<CertifiedRounding> rounding;
-    EvaluateStats stats;
+    EvaluateReport report;
+    EvaluateCounters counters;
 };
 
 /// Whether faces are wanted, or something that only faces have.
@@ -60,7 +62,7 @@ void deliver_brep(Session& session, const BooleanOptions& options, const Solid& 
     });
     session.stage("describe", [&] {
         result.description = describe(brep, description_options(session, options));
-        result.description.lattice = result.stats.lattice;
+        result.description.lattice = result.report.lattice;
     });
     if (options.repair) {
         session.interruptible_stage("certify", [&] {
@@ -90,7 +92,7 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
     });
     FormattedMesh formatted;
     session.stage("describe", [&] {
-        for_each_in_parallel(3, session.supervisor().stop_flag(), [&](std::size_t i) {
+        for_each_in_parallel(3, session.limits(), [&](std::size_t i) {
             if (i == 0 && options.certificate)
                 result.certificate = certify_output(exact, mesh, format);
             if (i == 1) formatted = format_output_mesh(options.output, format, mesh);
@@ -98,7 +100,7 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
                 result.description = describe(
                     exact, [&] { return solid.to_brep(); }, description_options(session, options));
         });
-        result.description.lattice = result.stats.lattice;
+        result.description.lattice = result.report.lattice;
     });
     session.stage("write",
                   [&] { result.written = write_output_mesh(session, options.output, formatted); });
@@ -118,9 +120,9 @@ Json document_of(const Session& session, const BooleanOptions& options,
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
     document["repair"] = result.rounding ? to_json(*result.rounding) : Json();
-    document["cells"]["visited"] = result.stats.cells;
-    document["cells"]["shared"] = result.stats.shared_cells;
-    document["cells"]["resolved"] = result.stats.mixed_leaves;
+    document["cells"]["visited"] = result.counters.cells;
+    document["cells"]["shared"] = result.counters.shared_cells;
+    document["cells"]["resolved"] = result.counters.mixed_leaves;
     return document;
 }
 
@@ -188,9 +190,13 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     BooleanResult result;
     const EvaluateOptions evaluation = session.evaluation_options(options.operands);
     const Solid solid = session.interruptible_stage("evaluate", [&] {
-        return evaluate(formula(options.operation, operands), evaluation, &result.stats);
+        const Diagnostics<EvaluateCounters> diagnostics;
+        Solid evaluated =
+            evaluate(formula(options.operation, operands), evaluation, &result.report);
+        result.counters = diagnostics.counters();
+        return evaluated;
     });
-    note_rounding(session, result.stats.lattice, "the operands");
+    note_rounding(session, result.report.lattice, "the operands");
     if (needs_brep(options)) {
         deliver_brep(session, options, solid, format, result);
     } else {

@@ -104,8 +104,9 @@ void add_limit_options(CLI::App& app, CommonOptions& o) {
         "stop with exit code 5 when not finished by then", "S");
     add_text_option(
         app, "--max-work", [&o](const auto& s) { o.max_work = work_budget(s); },
-        "stop with exit code 5 when a boolean visits more cells and pairs of polygons; the same on "
-        "every machine",
+        "stop with exit code 5 after so many steps (facets, edges, cells and pairs of polygons "
+        "that "
+        "are looked at); the same on every machine",
         "N");
 }
 
@@ -262,8 +263,8 @@ int run_request(Console& console, const std::string& name, const Request& reques
     Outcome outcome;
     try {
         const Limits limits(request.common);
-        const StopScope scope(&supervisor.stop_flag());  // reading, import, checks, assembly
         Session session(request.common, console, supervisor);
+        const StopScope scope(session.limits());
         outcome = run_command(session, name, request);
     } catch (...) {
         const Failure failure = failure_of(supervisor);

@@ -68,20 +68,20 @@ Outcome run_diff(Session& session, const DiffOptions& options) {
     const EvaluateOptions evaluation = session.evaluation_options(options.operands);
     const Expression a = operands[0].solid;
     const Expression b = operands[1].solid;
-    EvaluateStats stats;
+    EvaluateReport report;
     // Not taken apart by name: lambdas cannot capture structured bindings in clang 14.
     const auto sets = session.interruptible_stage("evaluate", [&] {
-        return std::array{evaluate(a ^ b, evaluation, &stats), evaluate(a - b, evaluation),
+        return std::array{evaluate(a ^ b, evaluation, &report), evaluate(a - b, evaluation),
                           evaluate(b - a, evaluation)};
     });
-    note_rounding(session, stats.lattice, "the operands");
+    note_rounding(session, report.lattice, "the operands");
     Outcome out;
     const bool equal = sets[0].is_empty();
     out.code = equal ? exit_done : exit_findings;
     out.document["schema"] = "trisect.diff/1";
     out.document["inputs"] = {operands[0].facts, operands[1].facts};
     out.document["equal"] = equal;
-    out.document["lattice"] = lattice_json(stats.lattice);
+    out.document["lattice"] = lattice_json(report.lattice);
     session.stage("measure", [&] {
         const Description both = describe_set(sets[0], options.exact);
         const Description first = describe_set(sets[1], options.exact);

@@ -128,7 +128,7 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
                                    const OperandOptions& options) {
     check_standard_input(names);
     std::vector<ReadOperand> read(names.size());
-    for_each_in_parallel(names.size(), session.supervisor().stop_flag(), [&](std::size_t i) {
+    for_each_in_parallel(names.size(), session.limits(), [&](std::size_t i) {
         read[i] = read_operand(session, names[i], options);
     });
     std::vector<Operand> operands;

@@ -35,7 +35,7 @@ struct CommonOptions {
     std::optional<int> lattice;              ///< exponent of the unit
     std::uint64_t max_memory = 0;            ///< bytes; 0: no limit
     double max_seconds = 0;                  ///< 0: no limit
-    std::uint64_t max_work = 0;              ///< of each evaluation; 0: no limit
+    std::uint64_t max_work = 0;              ///< units of a StopScope; 0: no limit
     std::optional<MeshFormat> format;        ///< of the output and of standard input
     std::optional<MeshFormat> input_format;  ///< of every input
     NonplanarPolicy nonplanar = NonplanarPolicy::Triangulate;

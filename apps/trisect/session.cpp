@@ -17,10 +17,11 @@ EvaluateOptions Session::evaluation_options(const OperandOptions& operands) cons
     EvaluateOptions out;
     out.winding = operands.winding;
     out.lattices = operands.lattices;
-    out.max_work = options_.max_work;
-    out.max_memory = options_.max_memory;
-    out.cancel = &supervisor_.stop_flag();
     return out;
+}
+
+StopLimits Session::limits() const {
+    return {&supervisor_.stop_flag(), options_.max_work, options_.max_memory};
 }
 
 void Session::write_output(const std::string& name, std::string_view bytes) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include <trisect/kernel/stop_scope.h>
+
 #include "console.h"
 #include "options.h"
 #include "outcome.h"
@@ -39,13 +41,14 @@ public:
         const Timer timer(*this, name);
         return work();
     }
-    /// The same for work that looks at the stop flag of evaluation_options().
+    /// The same for work that looks at the stop flag of limits().
     template <class Work>
     auto interruptible_stage(const std::string& name, Work&& work) {
         return stage(name, [&] { return supervisor_.interruptibly(work); });
     }
-    /// The limits of the command line, as far as one evaluation can keep them.
     [[nodiscard]] EvaluateOptions evaluation_options(const OperandOptions& operands) const;
+    /// Those of the command line and the supervisor, for one scope around the whole command.
+    [[nodiscard]] StopLimits limits() const;
     [[nodiscard]] const Json& seconds() const { return seconds_; }
 
     /// Writes bytes of a result to the standard output ("-") or completely or not at all to a file.

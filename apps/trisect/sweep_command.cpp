@@ -6,6 +6,7 @@
 #include <trisect/bsp/interference/enclosed_contact.h>
 #include <trisect/bsp/interference/first_contact.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 
 #include <fmt/format.h>
@@ -57,11 +58,11 @@ Json time_json(const AlgebraicNumber& time, const ExactRational& width) {
     return out;
 }
 
-Json stats_json(const FirstContactStats& stats) {
+Json statistics_json(const FirstContactCounters& counters) {
     Json out;
-    out["intervals"] = stats.intervals;
-    out["box_tests"] = stats.box_tests;
-    out["triangle_pairs"] = stats.triangle_pairs;
+    out["intervals"] = counters.intervals;
+    out["box_tests"] = counters.box_tests;
+    out["triangle_pairs"] = counters.triangle_pairs;
     return out;
 }
 
@@ -106,6 +107,7 @@ using Models = std::array<InterferenceModel, 2>;
 void sweep(Session& session, const SweepOptions& options, const Models& models,
            const Motion& motion_a, const Motion& motion_b, Outcome& out) {
     const double width = width_of(options, 0x1p-40);
+    const Diagnostics<FirstContactCounters> diagnostics;
     const FirstContact contact = session.stage("sweep", [&] {
         return first_contact(models[0], motion_a, models[1], motion_b, {options.event});
     });
@@ -120,7 +122,7 @@ void sweep(Session& session, const SweepOptions& options, const Models& models,
         out.document["witnesses"] = witnesses_json(contact.witnesses, models);
         out.answer = answer_text(contact);
     }
-    out.document["statistics"] = stats_json(contact.stats);
+    out.document["statistics"] = statistics_json(diagnostics.counters());
 }
 
 void sweep(Session& session, const SweepOptions& options, const Models& models,
@@ -129,6 +131,7 @@ void sweep(Session& session, const SweepOptions& options, const Models& models,
     if (options.event != ContactEvent::Touch)
         throw UsageError("--until overlap: needs rational motions, given as lines");
     const double width = width_of(options, 0x1p-30);
+    const Diagnostics<FirstContactCounters> diagnostics;
     const EnclosedContact contact = session.stage("sweep", [&] {
         return enclosed_first_contact(models[0], motion_a, models[1], motion_b, {width});
     });
@@ -146,7 +149,7 @@ void sweep(Session& session, const SweepOptions& options, const Models& models,
     out.document["undecided"] = std::move(undecided);
     out.document["narrow"] = contact.is_narrow;
     out.document["witnesses"] = witnesses_json(contact.witnesses, models);
-    out.document["statistics"] = stats_json(contact.stats);
+    out.document["statistics"] = statistics_json(diagnostics.counters());
     out.answer = answer_text(contact);
 }
 

@@ -9,25 +9,24 @@
 
 #include <utility>
 
-#include <trisect/kernel/stop_scope.h>
-
 namespace trisect::detail {
 
-LazyTree::LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateOptions& options,
+LazyTree::LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSettings& settings,
                    Evaluate evaluate)
     : formula_(std::move(formula)),
       solids_(std::move(solids)),
-      options_(options),
+      settings_(settings),
       evaluate_(evaluate) {
-    options_.cancel = nullptr;
+    // The limits are those of the thread that makes the tree, and of that time.
+    settings_.scope = nullptr;
+    settings_.budget = nullptr;
+    settings_.max_memory = 0;
 }
 
 const std::shared_ptr<const SolidState>& LazyTree::cut() const {
     const std::lock_guard lock(cutting_);
-    if (cut_ != nullptr) return cut_;
-    EvaluateOptions options = options_;
-    options.cancel = cancel_of_thread();
-    return cut_ = evaluate_(formula_, solids_, options);
+    if (cut_ == nullptr) cut_ = evaluate_(formula_, solids_, settings_);
+    return cut_;
 }
 
 bool LazyTree::is_cut() const {

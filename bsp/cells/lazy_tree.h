@@ -8,7 +8,7 @@
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/expression.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/solid.h>
 
 namespace trisect::detail {
@@ -19,21 +19,22 @@ public:
     /// Evaluates a formula into a state whose form is a tree. `solids` are its slots.
     using Evaluate = std::shared_ptr<const SolidState> (*)(const Residual::Ref& formula,
                                                            const SolidStates& solids,
-                                                           const EvaluateOptions& options);
+                                                           const EvaluateSettings& settings);
 
     /// `solids` are trees and lie on one lattice.
-    LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateOptions& options,
+    LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSettings& settings,
              Evaluate evaluate);
 
     /// The set with a tree. Calls during its evaluation wait.
-    /// \throw CancelledError by the StopScope of the thread that evaluates; nothing is kept then
+    /// \throw CancelledError, LimitError by the StopScope of the thread that evaluates; nothing is
+    /// kept then
     [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
     [[nodiscard]] bool is_cut() const;
 
 private:
     Residual::Ref formula_;
     SolidStates solids_;
-    EvaluateOptions options_;
+    EvaluateSettings settings_;
     Evaluate evaluate_;
     mutable std::mutex cutting_;
     mutable std::shared_ptr<const SolidState> cut_;

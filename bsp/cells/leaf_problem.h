@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect::detail {
@@ -31,7 +32,7 @@ struct LeafProblem {
     FinePoint reference;
     std::span<const LeafOperand> operands;
     const Residual* formula = nullptr;
-    const EvaluateOptions* options = nullptr;
+    const EvaluateSettings* options = nullptr;
     /// The polygons are not needed yet: what takes long may be left out, if it can be done later.
     bool may_defer = false;
 };

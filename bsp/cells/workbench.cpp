@@ -262,7 +262,7 @@ bool Workbench::contains_common_edge(const PlaneName& plane, const PlaneName& a,
 int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
     const PointRecord& r = points_[as_index(point)];
     const Plane& p = plane_at(plane);
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (r.planes[0] < 0) {
         if (has_vertex(name(plane), r.source, r.vertex)) {
             ++counters.symbolic;

@@ -98,7 +98,7 @@ public:
     [[nodiscard]] int side(PointId point, PlaneId plane) const {
         // The filter first: it never says On, and far most points are off.
         if (const auto s = filtered_side(approximation(point), plane_at(plane))) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return sign_of(*s);
         }
         return unfiltered_side(point, plane);

@@ -45,7 +45,7 @@ void ContainedCells::append(const ContainedCells& part) {
     facets_.insert(facets_.end(), part.facets_.begin(), part.facets_.end());
 }
 
-void ContainedCells::compare(std::span<const std::uint32_t> seen, const EvaluateOptions& options,
+void ContainedCells::compare(std::span<const std::uint32_t> seen, const EvaluateSettings& options,
                              EvaluateStats& stats, Crossings& crossings) const {
     if (crossings.operands.size() <= 2) return;
     std::vector<bool> is_seen(seen.empty() ? 0 : std::size_t{std::ranges::max(seen)} + 1);
@@ -60,7 +60,7 @@ void ContainedCells::compare(std::span<const std::uint32_t> seen, const Evaluate
 }
 
 template <class IsCrossed>
-void ContainedCells::add_crossings(const IsCrossed& is_crossed, const EvaluateOptions& options,
+void ContainedCells::add_crossings(const IsCrossed& is_crossed, const EvaluateSettings& options,
                                    EvaluateStats& stats, Crossings& crossings) const {
     FilteredFacets facets;
     FilteredPairs pairs;

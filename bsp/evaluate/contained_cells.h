@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/leaf_problem.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/expression.h>
 
@@ -27,12 +28,12 @@ public:
     /// Adds the crossings in these cells of all facets that leaves have `seen` crossed, by number;
     /// other facets of crossings are hidden. \pre `crossings` has what all leaves have found, not
     /// yet arranged
-    void compare(std::span<const std::uint32_t> seen, const EvaluateOptions& options,
+    void compare(std::span<const std::uint32_t> seen, const EvaluateSettings& options,
                  EvaluateStats& stats, Crossings& crossings) const;
 
 private:
     template <class IsCrossed>
-    void add_crossings(const IsCrossed& is_crossed, const EvaluateOptions& options,
+    void add_crossings(const IsCrossed& is_crossed, const EvaluateSettings& options,
                        EvaluateStats& stats, Crossings& crossings) const;
 
     struct Operand {

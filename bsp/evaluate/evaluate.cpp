@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
-#include <string>
 #include <utility>
 #include <variant>
 
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/kernel/error.h>
-#include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/diagnostics.h>
 
 namespace trisect {
 
@@ -21,64 +21,65 @@ using detail::SolidState;
 
 namespace {
 
-// Cells are kept apart from corners and from reference points, which have even coordinates in this
-// scale: an even offset could put a splitting plane through one, and so could an offset of a unit
-// or more.
-void expect_valid(const EvaluateOptions& options) {
-    if (options.splitting_offset % 2 == 0 || options.splitting_offset >= detail::splitting_scale)
-        throw UsageError("EvaluateOptions::splitting_offset: must be odd and below " +
-                         std::to_string(detail::splitting_scale));
-}
+using Counters = EvaluateCounters;
+
+constexpr std::array counter_members{
+    &Counters::cells,
+    &Counters::shared_cells,
+    &Counters::constant_cells,
+    &Counters::mixed_leaves,
+    &Counters::grid_leaves,
+    &Counters::filtered_leaves,
+    &Counters::filtered_fragments,
+    &Counters::prism_leaves,
+    &Counters::exact_leaves,
+    &Counters::divided_cells,
+    &Counters::listed_polygons,
+    &Counters::pairs_boxes,
+    &Counters::pairs_touching,
+    &Counters::pairs_cutting,
+    &Counters::untouched_polygons,
+    &Counters::pieces,
+    &Counters::linked,
+    &Counters::traces,
+    &Counters::traces_retried,
+    &Counters::traces_near,
+    &Counters::traces_within,
+    &Counters::cuts_undone,
+};
+static_assert(sizeof(Counters) == counter_members.size() * sizeof(std::uint64_t));
 
 }  // namespace
 
-EvaluateStats& EvaluateStats::operator+=(const EvaluateStats& part) {
-    cells += part.cells;
-    shared_cells += part.shared_cells;
-    constant_cells += part.constant_cells;
-    mixed_leaves += part.mixed_leaves;
-    grid_leaves += part.grid_leaves;
-    filtered_leaves += part.filtered_leaves;
-    filtered_fragments += part.filtered_fragments;
-    prism_leaves += part.prism_leaves;
-    exact_leaves += part.exact_leaves;
-    divided_cells += part.divided_cells;
-    listed_polygons += part.listed_polygons;
-    pairs_boxes += part.pairs_boxes;
-    pairs_cutting += part.pairs_cutting;
-    pieces += part.pieces;
-    traces += part.traces;
-    traces_retried += part.traces_retried;
-    traces_near += part.traces_near;
-    traces_within += part.traces_within;
-    pairs_touching += part.pairs_touching;
-    untouched_polygons += part.untouched_polygons;
-    cuts_undone += part.cuts_undone;
-    linked += part.linked;
-    memory = std::max(memory, part.memory);
-    depth = std::max(depth, part.depth);
+EvaluateCounters& EvaluateCounters::operator+=(const EvaluateCounters& o) {
+    for (const auto member : counter_members) this->*member += o.*member;
     return *this;
 }
 
-Solid evaluate(const Expression& expression, const EvaluateOptions& options, EvaluateStats* stats) {
-    expect_valid(options);
+EvaluateCounters& EvaluateCounters::operator-=(const EvaluateCounters& o) {
+    for (const auto member : counter_members) this->*member -= o.*member;
+    return *this;
+}
+
+Solid evaluate(const Expression& expression, const EvaluateOptions& options,
+               EvaluateReport* report) {
     const detail::Translation t = detail::translate(expression);
-    const StopScope scope(options.cancel);  // for what looks at the flag of its thread
     detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
-    EvaluateOptions with_flag = options;
-    if (options.cancel == nullptr) with_flag.cancel = detail::cancel_of_thread();
-    EvaluateStats made;
+    detail::EvaluateSettings settings{options, detail::SplittingOffset::of_thread()};
+    detail::LimitedEvaluation limited(settings);
+    detail::EvaluateStats made;
     std::shared_ptr<SolidState> state;
     for (const detail::Rule& rule : detail::formula_rules())
         if (state == nullptr)
             state = detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), t.formula, states,
-                                        with_flag, made);
-    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, with_flag, made);
+                                        settings, made);
+    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, settings, made);
+    limited.finish(made);
+    detail::counters_of_thread<EvaluateCounters> += made;
     state->lattice = lattice.lattice;
-    made.lattice = lattice;
-    if (stats != nullptr) *stats = made;
+    if (report != nullptr) *report = {lattice, made.memory, made.depth};
     return detail::solid_of(std::move(state));
 }
 

@@ -69,7 +69,7 @@ class Worker;
 
 // What the threads of one evaluation share.
 struct Shared {
-    const EvaluateOptions& options;
+    const EvaluateSettings& options;
     std::size_t slots;
     MemoryBudget memory;
     bool parallel = false;
@@ -141,7 +141,7 @@ private:
     Children children_of(const CellTask& task, const SplittingPlane& splitter);
 
     Shared& shared_;
-    const EvaluateOptions& options_;
+    const EvaluateSettings& options_;
     SlotValues values_;  // all unknown between uses
     std::vector<std::uint8_t> used_;
     std::unique_ptr<LeafArrangers> arrangers_ = ArrangerPool::take();
@@ -561,7 +561,7 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
 }  // namespace
 
 Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& solids,
-                            const EvaluateOptions& options) {
+                            const EvaluateSettings& options) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
                   crossings ? &*crossings : nullptr};
@@ -569,7 +569,7 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
     for (const auto& s : solids) polygons += s->root().node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
     shared.parallel =
-        options.threads != 1 && options.max_work == 0 && polygons >= 2 * parallel_polygons;
+        options.threads != 1 && options.budget == nullptr && polygons >= 2 * parallel_polygons;
     Evaluation result;
     if (shared.parallel) {
         tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic

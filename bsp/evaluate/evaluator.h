@@ -5,6 +5,7 @@
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect::detail {
@@ -16,6 +17,6 @@ struct Evaluation {
 
 /// The tree of a formula's value. `solids` are its slots and lie on one lattice.
 [[nodiscard]] Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& solids,
-                                          const EvaluateOptions& options);
+                                          const EvaluateSettings& options);
 
 }  // namespace trisect::detail

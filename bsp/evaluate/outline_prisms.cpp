@@ -43,8 +43,8 @@ std::uint64_t total_size(std::span<const std::shared_ptr<const SolidState>> soli
 }  // namespace
 
 bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
-                      const EvaluateOptions& options) {
-    if (solids.size() < 2 || options.max_work != 0 || options.max_memory != 0) return false;
+                      const EvaluateSettings& options) {
+    if (solids.size() < 2 || options.budget != nullptr || options.max_memory != 0) return false;
     if (total_size(solids) <= std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
         return false;
     return std::ranges::all_of(solids, [](const auto& s) {
@@ -55,7 +55,7 @@ bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
 }
 
 std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const SolidStates& solids,
-                                        const EvaluateOptions& options, EvaluateStats& stats,
+                                        const EvaluateSettings& options, EvaluateStats& stats,
                                         std::shared_ptr<const LazyTree> tree) {
     Box all;
     std::vector<PolygonRef> polygons;

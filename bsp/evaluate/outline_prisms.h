@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect::detail {
@@ -15,13 +16,13 @@ namespace trisect::detail {
 /// Whether a formula is over meshes that may be prisms along one axis, too large for a leaf, and
 /// neither work nor memory is limited.
 [[nodiscard]] bool are_large_prisms(const Residual::Ref& formula, const SolidStates& solids,
-                                    const EvaluateOptions& options);
+                                    const EvaluateSettings& options);
 
 /// The value of such a formula: PrismOutlines with that tree, or a CellTree of one leaf where all
 /// facets are whole. Nothing where these are no prisms. \pre are_large_prisms()
 [[nodiscard]] std::optional<SolidForm> outline_prisms(const Residual::Ref& formula,
                                                       const SolidStates& solids,
-                                                      const EvaluateOptions& options,
+                                                      const EvaluateSettings& options,
                                                       EvaluateStats& stats,
                                                       std::shared_ptr<const LazyTree> tree);
 

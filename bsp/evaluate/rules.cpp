@@ -111,7 +111,7 @@ bool are_small_operands(const CellView& view) {
 bool may_be_divided(const CellView& view) { return !view.undividable; }
 
 bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solids,
-                          const EvaluateOptions& options) {
+                          const EvaluateSettings& options) {
     return are_two_large_meshes(formula, solids, options);
 }
 
@@ -126,7 +126,7 @@ constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellVie
     return {reach, applies, &arranger<&LeafArrangers::doubles>};
 }
 
-using Stats = EvaluateStats;
+using Stats = EvaluateCounters;
 
 constexpr std::size_t formula_rows = 2;
 constexpr std::size_t constant_rows = 2;
@@ -177,9 +177,13 @@ std::shared_ptr<SolidState> state_of(SolidForm form, const Residual& formula,
 }
 
 std::shared_ptr<const SolidState> tree_of(const Residual::Ref& formula, const SolidStates& solids,
-                                          const EvaluateOptions& options) {
-    EvaluateStats uncounted;
-    return evaluate_tree(formula, solids, options, uncounted);
+                                          const EvaluateSettings& options) {
+    EvaluateSettings settings = options;
+    LimitedEvaluation limited(settings);
+    EvaluateStats made;
+    auto tree = evaluate_tree(formula, solids, settings, made);
+    limited.finish(made);
+    return tree;
 }
 
 LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers) {
@@ -208,7 +212,7 @@ std::span<const Rule> constant_rules() { return rules().subspan(formula_rows, co
 std::span<const Rule> polygon_rules() { return rules().subspan(formula_rows + constant_rows); }
 
 std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule, const Residual::Ref& formula,
-                                        const SolidStates& solids, const EvaluateOptions& options,
+                                        const SolidStates& solids, const EvaluateSettings& options,
                                         EvaluateStats& stats) {
     if (!rule.applies(formula, solids, options)) return nullptr;
     auto tree = std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
@@ -217,7 +221,7 @@ std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule, const Residual:
 }
 
 std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula, const SolidStates& solids,
-                                          const EvaluateOptions& options, EvaluateStats& stats) {
+                                          const EvaluateSettings& options, EvaluateStats& stats) {
     Evaluation evaluation = evaluate_formula(formula, solids, options);
     stats = evaluation.stats;
     return state_of(std::move(evaluation.tree), *formula, solids);
@@ -231,7 +235,7 @@ PolygonList arrange_deferred(const DeferredLeaf& leaf) {
         refs.emplace_back(o.polygons.begin(), o.polygons.end());
         listed.push_back({o.slot, refs.back(), o.flipped, true, o.winding});
     }
-    EvaluateOptions options;
+    EvaluateSettings options;
     options.winding = leaf.rule;
     thread_local LeafArrangers arrangers;
     LeafResult result =

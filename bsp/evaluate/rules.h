@@ -15,6 +15,7 @@
 #include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/evaluate/arranger_pool.h>
 #include <trisect/bsp/expression.h>
@@ -25,7 +26,7 @@ namespace trisect::detail {
 /// The arguments of a condition.
 struct CellView {
     const CellTask& task;
-    const EvaluateOptions& options;
+    const EvaluateSettings& options;
     SlotValues& values;        ///< scratch, all unknown
     bool collects = false;     ///< crossings
     bool undividable = false;  ///< splitters do not part the polygons any more
@@ -50,11 +51,11 @@ protected:
 /// Evaluates a whole formula without a tree.
 struct FormulaRule {
     bool (*applies)(const Residual::Ref& formula, const SolidStates& solids,
-                    const EvaluateOptions& options);
+                    const EvaluateSettings& options);
     /// Nothing when the operands are of another kind after all. `tree`: of the result.
     /// \pre applies()
     std::optional<SolidForm> (*evaluate)(const Residual::Ref& formula, const SolidStates& solids,
-                                         const EvaluateOptions& options, EvaluateStats& stats,
+                                         const EvaluateSettings& options, EvaluateStats& stats,
                                          std::shared_ptr<const LazyTree> tree);
 };
 
@@ -83,7 +84,7 @@ struct Rule {
     std::string_view name;
     std::string_view condition;
     std::string_view keeps;
-    std::uint64_t EvaluateStats::*counter;  ///< cells that it resolved
+    std::uint64_t EvaluateCounters::*counter;  ///< cells that it resolved
     std::variant<FormulaRule, CellRule, LeafRule> how;
 };
 
@@ -102,12 +103,12 @@ struct Rule {
 [[nodiscard]] std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule,
                                                       const Residual::Ref& formula,
                                                       const SolidStates& solids,
-                                                      const EvaluateOptions& options,
+                                                      const EvaluateSettings& options,
                                                       EvaluateStats& stats);
 /// The same by the rules for cells, as a tree.
 [[nodiscard]] std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula,
                                                         const SolidStates& solids,
-                                                        const EvaluateOptions& options,
+                                                        const EvaluateSettings& options,
                                                         EvaluateStats& stats);
 
 /// DeferredLeaf::arrange by the first rule that serves, whatever the number of polygons. It starts

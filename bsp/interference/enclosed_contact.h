@@ -48,7 +48,6 @@ struct EnclosedContact {
     /// Where faces certainly pass through each other at contact_by: one pair of faces. Empty when a
     /// point inside both solids proves the contact.
     std::vector<ContactWitness> witnesses;
-    FirstContactStats stats;
 };
 
 /// The first contact of two solids in enclosed motion, over the whole time.

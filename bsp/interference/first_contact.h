@@ -42,12 +42,15 @@ struct FirstContactOptions {
     bool leave_out_receding = false;
 };
 
-/// What a search did, besides motion_counters().
-struct FirstContactStats {
+/// What searches did, besides MotionCounters (kernel/diagnostics.h).
+struct FirstContactCounters {
     std::uint64_t intervals = 0;         ///< parts of the range of the parameter looked at
     std::uint64_t box_tests = 0;         ///< one swept box against four
     std::uint64_t triangle_pairs = 0;    ///< pairs of triangles whose events were computed
     std::uint64_t separating_pairs = 0;  ///< pairs of boxes left out since they move apart
+
+    FirstContactCounters& operator+=(const FirstContactCounters& o);
+    FirstContactCounters& operator-=(const FirstContactCounters& o);
 };
 
 struct FirstContact {
@@ -61,7 +64,6 @@ struct FirstContact {
     std::vector<ContactWitness> witnesses;
     /// How the solids lie to each other at the start.
     Relation at_start = Relation::Disjoint;
-    FirstContactStats stats;
 };
 
 /// The first event of two moving solids, from the whole range of the parameter.

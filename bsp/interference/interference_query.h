@@ -12,7 +12,7 @@
 
 namespace trisect {
 
-/// What a query has done so far.
+/// What queries did (kernel/diagnostics.h).
 struct InterferenceQueryCounters {
     std::uint64_t asked = 0;
     std::uint64_t node_tests = 0;      ///< tests of one box against four
@@ -25,6 +25,9 @@ struct InterferenceQueryCounters {
                               ///< moved less than what was between them, or no boundary
                               ///< had met the other on the way
     std::uint64_t exact = 0;  ///< left to interfere(), which needs exact poses
+
+    InterferenceQueryCounters& operator+=(const InterferenceQueryCounters& o);
+    InterferenceQueryCounters& operator-=(const InterferenceQueryCounters& o);
 };
 
 /// Answers what interfere() answers, and remembers where the solids were close or crossed. Any
@@ -44,7 +47,6 @@ public:
     [[nodiscard]] Relation relation(const Pose& pose_a, const Pose& pose_b);
     /// The next question starts from the roots.
     void forget();
-    [[nodiscard]] InterferenceQueryCounters counters() const;
 
 private:
     struct State;

@@ -69,8 +69,8 @@ struct ScenePair {
     std::vector<Contact> contacts;           ///< where requested; `a` is the first solid
 };
 
-/// What the last query did.
-struct SceneStats {
+/// What queries of scenes did (kernel/diagnostics.h).
+struct SceneCounters {
     std::size_t bodies = 0;
     std::size_t boxes_met = 0;    ///< pairs of boxes that meet
     std::size_t filtered = 0;     ///< of these, pairs that filters leave out
@@ -79,6 +79,9 @@ struct SceneStats {
     std::size_t interfering = 0;  ///< pairs returned
     double broad_seconds = 0;     ///< boxes and their pairs
     double exact_seconds = 0;     ///< relations and contacts
+
+    SceneCounters& operator+=(const SceneCounters& o);
+    SceneCounters& operator-=(const SceneCounters& o);
 };
 
 /// Bodies, each a model under a pose. A pose is exact (Pose); so every relation returned is that of
@@ -141,7 +144,6 @@ public:
     /// that meet what makes the next query fast when little has moved.
     /// \throw LimitError when a pair of poses needs too many bits for the exact predicates.
     [[nodiscard]] std::vector<ScenePair> interfering(const SceneQueryOptions& options = {});
-    [[nodiscard]] const SceneStats& stats() const;
 
 private:
     class Implementation;

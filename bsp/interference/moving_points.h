@@ -32,7 +32,7 @@ struct LinearPath {
 [[nodiscard]] std::optional<AlgebraicNumber> first_contact(const std::array<LinearPath, 2>& a,
                                                            const std::array<LinearPath, 2>& b);
 
-/// What decided questions about moving features.
+/// What decided questions about moving features (kernel/diagnostics.h).
 struct MotionCounters {
     std::uint64_t questions = 0;
     std::uint64_t filtered = 0;  ///< doubles with proved bounds showed that there is no contact
@@ -41,15 +41,7 @@ struct MotionCounters {
     std::uint64_t contacts = 0;  ///< contacts found
 
     MotionCounters& operator+=(const MotionCounters& o);
+    MotionCounters& operator-=(const MotionCounters& o);
 };
-
-namespace detail {
-inline constinit thread_local MotionCounters motion_counters_of_thread;
-}
-
-/// The counters of the calling thread.
-[[nodiscard]] inline MotionCounters& motion_counters() noexcept {
-    return detail::motion_counters_of_thread;
-}
 
 }  // namespace trisect

@@ -46,11 +46,11 @@ Side MspGeometry::side(PointIndex point, PlaneIndex plane) const {
     const Record& p = points_[point];
     const Plane& s = planes_[plane];
     if (const auto side = filtered_side(p.approximation, s)) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return *side;
     }
     if (p.planes[0] == plane || p.planes[1] == plane || p.planes[2] == plane) {
-        ++predicate_counters().symbolic;
+        ++detail::counters_of_thread<PredicateCounters>.symbolic;
         return Side::On;
     }
     if (p.is_lattice) return side_of(p.lattice, s);

@@ -64,11 +64,11 @@ public:
         // decide.
         if (const auto s = filtered_side(near_, plane)) {
             if (std::isfinite(near_.c[0] + near_.c[1] + near_.c[2])) {
-                ++predicate_counters().filtered;
+                ++detail::counters_of_thread<PredicateCounters>.filtered;
                 return *s;
             }
         }
-        ++predicate_counters().exact_wide;
+        ++detail::counters_of_thread<PredicateCounters>.exact_wide;
         ExactRational sum(plane.offset());
         for (int i = 0; i < 3; ++i)
             sum += ExactRational(WideInt<2>(plane.normal(i))) *

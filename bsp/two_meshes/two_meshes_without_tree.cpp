@@ -55,7 +55,7 @@ class PairFinder;
 
 // What the threads of one search share.
 struct SharedSearch {
-    const EvaluateOptions& options;
+    const EvaluateSettings& options;
     const Crossings& operands;  // without pairs
     MemoryBudget& memory;
     bool parallel = false;
@@ -295,7 +295,7 @@ struct TwoMeshes {
 };
 
 // All pairs of facets that cross, arranged; false when doubles cannot decide one.
-bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOptions& options,
+bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateSettings& options,
                 MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
     SharedSearch search{options, crossings, memory, parallel};
     if (!search.finder().run(two.nodes, near)) return false;
@@ -310,7 +310,7 @@ bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateOption
 // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
 std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
                                                            const SolidStates& solids,
-                                                           const EvaluateOptions& options,
+                                                           const EvaluateSettings& options,
                                                            bool parallel, Crossings& crossings,
                                                            EvaluateStats& stats) {
     MemoryBudget memory(options.max_memory);
@@ -353,8 +353,8 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
 }  // namespace
 
 bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                          const EvaluateOptions& options, std::size_t least_facets) {
-    if (solids.size() != 2 || options.max_work != 0 || !crossings_of(*formula, solids))
+                          const EvaluateSettings& options, std::size_t least_facets) {
+    if (solids.size() != 2 || options.budget != nullptr || !crossings_of(*formula, solids))
         return false;
     const TwoMeshes two(solids);
     return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references() &&
@@ -363,7 +363,8 @@ bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solid
 
 std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                const SolidStates& solids,
-                                               const EvaluateOptions& options, EvaluateStats& stats,
+                                               const EvaluateSettings& options,
+                                               EvaluateStats& stats,
                                                std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> crossings = crossings_of(*formula, solids);
     const TwoMeshes two(solids);

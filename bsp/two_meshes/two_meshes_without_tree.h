@@ -9,6 +9,7 @@
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect::detail {
@@ -18,7 +19,7 @@ namespace trisect::detail {
 /// one: what is beside the smaller one is not looked at then. Meshes of fewer than `least_facets`
 /// are divided as quickly.
 [[nodiscard]] bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                                        const EvaluateOptions& options,
+                                        const EvaluateSettings& options,
                                         std::size_t least_facets = 1024);
 
 /// The value of such a formula, with that tree. Nothing where meshes do not cross in general
@@ -26,7 +27,7 @@ namespace trisect::detail {
 /// number of threads. \pre are_two_large_meshes()
 [[nodiscard]] std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                              const SolidStates& solids,
-                                                             const EvaluateOptions& options,
+                                                             const EvaluateSettings& options,
                                                              EvaluateStats& stats,
                                                              std::shared_ptr<const LazyTree> tree);
 

@@ -42,7 +42,7 @@ IntVector to_ints(const LatticePoint& p) {
 }
 
 int counted(int sign, bool narrow) {
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
     ++(narrow ? counters.exact_narrow : counters.exact_wide);
     return sign;
 }
@@ -76,7 +76,7 @@ ShortVector way(const LatticePoint& p, const MovedPoint& r) {
     return v;
 }
 int counted_short(Int128 v) {
-    ++predicate_counters().exact_short;
+    ++detail::counters_of_thread<PredicateCounters>.exact_short;
     return v > 0 ? 1 : (v < 0 ? -1 : 0);
 }
 
@@ -277,7 +277,7 @@ int PulledPlane::side_of(const Point& p) const {
     // the rounding of the bound itself.
     const double bound = 0x1p-50 * terms + error_slack * error;
     if (value > bound || value < -bound) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return value > 0 ? 1 : -1;
     }
     return exact_side_of(p);
@@ -298,7 +298,7 @@ int PulledPlane::along(const Direction& v) const {
         // underflows.
         const double bound = 0x1p-49 * terms + error_slack * error + 0x1p-900;
         if (value > bound || value < -bound) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return value > 0 ? 1 : -1;
         }
     }
@@ -365,7 +365,7 @@ bool MovedPoint::is_at(const Point& p) const {
             if (mag(a.c[i] - b.c[i]) > error) return false;
     }
     if (p.is_lattice() && point_->is_lattice() && pose_->short_numbers() != nullptr) {
-        ++predicate_counters().exact_short;
+        ++detail::counters_of_thread<PredicateCounters>.exact_short;
         return way(p.lattice(), *this) == ShortVector{};
     }
     const IntPoint from = exact_point(p);
@@ -391,7 +391,7 @@ int orientation(const Point& p, const Point& q, const MovedPoint& r, const Moved
                                               difference(r.approximation(), s.approximation()),
                                               difference(p.approximation(), r.approximation()));
         if (sign != 0) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return sign;
         }
     }
@@ -417,7 +417,7 @@ int planar_orientation(const Point& p, const Point& q, const MovedPoint& r, int 
         const double bound =
             2.1 * (u.error * v.size + u.size * v.error) + 0x1p-49 * (u.size * v.size) + 0x1p-900;
         if (value > bound || value < -bound) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return value > 0 ? 1 : -1;
         }
     }

@@ -32,7 +32,7 @@ void* run(void* p) {
     } catch (...) {
         call.failure = std::current_exception();
     }
-    call.counters = predicate_counters();
+    call.counters = counters_of_thread<PredicateCounters>;
     return nullptr;
 }
 
@@ -65,7 +65,7 @@ void run_on_new_stack(const std::function<void()>& function) {
     pthread_attr_destroy(&attributes);
     if (!started) throw LimitError("no memory for a deeper recursion");
     pthread_join(thread, nullptr);
-    predicate_counters() += call.counters;
+    counters_of_thread<PredicateCounters> += call.counters;
     if (call.failure) std::rethrow_exception(call.failure);
 }
 

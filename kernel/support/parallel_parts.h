@@ -57,7 +57,7 @@ public:
             work(part, size_ * part / count_, size_ * (part + 1) / count_);
         };
         if (count_ == 1) {
-            check_flag(cancel_of_thread());
+            check_flags(stop_scope_of_thread);
             one(0);
             return;
         }
@@ -70,11 +70,11 @@ private:
     void share(const One& one) const {
         std::atomic<std::size_t> next{0};
         FirstFailure failure;
-        const std::atomic<bool>* const cancel = cancel_of_thread();
+        const StopScope* const scope = stop_scope_of_thread;
         const auto take_parts = [&] {
             for (std::size_t part = next++; part < count_; part = next++)
                 failure.guard(part, [&] {
-                    check_flag(cancel);
+                    check_flags(scope);
                     one(part);
                 });
         };

@@ -21,13 +21,10 @@ Family::Family(std::uint64_t seed, std::size_t count) {
             engines::solid(o, embedded ? trisect::Embedding::Assume : trisect::Embedding::Resolve));
 }
 
-trisect::EvaluateOptions options_of(std::uint64_t seed) {
+Options options_of(std::uint64_t seed) {
     constexpr std::array<std::uint32_t, 4> leaves{25, 4, 12, 1000};
     constexpr std::array<std::uint32_t, 3> offsets{83, 1, 127};
-    trisect::EvaluateOptions options;
-    options.leaf_polygons = leaves[seed % leaves.size()];
-    options.splitting_offset = offsets[seed % offsets.size()];
-    return options;
+    return Options(leaves[seed % leaves.size()], offsets[seed % offsets.size()]);
 }
 
 trisect::ExactRational volume(const trisect::Expression& e,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -26,7 +27,11 @@ struct Family {
 };
 
 /// Leaf sizes and wall offsets vary with the seed: no law may depend on them.
-trisect::EvaluateOptions options_of(std::uint64_t seed);
+struct Options : trisect::EvaluateOptions {
+    Options(std::uint32_t leaf, std::uint32_t offset) : walls(offset) { leaf_polygons = leaf; }
+    trisect::detail::SplittingOffset walls;  // while these live
+};
+Options options_of(std::uint64_t seed);
 
 /// Of a set that may be the complement of a bounded one: then minus the volume of the complement.
 trisect::ExactRational volume(const trisect::Expression& e,

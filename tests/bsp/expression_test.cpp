@@ -2,6 +2,7 @@
 //
 // Formulas: what the operators mean, and that long ones cost neither stack nor quadratic time.
 
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,7 @@ namespace {
 using solids::volume;
 using trisect::detail::ExpressionNode;
 using trisect::detail::root_of;
+using trisect::detail::SplittingOffset;
 
 using trisect::evaluate;
 using trisect::Expression;
@@ -98,11 +100,9 @@ TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
 
 TEST_F(Operators, WallsThatMayMeetCornersAreRefused) {
     for (const std::uint32_t offset : {0U, 2U, 82U, 256U, 257U}) {
-        trisect::EvaluateOptions options;
-        options.splitting_offset = offset;
-        EXPECT_THROW((void)evaluate(a | b, options), trisect::UsageError) << offset;
-        options.splitting_offset = offset % 256 + 1 - offset % 2;
-        EXPECT_FALSE(evaluate(a | b, options).is_empty()) << options.splitting_offset;
+        EXPECT_THROW(const SplittingOffset refused(offset), trisect::UsageError) << offset;
+        const SplittingOffset taken(offset % 256 + 1 - offset % 2);
+        EXPECT_FALSE(evaluate(a | b).is_empty()) << SplittingOffset::of_thread();
     }
 }
 

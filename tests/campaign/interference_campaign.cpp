@@ -17,6 +17,7 @@
 
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "support/interference_oracle.h"
 
@@ -44,6 +45,7 @@ bool parse(int argc, char** argv, Options& o) {
 }
 
 int run(const Options& o) {
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto seconds = [&] {
@@ -68,7 +70,7 @@ int run(const Options& o) {
                 static_cast<unsigned long long>(o.seed + done - 1), seconds());
     for (const auto& [relation, count] : seen)
         std::printf("  %-12s %llu\n", to_string(relation), static_cast<unsigned long long>(count));
-    const trisect::PredicateCounters& c = trisect::predicate_counters();
+    const trisect::PredicateCounters c = diagnostics.counters();
     std::printf(
         "signs, all parts of the library: %llu filtered, %llu up to 128 bits, %llu up to 256 bits, "
         "%llu wider\n",

@@ -32,6 +32,7 @@
 #include <utility>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/pose.h>
@@ -207,16 +208,16 @@ class Ledger {
 public:
     template <class Predicate>
     void check(const char* name, Input kind, Predicate&& predicate, int expected) {
-        const PredicateCounters before = trisect::predicate_counters();
+        const trisect::Diagnostics<PredicateCounters> diagnostics;
         const int answer = predicate();
-        const PredicateCounters& after = trisect::predicate_counters();
+        const PredicateCounters made = diagnostics.counters();
         Row& row = rows_[name];
         ++row.checks[static_cast<std::size_t>(kind)];
         ++total_[static_cast<std::size_t>(kind)];
         row.zeros += expected == 0 ? 1 : 0;
-        row.stages.filtered += after.filtered - before.filtered;
-        row.stages.exact_narrow += after.exact_narrow - before.exact_narrow;
-        row.stages.exact_wide += after.exact_wide - before.exact_wide;
+        row.stages.filtered += made.filtered;
+        row.stages.exact_narrow += made.exact_narrow;
+        row.stages.exact_wide += made.exact_wide;
         if (answer == expected) return;
         ++row.mismatches;
         std::fprintf(stderr, "MISMATCH %s: %d, expected %d\n", name, answer, expected);

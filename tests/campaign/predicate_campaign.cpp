@@ -33,6 +33,7 @@
 #include <vector>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
@@ -99,10 +100,10 @@ public:
     // Calls the predicate, books its stages, and compares its answer with the expected one.
     template <class F, class E>
     auto check(const char* name, F&& predicate, const E& expected) {
-        const PredicateCounters before = trisect::predicate_counters();
+        const trisect::Diagnostics<PredicateCounters> diagnostics;
         const auto answer = predicate();
         Row& row = rows_[name];
-        book(row, before);
+        book(row, diagnostics.counters());
         if (answer != expected) {
             ++row.mismatches;
             std::fprintf(stderr, "MISMATCH %s in input %llu\n", name,
@@ -125,14 +126,13 @@ public:
     void print() const;
 
 private:
-    void book(Row& row, const PredicateCounters& before) {
-        const PredicateCounters& after = trisect::predicate_counters();
+    void book(Row& row, const PredicateCounters& made) {
         ++row.checks[static_cast<std::size_t>(kind_)];
         ++total_[static_cast<std::size_t>(kind_)];
-        row.stages.symbolic += after.symbolic - before.symbolic;
-        row.stages.filtered += after.filtered - before.filtered;
-        row.stages.exact_narrow += after.exact_narrow - before.exact_narrow;
-        row.stages.exact_wide += after.exact_wide - before.exact_wide;
+        row.stages.symbolic += made.symbolic;
+        row.stages.filtered += made.filtered;
+        row.stages.exact_narrow += made.exact_narrow;
+        row.stages.exact_wide += made.exact_wide;
     }
 
     std::map<std::string, Row> rows_;

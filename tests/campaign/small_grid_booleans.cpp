@@ -44,12 +44,14 @@
 #include <trisect/bsp/boolean_rule.h>
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/bsp_merge.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/classic/bsp_assembly.h>
 #include <trisect/bsp/classic/bsp_boundary.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
 #include "engines/engines.h"
+#include "engines/evaluate_stats.h"
 
 namespace {
 
@@ -160,7 +162,7 @@ public:
         constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 1000};
         constexpr std::array<std::uint32_t, 4> wall_offsets{1, 83, 127, 255};
         options_.leaf_polygons = leaf_sizes[random.below(4)];
-        options_.splitting_offset = wall_offsets[random.below(4)];
+        offset_.emplace(wall_offsets[random.below(4)]);
         const bool assume = embedded_ && random.chance(1, 2);
         for (const auto& o : operands_)
             solids_.push_back(engines::solid(
@@ -265,7 +267,8 @@ private:
         if (why.empty()) return;
         ++counters_.disagreements;
         std::printf("DISAGREEMENT %s, %s, leaf_polygons %u, splitting_offset %u, %s: %s\n",
-                    name_.c_str(), engine, options_.leaf_polygons, options_.splitting_offset,
+                    name_.c_str(), engine, options_.leaf_polygons,
+                    trisect::detail::SplittingOffset::of_thread(),
                     reference::to_string(expression).c_str(), why.c_str());
         std::fflush(stdout);
     }
@@ -277,6 +280,7 @@ private:
     std::vector<trisect::Solid> solids_;
     std::vector<trisect::BspTree> trees_;
     trisect::EvaluateOptions options_;
+    std::optional<trisect::detail::SplittingOffset> offset_;
 };
 
 reference::Random generator(std::uint64_t seed, std::uint64_t kind, std::uint64_t index) {
@@ -328,14 +332,14 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
         operands.push_back(operand());
         const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume);
         const Timer timer(counters.microseconds_ours);
-        trisect::EvaluateStats stats;
+        trisect::test::EvaluateStats stats;
         const auto step = engines::formula(reference::pair_expression(kind), {result, tool});
         if (operands.size() == 2) {
             const auto difference = engines::undivided_difference(step, options);
             counters.undivided += difference ? 1U : 0U;
             if (!difference.value_or("").empty()) return "undivided: " + *difference;
         }
-        result = trisect::evaluate(step, options, &stats);
+        result = evaluate(step, options, &stats);
         counters.mixed_leaves += stats.mixed_leaves;
         counters.filtered_leaves += stats.filtered_leaves;
         counters.filtered_fragments += stats.filtered_fragments;

@@ -10,8 +10,8 @@
 // time at another place:
 //
 //   cancel     another thread sets the flag after a random part of the time that the call takes
-//   work       StopScope and EvaluateOptions with a random part of the work
-//   memory     EvaluateOptions::max_memory, a random part of what the call holds
+//   work       a StopScope with a random part of the work
+//   memory     a StopScope with a random part of what the call holds
 //   exception  a random allocation, of whichever thread, throws std::bad_alloc
 //
 // A stopped call must end in the error of its kind. After every eighth stop the same call runs to
@@ -29,6 +29,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <future>
 #include <new>
 #include <string>
 #include <thread>
@@ -63,16 +64,11 @@ constexpr std::array<const char*, 4> kind_names{"cancel", "work", "memory", "exc
 // What a run is limited by.
 struct Limits {
     std::uint32_t threads = 1;
-    const std::atomic<bool>* cancel = nullptr;
-    std::uint64_t max_work = 0;
-    std::uint64_t max_memory = 0;
+    trisect::StopLimits stop = {};
 
     [[nodiscard]] EvaluateOptions evaluation() const {
         EvaluateOptions options;
         options.threads = threads;
-        options.cancel = cancel;
-        options.max_work = max_work;
-        options.max_memory = max_memory;
         return options;
     }
 };
@@ -114,8 +110,8 @@ std::uint64_t digest_of(const Solid& solid) { return digest_of(solid.to_mesh(1))
 struct Call {
     const char* name;
     std::function<std::uint64_t(const Limits&)> run;
-    bool counts_work = false;    ///< looks at StopScope or max_work
-    bool counts_memory = false;  ///< looks at max_memory
+    bool counts_work = false;    ///< looks at StopLimits::max_work
+    bool counts_memory = false;  ///< looks at StopLimits::max_memory
 };
 
 Solid sphere(int level, const trisect::Point3d& by) {
@@ -165,9 +161,9 @@ std::vector<Call> calls(int level) {
                    true});
     all.push_back({"brep",
                    [a, b](const Limits& limits) {
-                       EvaluateOptions options = limits.evaluation();
-                       options.max_work = options.max_memory = 0;  // what is stopped comes after it
-                       const Solid result = evaluate(a & b, options);
+                       // In a thread without a scope: what is stopped comes after it.
+                       const auto intersect = [&] { return evaluate(a & b, limits.evaluation()); };
+                       const Solid result = std::async(std::launch::async, intersect).get();
                        return digest_of(trisect::exact_text(result.to_brep()));
                    },
                    true});
@@ -325,9 +321,9 @@ private:
             case Kind::Cancel:
                 return cancel();
             case Kind::Work:
-                return limit({.threads = threads_, .max_work = next_work()});
+                return limit({.threads = threads_, .stop = {.max_work = next_work()}});
             case Kind::Memory:
-                return limit({.threads = threads_, .max_memory = next_memory()});
+                return limit({.threads = threads_, .stop = {.max_memory = next_memory()}});
             case Kind::Exception:
                 break;
         }
@@ -369,7 +365,7 @@ private:
         const Outcome outcome = outcome_of<trisect::CancelledError>([&] {
             const trisect::StopScope scope(&flag);
             started = true;
-            return call_.run({.threads = threads_, .cancel = &flag});
+            return call_.run({.threads = threads_});
         });
         started = true;
         other.join();
@@ -378,7 +374,7 @@ private:
 
     Outcome limit(const Limits& limits) {
         return outcome_of<trisect::LimitError>([&] {
-            const trisect::StopScope scope(nullptr, limits.max_work);
+            const trisect::StopScope scope(limits.stop);
             return call_.run(limits);
         });
     }

@@ -11,6 +11,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/kernel/error.h>
 
+#include "engines/evaluate_stats.h"
 #include "figures.h"
 #include "support/solids.h"
 
@@ -100,7 +101,7 @@ TEST(LatticeMix, WhatDoesNotFitIsRoundedAndReported) {
     // Edge 2^44 and unit 2^0: no room for the unit 2^-16.
     const Solid wide = large_cube(0, 44);
     const Solid fine = box_on(-16, {-65536, -65536, -65536}, {3 * 65536 + 1, 65536, 131072 - 1});
-    trisect::EvaluateStats stats;
+    trisect::test::EvaluateStats stats;
     const Solid both = evaluate(wide & fine, {}, &stats);
     EXPECT_EQ(both.lattice(), Lattice{-8});
     EXPECT_EQ(stats.lattice.lattice, Lattice{-8});

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string>
 
+#include <trisect/bsp/cells/work_budget.h>
+
 #include "figures.h"
 
 namespace wall_test {
@@ -27,7 +29,7 @@ void for_all_walls(Body&& body) {
             SCOPED_TRACE("wall offset " + std::to_string(offset) + ", leaf size " +
                          std::to_string(leaf));
             trisect::EvaluateOptions options;
-            options.splitting_offset = offset;
+            const trisect::detail::SplittingOffset at(offset);
             options.leaf_polygons = leaf;
             body(options);
         }

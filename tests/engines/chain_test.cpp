@@ -17,6 +17,7 @@
 #include <trisect/bsp/solid.h>
 
 #include "engines.h"
+#include "evaluate_stats.h"
 
 namespace {
 
@@ -52,10 +53,10 @@ void expect_agreement(const std::vector<Operand>& operands, const std::vector<Ki
         trisect::Solid result = engines::solid(operands[0], trisect::Embedding::Assume);
         for (std::size_t i = 1; i < operands.size(); ++i) {
             const trisect::Solid tool = engines::solid(operands[i], trisect::Embedding::Assume);
-            trisect::EvaluateStats stats;
-            result = trisect::evaluate(
-                engines::formula(reference::pair_expression(kinds[i - 1]), {result, tool}), options,
-                &stats);
+            trisect::test::EvaluateStats stats;
+            result =
+                evaluate(engines::formula(reference::pair_expression(kinds[i - 1]), {result, tool}),
+                         options, &stats);
             counts.plain += stats.filtered_leaves;
             counts.mixed += stats.mixed_leaves;
             counts.fragments += stats.filtered_fragments;

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/bsp/cells/work_budget.h>
+
 #include "engines.h"
 
 namespace {
@@ -78,7 +80,7 @@ TEST(EngineAgreement, TheResultDoesNotDependOnTheTreesShape) {
         for (const std::uint32_t leaf : {3U, 8U, 1000U}) {
             trisect::EvaluateOptions options;
             options.leaf_polygons = leaf;
-            options.splitting_offset = leaf == 8 ? 127 : 83;
+            const trisect::detail::SplittingOffset offset(leaf == 8 ? 127 : 83);
             const auto expression = reference::pair_expression(Kind::Difference);
             EXPECT_EQ(disagreement(operands, expression, options), "")
                 << "seed " << seed << " leaf size " << leaf;
@@ -93,7 +95,7 @@ TEST(EngineAgreement, EmbeddedPairsInSmallCells) {
         const auto operands = reference::random_family(random, 2, true);
         trisect::EvaluateOptions options;
         options.leaf_polygons = seed % 2 == 0 ? 3 : 8;
-        options.splitting_offset = seed % 3 == 0 ? 255 : 83;
+        const trisect::detail::SplittingOffset offset(seed % 3 == 0 ? 255 : 83);
         for (const Kind kind : {Kind::Intersection, Kind::Xor}) {
             const auto expression = reference::pair_expression(kind);
             EXPECT_EQ(disagreement(operands, expression, options, trisect::Embedding::Assume), "")
@@ -112,7 +114,7 @@ TEST(EngineAgreement, TetrahedronCornerInABox) {
     const std::vector<reference::Operand> operands{a, reference::box({7, 12, 7}, {15, 14, 14})};
     trisect::EvaluateOptions options;
     options.leaf_polygons = 3;
-    options.splitting_offset = 127;
+    const trisect::detail::SplittingOffset offset(127);
     EXPECT_EQ(disagreement(operands, reference::pair_expression(Kind::Intersection), options,
                            trisect::Embedding::Assume),
               "");

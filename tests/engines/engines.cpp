@@ -11,10 +11,12 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace engines {
 
@@ -203,17 +205,19 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
-    trisect::EvaluateStats stats;
+    EvaluateStats stats;
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
                                     return are_two_large_meshes(formula, solids, with, 1);
                                 },
                                 &evaluate_without_tree};
-    const auto state = evaluate_by(undivided, t.formula, states, options, stats);
+    const EvaluateSettings settings{options, SplittingOffset::of_thread()};
+    const auto state = evaluate_by(undivided, t.formula, states, settings, stats);
     if (state == nullptr) return std::nullopt;
-    trisect::EvaluateOptions dividing = options;
-    dividing.max_work = std::uint64_t{1} << 60;  // a limit is counted by cells
-    const auto expected =
-        mesh_of(*trisect::detail::state_of(trisect::evaluate(expression, dividing)));
+    const auto evaluated_by_cells = [&] {
+        const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
+        return trisect::evaluate(expression, options);
+    };
+    const auto expected = mesh_of(*trisect::detail::state_of(evaluated_by_cells()));
     if (!are_equal(mesh_of(*state), expected)) return "another mesh";
     if (!expected) return std::string();
     if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";

@@ -14,6 +14,7 @@
 #include <trisect/kernel/error.h>
 
 #include "engines.h"
+#include "evaluate_stats.h"
 
 namespace {
 
@@ -32,9 +33,8 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
     for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_polygons;
-    trisect::EvaluateStats stats;
-    const trisect::Solid result =
-        trisect::evaluate(engines::formula(expression, solids), options, &stats);
+    trisect::test::EvaluateStats stats;
+    const trisect::Solid result = evaluate(engines::formula(expression, solids), options, &stats);
     leaves.plain += stats.filtered_leaves;
     leaves.mixed += stats.mixed_leaves;
     EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");

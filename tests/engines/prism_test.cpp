@@ -18,6 +18,7 @@
 #include <trisect/bsp/evaluate/translate.h>
 
 #include "engines.h"
+#include "evaluate_stats.h"
 
 namespace prism_test {
 namespace {
@@ -67,9 +68,8 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
                       const trisect::EvaluateOptions& options, Leaves& leaves) {
     std::vector<trisect::Solid> solids;
     for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
-    trisect::EvaluateStats stats;
-    const trisect::Solid result =
-        trisect::evaluate(engines::formula(expression, solids), options, &stats);
+    trisect::test::EvaluateStats stats;
+    const trisect::Solid result = evaluate(engines::formula(expression, solids), options, &stats);
     leaves.prisms += stats.prism_leaves;
     leaves.mixed += stats.mixed_leaves;
     EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
@@ -101,9 +101,9 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     const auto formula = trisect::detail::translate(engines::formula(expression, solids));
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
     for (const trisect::Solid& s : formula.slots) states.push_back(trisect::detail::state_of(s));
-    trisect::EvaluateOptions options;
+    trisect::detail::EvaluateSettings options;
     options.leaf_polygons = 0;
-    trisect::EvaluateStats stats;
+    trisect::detail::EvaluateStats stats;
     ++leaves.mixed;
     const auto outlined =
         trisect::detail::evaluate_by(by_outlines, formula.formula, states, options, stats);
@@ -172,7 +172,7 @@ TEST(Prisms, StepsAfterOutlines) {
         EXPECT_EQ(
             engines::difference(engraved.to_brep(), reference::canonical_boundary(expected.cells)),
             "");
-        EXPECT_TRUE(trisect::evaluate(turned & engraved).is_empty());
+        EXPECT_TRUE(evaluate(turned & engraved).is_empty());
         EXPECT_TRUE(trisect::evaluate((both - solids[2]) - engraved).is_empty());
         EXPECT_EQ(engines::open_edge(engines::boundary_mesh(both)), "");
     }
@@ -292,7 +292,7 @@ bool outlines_bars(std::int64_t count, bool turned) {
     const auto formula = trisect::detail::translate(trisect::Expression(solids[0]) - solids[1]);
     std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
     for (const trisect::Solid& s : formula.slots) states.push_back(trisect::detail::state_of(s));
-    trisect::EvaluateStats stats;
+    trisect::detail::EvaluateStats stats;
     return trisect::detail::evaluate_by(by_outlines, formula.formula, states, {}, stats) != nullptr;
 }
 

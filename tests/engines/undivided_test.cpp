@@ -9,6 +9,7 @@
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/kernel/stop_scope.h>
 
 #include "engines.h"
 
@@ -23,9 +24,10 @@ struct Count {
 };
 
 // A limit of work is counted by cells.
-trisect::EvaluateOptions dividing(trisect::EvaluateOptions options) {
-    options.max_work = std::uint64_t{1} << 60;
-    return options;
+trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
+                                 const trisect::EvaluateOptions& options = {}) {
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
+    return trisect::evaluate(expression, options);
 }
 
 void expect_same_as_divided(const trisect::Expression& expression, std::uint32_t leaf_polygons,
@@ -105,7 +107,7 @@ TEST(Undivided, LargeMeshesByAnyNumberOfThreads) {
         const trisect::Solid a = trisect::Solid::from_mesh(trisect::make_icosphere(1, 5), import);
         const trisect::Solid b = trisect::Solid::from_mesh(moved, import);
         trisect::EvaluateOptions options;
-        const trisect::Solid divided = trisect::evaluate(a - b, dividing(options));
+        const trisect::Solid divided = evaluate_by_cells(a - b, options);
         ASSERT_EQ(trisect::detail::state_of(divided)->lazy_tree(), nullptr);
         const trisect::PolygonMesh expected = engines::boundary_mesh(divided);
         for (const std::uint32_t threads : {1U, 2U, 8U}) {
@@ -143,8 +145,7 @@ TEST(Undivided, MeshesOfDifferentLattices) {
     const trisect::Solid mixed = trisect::evaluate(coarse - b);
     EXPECT_NE(trisect::detail::state_of(mixed)->lazy_tree(), nullptr);
     const trisect::PolygonMesh mesh = engines::boundary_mesh(mixed);
-    const trisect::PolygonMesh expected =
-        engines::boundary_mesh(trisect::evaluate(fine - b, dividing({})));
+    const trisect::PolygonMesh expected = engines::boundary_mesh(evaluate_by_cells(fine - b));
     EXPECT_EQ(mesh.corners, expected.corners);
     EXPECT_TRUE(mesh.points == expected.points);
     EXPECT_NE(trisect::detail::state_of(trisect::evaluate(b - coarse))->lazy_tree(), nullptr);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 
 #include "support/gmp_oracle.h"
@@ -201,12 +202,12 @@ TEST(ConvexPolygon, NamedVerticesNeedNoArithmetic) {
     ConvexPolygon below;
     ConvexPolygon above;
     ASSERT_TRUE(t.split(cut, below, above).is_cut());
-    trisect::predicate_counters() = {};
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     EXPECT_EQ(above.classify(cut).on, 2U);
     EXPECT_EQ(above.classify(cut.flipped()).on, 2U);
-    EXPECT_EQ(trisect::predicate_counters().exact_narrow, 0U);
-    EXPECT_EQ(trisect::predicate_counters().exact_wide, 0U);
-    EXPECT_EQ(trisect::predicate_counters().symbolic, 4U);
+    EXPECT_EQ(diagnostics.counters().exact_narrow, 0U);
+    EXPECT_EQ(diagnostics.counters().exact_wide, 0U);
+    EXPECT_EQ(diagnostics.counters().symbolic, 4U);
 }
 
 // Cuts everything by everything; area must be conserved to the last digit.
@@ -267,9 +268,9 @@ TEST(ConvexPolygon, PlanesThatDifferInOneCoefficientFromThoseOfAVertexFarOut) {
             const auto v = oracle::rational(strip.vertex(i));
             for (const Plane& named : {strip.support(), strip.edge((i + 3) % 4), strip.edge(i)})
                 for (const Plane& p : {named, named.flipped()}) {
-                    const std::uint64_t named_before = trisect::predicate_counters().symbolic;
+                    const trisect::Diagnostics<trisect::PredicateCounters> by_name;
                     EXPECT_EQ(strip.side_of_vertex(i, p), Side::On);
-                    EXPECT_EQ(trisect::predicate_counters().symbolic, named_before + 1);
+                    EXPECT_EQ(by_name.counters().symbolic, 1U);
                     for (int coefficient = 0; coefficient < 4; ++coefficient)
                         for (const int change : {-1, 1}) {
                             const Plane other = with_other_coefficient(p, coefficient, change);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/point.h>
 
 #include <gtest/gtest.h>
@@ -165,7 +166,7 @@ TEST(Point, NearestIsCorrectlyRounded) {
 // doubles and one exact residual decide nearly always, and agree with the quotient of integers.
 TEST(Point, NearestOfPlanesIsFilteredAndCorrectlyRounded) {
     oracle::Source random(6);
-    trisect::predicate_counters() = {};
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     std::uint64_t count = 0;
     for (int round = 0; round < 20000; ++round) {
         const int bits = static_cast<int>(2 + random.below(52));
@@ -187,7 +188,7 @@ TEST(Point, NearestOfPlanesIsFilteredAndCorrectlyRounded) {
             EXPECT_EQ(nearest_doubles(approximate(p, q, r), p, q, r), nearest_doubles(*exact));
         }
     }
-    const auto& counters = trisect::predicate_counters();
+    const auto counters = diagnostics.counters();
     EXPECT_LT(counters.exact_narrow + counters.exact_wide, count / 10);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/predicates.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <thread>
 #include <vector>
 
 #include <trisect/kernel/counters.h>
@@ -18,11 +20,11 @@ namespace predicates_test {
 namespace {
 
 using trisect::Approximation;
+using trisect::Diagnostics;
 using trisect::HomogeneousPoint;
 using trisect::LatticePoint;
 using trisect::Plane;
 using trisect::Point;
-using trisect::predicate_counters;
 using trisect::PredicateCounters;
 using trisect::Side;
 
@@ -153,9 +155,9 @@ TEST(Laws, PointsFarAlongOneAxisAreRoundedByTheFilter) {
         const auto& [p, q, r] = planes;
         const Approximation a = approximate(p, q, r);
         const auto expected = oracle::rational(p, q, r);
-        predicate_counters() = {};
+        const Diagnostics<PredicateCounters> diagnostics;
         const auto nearest = nearest_doubles(a, p, q, r);
-        EXPECT_EQ(predicate_counters().filtered, 1U);
+        EXPECT_EQ(diagnostics.counters().filtered, 1U);
         for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(nearest[i], oracle::nearest(expected[i]));
     }
 }
@@ -163,9 +165,9 @@ TEST(Laws, PointsFarAlongOneAxisAreRoundedByTheFilter) {
 // ---------------------------------------------------------------- coverage of the stages
 
 PredicateCounters counted(const auto& predicate) {
-    predicate_counters() = {};
+    const Diagnostics<PredicateCounters> diagnostics;
     predicate();
-    return predicate_counters();
+    return diagnostics.counters();
 }
 
 TEST(Coverage, LatticePoint) {
@@ -224,7 +226,7 @@ TEST(Coverage, SignsOfPlanes) {
 // The filter must decide nearly everything on inputs in general position.
 TEST(Coverage, TheFilterDecidesGeneralPosition) {
     oracle::Source random(6);
-    predicate_counters() = {};
+    const Diagnostics<PredicateCounters> diagnostics;
     for (int round = 0; round < 2000; ++round) {
         const int bits = static_cast<int>(20 + random.below(34));
         const Plane p = random.plane(bits);
@@ -235,9 +237,27 @@ TEST(Coverage, TheFilterDecidesGeneralPosition) {
         (void)side_of(random.point(bits), s);
         (void)sign_of_det(p, q, r);
     }
-    const PredicateCounters c = predicate_counters();
+    const PredicateCounters c = diagnostics.counters();
     EXPECT_EQ(c.total(), 6000U);
     EXPECT_GE(c.filtered, 5990U);
+}
+
+// A scope counts what is done while it lives, whatever there is around it, in its own thread alone.
+TEST(Coverage, DiagnosticsNestAndAreOfOneThread) {
+    const auto decide = [] { (void)side_of(LatticePoint{3, 4, 5}, Plane::axis_aligned(0, 1, 7)); };
+    const Diagnostics<PredicateCounters> outer;
+    decide();
+    const Diagnostics<PredicateCounters> inner;
+    EXPECT_EQ(inner.counters().total(), 0U);
+    decide();
+    std::thread([&] {
+        const Diagnostics<PredicateCounters> other;
+        for (int i = 0; i < 3; ++i) decide();
+        EXPECT_EQ(other.counters().total(), 3U);
+    }).join();
+    EXPECT_EQ(inner.counters().total(), 1U);
+    EXPECT_EQ(outer.counters().total(), 2U);
+    EXPECT_EQ(outer.counters().total(), 2U);  // looking at them counts nothing
 }
 
 TEST(Coverage, CountersAddUp) {

@@ -45,7 +45,7 @@ void stop_everywhere(std::uint64_t least, const std::function<std::string()>& ca
     EXPECT_GE(units, least);
     std::uint64_t stopped = 0;
     for (std::uint64_t budget = 1; budget <= units; budget += 1 + units / 400) {
-        const StopScope scope(nullptr, budget);
+        const StopScope scope({.max_work = budget});
         try {
             EXPECT_EQ(call(), expected);
             EXPECT_EQ(budget, units);
@@ -109,13 +109,28 @@ TEST(Stop, AssemblyOfMaximalFaces) {
 TEST(Stop, EvaluationTakesTheFlagOfItsThread) {
     const Solid a = Solid::from_mesh(trisect::make_icosphere(1, 3));
     const Solid b = Solid::from_mesh(trisect::make_box({0, 0, 0}, {2, 2, 2}));
-    const std::atomic<bool> cancel = true;
-    const std::atomic<bool> go_on = false;
+    std::atomic<bool> cancel = true;
+    std::atomic<bool> other = false;
     const StopScope scope(&cancel);
     EXPECT_THROW((void)evaluate(a - b), trisect::CancelledError);
+    const StopScope inner(&other);  // what stops the outer scope stops it, too
+    EXPECT_THROW((void)evaluate(a - b), trisect::CancelledError);
+    cancel = false;
+    EXPECT_FALSE(evaluate(a - b).is_empty());
+    other = true;
+    EXPECT_THROW((void)evaluate(a - b), trisect::CancelledError);
+}
+
+// Threads of an evaluation look at the flags, too, and a scope inside without a flag hides none.
+TEST(Stop, EvaluationTakesTheNextFlagAroundIt) {
+    const Solid a = Solid::from_mesh(trisect::make_icosphere(1, 5));
+    const Solid b = Solid::from_mesh(trisect::make_uv_sphere(1.01, 160, 80));
+    const std::atomic<bool> cancel = true;
+    const StopScope scope(&cancel);
+    const StopScope inner({.max_memory = std::uint64_t{1} << 40});
     trisect::EvaluateOptions options;
-    options.cancel = &go_on;
-    EXPECT_FALSE(evaluate(a - b, options).is_empty());
+    options.threads = 4;
+    EXPECT_THROW((void)evaluate(a ^ b, options), trisect::CancelledError);
 }
 
 Solid slanted_box(const trisect::Point3d& low, const trisect::Point3d& high) {
@@ -134,9 +149,22 @@ TEST(Stop, CuttingOfAnOutlinedOperand) {
     const auto outlined = trisect::detail::state_of(part)->lazy_tree();
     ASSERT_NE(outlined, nullptr);
     const std::atomic<bool> cancel = true;
-    options.cancel = &cancel;
-    EXPECT_THROW((void)evaluate(part | pocket, options), trisect::CancelledError);
-    EXPECT_FALSE(outlined->is_cut());
+    {
+        const StopScope scope(&cancel);
+        EXPECT_THROW((void)evaluate(part | pocket, options), trisect::CancelledError);
+        EXPECT_FALSE(outlined->is_cut());
+    }
+    {
+        // The tree counts in the scope of the call that needs it, and is not kept in part.
+        const StopScope scope({.max_work = 1});
+        EXPECT_THROW((void)evaluate(part | pocket), trisect::LimitError);
+        EXPECT_FALSE(outlined->is_cut());
+    }
+    {
+        const StopScope scope({.max_memory = 1});
+        EXPECT_THROW((void)evaluate(part | pocket), trisect::LimitError);
+        EXPECT_FALSE(outlined->is_cut());
+    }
     {
         const StopScope scope(&cancel);
         EXPECT_THROW((void)part.to_brep(), trisect::CancelledError);
@@ -150,16 +178,34 @@ TEST(Stop, CuttingOfAnOutlinedOperand) {
 }
 
 TEST(Stop, OuterScopesStopInnerOnes) {
-    const StopScope outer(nullptr, 10);
-    StopScope inner(nullptr, 1000);
+    const StopScope outer({.max_work = 10});
+    StopScope inner({.max_work = 1000});
     trisect::detail::check_stop(10);
     EXPECT_THROW(trisect::detail::check_stop(), trisect::LimitError);
     EXPECT_EQ(inner.work(), 11U);
+    EXPECT_EQ(outer.work(), 11U);
 }
 
 TEST(Stop, NothingIsCountedOutsideOfAScope) {
-    { const StopScope scope(nullptr, 1); }
+    { const StopScope scope({.max_work = 1}); }
     EXPECT_NO_THROW(trisect::detail::check_stop(1'000'000));
+}
+
+TEST(Stop, TheLeastThatIsLeftHolds) {
+    StopScope outer({.max_work = 100, .max_memory = 7});
+    EXPECT_EQ(outer.work_left().units, 100U);
+    const StopScope inner({.max_work = 60});
+    EXPECT_EQ(inner.work_left().units, 60U);
+    EXPECT_EQ(inner.max_memory(), 7U);
+    outer.count(90);  // by a call of an inner scope that has ended
+    EXPECT_EQ(inner.work_left().units, 10U);
+    EXPECT_EQ(inner.work_left().max_work, 100U);
+    outer.count(90);
+    EXPECT_EQ(inner.work_left().units, 0U);
+    const StopScope smaller({.max_memory = 5});
+    const StopScope larger({.max_memory = 9});
+    EXPECT_EQ(larger.max_memory(), 5U);
+    EXPECT_EQ(larger.work_left().units, 0U);
 }
 
 }  // namespace

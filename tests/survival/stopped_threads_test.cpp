@@ -90,24 +90,28 @@ TEST_F(StoppedThreads, TheFirstFailureOfARecursionLeavesIt) {
 
 TEST_F(StoppedThreads, LimitsStayLimitsAndCancelledStaysCancelled) {
     const Expression formula = (sphere({0, 0, 0}) ^ sphere({0.3, 0.2, 0.1})) - sphere({0.6, 0, 0});
-    trisect::EvaluateStats stats;
-    const PolygonMesh expected = evaluate(formula, {}, &stats).to_mesh();
+    trisect::EvaluateReport report;
+    const PolygonMesh expected = evaluate(formula, {}, &report).to_mesh();
     for (const std::uint32_t threads : {2U, 4U, 8U}) {
         for (int round = 0; round < 30; ++round) {
-            EvaluateOptions limited;
-            limited.threads = threads;
-            limited.max_memory = 1 + stats.memory * static_cast<std::uint64_t>(round) / 100;
-            EXPECT_THROW((void)evaluate(formula, limited), trisect::LimitError);
+            EvaluateOptions options;
+            options.threads = threads;
+            {
+                const std::uint64_t part = report.memory * static_cast<std::uint64_t>(round) / 100;
+                const trisect::StopScope limited({.max_memory = 1 + part});
+                EXPECT_THROW((void)evaluate(formula, options), trisect::LimitError);
+            }
             std::atomic<bool> cancel = false;
-            EvaluateOptions stopped;
-            stopped.threads = threads;
-            stopped.cancel = &cancel;
             std::thread other([&] {
                 std::this_thread::sleep_for(std::chrono::microseconds(200 * round));
                 cancel = true;
             });
             try {
-                EXPECT_EQ(evaluate(formula, stopped).to_mesh().points, expected.points);
+                const Solid solid = [&] {
+                    const trisect::StopScope stopped(&cancel);
+                    return evaluate(formula, options);
+                }();
+                EXPECT_EQ(solid.to_mesh().points, expected.points);
             } catch (const trisect::CancelledError&) {  // as asked
             }
             other.join();

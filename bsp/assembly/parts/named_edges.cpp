@@ -75,7 +75,7 @@ private:
 };
 
 bool are_coplanar(const NamedEdge& e, const NamedEdge& f) {
-    ++predicate_counters().exact_short;
+    ++detail::counters_of_thread<PredicateCounters>.exact_short;
     return exact_orientation(e.end(0), e.end(1), f.end(0), f.end(1)) == 0;
 }
 

@@ -56,7 +56,7 @@ bool AxisTrace::decide(const PolygonRef& polygon) {
         if (!(std::fabs(m) > error)) return false;
         ++(m > 0 ? positive : negative);
     }
-    ++predicate_counters().filtered;
+    ++detail::counters_of_thread<PredicateCounters>.filtered;
     if (positive != 0 && negative != 0) return true;  // missed
     // Met by the line. By the segment, if all of the facet's height is between its ends.
     const auto [lo, hi] = std::minmax({height[0], height[1], height[2]});

@@ -110,19 +110,19 @@ Approximation approximate(const FinePoint& p) {
 
 int side(const FinePoint& p, const Approximation& approximation, const Plane& plane) {
     if (const auto s = filtered_side(approximation, plane)) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return sign_of(*s);
     }
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     return plane_value_at(p, plane).sign();
 }
 
 int side(const TraceTarget& target, const Plane& plane) {
     if (const auto s = filtered_side(target.approximation(), plane)) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return sign_of(*s);
     }
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     return plane_value_at(target.exact(), plane).sign();
 }
 
@@ -136,11 +136,11 @@ SupportCrossing::SupportCrossing(const FinePoint& reference, const Approximation
 int SupportCrossing::side_of(const Plane& edge) const {
     if (approximation_) {
         if (const auto s = filtered_side(*approximation_, edge)) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return sign_of(*s);
         }
     }
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     const TraceTarget::Exact& t = target_.exact();
     const WideInt<4> r = plane_value_at(reference_, support_);
     const WideInt<20> g = plane_value_at(t, support_);

@@ -208,7 +208,7 @@ const PulledPlane& TrianglePairTest::Planes::get(const Plane& plane, const Relat
 
 TriangleContact TrianglePairTest::operator()(const PosedTriangle& a, const PosedTriangle& b) {
     if (a.plane == coplanar_a_ && b.plane == coplanar_b_) {
-        predicate_counters().symbolic += 3;
+        detail::counters_of_thread<PredicateCounters>.symbolic += 3;
         Pair pair(a, b, *poses_);
         pair.meet_in_plane(sense_);
         return pair.contact();

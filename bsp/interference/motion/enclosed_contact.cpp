@@ -30,6 +30,7 @@
 #include <trisect/bsp/interference/motion/swept_separation.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/error_bounds.h>
 
@@ -96,6 +97,8 @@ public:
         return std::move(result_);
     }
 
+    [[nodiscard]] const FirstContactCounters& counters() const { return counters_; }
+
 private:
     using Undecided = std::vector<TimeSpan>;
 
@@ -125,7 +128,7 @@ private:
 
     // Whether the boundaries are certainly apart during a range; if not, what is left of `front`.
     bool is_free(const SweptView& view, const Pairs& front, bool is_last, Pairs& rest) {
-        ++result_.stats.intervals;
+        ++counters_.intervals;
         if (view.margin == HUGE_VAL) {
             rest = front;
             return false;
@@ -155,7 +158,7 @@ private:
         const auto are_apart = [&](detail::ObbChild la, detail::ObbChild lb) {
             for (std::uint32_t j = 0; j < lb.count(); ++j)
                 for (std::uint32_t i = 0; i < la.count(); ++i) {
-                    ++result_.stats.triangle_pairs;
+                    ++counters_.triangle_pairs;
                     if (!separation.are_apart(ta.order[la.first() + i], tb.order[lb.first() + j]))
                         return false;
                 }
@@ -345,7 +348,7 @@ private:
         if (!result_.undecided.empty()) result_.free_until = result_.undecided.front().from;
         result_.is_narrow =
             result_.contact_by && *result_.contact_by - result_.free_until <= width_;
-        result_.stats.box_tests = walk_.box_tests();
+        counters_.box_tests = walk_.box_tests();
     }
 
     const InterferenceModel& a_;
@@ -361,6 +364,7 @@ private:
     double later_floor_ = 0;
     bool is_inside_known_ = false;  // since the boundaries were apart last
     EnclosedContact result_;
+    FirstContactCounters counters_;
 };
 
 std::vector<double> common_breaks(const EnclosedMotion& a, const EnclosedMotion& b) {
@@ -387,7 +391,10 @@ EnclosedContact enclosed_first_contact(const InterferenceModel& a, const Enclose
         none.free_until = breaks.back();
         return none;
     }
-    return EnclosedQuery(a, motion_a, b, motion_b, options.width).run(breaks);
+    EnclosedQuery query(a, motion_a, b, motion_b, options.width);
+    EnclosedContact result = query.run(breaks);
+    detail::counters_of_thread<FirstContactCounters> += query.counters();
+    return result;
 }
 
 }  // namespace trisect

@@ -25,6 +25,7 @@
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/motion/pair_events.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -115,6 +116,8 @@ public:
         return std::move(result_);
     }
 
+    [[nodiscard]] const FirstContactCounters& counters() const { return counters_; }
+
 private:
     Relation relation_at(std::size_t piece, const mpq_class& s) const {
         return interfere(a_, pose_in_piece(motion_a_, piece, s), b_,
@@ -187,10 +190,10 @@ private:
         }
         detail::ContactSearch search(events_a_, events_b_, *pairs_, separating_.get());
         search.run(*filter_, events);
-        result_.stats.intervals += search.counters().intervals;
-        result_.stats.box_tests += search.counters().box_tests;
-        result_.stats.triangle_pairs += search.counters().triangle_pairs;
-        if (separating_ != nullptr) result_.stats.separating_pairs = separating_->left_out();
+        counters_.intervals += search.counters().intervals;
+        counters_.box_tests += search.counters().box_tests;
+        counters_.triangle_pairs += search.counters().triangle_pairs;
+        if (separating_ != nullptr) counters_.separating_pairs = separating_->left_out();
     }
 
     void answer(std::size_t piece, const detail::EventsAtATime& events) {
@@ -231,14 +234,34 @@ private:
     std::unique_ptr<detail::FacingCones> cones_b_;
     std::unique_ptr<detail::RecedingFaces> separating_;  // null when nothing may be left out
     FirstContact result_;
+    FirstContactCounters counters_;
 };
 
 }  // namespace
 
+FirstContactCounters& FirstContactCounters::operator+=(const FirstContactCounters& o) {
+    intervals += o.intervals;
+    box_tests += o.box_tests;
+    triangle_pairs += o.triangle_pairs;
+    separating_pairs += o.separating_pairs;
+    return *this;
+}
+
+FirstContactCounters& FirstContactCounters::operator-=(const FirstContactCounters& o) {
+    intervals -= o.intervals;
+    box_tests -= o.box_tests;
+    triangle_pairs -= o.triangle_pairs;
+    separating_pairs -= o.separating_pairs;
+    return *this;
+}
+
 FirstContact first_contact(const InterferenceModel& a, const Motion& motion_a,
                            const InterferenceModel& b, const Motion& motion_b,
                            const FirstContactOptions& options) {
-    return ContactQuery(a, motion_a, b, motion_b).run(options);
+    ContactQuery query(a, motion_a, b, motion_b);
+    FirstContact result = query.run(options);
+    detail::counters_of_thread<FirstContactCounters> += query.counters();
+    return result;
 }
 
 }  // namespace trisect

@@ -20,6 +20,7 @@
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/motion/feature_contact.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/number/ball.h>
 
 namespace trisect {
@@ -83,7 +84,7 @@ std::array<PolynomialVector, 4> exact_paths(const FourPaths& corners) {
 
 template <class A, class B>
 std::optional<AlgebraicNumber> first_contact_exactly(const A& a, const B& b) {
-    MotionCounters& counters = motion_counters();
+    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
     ++counters.exact;
     const IntegerPolynomial coplanar = detail::coplanarity(a, b);
     if (coplanar.is_zero()) ++counters.coplanar;
@@ -104,9 +105,18 @@ MotionCounters& MotionCounters::operator+=(const MotionCounters& o) {
     return *this;
 }
 
+MotionCounters& MotionCounters::operator-=(const MotionCounters& o) {
+    questions -= o.questions;
+    filtered -= o.filtered;
+    exact -= o.exact;
+    coplanar -= o.coplanar;
+    contacts -= o.contacts;
+    return *this;
+}
+
 std::optional<AlgebraicNumber> first_contact(const LinearPath& vertex,
                                              const std::array<LinearPath, 3>& face) {
-    MotionCounters& counters = motion_counters();
+    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
     ++counters.questions;
     const auto a = approximate(face[0]);
     if (certainly_apart({between(a, approximate(face[1])), between(a, approximate(face[2])),
@@ -120,7 +130,7 @@ std::optional<AlgebraicNumber> first_contact(const LinearPath& vertex,
 
 std::optional<AlgebraicNumber> first_contact(const std::array<LinearPath, 2>& a,
                                              const std::array<LinearPath, 2>& b) {
-    MotionCounters& counters = motion_counters();
+    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
     ++counters.questions;
     const auto a0 = approximate(a[0]);
     const auto b0 = approximate(b[0]);

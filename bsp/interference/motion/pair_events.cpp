@@ -19,6 +19,7 @@
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/moving_points.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -309,20 +310,20 @@ void PairEvents::find(std::uint32_t triangle_a, std::uint32_t triangle_b, const 
 
     for (std::size_t i = 0; i < 3; ++i) {
         if (b_.owns_vertex(triangle_b, i)) {
-            ++motion_counters().questions;
+            ++detail::counters_of_thread<MotionCounters>.questions;
             if (side_of_b[i] == 0)
                 vertex_of_b({Kind::VertexFace, triangle_a, triangle_b, 0, i}, a, b_over_a[i], over,
                             events);
             else
-                ++motion_counters().filtered;
+                ++detail::counters_of_thread<MotionCounters>.filtered;
         }
         if (a_.owns_vertex(triangle_a, i)) {
-            ++motion_counters().questions;
+            ++detail::counters_of_thread<MotionCounters>.questions;
             if (side_of_a[i] == 0)
                 vertex_of_a({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, a, a_over_b[i], over,
                             events);
             else
-                ++motion_counters().filtered;
+                ++detail::counters_of_thread<MotionCounters>.filtered;
         }
         if (!a_.owns_edge(triangle_a, i)) continue;
         for (std::size_t j = 0; j < 3; ++j)
@@ -372,7 +373,7 @@ void PairEvents::vertex_of_a(const Features& f, const Resting& a, const BallPoly
 
 void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& over,
                        EarliestEvents& events) {
-    ++motion_counters().questions;
+    ++detail::counters_of_thread<MotionCounters>.questions;
     const Moved& b = *moved_;
     const BallVector& a0 = a.corner[f.i];
     const BallVector& a1 = a.corner[next_of_three(f.i)];
@@ -384,7 +385,7 @@ void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& ov
     for (std::size_t k = 0; k <= over.degree; ++k)
         scalars.coplanar.b[k] = detail::dot(ua, moment[k]) + detail::dot(ma, direction[k]);
     if (constant_sign(scalars.coplanar, over.degree) != 0) {
-        ++motion_counters().filtered;
+        ++detail::counters_of_thread<MotionCounters>.filtered;
         return;
     }
     scalars.count = 4;
@@ -449,7 +450,7 @@ void PairEvents::narrow(const Features& f, const BallMotion& over, const Scalars
     if (left_from < left_to)
         decide_left();
     else if (!any)
-        ++motion_counters().filtered;
+        ++detail::counters_of_thread<MotionCounters>.filtered;
 }
 
 IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
@@ -496,7 +497,7 @@ IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
 }
 
 void PairEvents::decide(const Features& f, const TimeInterval& interval, EarliestEvents& events) {
-    MotionCounters& counters = motion_counters();
+    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
     ++counters.exact;
     const IntegerPolynomial p = coplanarity_of(f);
     if (p.is_zero()) {
@@ -541,7 +542,7 @@ void PairEvents::add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents
         pair = of_b ? FeaturePair{feature_on(tf, sides), corner(tv, i)}
                     : FeaturePair{corner(tv, i), feature_on(tf, sides)};
     }
-    ++motion_counters().contacts;
+    ++detail::counters_of_thread<MotionCounters>.contacts;
     events.add(s, pair);
 }
 

@@ -27,6 +27,7 @@
 #include <trisect/bsp/interference/scene/broad_phases.h>
 #include <trisect/bsp/interference/scene/chain_boxes.h>
 #include <trisect/bsp/interference/scene/scene_bodies.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/seconds_since.h>
@@ -72,27 +73,51 @@ std::unique_ptr<detail::BroadPhase> make_broad_phase(SceneBroadPhase kind) {
 
 }  // namespace
 
+SceneCounters& SceneCounters::operator+=(const SceneCounters& o) {
+    bodies += o.bodies;
+    boxes_met += o.boxes_met;
+    filtered += o.filtered;
+    kept += o.kept;
+    asked += o.asked;
+    interfering += o.interfering;
+    broad_seconds += o.broad_seconds;
+    exact_seconds += o.exact_seconds;
+    return *this;
+}
+
+SceneCounters& SceneCounters::operator-=(const SceneCounters& o) {
+    bodies -= o.bodies;
+    boxes_met -= o.boxes_met;
+    filtered -= o.filtered;
+    kept -= o.kept;
+    asked -= o.asked;
+    interfering -= o.interfering;
+    broad_seconds -= o.broad_seconds;
+    exact_seconds -= o.exact_seconds;
+    return *this;
+}
+
 class Scene::Implementation {
 public:
     explicit Implementation(const SceneOptions& options)
         : broad_(make_broad_phase(options.broad_phase)) {}
 
     SceneBodies bodies;
-    SceneStats stats;
 
     std::vector<ScenePair> interfering(const SceneQueryOptions& options) {
-        stats = {};
-        stats.bodies = bodies.size();
+        counters_ = {};
+        counters_.bodies = bodies.size();
         const auto start = std::chrono::steady_clock::now();
         update_boxes(options.threads);
         broad_->pairs(pairs_);
-        stats.boxes_met = pairs_.size();
-        stats.broad_seconds = seconds_since(start);
+        counters_.boxes_met = pairs_.size();
+        counters_.broad_seconds = seconds_since(start);
         const auto middle = std::chrono::steady_clock::now();
         ask(options);
         std::vector<ScenePair> out = answers(options.contacts);
-        stats.interfering = out.size();
-        stats.exact_seconds = seconds_since(middle);
+        counters_.interfering = out.size();
+        counters_.exact_seconds = seconds_since(middle);
+        detail::counters_of_thread<SceneCounters> += counters_;
         return out;
     }
 
@@ -150,7 +175,7 @@ private:
         auto old = answers_.begin();
         for (const BodyPair& pair : pairs_) {
             if (!bodies.may_meet(pair.first, pair.second)) {
-                ++stats.filtered;
+                ++counters_.filtered;
                 continue;
             }
             while (old != answers_.end() && old->pair < pair) ++old;
@@ -160,13 +185,13 @@ private:
                 next.emplace_back().pair = pair;
             }
             if (is_current(next.back(), options)) {
-                ++stats.kept;
+                ++counters_.kept;
             } else {
                 open.push_back(static_cast<std::uint32_t>(next.size() - 1));
             }
         }
         answers_ = std::move(next);
-        stats.asked = open.size();
+        counters_.asked = open.size();
         for_each_in_parallel(open.size(), options.threads, 1,
                              [&](std::size_t i) { decide(answers_[open[i]], options); });
         for (const std::uint32_t i : open) {
@@ -219,6 +244,7 @@ private:
     std::vector<Known> known_;     // by slot
     std::vector<BodyPair> pairs_;  // of boxes that meet
     std::vector<Answer> answers_;  // of pairs that filters let pass, in order
+    SceneCounters counters_;       // of the last query
 };
 
 void Scene::Implementation::relate(Answer& answer, const SceneBody& a, const SceneBody& b,
@@ -298,7 +324,5 @@ Ratio Scene::joint_value(BodyId link) const { return implementation_->bodies.lin
 std::vector<ScenePair> Scene::interfering(const SceneQueryOptions& options) {
     return implementation_->interfering(options);
 }
-
-const SceneStats& Scene::stats() const { return implementation_->stats; }
 
 }  // namespace trisect

@@ -16,7 +16,7 @@
 // twenty corners, and what is constructed from them is known by names as well. Along a chain of
 // cuts nearly all leaves hold some.
 //
-// EvaluateStats::filtered_leaves counts the leaves that it served, filtered_fragments their
+// EvaluateCounters::filtered_leaves counts the leaves that it served, filtered_fragments their
 // fragments.
 
 #include <trisect/bsp/leaf/doubles/filtered_leaf.h>

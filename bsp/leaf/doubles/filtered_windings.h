@@ -21,7 +21,7 @@ namespace trisect::detail {
 /// edge of these they change where it pierces others, which is known by then: so one trace serves
 /// what hangs together by edges as well. The same idea as in leaf_anchors.h, on doubles. Facets
 /// beside the box of the only other operand are not even looked at, and where boxes of facets meet
-/// in which it has none, one of them determines the others: EvaluateStats::linked counts both.
+/// in which it has none, one of them determines the others: EvaluateCounters::linked counts both.
 class FilteredWindings {
 public:
     /// A vertex in the cell where the winding numbers of all other operands are known.

@@ -327,7 +327,7 @@ void LeafPairs::sweep(LeafWork& work) {
             relate(work, std::min(a.item, b.item), std::max(a.item, b.item));
         }
     }
-    predicate_counters().filtered += 3 * separated;
+    detail::counters_of_thread<PredicateCounters>.filtered += 3 * separated;
     for (const auto& [i, contact] : contacts_) {
         LeafItem& item = work.item(i);
         item.ref.touched = true;

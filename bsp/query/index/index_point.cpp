@@ -168,11 +168,11 @@ const IndexPoint::Rational& IndexPoint::rational() const {
 
 int IndexPoint::side_of(const Plane& plane) const {
     if (const auto s = filtered_side(approximation(), plane)) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return sign_of(*s);
     }
     if (const HomogeneousPoint* h = homogeneous()) return sign_of(trisect::side_of(*h, plane));
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     return value_at(rational(), plane).sign();
 }
 

@@ -56,12 +56,12 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base
             bits = std::max(bits, bit_length(x[k]));
         }
         if (bit_length(n) + bits <= 125) {
-            ++predicate_counters().exact_narrow;
+            ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
             const Int128 sum = n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
             return sum > 0 ? 1 : (sum < 0 ? -1 : 0);
         }
     }
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     if (const HomogeneousPoint* h = p.homogeneous()) {
         WideInt<9> sum;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoi
     Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
     if (const int s = sign_linear(p, n, r.c, splitting_bits); s != 0) return s;
-    ++predicate_counters().symbolic;
+    ++detail::counters_of_thread<PredicateCounters>.symbolic;
     for (std::size_t k = 0; k < 3; ++k)
         if (const int s = exact_turn(p, a, b, k); s != 0) return s;
     return 0;
@@ -127,7 +127,7 @@ int exact_reference_side(const FinePoint& r, const LatticePoint& a, const Lattic
                          const LatticePoint& c) {
     const Normal n = triangle_normal(a, b, c);
     const Fine d = minus(r.c, fine_coordinates(a));
-    ++predicate_counters().exact_narrow;
+    ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
     WideInt<4> sum;  // 109 + 63 + 2 bits
     for (std::size_t k = 0; k < 3; ++k) sum += multiply<4>(WideInt<2>(n[k]), WideInt<1>(d[k]));
     if (const int s = sum.sign(); s != 0) return s;
@@ -184,7 +184,7 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, con
     longest_way *= static_cast<double>(std::uint64_t{1} << bits);
     const double longest_normal = largest_component(normal) + 0x1p-40 * longest_edge * longest_edge;
     if (!(longest_way < 0x1p61) || !(longest_normal * longest_way < 0x1p124)) return std::nullopt;
-    ++predicate_counters().exact_narrow;
+    ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
     const Normal n = exact_cross(edge[0], edge[1]);
     if (n[0] * way[0][0] + n[1] * way[0][1] + n[2] * way[0][2] != 0) return false;
     // Seen along the axis in which the normal is largest.
@@ -192,7 +192,7 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, con
     for (std::size_t i = 1; i < 3; ++i)
         if (std::fabs(normal[i]) > std::fabs(normal[k])) k = i;
     if (n[k] == 0) return std::nullopt;
-    predicate_counters().exact_narrow += 3;
+    detail::counters_of_thread<PredicateCounters>.exact_narrow += 3;
     const std::size_t j = (k + 1) % 3;
     const std::size_t l = (k + 2) % 3;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -225,10 +225,10 @@ int first_sign(const Plane& plane) {
 
 int reference_side(const Reference& r, const Plane& plane) {
     if (const int s = filtered_sign(r, plane); s != 0) {
-        ++predicate_counters().filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return s;
     }
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     const int s = exact_value(r.fine, plane).sign();
     return s != 0 ? s : first_sign(plane);
 }
@@ -237,7 +237,7 @@ int reference_side(const Reference& r, const Plane& plane) {
 // support and edge at the two ends, e at the meeting point is (e_r s_p - e_p s_r) / (s_p - s_r).
 int edge_side_exact(const IndexPoint& p, const Reference& r, const Plane& support,
                     const Plane& edge, int p_side) {
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     const auto& x = p.rational();
     const ExactRational s_p = value_at(x, support);
     const ExactRational e_p = value_at(x, edge);
@@ -264,7 +264,7 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
         const auto a = filtered_side(p.approximation(), edge);
         const int b = filtered_sign(r, edge);
         if (a && b == sign_of(*a)) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             if (b > 0) return Passing::None;
             continue;
         }
@@ -290,7 +290,7 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
     const Vector3 v = minus(fc, fa);
     const Vector3 n = cross(u, v);
     const double edge = std::max(largest_component(u), largest_component(v));
-    auto& counters = predicate_counters();
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
 
     const Vector3 w = minus(p.approximate(), fa);
     const double at_p = dot(n, w);
@@ -359,7 +359,7 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
         const Vector3 fa = to_vector(a);
         if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_vector(b) ||
                                p.approximate() == to_vector(c))) {
-            ++predicate_counters().symbolic;
+            ++detail::counters_of_thread<PredicateCounters>.symbolic;
             return true;
         }
         const Vector3 u = minus(to_vector(b), fa);
@@ -370,7 +370,7 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
             edge * edge * (difference_determinant_rounding * largest_component(w) + 8 * p.error());
         const Vector3 n = cross(u, v);
         if (std::fabs(dot(n, w)) > bound) {
-            ++predicate_counters().filtered;
+            ++detail::counters_of_thread<PredicateCounters>.filtered;
             return false;
         }
         if (const auto on = is_on_narrow(p, a, b, c, n)) return *on;

@@ -173,7 +173,7 @@ struct ExactPart {
 };
 
 ExactPart exact_part(const IndexLine& line, const Plane& support, std::span<const Plane> edges) {
-    ++predicate_counters().exact_wide;
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     ExactPart part;
     const Course s = course(line, support);
     if (s.slope.sign() != 0) {
@@ -396,7 +396,7 @@ LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
         known = meet_convex(polygons.support(id), polygons.edges(id), line, contact);
     }
     if (known != 0) {
-        predicate_counters().filtered += 3;
+        detail::counters_of_thread<PredicateCounters>.filtered += 3;
         return contact;
     }
     return meet_exactly(polygons, id, line);

@@ -187,7 +187,7 @@ private:
             visit(leaf);
             return;
         }
-        predicate_counters().filtered += 2 * std::uint64_t{leaf.count};
+        detail::counters_of_thread<PredicateCounters>.filtered += 2 * std::uint64_t{leaf.count};
         const LeafPlanes planes = index_.tree.planes(leaf);
         const PlaneSides a = sides_of(planes, leaf.count, span.enter);
         const PlaneSides b = sides_of(planes, leaf.count, span.leave);

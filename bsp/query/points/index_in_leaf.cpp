@@ -90,7 +90,7 @@ void PointInLeaf::begin(const IndexTree& tree, const IndexTree::Cell& cell,
 Answer PointInLeaf::decide(const IndexBase& index) {
     if (kind_ != Kind::Few) return Answer::Open;
     const PlaneSides sides = sides_of(index.tree.planes(*leaf_), leaf_->count, place_);
-    predicate_counters().filtered += leaf_->count;
+    detail::counters_of_thread<PredicateCounters>.filtered += leaf_->count;
     above_ = sides.above;
     below_ = sides.below;
     all_ = ~std::uint64_t{0} >> (64 - leaf_->count);
@@ -163,7 +163,8 @@ Answer PointInLeaf::trace(const IndexBase& index) {
             winding_ += (below_ & bit) != 0 ? 1 : -1;
         }
     }
-    predicate_counters().filtered += static_cast<std::uint64_t>(std::popcount(apart));
+    detail::counters_of_thread<PredicateCounters>.filtered +=
+        static_cast<std::uint64_t>(std::popcount(apart));
     if (unsure_ != 0) return Answer::Open;
     ++index_counters().traced;
     return answer(winding_ > 0);
@@ -211,7 +212,7 @@ bool PointInLeaf::finish_many(const IndexBase& index, const IndexPoint& p,
     const std::size_t before = on.size();
     const LeafPlanes planes = index.tree.planes(*leaf_);
     const auto listed = index.tree.listed(*leaf_);
-    predicate_counters().filtered += leaf_->count;
+    detail::counters_of_thread<PredicateCounters>.filtered += leaf_->count;
     const auto at_corner = [&](std::uint32_t i, unsigned c) {
         return planes.at(i, {static_cast<float>(c & 1U), static_cast<float>(c >> 1U & 1U),
                              static_cast<float>(c >> 2U)});

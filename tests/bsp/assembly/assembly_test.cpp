@@ -20,9 +20,11 @@
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
+#include "engines/evaluate_stats.h"
 #include "support/solids.h"
 
 namespace {
@@ -30,12 +32,12 @@ namespace {
 using solids::box;
 using trisect::evaluate;
 using trisect::EvaluateOptions;
-using trisect::EvaluateStats;
 using trisect::Expression;
 using trisect::make_box;
 using trisect::PolygonMesh;
 using trisect::Solid;
 using trisect::detail::AssemblyStats;
+using trisect::test::EvaluateStats;
 
 AssemblyStats stats_of(const Solid& solid) {
     AssemblyStats stats;
@@ -308,7 +310,7 @@ void random_boxes(int rounds, bool coincident) {
         for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
-            options.splitting_offset = leaf == 4 ? 1 : 83;
+            const trisect::detail::SplittingOffset offset(leaf == 4 ? 1 : 83);
             const Solid divided = evaluate(formula, options);
             const PolygonMesh other = divided.to_mesh();
             expect_matching_edges(other);
@@ -379,7 +381,7 @@ TEST(AssemblyOrder, TrianglesDoNotDependOnTheTree) {
         for (const std::uint32_t offset : {83U, 1U, 127U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
-            options.splitting_offset = offset;
+            const trisect::detail::SplittingOffset at(offset);
             EXPECT_EQ(evaluate(formula, options).to_mesh(), first) << leaf << ' ' << offset;
         }
     }

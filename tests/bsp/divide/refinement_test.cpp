@@ -19,11 +19,12 @@
 #include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/bsp/expression.h>
 
+#include "engines/evaluate_stats.h"
+
 namespace {
 
 using trisect::evaluate;
 using trisect::EvaluateOptions;
-using trisect::EvaluateStats;
 using trisect::PolygonMesh;
 using trisect::Solid;
 using trisect::detail::Box;
@@ -31,6 +32,7 @@ using trisect::detail::Cell;
 using trisect::detail::CellNode;
 using trisect::detail::PolygonList;
 using trisect::detail::PolygonRef;
+using trisect::test::EvaluateStats;
 
 // Of unequal density: the smaller ball has as many facets, so the frame of the whole is coarse for
 // it.

@@ -14,12 +14,14 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 
+#include "engines/evaluate_stats.h"
+
 namespace {
 
 using trisect::evaluate;
-using trisect::EvaluateStats;
 using trisect::Solid;
 using trisect::detail::CellNode;
+using trisect::test::EvaluateStats;
 
 using Nodes = std::unordered_set<const CellNode*>;
 

@@ -17,18 +17,21 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
+
+#include "engines/evaluate_stats.h"
 
 namespace {
 
 using trisect::Embedding;
 using trisect::evaluate;
-using trisect::EvaluateStats;
 using trisect::exact_volume;
 using trisect::ExactRational;
 using trisect::Expression;
 using trisect::LatticeMesh;
 using trisect::LatticePoint;
 using trisect::Solid;
+using trisect::test::EvaluateStats;
 
 void add_box(LatticeMesh& mesh, const LatticePoint& lo, const LatticePoint& hi) {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
@@ -95,7 +98,7 @@ TEST(NeedleFans, NeedlesOfOneHubAreToldApartByTheFilter) {
     const Solid a = Solid::from_lattice_mesh(double_cone(500, 0), Embedding::Resolve);
     trisect::EvaluateOptions options;
     options.leaf_polygons = 2000;  // one leaf
-    trisect::predicate_counters() = {};
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     EvaluateStats stats;
     const Solid resolved = evaluate(a | a, options, &stats);
     EXPECT_EQ(stats.mixed_leaves, 1U);
@@ -104,7 +107,7 @@ TEST(NeedleFans, NeedlesOfOneHubAreToldApartByTheFilter) {
     EXPECT_EQ(stats.untouched_polygons, 1000U);
     EXPECT_EQ(stats.pieces, 0U);
     EXPECT_LE(stats.traces, 1U);
-    const auto counters = trisect::predicate_counters();
+    const auto counters = diagnostics.counters();
     EXPECT_LT(counters.exact_narrow + counters.exact_wide, 100U);
     EXPECT_EQ(volume_of(resolved), exact_volume(double_cone(500, 0)));
 }
@@ -122,11 +125,11 @@ void arrange_leaves(const trisect::detail::CellNode& node) {
 TEST(NeedleFans, GenericCutsNeedNoWideIntegers) {
     const Solid a = Solid::from_lattice_mesh(double_cone(60, 0));
     const Solid b = Solid::from_lattice_mesh(double_cone(60, 0.6));
-    trisect::predicate_counters() = {};
+    const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     EvaluateStats stats;
     const Solid joined = evaluate(a | b, {}, &stats);
     arrange_leaves(*trisect::detail::state_of(joined)->root().node);
-    const auto counters = trisect::predicate_counters();
+    const auto counters = diagnostics.counters();
     EXPECT_GT(stats.pairs_cutting, 20U);
     EXPECT_GE(stats.pairs_boxes, stats.pairs_touching);
     EXPECT_GE(stats.pairs_touching, stats.pairs_cutting);

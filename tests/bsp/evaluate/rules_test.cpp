@@ -14,7 +14,7 @@
 
 namespace {
 
-using trisect::EvaluateStats;
+using trisect::EvaluateCounters;
 using trisect::detail::Rule;
 
 using Row = std::vector<std::string>;
@@ -46,15 +46,15 @@ std::vector<Row> documented_rules() {
     return rows;
 }
 
-std::string name_of(std::uint64_t EvaluateStats::*counter) {
-    const std::vector<std::pair<std::uint64_t EvaluateStats::*, std::string>> names{
-        {&EvaluateStats::constant_cells, "`constant_cells`"},
-        {&EvaluateStats::shared_cells, "`shared_cells`"},
-        {&EvaluateStats::divided_cells, "`divided_cells`"},
-        {&EvaluateStats::grid_leaves, "`grid_leaves`"},
-        {&EvaluateStats::filtered_leaves, "`filtered_leaves`"},
-        {&EvaluateStats::prism_leaves, "`prism_leaves`"},
-        {&EvaluateStats::exact_leaves, "`exact_leaves`"},
+std::string name_of(std::uint64_t EvaluateCounters::*counter) {
+    const std::vector<std::pair<std::uint64_t EvaluateCounters::*, std::string>> names{
+        {&EvaluateCounters::constant_cells, "`constant_cells`"},
+        {&EvaluateCounters::shared_cells, "`shared_cells`"},
+        {&EvaluateCounters::divided_cells, "`divided_cells`"},
+        {&EvaluateCounters::grid_leaves, "`grid_leaves`"},
+        {&EvaluateCounters::filtered_leaves, "`filtered_leaves`"},
+        {&EvaluateCounters::prism_leaves, "`prism_leaves`"},
+        {&EvaluateCounters::exact_leaves, "`exact_leaves`"},
     };
     for (const auto& [member, name] : names)
         if (member == counter) return name;

@@ -5,20 +5,33 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
+#include <trisect/bsp/evaluate/rules.h>
+#include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
+
+#include "engines/evaluate_stats.h"
 
 namespace {
 
+using trisect::Diagnostics;
 using trisect::evaluate;
-using trisect::EvaluateStats;
+using trisect::EvaluateCounters;
 using trisect::PredicateCounters;
 using trisect::Solid;
+using trisect::StopScope;
+using trisect::test::EvaluateStats;
 
 // Two balls in general position: no two of their planes or vertices coincide.
 class TwoBalls : public ::testing::Test {
@@ -29,36 +42,34 @@ protected:
                              trisect::compose(trisect::AffineMap::translation({0.43, 0.31, 0.27}),
                                               trisect::AffineMap::rotation({1, 2, 3}, 37))));
     // By cells: a limit of work is counted by them.
-    static trisect::EvaluateOptions dividing() {
-        trisect::EvaluateOptions options;
-        options.max_work = std::uint64_t{1} << 60;
-        return options;
+    static Solid divided(const trisect::Expression& expression, EvaluateStats* stats = nullptr) {
+        const StopScope scope({.max_work = std::uint64_t{1} << 60});
+        return evaluate(expression, {}, stats);
     }
 };
 
 // Of two large meshes only the facets that come near the other one are looked at.
 TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
     EvaluateStats stats;
-    EvaluateStats divided;
+    EvaluateStats by_cells;
     (void)evaluate(a | b, {}, &stats);
-    (void)evaluate(a | b, dividing(), &divided);
+    (void)divided(a | b, &by_cells);
     EXPECT_GT(stats.pairs_cutting, 0U);
-    EXPECT_LE(stats.pairs_cutting, divided.pairs_cutting);  // some count in several cells
-    EXPECT_LT(2 * stats.listed_polygons, divided.listed_polygons);
+    EXPECT_LE(stats.pairs_cutting, by_cells.pairs_cutting);  // some count in several cells
+    EXPECT_LT(2 * stats.listed_polygons, by_cells.listed_polygons);
     EXPECT_EQ(stats.traces, 0U);
     EXPECT_GT(stats.untouched_polygons, 1000U);
-    EXPECT_LT(stats.memory, divided.memory);
+    EXPECT_LT(stats.memory, by_cells.memory);
 }
 
 TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {
-    const PredicateCounters before = trisect::predicate_counters();
+    const Diagnostics<PredicateCounters> diagnostics;
     EvaluateStats stats;
-    const Solid both = evaluate(a & b, dividing(), &stats);
+    const Solid both = divided(a & b, &stats);
     EXPECT_FALSE(both.to_brep().is_empty());
-    const PredicateCounters after = trisect::predicate_counters();
-    const auto filtered = after.filtered - before.filtered;
-    const auto exact =
-        after.exact_narrow + after.exact_wide - before.exact_narrow - before.exact_wide;
+    const PredicateCounters made = diagnostics.counters();
+    const auto filtered = made.filtered;
+    const auto exact = made.exact_narrow + made.exact_wide;
     EXPECT_GT(filtered, 1000U);
     EXPECT_LT(exact * 20, filtered);
 }
@@ -87,11 +98,11 @@ TEST_F(TwoBalls, AllLeavesAreArrangedInDoubles) {
 
 // Every cell is resolved by one rule of the table.
 TEST_F(TwoBalls, CountersOfRulesAddUp) {
-    const Solid c = evaluate(a - b, dividing());
+    const Solid c = divided(a - b);
     for (const trisect::Expression& e :
          {trisect::Expression(a) ^ b, c | b, c - Solid::from_mesh(trisect::make_icosphere(1, 1))}) {
         EvaluateStats stats;
-        (void)evaluate(e, dividing(), &stats);
+        (void)divided(e, &stats);
         EXPECT_EQ(stats.mixed_leaves, stats.grid_leaves + stats.filtered_leaves +
                                           stats.prism_leaves + stats.exact_leaves);
         EXPECT_EQ(stats.cells, stats.constant_cells + stats.shared_cells + stats.mixed_leaves +
@@ -102,7 +113,7 @@ TEST_F(TwoBalls, CountersOfRulesAddUp) {
 
 TEST_F(TwoBalls, CellsAndPairsAreFew) {
     EvaluateStats stats;
-    (void)evaluate(a | b, dividing(), &stats);
+    (void)divided(a | b, &stats);
     EXPECT_GT(stats.cells, 0U);
     EXPECT_GE(stats.cells, stats.shared_cells + stats.constant_cells + stats.mixed_leaves);
     EXPECT_GT(stats.shared_cells, 0U);
@@ -127,13 +138,117 @@ TEST_F(TwoBalls, CountersStartAtZeroForEveryEvaluation) {
     EXPECT_EQ(first.traces, second.traces);
 }
 
-TEST_F(TwoBalls, AWorkBudgetThatIsSpentIsALimit) {
-    trisect::EvaluateOptions options;
-    options.max_work = 5;
-    EXPECT_THROW((void)evaluate(a | b, options), trisect::LimitError);
+// Each looks at what was done since it began, whatever there is beside it.
+TEST_F(TwoBalls, DiagnosticsCountFromTheirBeginning) {
+    const Diagnostics<EvaluateCounters> outer;
+    EvaluateStats first;
+    (void)evaluate(a | b, {}, &first);
+    const Diagnostics<EvaluateCounters> inner;
+    EXPECT_EQ(inner.counters(), EvaluateCounters{});
+    EvaluateStats second;
+    (void)evaluate(a ^ b, {}, &second);
+    EXPECT_GT(second.cells, 0U);
+    EXPECT_EQ(inner.counters(), second);
+    EvaluateCounters both = first;
+    both += second;
+    EXPECT_EQ(outer.counters(), both);
+    both -= first;
+    EXPECT_EQ(both, static_cast<const EvaluateCounters&>(second));
+}
+
+// What the evaluator itself has counted, by one thread or by all of them.
+TEST_F(TwoBalls, DiagnosticsAreThoseOfTheEvaluator) {
+    namespace detail = trisect::detail;
+    const Solid large = Solid::from_mesh(trisect::make_icosphere(1, 5));
+    const trisect::Expression formula = (large ^ b) - a;
+    const detail::Translation t = detail::translate(formula);
+    detail::SolidStates states;
+    for (const Solid& s : t.slots) states.push_back(detail::state_of(s));
+    (void)trisect::evaluate(formula);  // refines large leaves for good
+    std::optional<EvaluateCounters> one;
+    for (const std::uint32_t threads : {1U, 4U}) {
+        detail::EvaluateSettings settings;
+        settings.threads = threads;
+        detail::EvaluateStats expected;
+        (void)detail::evaluate_tree(t.formula, states, settings, expected);
+        const Diagnostics<EvaluateCounters> diagnostics;
+        trisect::EvaluateReport report;
+        (void)trisect::evaluate(formula, settings, &report);
+        EXPECT_GT(expected.cells, 100U);
+        EXPECT_EQ(diagnostics.counters().cells, expected.cells);
+        EXPECT_EQ(diagnostics.counters().pairs_boxes, expected.pairs_boxes);
+        EXPECT_EQ(diagnostics.counters().listed_polygons, expected.listed_polygons);
+        EXPECT_EQ(report.depth, expected.depth);
+        if (threads == 1) {
+            EXPECT_EQ(diagnostics.counters(), expected);
+            EXPECT_EQ(report.memory, expected.memory);
+            one = expected;
+        } else {
+            EXPECT_EQ(diagnostics.counters().cells, one->cells);
+        }
+    }
+}
+
+TEST_F(TwoBalls, DiagnosticsOfAThreadAreItsOwn) {
+    const Diagnostics<EvaluateCounters> here;
     EvaluateStats stats;
-    options.max_work = 1'000'000;
-    EXPECT_FALSE(evaluate(a | b, options, &stats).is_empty());
+    std::thread([&] { (void)evaluate(a | b, {}, &stats); }).join();
+    EXPECT_GT(stats.cells, 0U);
+    EXPECT_EQ(here.counters(), EvaluateCounters{});
+}
+
+TEST_F(TwoBalls, AWorkBudgetThatIsSpentIsALimit) {
+    {
+        const StopScope scope({.max_work = 5});
+        EXPECT_THROW((void)evaluate(a | b), trisect::LimitError);
+        EXPECT_EQ(scope.work(), 6U);
+    }
+    const StopScope scope({.max_work = 1'000'000});
+    EvaluateStats stats;
+    EXPECT_FALSE(evaluate(a | b, {}, &stats).is_empty());
+    EXPECT_EQ(scope.work(), stats.cells + stats.pairs_boxes);
+}
+
+TEST_F(TwoBalls, EvaluationsInNestedScopesShareTheirBudgets) {
+    EvaluateStats stats;
+    (void)divided(a | b, &stats);
+    const std::uint64_t once = stats.cells + stats.pairs_boxes;
+    const StopScope outer({.max_work = 3 * once - 1});
+    {
+        const StopScope inner({.max_work = 2 * once});
+        for (int i = 0; i < 2; ++i) EXPECT_FALSE(evaluate(a | b).is_empty());
+        EXPECT_EQ(inner.work(), 2 * once);
+        EXPECT_THROW((void)evaluate(a | b), trisect::LimitError);  // the inner one is spent
+        EXPECT_EQ(inner.work(), 2 * once + 1);
+    }
+    EXPECT_EQ(outer.work(), 2 * once + 1);
+    const StopScope wide({.max_work = 10 * once});
+    try {
+        (void)evaluate(a | b);
+        ADD_FAILURE() << "the outer scope has less left";
+    } catch (const trisect::LimitError& e) {
+        EXPECT_NE(std::string(e.what()).find(std::to_string(3 * once - 1)), std::string::npos);
+    }
+}
+
+TEST_F(TwoBalls, AnEvaluationCountsBesideOtherCalls) {
+    StopScope scope({.max_work = 1'000'000});
+    (void)a.to_mesh(1);
+    const std::uint64_t before = scope.work();
+    EXPECT_GT(before, 0U);
+    EvaluateStats stats;
+    (void)evaluate(a | b, {}, &stats);
+    EXPECT_EQ(scope.work(), before + stats.cells + stats.pairs_boxes);
+}
+
+// By several threads, since nothing limits the work.
+TEST_F(TwoBalls, AScopeWithoutLimitsCountsTheWorkOfAllThreads) {
+    trisect::EvaluateOptions options;
+    options.threads = 4;
+    const StopScope scope(nullptr);
+    EvaluateStats stats;
+    (void)evaluate(a ^ b, options, &stats);
+    EXPECT_EQ(scope.work(), stats.cells + stats.pairs_boxes);
 }
 
 TEST_F(TwoBalls, AMemoryBudgetIsALimitJustBelowWhatIsNeeded) {
@@ -143,19 +258,27 @@ TEST_F(TwoBalls, AMemoryBudgetIsALimitJustBelowWhatIsNeeded) {
     EvaluateStats stats;
     (void)evaluate(a | b, options, &stats);
     ASSERT_GT(stats.memory, 1000U);
-    options.max_memory = stats.memory - 1;
-    EXPECT_THROW((void)evaluate(a | b, options), trisect::LimitError);
-    options.max_memory = stats.memory;
-    EXPECT_FALSE(evaluate(a | b, options).is_empty());
+    for (const bool inside : {false, true}) {
+        // The smallest limit holds, wherever it is.
+        const std::uint64_t wide = 10 * stats.memory;
+        {
+            const StopScope outer({.max_memory = inside ? wide : stats.memory - 1});
+            const StopScope inner({.max_memory = inside ? stats.memory - 1 : wide});
+            const StopScope none(nullptr);
+            EXPECT_THROW((void)evaluate(a | b, options), trisect::LimitError);
+        }
+        const StopScope outer({.max_memory = inside ? wide : stats.memory});
+        const StopScope inner({.max_memory = inside ? stats.memory : wide});
+        EXPECT_FALSE(evaluate(a | b, options).is_empty());
+    }
 }
 
 TEST_F(TwoBalls, CancellationStopsAnEvaluationAndHarmsNoOperand) {
     std::atomic<bool> stop = true;
-    trisect::EvaluateOptions options;
-    options.cancel = &stop;
-    EXPECT_THROW((void)evaluate(a | b, options), trisect::CancelledError);
+    const StopScope scope(&stop);
+    EXPECT_THROW((void)evaluate(a | b), trisect::CancelledError);
     stop = false;
-    EXPECT_FALSE(evaluate(a | b, options).is_empty());
+    EXPECT_FALSE(evaluate(a | b).is_empty());
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ void expect_rows_follow(const Residual::Ref& formula, std::int32_t slot_count,
     std::vector<trisect::detail::LeafOperand> operands(static_cast<std::size_t>(slot_count));
     for (std::int32_t o = 0; o < slot_count; ++o)
         operands[static_cast<std::size_t>(o)].slot = slot_count - 1 - o;
-    const trisect::EvaluateOptions options;
+    const trisect::detail::EvaluateSettings options;
     trisect::detail::LeafProblem problem;
     problem.operands = operands;
     problem.formula = formula.get();

@@ -19,6 +19,8 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
+#include "engines/evaluate_stats.h"
+
 namespace {
 
 using trisect::evaluate;
@@ -141,7 +143,7 @@ TEST(SolidValue, EqualMeshesAreOneOperand) {
     const std::size_t points = mesh.points.size();
     const Solid a = Solid::from_mesh(mesh);
     const Solid b = Solid::from_mesh(mesh);
-    trisect::EvaluateStats stats;
+    trisect::test::EvaluateStats stats;
     EXPECT_EQ(evaluate(a | b, {}, &stats).to_mesh().points.size(), points);
     EXPECT_EQ(stats.mixed_leaves, 0U);
     EXPECT_EQ(evaluate(a & b).to_mesh().points.size(), points);

@@ -17,15 +17,18 @@
 #include <trisect/bsp/interference/boxes/obb_walk.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
+#include <trisect/kernel/diagnostics.h>
 
 #include "reference/random_solids.h"
 
 namespace {
 
 using reference::Random;
+using trisect::Diagnostics;
 using trisect::interfere;
 using trisect::InterferenceModel;
 using trisect::InterferenceQuery;
+using trisect::InterferenceQueryCounters;
 using trisect::Pose;
 using trisect::Relation;
 using trisect::Solid;
@@ -62,6 +65,7 @@ std::uint64_t fresh_node_tests(const InterferenceModel& a, const InterferenceMod
 TEST(InterferenceQuery, MotionOfAHundredthOfTheDiameterVisitsAThirdOfTheNodes) {
     const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 100, 64)));
     InterferenceQuery query(torus, torus);
+    const Diagnostics<InterferenceQueryCounters> diagnostics;
     std::uint64_t fresh = 0;
     std::map<Relation, int> seen;
     for (const Pose& pose : swing(600)) {
@@ -71,9 +75,9 @@ TEST(InterferenceQuery, MotionOfAHundredthOfTheDiameterVisitsAThirdOfTheNodes) {
     }
     EXPECT_GT(seen[Relation::Disjoint], 50);
     EXPECT_GT(seen[Relation::Overlapping], 50);
-    EXPECT_LT(3 * query.counters().node_tests, fresh);
-    EXPECT_GT(query.counters().kept, 0U);
-    EXPECT_EQ(query.counters().exact, 0U);
+    EXPECT_LT(3 * diagnostics.counters().node_tests, fresh);
+    EXPECT_GT(diagnostics.counters().kept, 0U);
+    EXPECT_EQ(diagnostics.counters().exact, 0U);
 }
 
 // Small steps, jumps, touching and flush poses in any order: always what a fresh question says.
@@ -120,6 +124,7 @@ TEST(InterferenceQuery, OverlapInDepthIsKeptWhileBodiesMoveLess) {
     for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&torus, &torus),
                                std::pair(&torus, &speck), std::pair(&speck, &ball)}) {
         InterferenceQuery query(*a, *b);
+        const Diagnostics<InterferenceQueryCounters> diagnostics;
         for (int i = 0; i < 800; ++i) {
             const double t = static_cast<double>(i);
             const Pose pose_a = turned(0.2 * t, {0.01 * t, 0.3 * std::sin(0.002 * t), 0.5});
@@ -130,7 +135,7 @@ TEST(InterferenceQuery, OverlapInDepthIsKeptWhileBodiesMoveLess) {
             ASSERT_EQ(r, interfere(*a, pose_a, *b, pose_b).relation) << i;
             ++seen[r];
         }
-        const auto counters = query.counters();
+        const auto counters = diagnostics.counters();
         EXPECT_EQ(counters.asked, 800U);
         EXPECT_GT(counters.kept, 100U);
         if (a != &speck && b != &speck) {
@@ -179,6 +184,7 @@ TEST(InterferenceQuery, RandomWalksInShallowContact) {
     for (const auto& [a, b] : {std::pair(&torus, &ball), std::pair(&rough, &ball),
                                std::pair(&torus, &torus), std::pair(&rough, &rough)}) {
         InterferenceQuery query(*a, *b);
+        const Diagnostics<InterferenceQueryCounters> diagnostics;
         Random random(77);
         // B's middle about A's, and the angle of B.
         const auto pose_at = [](const std::array<double, 3>& place) {
@@ -210,8 +216,8 @@ TEST(InterferenceQuery, RandomWalksInShallowContact) {
             }
             been.push_back(place);
         }
-        EXPECT_GT(query.counters().by_balls, 20U);
-        EXPECT_GT(query.counters().kept, 100U);
+        EXPECT_GT(diagnostics.counters().by_balls, 20U);
+        EXPECT_GT(diagnostics.counters().kept, 100U);
     }
     EXPECT_GT(seen[Relation::Disjoint], 300);
     EXPECT_GT(seen[Relation::Overlapping], 300);
@@ -221,6 +227,7 @@ TEST(InterferenceQuery, ALostCrossingGoesOnFromTheFrontBefore) {
     const InterferenceModel torus(Solid::from_mesh(trisect::make_torus(1, 0.25, 60, 40)));
     for (const double amplitude : {0.005, 0.01}) {
         InterferenceQuery query(torus, torus);
+        const Diagnostics<InterferenceQueryCounters> diagnostics;
         for (int i = 0; i < 400; ++i) {
             // In and out of contact along a short way.
             const double gap = amplitude * std::sin(0.3 * i);
@@ -228,9 +235,9 @@ TEST(InterferenceQuery, ALostCrossingGoesOnFromTheFrontBefore) {
             ASSERT_EQ(query.relation(Pose(), pose), interfere(torus, Pose(), torus, pose).relation)
                 << i;
         }
-        EXPECT_GT(query.counters().resumed_fronts, 3U);
-        EXPECT_LT(query.counters().fresh_walks, 10U);
-        EXPECT_GT(query.counters().plane_tests, 0U);
+        EXPECT_GT(diagnostics.counters().resumed_fronts, 3U);
+        EXPECT_LT(diagnostics.counters().fresh_walks, 10U);
+        EXPECT_GT(diagnostics.counters().plane_tests, 0U);
     }
 }
 
@@ -293,10 +300,11 @@ TEST(InterferenceQuery, EmptyModelsAndForgetting) {
     InterferenceQuery empty(box, InterferenceModel{});
     EXPECT_EQ(empty.relation(Pose(), Pose()), Relation::Disjoint);
     InterferenceQuery query(box, box);
+    const Diagnostics<InterferenceQueryCounters> diagnostics;
     EXPECT_EQ(query.relation(Pose(), Pose::from_translation({3, 0, 0})), Relation::Disjoint);
     query.forget();
     EXPECT_EQ(query.relation(Pose(), Pose()), Relation::Equal);
-    EXPECT_EQ(query.counters().asked, 2U);
+    EXPECT_EQ(diagnostics.counters().asked, 2U);
 }
 
 }  // namespace
