@@ -13,13 +13,13 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "../scenes/comparison.h"
+#include "command_line.h"
 #include "commands.h"
 #include "further_command.h"
 #include "motion_file.h"
@@ -183,8 +183,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<FurtherCommand> compare_hierarchies_command() {
-    return std::make_unique<CompareHierarchies>();
+int run_with_comparison(int argc, char** argv) {
+    CompareHierarchies command;
+    return run(argc, argv, &command);
 }
 
 }  // namespace trisect::app

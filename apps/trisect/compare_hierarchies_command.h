@@ -3,12 +3,9 @@
 // compare-hierarchies, which measures the structures of the comparison library.
 #pragma once
 
-#include <memory>
-
 namespace trisect::app {
 
-class FurtherCommand;
-
-[[nodiscard]] std::unique_ptr<FurtherCommand> compare_hierarchies_command();
+/// run() of command_line.h, with this sub-command too.
+[[nodiscard]] int run_with_comparison(int argc, char** argv);
 
 }  // namespace trisect::app

@@ -19,9 +19,7 @@
 #include <unistd.h>
 
 #include "byte_source.h"
-#include "trisect/command_line.h"
 #include "trisect/compare_hierarchies_command.h"
-#include "trisect/further_command.h"
 
 namespace {
 
@@ -187,7 +185,6 @@ std::vector<std::string> arguments(fuzz::ByteSource& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const Folder folder;
-    const auto comparison = trisect::app::compare_hierarchies_command();
     fuzz::ByteSource bytes(data, size);
     std::vector<std::string> texts = arguments(bytes);
     std::vector<char*> argv;
@@ -196,7 +193,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     int code = 0;
     {
         const Visit visit(folder.path());
-        code = trisect::app::run(static_cast<int>(argv.size()) - 1, argv.data(), comparison.get());
+        code = trisect::app::run_with_comparison(static_cast<int>(argv.size()) - 1, argv.data());
     }
     require(code >= 0 && code <= 7);
     folder.clean();
