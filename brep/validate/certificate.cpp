@@ -21,6 +21,7 @@
 #include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 namespace {
@@ -136,6 +137,7 @@ std::optional<std::size_t> self_intersecting_pairs(const PolygonMesh& mesh) {
                report.count(DefectKind::DuplicateFace) +
                report.count(DefectKind::DuplicateOppositeFaces);
     } catch (const LimitError&) {
+        detail::check_stop(0);  // a limit of the caller's is no answer
         return std::nullopt;
     }
 }

@@ -12,6 +12,7 @@
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
+#include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
@@ -159,18 +160,26 @@ TEST_F(TwoBalls, DiagnosticsCountFromTheirBeginning) {
 // What the evaluator itself has counted, by one thread or by all of them.
 TEST_F(TwoBalls, DiagnosticsAreThoseOfTheEvaluator) {
     namespace detail = trisect::detail;
-    const Solid large = Solid::from_mesh(trisect::make_icosphere(1, 5));
-    const trisect::Expression formula = (large ^ b) - a;
-    const detail::Translation t = detail::translate(formula);
-    detail::SolidStates states;
-    for (const Solid& s : t.slots) states.push_back(detail::state_of(s));
-    (void)trisect::evaluate(formula);  // refines large leaves for good
+    // Large leaves are refined for good: every evaluation has solids of its own.
+    const auto fresh = [] {
+        const auto turned = trisect::compose(trisect::AffineMap::translation({0.43, 0.31, 0.27}),
+                                             trisect::AffineMap::rotation({1, 2, 3}, 37));
+        const auto ball = [](std::uint32_t n) { return trisect::make_icosphere(1, n); };
+        const trisect::Expression large = Solid::from_mesh(ball(5));
+        return (large ^ Solid::from_mesh(trisect::transformed(ball(5), turned))) -
+               Solid::from_mesh(ball(4));
+    };
     std::optional<EvaluateCounters> one;
     for (const std::uint32_t threads : {1U, 4U}) {
         detail::EvaluateSettings settings;
         settings.threads = threads;
+        const detail::Translation t = detail::translate(fresh());
+        detail::SolidStates states;
+        for (const Solid& s : t.slots) states.push_back(detail::state_of(s));
+        (void)detail::move_to_common_lattice(states, settings.lattices);
         detail::EvaluateStats expected;
         (void)detail::evaluate_tree(t.formula, states, settings, expected);
+        const trisect::Expression formula = fresh();
         const Diagnostics<EvaluateCounters> diagnostics;
         trisect::EvaluateReport report;
         (void)trisect::evaluate(formula, settings, &report);

@@ -23,6 +23,7 @@
 #include <trisect/bsp/interference/certificate/find/proof_vector.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
@@ -226,7 +227,8 @@ std::optional<OverlapWitness> find_overlap_witness(const OverlapCertificate& c,
         try {
             if (auto w = search.at(ExactRational::from_double(until))) return w;
         } catch (const LimitError&) {
-            // A pose too wide for the static query.
+            // A pose too wide for the static query, or a limit of the caller's.
+            check_stop(0);
         }
     }
     return std::nullopt;
