@@ -51,7 +51,6 @@
 #include <trisect/bsp/solid.h>
 
 #include "bench/shapes.h"
-#include "engines/evaluate_stats.h"
 #ifdef TRISECT_WITH_CGAL
 #include "bench/corefinement.h"
 #endif
@@ -201,8 +200,7 @@ trisect::Expression expression(int operation, const Solid& a, const Solid& b) {
 
 Brep run_operation(int operation, const Solid& a, const Solid& b, json& out) {
     auto start = Clock::now();
-    trisect::test::EvaluateStats stats;
-    const Solid result = evaluate(expression(operation, a, b), {}, &stats);
+    const Solid result = evaluate(expression(operation, a, b));
     out["evaluate_seconds"] = seconds_since(start);
     start = Clock::now();
     const PolygonMesh mesh = result.to_mesh();
