@@ -35,7 +35,8 @@ namespace trisect {
 /// Nothing for the empty set and whole space. \throw UnsupportedError for other unbounded sets
 [[nodiscard]] std::optional<Bounds> bounds(const Solid& solid);
 
-/// What to_mesh() has. A boundary that touches itself has its vertices once.
+/// What to_mesh() has once a boundary that may meet itself is resolved. One that touches itself has
+/// its vertices once.
 struct SolidCounts {
     std::size_t vertices = 0;
     std::size_t triangles = 0;

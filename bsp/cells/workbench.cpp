@@ -452,16 +452,18 @@ bool Workbench::is_bounded_by(const WorkPolygon& polygon, int axis, std::int64_t
 }
 
 WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& cell) {
-    WorkPolygon w = polygon.is_empty() ? unbounded_in(polygon.support, cell) : std::move(polygon);
+    // A whole plane reaches beyond the box of its source, along its dominant axis too.
+    const bool unbounded = polygon.is_empty();
+    WorkPolygon w = unbounded ? unbounded_in(polygon.support, cell) : std::move(polygon);
     for (int axis = 0; axis < 3; ++axis) {
         const auto k = static_cast<std::size_t>(axis);
         // Boxes are rounded outwards, so those of parts that end at a splitting plane reach beyond
         // it.
-        if (box.lo[k] <= (cell.lo[k] >> splitting_bits) &&
+        if ((unbounded || box.lo[k] <= (cell.lo[k] >> splitting_bits)) &&
             !is_bounded_by(w, axis, cell.lo[k], true))
             w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;
-        if (box.hi[k] > (cell.hi[k] >> splitting_bits) &&
+        if ((unbounded || box.hi[k] > (cell.hi[k] >> splitting_bits)) &&
             !is_bounded_by(w, axis, cell.hi[k], false))
             w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.hi[k])), -1);
         if (w.is_empty()) return w;

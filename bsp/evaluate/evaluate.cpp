@@ -49,6 +49,16 @@ constexpr std::array counter_members{
 };
 static_assert(sizeof(Counters) == counter_members.size() * sizeof(std::uint64_t));
 
+// Whole space and the empty set are the same on every lattice.
+void note_constant(SolidState& state) {
+    const auto* const tree = std::get_if<detail::CellTree>(&state.form);
+    if (tree == nullptr) return;
+    const detail::CellNode& root = *tree->root.node;
+    if (!root.is_leaf() || root.deferred() != nullptr || root.size() != 0) return;
+    state.lattice_matters = false;
+    state.far_out = (root.winding() > 0) != tree->root.complemented ? 1 : 0;
+}
+
 }  // namespace
 
 EvaluateCounters& EvaluateCounters::operator+=(const EvaluateCounters& o) {
@@ -79,6 +89,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options,
     limited.finish(made);
     detail::counters_of_thread<EvaluateCounters> += made;
     state->lattice = lattice.lattice;
+    note_constant(*state);
     if (report != nullptr) *report = {lattice, made.memory, made.depth};
     return detail::solid_of(std::move(state));
 }

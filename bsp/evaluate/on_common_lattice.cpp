@@ -197,6 +197,7 @@ Boundary boundary_of(const std::shared_ptr<const SolidState>& state) {
     if (state->source != 0) {  // imported, maybe not free of self-intersection: as it came
         const LatticeMesh& mesh = (*state->root().node->polygons().begin()).source->mesh();
         Boundary out;
+        out.unbounded = state->root().complemented;
         for (const LatticePoint& p : mesh.points)
             out.mesh.points.push_back(to_user(p, mesh.lattice));
         for (const auto& t : mesh.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
@@ -246,6 +247,21 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
     return out;
 }
 
+// To the coarsest of their lattices: all of them are within the limits of space there, and their
+// vertices need be no lattice points.
+LatticeReport move_half_spaces(std::vector<std::shared_ptr<const SolidState>>& states) {
+    LatticeReport report;
+    int coarsest = std::numeric_limits<int>::min();
+    for (const auto& s : states)
+        if (s->lattice_matters) coarsest = std::max(coarsest, s->lattice.exponent);
+    if (coarsest == std::numeric_limits<int>::min()) return report;
+    report.lattice.exponent = coarsest;
+    for (auto& s : states)
+        if (s->lattice_matters && s->lattice.exponent != coarsest)
+            s = half_space_on(*s, report.lattice);
+    return report;
+}
+
 [[noreturn]] void refuse(int finest, int common) {
     throw LimitError("the operands have no common lattice without rounding: the finest unit is " +
                      unit_text(finest) + ", the finest on which all of them fit " +
@@ -256,14 +272,13 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
 
 LatticeReport move_to_common_lattice(std::vector<std::shared_ptr<const SolidState>>& states,
                                      EvaluateOptions::Lattices policy) {
+    if (std::ranges::all_of(states,
+                            [](const auto& s) { return !s->lattice_matters || is_half_space(*s); }))
+        return move_half_spaces(states);
     LatticeReport report;
     int finest = std::numeric_limits<int>::max();
     // A half-space has a place on every lattice.
-    const bool all_are_half_spaces = std::ranges::all_of(
-        states, [](const auto& s) { return !s->lattice_matters || is_half_space(*s); });
-    const auto is_free = [&](const SolidState& s) {
-        return !s.lattice_matters || (!all_are_half_spaces && is_half_space(s));
-    };
+    const auto is_free = [](const SolidState& s) { return !s.lattice_matters || is_half_space(s); };
     for (const auto& s : states) {
         if (is_free(*s)) continue;
         finest = std::min(finest, s->lattice.exponent);

@@ -20,6 +20,9 @@ namespace trisect::detail {
 
 namespace {
 
+// Fragments of half-spaces may end where space does: nothing is beyond them.
+bool ends_at_limit(const Box& box) { return std::ranges::min(box.lo) <= -coordinate_limit; }
+
 // A point outside the boxes of all leaves, three units beyond their common corner; or, when there
 // is a tree, any of its points.
 FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> solids) {
@@ -37,7 +40,8 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sol
             continue;
         }
         for (const PolygonRef& r : polygons)
-            if (r.fragment != nullptr || !r.source->is_half_space()) all.add(r.box());
+            if ((r.fragment != nullptr || !r.source->is_half_space()) && !ends_at_limit(r.box()))
+                all.add(r.box());
     }
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)

@@ -20,28 +20,22 @@ ExactMesh boundary_of(const Solid& solid) {
 }
 
 ExactMesh bounded_boundary_of(const Solid& solid) {
-    if (detail::state_of(solid)->far_out == 1)
-        throw UnsupportedError("an unbounded set has no volume");
-    return boundary_of(solid);
-}
-
-// Half-spaces alone decide it only when they have been put together.
-ExactRational require_bounded(ExactRational volume) {
-    if (volume.sign() < 0) throw UnsupportedError("an unbounded set has no volume");
-    return volume;
+    const int far_out = detail::state_of(solid)->far_out;
+    const auto refuse = [] { throw UnsupportedError("an unbounded set has no volume"); };
+    if (far_out == 1) refuse();
+    ExactMesh boundary = boundary_of(solid);
+    // Half-spaces alone decide it only when they have been put together.
+    if (far_out < 0 &&
+        (boundary.triangles.empty() ? solid.is_whole_space() : exact_volume(boundary).sign() < 0))
+        refuse();
+    return boundary;
 }
 
 }  // namespace
 
-ExactRational exact_volume(const Solid& solid) {
-    return require_bounded(exact_volume(bounded_boundary_of(solid)));
-}
+ExactRational exact_volume(const Solid& solid) { return exact_volume(bounded_boundary_of(solid)); }
 
-double volume(const Solid& solid) {
-    const double v = volume(bounded_boundary_of(solid));
-    if (v < 0) throw UnsupportedError("an unbounded set has no volume");
-    return v;
-}
+double volume(const Solid& solid) { return volume(bounded_boundary_of(solid)); }
 
 Area area(const Solid& solid) { return area(boundary_of(solid)); }
 

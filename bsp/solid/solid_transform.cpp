@@ -149,7 +149,9 @@ StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport
     report.lossless = largest == 0;
     report.max_move = size_of(largest, state->lattice);
     StatePtr out = detail::moved_state(*state, move);
-    if (!report.lossless) report.moved = detail::solid_of(out).to_exact_mesh().points.size();
+    // Sets of half-spaces may have no mesh.
+    if (!report.lossless && out->far_out >= 0)
+        report.moved = detail::solid_of(out).to_exact_mesh().points.size();
     return out;
 }
 
