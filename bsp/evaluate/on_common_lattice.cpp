@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -23,6 +24,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
@@ -32,8 +34,11 @@ namespace trisect::detail {
 
 namespace {
 
+std::string unit_text(int exponent) { return "2^" + std::to_string(exponent); }
+
 // Rebuilds one tree as a single unrefined leaf on a finer lattice. Splitting planes of the old tree
 // survive as edges of fragments only: on the finer lattice they would no longer be off the lattice.
+// Space is smaller there. What half-spaces bound beyond its limits is cut off.
 class Refiner {
 public:
     Refiner(int from, int to) : shift_(from - to), exponent_(to) {}
@@ -44,15 +49,9 @@ public:
     CellRef refine(const CellRef& root) {
         if (is_whole_mesh(*root.node)) return refine_mesh(root);
         visit(root, Cell{});
-        const CellNode* node = root.node.get();
-        bool complemented = root.complemented;
-        while (!node->is_leaf()) {
-            complemented = complemented != node->child(0).complemented;
-            node = node->child(0).node.get();
-        }
-        const FinePoint reference = shifted(node->reference());
-        const int winding = complemented ? 1 - node->winding() : node->winding();
-        return {CellNode::leaf(PolygonList(std::move(out_)), reference, winding, mixed_), false};
+        const Reference at = reference_of(root);
+        return {CellNode::leaf(PolygonList(std::move(out_)), shifted(at.point), at.winding, mixed_),
+                false};
     }
 
 private:
@@ -71,13 +70,80 @@ private:
                 root.complemented};
     }
 
+    struct Reference {
+        FinePoint point;
+        int winding = 0;
+    };
+
+    // That of some leaf, or another point where it is out of space.
+    [[nodiscard]] Reference reference_of(const CellRef& root) const {
+        const CellNode* node = root.node.get();
+        bool complemented = root.complemented;
+        while (!node->is_leaf()) {
+            complemented = complemented != node->child(0).complemented;
+            node = node->child(0).node.get();
+        }
+        if (is_in_space(node->reference()))
+            return {node->reference(), complemented ? 1 - node->winding() : node->winding()};
+        for (std::int64_t k = 1; k < 40; ++k) {
+            const FinePoint p{{2 * k, 6 * k * k, 10 * k * k * k}};
+            if (!is_in_space(p)) break;
+            if (const auto winding = winding_in_tree(*root.node, root.complemented, Cell{}, p))
+                return {p, *winding};
+        }
+        throw LimitError(
+            "no point of a solid of half-spaces is left on the common lattice of unit " +
+            unit_text(exponent_));
+    }
+
+    [[nodiscard]] bool is_in_space(std::int64_t v) const {
+        return shift_ < 62 && v <= (universe_limit >> shift_) && v >= -(universe_limit >> shift_);
+    }
+    [[nodiscard]] bool is_in_space(const FinePoint& p) const {
+        return std::ranges::all_of(p.c, [this](std::int64_t c) { return is_in_space(c); });
+    }
+    [[nodiscard]] bool is_in_space(const Box& box) const {
+        const auto is_in = [this](std::int64_t c) {
+            return shift_ < 53 && std::abs(c) < (coordinate_limit >> shift_);
+        };
+        return std::ranges::all_of(box.lo, is_in) && std::ranges::all_of(box.hi, is_in);
+    }
+
+    // What of a fragment of a half-space's plane is within space on the new lattice.
+    [[nodiscard]] std::optional<PolygonRef> within_space(const PolygonRef& ref) {
+        PolygonRef plane = ref;
+        plane.source = renamed(ref.source);
+        plane.fragment = nullptr;
+        fine_.clear();
+        WorkPolygon part = fine_.polygon(plane);
+        fine_.with_edges(part, plane);
+        part = fine_.clipped(std::move(part), plane.box(), Cell{});
+        for (const EdgeName& e : ref.fragment->edges()) {
+            if (part.is_empty()) return std::nullopt;
+            if (e.plane.is_splitter() && !is_in_space(e.plane.position())) {
+                if ((e.plane.position() > 0) == e.above) return std::nullopt;
+                continue;  // all of space is on that side
+            }
+            part = fine_.clipped(std::move(part), fine_.plane(renamed(e).plane), e.above ? 1 : -1);
+        }
+        if (part.is_empty()) return std::nullopt;
+        return make_fragment(fine_, plane, part);
+    }
+
+    [[nodiscard]] EdgeName renamed(EdgeName e) {
+        e.plane.owner = e.plane.is_splitter()
+                            ? static_cast<std::uint64_t>(shifted(e.plane.position()))
+                            : reinterpret_cast<std::uintptr_t>(renamed(e.plane.source()));
+        return e;
+    }
+
     [[nodiscard]] FinePoint shifted(FinePoint p) const {
         for (std::int64_t& c : p.c) c = shifted(c);
         return p;
     }
 
     [[nodiscard]] std::int64_t shifted(std::int64_t v) const {
-        if (shift_ >= 62 || v > (universe_limit >> shift_) || v < -(universe_limit >> shift_))
+        if (!is_in_space(v))
             throw LimitError("a cell splitter leaves the range of the common lattice of unit 2^" +
                              std::to_string(exponent_));
         return v << shift_;
@@ -94,14 +160,7 @@ private:
         out.source = renamed(ref.source);
         if (ref.fragment == nullptr) return out;
         std::vector<EdgeName> edges;
-        for (EdgeName e : ref.fragment->edges()) {
-            if (e.plane.is_splitter()) {
-                e.plane.owner = static_cast<std::uint64_t>(shifted(e.plane.position()));
-            } else {
-                e.plane.owner = reinterpret_cast<std::uintptr_t>(renamed(e.plane.source()));
-            }
-            edges.push_back(e);
-        }
+        for (const EdgeName& e : ref.fragment->edges()) edges.push_back(renamed(e));
         Box box = ref.fragment->box();
         for (std::size_t k = 0; k < 3; ++k) {
             box.lo[k] *= std::int64_t{1} << shift_;
@@ -138,7 +197,11 @@ private:
             // Holds a clipped fragment until its copy on the new lattice is made.
             const PolygonList hold({*part});
             make_room(out_);
-            out_.push_back(renamed(*part));
+            const bool is_plane = part->fragment != nullptr && part->source->is_half_space() &&
+                                  !is_in_space(part->fragment->box());
+            const auto fine = is_plane ? within_space(*part) : std::optional(renamed(*part));
+            if (!fine) continue;
+            out_.push_back(*fine);
             out_.back().flipped = part->flipped != ref.complemented;
         }
     }
@@ -148,6 +211,7 @@ private:
     bool mixed_ = false;
     std::vector<PolygonRef> out_;
     Workbench bench_;
+    Workbench fine_;  // on the new lattice
     std::unordered_map<const Source*, std::shared_ptr<const Source>> sources_;
 };
 
@@ -211,8 +275,6 @@ Boundary boundary_of(const std::shared_ptr<const SolidState>& state) {
                          out.mesh.corners.begin() + out.mesh.face_begin[f + 1]);
     return out;
 }
-
-std::string unit_text(int exponent) { return "2^" + std::to_string(exponent); }
 
 std::shared_ptr<const SolidState> rounded(const std::shared_ptr<const SolidState>& state,
                                           Lattice lattice, LatticeReport& report) {

@@ -7,8 +7,12 @@
 #include <trisect/bsp/solid_transform.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/brep/brep_builder.h>
 #include <trisect/brep/measure.h>
@@ -17,34 +21,83 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid/named_boundary.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/predicates.h>
 
 namespace trisect {
 
 namespace {
 
-Brep part_of(const Brep& brep, std::span<const ShellId> shells) {
-    BrepBuilder builder(brep.lattice());
-    std::vector<std::uint32_t> number(brep.counts().vertices, VertexId::none);
-    const auto vertex = [&](VertexId v) {
-        if (number[v.index] == VertexId::none) number[v.index] = builder.add_vertex(brep.point(v));
-        return number[v.index];
-    };
-    for (const ShellId s : shells)
-        for (const FaceId f : brep.faces(s)) {
-            std::vector<std::vector<std::uint32_t>> loops;
-            for (const LoopId l : brep.loops(f)) {
-                auto& loop = loops.emplace_back();
-                for (const HalfedgeId h : brep.halfedges(l)) loop.push_back(vertex(brep.origin(h)));
-            }
-            builder.add_face(brep.plane(f), loops, brep.source(f));
+// Takes shells out of a boundary.
+class ShellCopier {
+public:
+    explicit ShellCopier(const Brep& brep)
+        : brep_(brep), number_(brep.counts().vertices, VertexId::none) {}
+
+    [[nodiscard]] Brep copy(std::span<const ShellId> shells) {
+        BrepBuilder builder(brep_.lattice());
+        for (const ShellId s : shells)
+            for (const FaceId f : brep_.faces(s)) add(f, builder);
+        for (const VertexId v : numbered_) number_[v.index] = VertexId::none;
+        numbered_.clear();
+        return std::move(builder).build();
+    }
+
+private:
+    void add(FaceId f, BrepBuilder& builder) {
+        std::vector<std::vector<std::uint32_t>> loops;
+        for (const LoopId l : brep_.loops(f)) {
+            auto& loop = loops.emplace_back();
+            for (const HalfedgeId h : brep_.halfedges(l))
+                loop.push_back(number_of(brep_.origin(h), builder));
         }
-    return std::move(builder).build();
+        builder.add_face(brep_.plane(f), loops, brep_.source(f));
+    }
+    std::uint32_t number_of(VertexId v, BrepBuilder& builder) {
+        std::uint32_t& number = number_[v.index];
+        if (number == VertexId::none) {
+            number = builder.add_vertex(brep_.point(v));
+            numbered_.push_back(v);
+        }
+        return number;
+    }
+
+    const Brep& brep_;
+    std::vector<std::uint32_t> number_;  // of all vertices, in the copy that is being made
+    std::vector<VertexId> numbered_;
+};
+
+// Around the vertices of a shell, in units: each coordinate is the nearest double, and these are in
+// the order of the exact ones.
+struct ShellBox {
+    std::array<double, 3> lo{};
+    std::array<double, 3> hi{};
+
+    [[nodiscard]] bool may_be_around(const ShellBox& o) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (o.lo[k] < lo[k] || o.hi[k] > hi[k]) return false;
+        return true;
+    }
+};
+
+ShellBox box_of(const Brep& brep, ShellId shell) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    ShellBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    for (const FaceId f : brep.faces(shell))
+        for (const HalfedgeId h : brep.halfedges(f)) {
+            const auto p = nearest_doubles(brep.point(brep.origin(h)).homogeneous());
+            for (std::size_t k = 0; k < 3; ++k) {
+                box.lo[k] = std::min(box.lo[k], p[k]);
+                box.hi[k] = std::max(box.hi[k], p[k]);
+            }
+        }
+    return box;
 }
 
 // A shell that bounds material, without cavities yet.
 struct Part {
     std::vector<ShellId> shells;
     ExactRational volume;
+    ShellBox box;
     std::unique_ptr<BrepIndex> index;  // of the shell alone, when it is first needed
 };
 
@@ -59,30 +112,33 @@ bool is_around(const Part& part, const Brep& brep, ShellId cavity) {
     return part.volume > -exact_volume(brep, cavity);
 }
 
-Part& part_around(std::vector<Part*>& by_volume, const Brep& brep, ShellId cavity) {
+Part& part_around(std::vector<Part*>& by_volume, const Brep& brep, ShellId cavity,
+                  ShellCopier& copier) {
+    const ShellBox box = box_of(brep, cavity);
     for (Part* p : by_volume) {
+        if (!p->box.may_be_around(box)) continue;
         if (p->index == nullptr)
             p->index = std::make_unique<BrepIndex>(
-                detail::named_solid(part_of(brep, std::span(p->shells).first(1))));
+                detail::named_solid(copier.copy(std::span(p->shells).first(1))));
         if (is_around(*p, brep, cavity)) return *p;
     }
     throw Error(ErrorCode::Internal, "a cavity lies in no part of its solid");
 }
 
-std::vector<Part> parts_of(const Brep& brep) {
+std::vector<Part> parts_of(const Brep& brep, ShellCopier& copier) {
     std::vector<Part> parts;
     std::vector<ShellId> cavities;
     for (const ShellId s : brep.shells()) {
         if (sign_of_volume(brep, s) < 0) {
             cavities.push_back(s);
         } else {
-            parts.push_back({{s}, exact_volume(brep, s), nullptr});
+            parts.push_back({{s}, exact_volume(brep, s), box_of(brep, s), nullptr});
         }
     }
     std::vector<Part*> by_volume;
     for (Part& p : parts) by_volume.push_back(&p);
     std::ranges::stable_sort(by_volume, {}, [](const Part* p) { return p->volume; });
-    for (const ShellId c : cavities) part_around(by_volume, brep, c).shells.push_back(c);
+    for (const ShellId c : cavities) part_around(by_volume, brep, c, copier).shells.push_back(c);
     return parts;
 }
 
@@ -98,8 +154,9 @@ std::vector<Solid> components(const Solid& solid) {
         throw UnsupportedError("an unbounded set has no components as solids");
     if (brep.shells().size() == 1) return {resolved};
     std::vector<Solid> out;
-    for (const Part& p : parts_of(brep))
-        out.push_back(detail::named_solid(part_of(brep, p.shells)));
+    ShellCopier copier(brep);
+    for (const Part& p : parts_of(brep, copier))
+        out.push_back(detail::named_solid(copier.copy(p.shells)));
     return out;
 }
 

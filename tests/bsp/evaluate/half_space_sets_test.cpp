@@ -69,7 +69,7 @@ TEST(HalfSpaceSets, OneFormulaIsItsSteps) {
     const auto digit = [&](int n) { return static_cast<double>(random() % (2 * n + 1)) - n; };
     std::size_t with_volume = 0;
     for (int round = 0; round < 300; ++round) {
-        const Solid b = cube(8);
+        const Solid b = cube(round % 2 == 0 ? 8 : 7.3);
         Expression formula = b;
         Solid steps = b;
         Expression alone = below(1, 0, 0, -8);
@@ -89,6 +89,20 @@ TEST(HalfSpaceSets, OneFormulaIsItsSteps) {
         with_volume += expected.sign() > 0 ? 1U : 0U;
     }
     EXPECT_GT(with_volume, 100U);
+}
+
+// A kept set that is unbounded moves to the finer lattice of what it meets.
+TEST(HalfSpaceSets, KeptOnesMeetFinerSolids) {
+    const Solid wedge = evaluate(below(1, 0, 0, 0) & below(0, 1, 0, 0));
+    const Solid fine = cube(0.1);
+    EXPECT_EQ(exact_volume(evaluate(wedge & fine)) * ExactRational(4), exact_volume(fine));
+    EXPECT_EQ(exact_volume(evaluate(fine - wedge)) * ExactRational(4),
+              exact_volume(fine) * ExactRational(3));
+    const Solid other = evaluate(below(2, 0, 0, 1) & below(0, 0, 1, -1));
+    const Solid both = evaluate(wedge & other);
+    EXPECT_EQ(volume_text(cube(2) & both), "9");
+    EXPECT_EQ(exact_volume(evaluate(cube(std::ldexp(1.0, -40)) & wedge)) * ExactRational(4),
+              exact_volume(cube(std::ldexp(1.0, -40))));
 }
 
 // The unit of the finest one left no room for the others, and nothing was left.
