@@ -3,9 +3,9 @@
 // Own vertices: what import does to the coordinates of real files, and where a solid has them.
 //
 // Of each file: the bits that its coordinates span, whether the lattice keeps them all, and whether
-// a mesh that is imported and written has the same doubles. Of each closed one: where its own
-// vertices are on the solid that it bounds. On a vertex, an edge or a face is right; inside or
-// outside says that the solid is not the one of the file.
+// a mesh that is imported and written has the same doubles. Of each one that bounds a solid: where
+// its own vertices are on the solid that it bounds. On a vertex, an edge or a face is right; inside
+// or outside says that the solid is not the one of the file.
 //
 //     own_vertices [--details] PATH...
 //
@@ -89,7 +89,8 @@ FileReport report_on(const std::filesystem::path& path) {
     const trisect::ImportedMesh imported = trisect::import_mesh(mesh, options);
     out.lossless = imported.report.lattice.lossless;
     out.same_doubles = keeps_doubles(mesh, imported.mesh);
-    if (imported.report.closed) locate_vertices(mesh, imported.mesh, out);
+    if (imported.report.closed && !imported.report.inside_out)
+        locate_vertices(mesh, imported.mesh, out);
     return out;
 }
 
@@ -143,7 +144,7 @@ struct Totals {
         for (const int bits : {45, 53, 64, 80, 126})
             std::printf("| coordinates span at most %d bits | %zu |\n", bits,
                         spanning_at_most(bits));
-        std::printf("| closed | %zu |\n", solids);
+        std::printf("| closed, not inside out | %zu |\n", solids);
         std::printf("| of these, all own vertices on the boundary | %zu |\n", own_solids);
         std::printf("| own vertices of closed files | %zu |\n", vertices);
         std::printf("| on the boundary | %zu |\n", on_boundary);
