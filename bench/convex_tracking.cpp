@@ -206,7 +206,7 @@ BodyBox box_of(const ConvexPolytope& p) {
         r.lo[k] = std::numeric_limits<double>::infinity();
         r.hi[k] = -r.lo[k];
         for (const auto& v : p.vertices()) {
-            const double c = p.lattice().to_double(static_cast<double>(v[static_cast<int>(k)]));
+            const double c = p.lattice().to_double(v[static_cast<int>(k)].to_double());
             r.lo[k] = std::min(r.lo[k], c);
             r.hi[k] = std::max(r.hi[k], c);
         }

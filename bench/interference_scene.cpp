@@ -34,9 +34,9 @@ PolygonMesh on_lattice(const PolygonMesh& mesh) {
     const auto imported = trisect::import_mesh(mesh);
     PolygonMesh out;
     for (const auto& p : imported.mesh.points)
-        out.points.push_back({imported.report.lattice.lattice.to_double(double(p.x)),
-                              imported.report.lattice.lattice.to_double(double(p.y)),
-                              imported.report.lattice.lattice.to_double(double(p.z))});
+        out.points.push_back({imported.report.lattice.lattice.to_double(p.x.to_double()),
+                              imported.report.lattice.lattice.to_double(p.y.to_double()),
+                              imported.report.lattice.lattice.to_double(p.z.to_double())});
     for (const auto& [a, b, c] : imported.mesh.triangles) out.add_triangle(a, b, c);
     return out;
 }

@@ -64,8 +64,8 @@ Box box_of(const std::vector<LatticePoint>& points) {
     for (const LatticePoint& p : points) {
         for (int k = 0; k < 3; ++k) {
             const auto i = static_cast<std::size_t>(k);
-            b.lo[i] = std::min(b.lo[i], p[k]);
-            b.hi[i] = std::max(b.hi[i], p[k]);
+            b.lo[i] = std::min(b.lo[i], p[k].to_integer());
+            b.hi[i] = std::max(b.hi[i], p[k].to_integer());
         }
     }
     return b;

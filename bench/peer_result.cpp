@@ -22,9 +22,9 @@ trisect::PolygonMesh operand(const char* file) {
     const trisect::LatticeMesh mesh = trisect::import_mesh(trisect::read_mesh(file)).mesh;
     trisect::PolygonMesh out;
     for (const trisect::LatticePoint& p : mesh.points)
-        out.points.push_back({mesh.lattice.to_double(static_cast<double>(p.x)),
-                              mesh.lattice.to_double(static_cast<double>(p.y)),
-                              mesh.lattice.to_double(static_cast<double>(p.z))});
+        out.points.push_back({mesh.lattice.to_double(p.x.to_double()),
+                              mesh.lattice.to_double(p.y.to_double()),
+                              mesh.lattice.to_double(p.z.to_double())});
     for (const auto& t : mesh.triangles) out.add_triangle(t[0], t[1], t[2]);
     return out;
 }

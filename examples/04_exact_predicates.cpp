@@ -25,8 +25,8 @@ bool near_a_plane() {
     const LatticePoint p{big + 3, big + 2, 0};
     const Plane plane = Plane::through({0, 0, 0}, {0, 0, 1}, c);
 
-    const double in_doubles = -static_cast<double>(c.y) * static_cast<double>(p.x) +
-                              static_cast<double>(c.x) * static_cast<double>(p.y);
+    const double in_doubles =
+        -c.y.to_double() * p.x.to_double() + c.x.to_double() * p.y.to_double();
     const Side exact = side_of(p, plane);
     std::cout << "doubles say " << in_doubles << ", exactly it is " << name(exact) << '\n';
     return exact == Side::Above;

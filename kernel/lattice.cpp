@@ -86,9 +86,6 @@ double largest_finite(Coordinates points, std::uint32_t threads) {
 // Rounding to integers by addition: the sum of this and a double below 2^51 lies between 2^52 and
 // 2^53, where doubles are the integers, and its bits count them.
 constexpr double rounder = 0x1.8p52;
-std::int64_t as_integer(double sum) {
-    return std::bit_cast<std::int64_t>(sum) - std::bit_cast<std::int64_t>(rounder);
-}
 
 // Many points are rounded at once, as long as that changes nothing.
 constexpr std::size_t block_size = 256;
@@ -115,10 +112,9 @@ TRISECT_WIDE_CLONES RoundedBlock round_fours(const std::array<double, 3>* points
         std::memcpy(&v, from, sizeof(v));
         const Reals units = v * factor;
         const Reals sum = units + rounder;
-        const Integers rounded =
-            reinterpret_cast<Integers>(sum) - std::bit_cast<std::int64_t>(rounder);
-        off |= reinterpret_cast<Integers>((sum - rounder) - units);
-        all |= rounded;
+        const Reals rounded = sum - rounder;
+        off |= reinterpret_cast<Integers>(rounded - units);
+        all |= reinterpret_cast<Integers>(sum) - std::bit_cast<std::int64_t>(rounder);
         in_range &= (units < 0x1p51) & (units > -0x1p51);
         std::memcpy(to, &rounded, sizeof(rounded));
     }
@@ -231,15 +227,14 @@ private:
                               std::fabs(units[2]) < 0x1p51 && factor_ != 0;
         if (!in_range) [[unlikely]]
             return round_large(p, index);
-        std::array<std::int64_t, 3> c{};
+        std::array<double, 3> c{};
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double sum = units[k] + rounder;
-            c[k] = as_integer(sum);
-            changed += note_move(p[k], units[k], sum - rounder);
+            c[k] = units[k] + rounder - rounder;
+            changed += note_move(p[k], units[k], c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
-        return {c[0], c[1], c[2]};
+        return {Coordinate(c[0]), Coordinate(c[1]), Coordinate(c[2])};
     }
 
     // Keeps the largest moves; not zero when the coordinate moved. What is rounded to zero moves by
@@ -255,7 +250,7 @@ private:
 
     // Out of line, so that the loop stays small.
     [[gnu::noinline]] LatticePoint round_large(const std::array<double, 3>& p, std::size_t index) {
-        std::array<std::int64_t, 3> c{};
+        std::array<double, 3> c{};
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double units = scaled(p[k], -lattice_.exponent);
@@ -264,12 +259,11 @@ private:
                                  shortest_text(p[k]) +
                                  " is not finite or outside the lattice of unit 2^" +
                                  std::to_string(lattice_.exponent));
-            const double rounded = std::nearbyint(units);
-            c[k] = static_cast<std::int64_t>(rounded);
-            changed += note_move(p[k], units, rounded);
+            c[k] = std::nearbyint(units);
+            changed += note_move(p[k], units, c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
-        return {c[0], c[1], c[2]};
+        return {Coordinate(c[0]), Coordinate(c[1]), Coordinate(c[2])};
     }
 
     Lattice lattice_;
@@ -286,7 +280,7 @@ void refuse_beyond_doubles(Coordinates points, std::span<const LatticePoint> rou
     if (lattice.exponent + coordinate_bits < std::numeric_limits<double>::max_exponent) return;
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto units = static_cast<double>(rounded[i][static_cast<int>(k)]);
+            const auto units = rounded[i].doubles()[k];
             if (std::isfinite(lattice.to_double(units))) continue;
             throw Error(ErrorCode::InvalidSolid,
                         "vertex " + std::to_string(i) + ": coordinate " +

@@ -4,10 +4,13 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/int128.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
 
+using detail::difference;
 using detail::magnitude;
+using detail::to_integers;
 
 namespace {
 
@@ -16,16 +19,20 @@ constexpr Int128 narrow_normal_limit = Int128{1} << 56;
 constexpr int narrow_offset_bits = 83;
 
 // Differences of coordinates have 54 bits and their products 108: Int128 is wide enough.
-std::array<Int128, 3> cross(const LatticePoint& u, const LatticePoint& v) {
-    return {Int128{u.y} * v.z - Int128{u.z} * v.y, Int128{u.z} * v.x - Int128{u.x} * v.z,
-            Int128{u.x} * v.y - Int128{u.y} * v.x};
+std::array<Int128, 3> normal_through(const LatticePoint& a, const LatticePoint& b,
+                                     const LatticePoint& c) {
+    const auto u = difference(b, a);
+    const auto v = difference(c, a);
+    return {Int128{u[1]} * v[2] - Int128{u[2]} * v[1], Int128{u[2]} * v[0] - Int128{u[0]} * v[2],
+            Int128{u[0]} * v[1] - Int128{u[1]} * v[0]};
 }
 
 Plane::Offset offset_through(const std::array<Int128, 3>& n, const LatticePoint& a) {
     using W2 = WideInt<2>;
-    Plane::Offset d = multiply<3>(W2(n[0]), WideInt<1>(a.x));
-    d += multiply<3>(W2(n[1]), WideInt<1>(a.y));
-    d += multiply<3>(W2(n[2]), WideInt<1>(a.z));
+    const auto x = to_integers(a);
+    Plane::Offset d = multiply<3>(W2(n[0]), WideInt<1>(x[0]));
+    d += multiply<3>(W2(n[1]), WideInt<1>(x[1]));
+    d += multiply<3>(W2(n[2]), WideInt<1>(x[2]));
     return -d;
 }
 
@@ -42,7 +49,7 @@ Plane::Plane(Int128 nx, Int128 ny, Int128 nz, const Offset& d) : n_{nx, ny, nz},
 }
 
 Plane Plane::through(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-    const auto n = cross(b - a, c - a);
+    const auto n = normal_through(a, b, c);
     TRISECT_EXPECTS(n[0] != 0 || n[1] != 0 || n[2] != 0, "plane through collinear points");
     return {n[0], n[1], n[2], offset_through(n, a)};
 }
@@ -51,8 +58,8 @@ Plane Plane::through(const LatticePoint& a, const LatticePoint& b, const Lattice
 Plane Plane::along_axis(const LatticePoint& a, const LatticePoint& b, int axis) {
     const int j = (axis + 1) % 3;
     const int l = (axis + 2) % 3;
-    const std::int64_t nj = b[l] - a[l];
-    const std::int64_t nl = a[j] - b[j];
+    const std::int64_t nj = difference(b[l], a[l]);
+    const std::int64_t nl = difference(a[j], b[j]);
     TRISECT_EXPECTS(nj != 0 || nl != 0, "edge parallel to the axis of its plane");
     Plane p;
     const auto set = [&](int i, std::int64_t v) {
@@ -61,7 +68,7 @@ Plane Plane::along_axis(const LatticePoint& a, const LatticePoint& b, int axis) 
     };
     set(j, nj);
     set(l, nl);
-    p.d_ = Offset(-(Int128{nj} * a[j] + Int128{nl} * a[l]));
+    p.d_ = Offset(-(Int128{nj} * a[j].to_integer() + Int128{nl} * a[l].to_integer()));
     p.fd_ = p.d_.to_double();
     p.narrow_ = p.d_.bit_length() <= narrow_offset_bits;
     return p;
@@ -83,7 +90,7 @@ int Plane::dominant_axis() const {
 }
 
 bool are_collinear(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-    const auto n = cross(b - a, c - a);
+    const auto n = normal_through(a, b, c);
     return n[0] == 0 && n[1] == 0 && n[2] == 0;
 }
 

@@ -21,9 +21,8 @@ std::optional<LatticePoint> lattice_point_on(const std::array<double, 3>& neares
     for (const double c : nearest)
         if (std::fabs(c) >= static_cast<double>(coordinate_limit) || std::nearbyint(c) != c)
             return std::nullopt;
-    const LatticePoint point{static_cast<std::int64_t>(nearest[0]),
-                             static_cast<std::int64_t>(nearest[1]),
-                             static_cast<std::int64_t>(nearest[2])};
+    const LatticePoint point{Coordinate(nearest[0]), Coordinate(nearest[1]),
+                             Coordinate(nearest[2])};
     for (const Plane* plane : {&p, &q, &r})
         if (side_of(point, *plane) != Side::On) return std::nullopt;
     return point;
@@ -53,8 +52,7 @@ Point::Point(const Plane& p, const Plane& q, const Plane& r) {
 
 HomogeneousPoint Point::homogeneous() const {
     if (planes_) return planes_->exact;
-    return {{WideInt<7>(lattice_.x), WideInt<7>(lattice_.y), WideInt<7>(lattice_.z)},
-            WideInt<6>(1)};
+    return trisect::homogeneous(lattice_);
 }
 
 std::array<double, 3> Point::nearest() const { return approximation_.c; }

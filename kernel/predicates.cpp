@@ -26,6 +26,7 @@
 #include <trisect/kernel/number/digits.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/filters.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
 
@@ -270,9 +271,12 @@ bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
     return sign_of_det(p, q, r) != 0;
 }
 
-Approximation approximate(const LatticePoint& p) {
-    return {{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}, 0.0};
+HomogeneousPoint homogeneous(const LatticePoint& p) {
+    const auto x = detail::to_integers(p);
+    return {{WideInt<7>(x[0]), WideInt<7>(x[1]), WideInt<7>(x[2])}, WideInt<6>(1)};
 }
+
+Approximation approximate(const LatticePoint& p) { return {p.doubles(), 0.0}; }
 
 Approximation approximate(const HomogeneousPoint& p) {
     Approximation a;
@@ -314,7 +318,7 @@ Side side_of(const LatticePoint& point, const Plane& plane) {
     }
     Plane::Offset sum = plane.offset();
     for (int i = 0; i < 3; ++i)
-        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(point[i]));
+        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(point[i].to_integer()));
     return side_from_sign(sum.sign());
 }
 

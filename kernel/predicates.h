@@ -38,6 +38,8 @@ struct Approximation {
 /// Whether three planes meet in exactly one point: det(n_p, n_q, n_r) != 0.
 [[nodiscard]] bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r);
 
+[[nodiscard]] HomogeneousPoint homogeneous(const LatticePoint& p);
+
 /// Double coordinates of p∩q∩r with an error bound; refined by the exact point when the planes are
 /// too close to parallel for doubles. \pre the planes meet in a point.
 [[nodiscard]] Approximation approximate(const Plane& p, const Plane& q, const Plane& r);

@@ -22,8 +22,7 @@ namespace {
 // 0 when doubles cannot decide.
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const LatticePoint& d) {
-    return detail::filtered_orientation(detail::to_vector(a), detail::to_vector(b),
-                                        detail::to_vector(c), detail::to_vector(d));
+    return detail::filtered_orientation(a.doubles(), b.doubles(), c.doubles(), d.doubles());
 }
 
 // Numbers the corners so that the first one is alone on its side of the other plane.

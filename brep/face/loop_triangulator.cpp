@@ -27,6 +27,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/int128.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
@@ -40,13 +41,13 @@ constexpr std::uint64_t work_limit = std::uint64_t{1} << 32;
 std::array<Int128, 3> newell(std::span<const LatticePoint> points,
                              std::span<const std::uint32_t> loop) {
     std::array<Int128, 3> n{};
-    const LatticePoint origin = points[loop[0]];
-    LatticePoint a = points[loop[1]] - origin;
+    const LatticePoint& origin = points[loop[0]];
+    auto a = difference(points[loop[1]], origin);
     for (std::size_t i = 2; i < loop.size(); ++i) {
-        const LatticePoint b = points[loop[i]] - origin;
-        n[0] += Int128{a.y} * b.z - Int128{a.z} * b.y;
-        n[1] += Int128{a.z} * b.x - Int128{a.x} * b.z;
-        n[2] += Int128{a.x} * b.y - Int128{a.y} * b.x;
+        const auto b = difference(points[loop[i]], origin);
+        n[0] += Int128{a[1]} * b[2] - Int128{a[2]} * b[1];
+        n[1] += Int128{a[2]} * b[0] - Int128{a[0]} * b[2];
+        n[2] += Int128{a[0]} * b[1] - Int128{a[1]} * b[0];
         a = b;
     }
     return n;
@@ -92,8 +93,7 @@ void LoopTriangulator::project(std::span<const std::uint32_t> loop) {
     int v = (axis + 2) % 3;
     if (n[static_cast<std::size_t>(axis)] < 0) std::swap(u, v);
     flat_.resize(loop.size());
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        flat_[i] = {points_[loop[i]][u], points_[loop[i]][v]};
+    for (std::size_t i = 0; i < loop.size(); ++i) flat_[i] = flat_corner(points_[loop[i]], u, v);
 }
 
 // Left turns only, and once around: upward and downward sides form one run each.

@@ -19,6 +19,7 @@
 #include <trisect/brep/face/loops_below.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
@@ -73,13 +74,11 @@ int PlaneProjection::filtered_orientation(const Approximation& a, const Approxim
     return 0;
 }
 
-// Differences have 54 bits, products 108.
 int PlaneProjection::lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const LatticePoint p = points_[a].lattice() - points_[c].lattice();
-    const LatticePoint q = points_[b].lattice() - points_[c].lattice();
-    const Int128 s = Int128{p[axes_.u]} * q[axes_.v];
-    const Int128 t = Int128{p[axes_.v]} * q[axes_.u];
-    return s > t ? 1 : (s < t ? -1 : 0);
+    const auto flat = [&](std::uint32_t p) {
+        return detail::flat_corner(points_[p].lattice(), axes_.u, axes_.v);
+    };
+    return detail::exact_turn(flat(c), flat(a), flat(b));
 }
 
 // The sign of the 3×3 determinant of homogeneous rows (u, v, w) with w > 0:

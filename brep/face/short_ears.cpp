@@ -21,7 +21,7 @@ namespace trisect::detail {
 
 namespace {
 
-double as_double(std::int64_t i) { return static_cast<double>(i); }
+double as_double(Coordinate c) { return c.to_double(); }
 
 // The cell of a coordinate, which may lie a rounding error beside the grid.
 std::size_t cell_of(double at, double low, double per_unit, std::size_t count) {
@@ -68,8 +68,8 @@ void ShortEars::make_grid() {
     for (Index i = 0; i < corners_.size(); ++i)
         if (turn(corners_[prev_[i]], corners_[i], corners_[next_[i]]) <= 0) blocking.push_back(i);
     // About one of them in a cell.
-    const double width = as_double(high.u - low.u);
-    const double height = as_double(high.v - low.v);
+    const double width = as_double(high.u) - as_double(low.u);
+    const double height = as_double(high.v) - as_double(low.v);
     const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(blocking.size()))) + 1;
     grid_.u = as_double(low.u);
     grid_.v = as_double(low.v);
@@ -92,8 +92,8 @@ void ShortEars::queue(Index at) {
     const FlatCorner& a = corners_[prev_[at]];
     const FlatCorner& b = corners_[next_[at]];
     if (turn(a, corners_[at], b) <= 0) return;
-    const double u = as_double(b.u - a.u);
-    const double v = as_double(b.v - a.v);
+    const double u = as_double(b.u) - as_double(a.u);
+    const double v = as_double(b.v) - as_double(a.v);
     queue_.push_back({u * u + v * v, at, prev_[at], next_[at]});
     std::push_heap(queue_.begin(), queue_.end(), LaterInQueue());
 }

@@ -14,23 +14,9 @@
 #include <span>
 #include <vector>
 
-#include <trisect/kernel/wide_int.h>
+#include <trisect/kernel/number/flat_corner.h>
 
 namespace trisect::detail {
-
-/// A lattice point in the projection of its face along an axis. Differences are below 2^54.
-struct FlatCorner {
-    std::int64_t u = 0;
-    std::int64_t v = 0;
-    friend bool operator==(const FlatCorner&, const FlatCorner&) = default;
-};
-
-/// 1 for a left turn, -1 for a right turn, 0 on a line.
-[[nodiscard]] inline int turn(const FlatCorner& a, const FlatCorner& b, const FlatCorner& c) {
-    const Int128 left = Int128{b.u - a.u} * (c.v - a.v);
-    const Int128 right = Int128{b.v - a.v} * (c.u - a.u);
-    return left > right ? 1 : (left < right ? -1 : 0);
-}
 
 /// Triangles of a polygon with the corners 0 .. size - 1, as triples of them. Holds scratch memory.
 ///

@@ -63,8 +63,6 @@ bool is_flipped(std::span<const std::uint32_t> loop, const Before& before, const
     return had_area && dot <= 0;
 }
 
-[[nodiscard]] inline Point3d as_doubles(const LatticePoint& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
+[[nodiscard]] inline Point3d as_doubles(const LatticePoint& p) { return p.doubles(); }
 
 }  // namespace trisect::detail

@@ -41,6 +41,7 @@
 #include <trisect/brep/import/side_balance.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/import/weld_points.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -81,14 +82,14 @@ bool is_triangle_mesh(const PolygonMesh& mesh, const Sharing& sharing) {
 }
 
 struct CoordinateBox {
-    std::array<std::int64_t, 3> low;
-    std::array<std::int64_t, 3> high;
+    Point3d low;
+    Point3d high;
 
     CoordinateBox() {
-        low.fill(coordinate_limit);
-        high.fill(-coordinate_limit);
+        low.fill(HUGE_VAL);
+        high.fill(-HUGE_VAL);
     }
-    void add(const std::array<std::int64_t, 3>& l, const std::array<std::int64_t, 3>& h) {
+    void add(const Point3d& l, const Point3d& h) {
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::min(low[k], l[k]);
             high[k] = std::max(high[k], h[k]);
@@ -103,7 +104,7 @@ Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         CoordinateBox range;
         for (const LatticePoint& p : points.subspan(begin, end - begin)) {
-            const std::array<std::int64_t, 3> c{p.x, p.y, p.z};
+            const Point3d c = p.doubles();
             range.add(c, c);
         }
         ranges[part] = range;
@@ -112,7 +113,7 @@ Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
     for (const CoordinateBox& r : ranges) all.add(r.low, r.high);
     Point3d d{};
     if (points.empty()) return d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = static_cast<double>(all.high[k] - all.low[k]);
+    for (std::size_t k = 0; k < 3; ++k) d[k] = all.high[k] - all.low[k];
     return d;
 }
 
@@ -204,7 +205,7 @@ private:
     void look(std::size_t begin, std::size_t end, const Name& name, Found& found) {
         const LatticePoint* const point = points().data();
         const double clear = clear_;
-        const std::int64_t z0 = points().empty() ? 0 : 3 * points()[0].z;
+        const double z0 = points().empty() ? 0 : points()[0].z.to_double();
         const std::uint32_t* corner = input_.corners.data() + 3 * begin;
         Triangle* const triangle = triangles().data();
         double sum = 0;
@@ -213,12 +214,11 @@ private:
             const std::uint32_t j = name(corner[1]);
             const std::uint32_t k = name(corner[2]);
             triangle[f] = {i, j, k};
-            const LatticePoint& a = point[i];
-            const LatticePoint& b = point[j];
-            const LatticePoint& c = point[k];
-            const double n = static_cast<double>(b.x - a.x) * static_cast<double>(c.y - a.y) -
-                             static_cast<double>(b.y - a.y) * static_cast<double>(c.x - a.x);
-            sum += n * static_cast<double>(a.z + b.z + c.z - z0);
+            const Point3d a = point[i].doubles();
+            const Point3d b = point[j].doubles();
+            const Point3d c = point[k].doubles();
+            const double n = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            sum += n * ((a[2] - z0) + (b[2] - z0) + (c[2] - z0));
             if (std::fabs(n) < clear) look_closely(static_cast<std::uint32_t>(f), found);
         }
         found.sum = sum;
@@ -229,6 +229,8 @@ private:
         const double n = static_cast<double>(triangles().size());
         const double largest = std::max({d[0], d[1], d[2]});
         const double squares = largest * largest;
+        // A term is at most 6 d_x d_y d_z, and its ten roundings are less than 16 u of that; the
+        // sum of n terms adds n of its own to each.
         sum_bound_ = n * (n + 16) * 0x1p-52 * 6 * d[0] * d[1] * d[2];
         degenerate_bound_ = 0x1p-49 * squares;
         flip_bound_ = 9 * (32 * largest + 32 + 0x1p-48 * squares);
@@ -242,8 +244,8 @@ private:
     [[gnu::noinline]] void look_closely(std::uint32_t f, Found& found) {
         const Triangle& t = triangles()[f];
         const LatticePoint& a = points()[t[0]];
-        const Point3d u = as_doubles(points()[t[1]] - a);
-        const Point3d v = as_doubles(points()[t[2]] - a);
+        const Point3d u = minus(points()[t[1]].doubles(), a.doubles());
+        const Point3d v = minus(points()[t[2]].doubles(), a.doubles());
         const double n =
             std::max({std::fabs(u[1] * v[2] - u[2] * v[1]), std::fabs(u[2] * v[0] - u[0] * v[2]),
                       std::fabs(u[0] * v[1] - u[1] * v[0])});

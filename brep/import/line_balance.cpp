@@ -15,13 +15,17 @@
 #include <algorithm>
 #include <numeric>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 namespace {
 
+using Integers = VectorOf<std::int64_t>;
+
 struct EdgeInterval {
-    LatticePoint direction;
-    LatticePoint base;
+    Integers direction{};
+    Integers base{};
     std::int64_t begin = 0;
     std::int64_t end = 0;
     std::int64_t count = 0;
@@ -37,24 +41,25 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
     return a % b != 0 && (a < 0) != (b < 0) ? q - 1 : q;
 }
 
-int largest_axis(const LatticePoint& d) {
-    int axis = 0;
-    for (int i = 1; i < 3; ++i)
+std::size_t largest_axis(const Integers& d) {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
         if (std::abs(d[i]) > std::abs(d[axis])) axis = i;
     return axis;
 }
 
-EdgeInterval interval_of(const LatticePoint& a, const LatticePoint& b, std::int64_t count,
+EdgeInterval interval_of(const LatticePoint& from, const LatticePoint& to, std::int64_t count,
                          std::size_t edge) {
-    LatticePoint d = b - a;
-    std::int64_t g = std::gcd(std::gcd(d.x, d.y), d.z);
-    if (d < LatticePoint{}) g = -g;  // lexicographically: the first nonzero component decides
-    d = {d.x / g, d.y / g, d.z / g};
-    const int axis = largest_axis(d);
+    const Integers a = to_integers(from);
+    Integers d = difference(to, from);
+    std::int64_t g = std::gcd(std::gcd(d[0], d[1]), d[2]);
+    if (d < Integers{}) g = -g;  // lexicographically: the first nonzero component decides
+    d = {d[0] / g, d[1] / g, d[2] / g};
+    const std::size_t axis = largest_axis(d);
     const std::int64_t t = floor_divide(a[axis], d[axis]);
     EdgeInterval i;
     i.direction = d;
-    i.base = {a.x - t * d.x, a.y - t * d.y, a.z - t * d.z};
+    i.base = {a[0] - t * d[0], a[1] - t * d[1], a[2] - t * d[2]};
     i.begin = std::min(t, t + g);
     i.end = std::max(t, t + g);
     i.count = g > 0 ? count : -count;

@@ -49,7 +49,7 @@ int flattest_axis(const PreparedMesh& mesh, std::uint32_t face, std::int64_t& ex
     int best = 0;
     for (int axis = 0; axis < 3; ++axis) {
         CoordinateRange r;
-        for (const std::uint32_t c : mesh.loop(face)) r.add(mesh.points[c][axis]);
+        for (const std::uint32_t c : mesh.loop(face)) r.add(mesh.points[c][axis].to_integer());
         if (axis == 0 || r.extent() < extent) {
             best = axis;
             extent = r.extent();
@@ -65,7 +65,7 @@ int flattest_axis(const PreparedMesh& mesh, std::uint32_t face, std::int64_t& ex
         "nearly perpendicular to a coordinate axis can");
 }
 
-void set_coordinate(LatticePoint& p, int axis, std::int64_t v) {
+void set_coordinate(LatticePoint& p, int axis, Coordinate v) {
     (axis == 0 ? p.x : (axis == 1 ? p.y : p.z)) = v;
 }
 
@@ -76,14 +76,15 @@ std::int64_t refit_axis(const PreparedMesh& mesh, std::span<const std::uint32_t>
         for (const std::uint32_t c : mesh.loop(f)) groups.join(c, mesh.loop(f)[0]);
     std::vector<CoordinateRange> ranges(mesh.points.size());
     for (const std::uint32_t f : faces)
-        for (const std::uint32_t c : mesh.loop(f)) ranges[groups.root(c)].add(mesh.points[c][axis]);
+        for (const std::uint32_t c : mesh.loop(f))
+            ranges[groups.root(c)].add(mesh.points[c][axis].to_integer());
     std::int64_t largest = 0;
     for (const std::uint32_t f : faces) {
         for (const std::uint32_t c : mesh.loop(f)) {
             const CoordinateRange& r = ranges[groups.root(c)];
             if (r.extent() > 2 * max_move) refuse(f);
             set_coordinate(moved[c], axis, r.middle());
-            largest = std::max(largest, std::abs(r.middle() - mesh.points[c][axis]));
+            largest = std::max(largest, std::abs(r.middle() - mesh.points[c][axis].to_integer()));
         }
     }
     return largest;

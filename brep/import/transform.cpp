@@ -18,6 +18,7 @@
 
 #include <trisect/brep/import/weld_points.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 
 namespace trisect {
@@ -100,7 +101,7 @@ void reverse_triangles(LatticeMesh& m) {
 
 void require_on_lattice(const LatticePoint& p) {
     for (int i = 0; i < 3; ++i)
-        if (std::abs(p[i]) >= coordinate_limit)
+        if (std::fabs(p[i].to_double()) >= static_cast<double>(coordinate_limit))
             throw LimitError("a transformed coordinate leaves the lattice");
 }
 
@@ -130,9 +131,7 @@ Normal normal_of(const P& a, const P& b, const P& c) {
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-Point3d to_doubles(const LatticePoint& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
+Point3d to_doubles(const LatticePoint& p) { return p.doubles(); }
 
 // Renames welded points and leaves out triangles that became flat.
 void clean_up(LatticeMesh& m) {
@@ -232,12 +231,13 @@ PolygonMesh transformed(const PolygonMesh& mesh, const AffineMap& map) {
 
 LatticeMesh translated(const LatticeMesh& mesh, const LatticePoint& by) {
     LatticeMesh out = mesh;
-    for (int i = 0; i < 3; ++i)
-        if (std::abs(by[i]) >= 2 * coordinate_limit)
-            throw LimitError("a translation leaves the lattice");
+    const auto d = detail::to_integers(by);
     for (LatticePoint& p : out.points) {
-        p = p + by;
-        require_on_lattice(p);
+        const auto c = detail::plus(detail::to_integers(p), d);
+        for (const std::int64_t x : c)
+            if (std::abs(x) >= coordinate_limit)
+                throw LimitError("a translation leaves the lattice");
+        p = {c[0], c[1], c[2]};
     }
     return out;
 }
@@ -258,7 +258,7 @@ LatticeMesh rotated_by_quarter_turns(const LatticeMesh& mesh, int axis, int quar
 LatticeMesh mirrored(const LatticeMesh& mesh, int axis) {
     LatticeMesh out = mesh;
     for (LatticePoint& p : out.points) {
-        std::int64_t& c = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+        Coordinate& c = axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
         c = -c;
     }
     reverse_triangles(out);
@@ -268,10 +268,11 @@ LatticeMesh mirrored(const LatticeMesh& mesh, int axis) {
 LatticeMesh scaled_by_power_of_two(const LatticeMesh& mesh, int power) {
     LatticeMesh out = mesh;
     const int eights = floor_divide(power, 8);
-    const std::int64_t factor = std::int64_t{1} << (power - 8 * eights);
+    const double factor = std::ldexp(1, power - 8 * eights);
     out.lattice.exponent += 8 * eights;
     for (LatticePoint& p : out.points) {
-        p = {p.x * factor, p.y * factor, p.z * factor};  // at most 2^60
+        p = {Coordinate(p.x.to_double() * factor), Coordinate(p.y.to_double() * factor),
+             Coordinate(p.z.to_double() * factor)};  // exact: a power of two
         require_on_lattice(p);
     }
     return out;

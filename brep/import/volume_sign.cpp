@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -25,8 +26,7 @@ int filtered_sign(std::span<const LatticePoint> points,
     for (const auto& t : triangles) {
         std::array<std::array<double, 3>, 3> m{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const LatticePoint d = points[t[i]] - origin;
-            m[i] = {static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.z)};
+            m[i] = minus(points[t[i]].doubles(), origin.doubles());
         }
         for (std::size_t i = 0; i < 3; ++i) {
             const double p = m[1][(i + 1) % 3] * m[2][(i + 2) % 3];
@@ -48,12 +48,12 @@ int volume_sign(std::span<const LatticePoint> points,
     if (const int s = filtered_sign(points, triangles, origin); s != 0) return s;
     WideInt<4> sum;
     for (const auto& t : triangles) {
-        const LatticePoint a = points[t[0]] - origin;
-        const LatticePoint b = points[t[1]] - origin;
-        const LatticePoint c = points[t[2]] - origin;
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            const int k = (i + 2) % 3;
+        const auto a = difference(points[t[0]], origin);
+        const auto b = difference(points[t[1]], origin);
+        const auto c = difference(points[t[2]], origin);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t k = (i + 2) % 3;
             const Int128 minor = Int128{b[j]} * c[k] - Int128{b[k]} * c[j];
             sum += multiply<4>(WideInt<2>(minor), WideInt<1>(a[i]));
         }

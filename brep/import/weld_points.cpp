@@ -22,10 +22,12 @@ namespace {
 
 constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
 
+// The bits of small integers are at the upper end of doubles, so they are brought down first.
 std::uint64_t hash(const LatticePoint& p) {
-    auto h = static_cast<std::uint64_t>(p.x) * 0x9e3779b97f4a7c15U;
-    h = std::rotl(h, 29) ^ (static_cast<std::uint64_t>(p.y) * 0xc2b2ae3d27d4eb4fU);
-    h = std::rotl(h, 31) ^ (static_cast<std::uint64_t>(p.z) * 0x165667b19e3779f9U);
+    const auto bits = [](Coordinate c) { return std::rotl(c.bits(), 32); };
+    auto h = bits(p.x) * 0x9e3779b97f4a7c15U;
+    h = std::rotl(h, 29) ^ (bits(p.y) * 0xc2b2ae3d27d4eb4fU);
+    h = std::rotl(h, 31) ^ (bits(p.z) * 0x165667b19e3779f9U);
     h ^= h >> 32;
     h *= 0xd6e8feb86659fd93U;
     return h ^ (h >> 29);

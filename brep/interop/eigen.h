@@ -93,7 +93,7 @@ inline int eigen_index(std::uint32_t i) {
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
         for (int k = 0; k < 3; ++k)
             out.vertices(static_cast<Eigen::Index>(i), k) =
-                mesh.lattice.to_double(static_cast<double>(mesh.points[i][k]));
+                mesh.lattice.to_double(mesh.points[i][k].to_double());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             out.faces(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(k)) =

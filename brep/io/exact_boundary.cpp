@@ -97,7 +97,8 @@ private:
             const Point& p = brep_.point(v);
             if (p.is_lattice()) {
                 body_ += 'p';
-                for (int i = 0; i < 3; ++i) body_ += ' ' + std::to_string(p.lattice()[i]);
+                for (int i = 0; i < 3; ++i)
+                    body_ += ' ' + std::to_string(p.lattice()[i].to_integer());
             } else {
                 body_ += 'q';
                 for (const Plane& plane : p.plane_point()->planes)

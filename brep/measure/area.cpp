@@ -23,6 +23,7 @@
 
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
 
@@ -73,12 +74,13 @@ DoublePair root(const DoublePair& v) {
 // final components have 109 bits; partial sums wrap around without harm.
 class VectorArea {
 public:
-    void add_edge(const LatticePoint& p, const LatticePoint& q) {
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            const int k = (i + 2) % 3;
-            twice_[static_cast<std::size_t>(i)] +=
-                static_cast<Uint128>(Int128{p[j]} * q[k] - Int128{p[k]} * q[j]);
+    void add_edge(const LatticePoint& from, const LatticePoint& to) {
+        const auto p = to_integers(from);
+        const auto q = to_integers(to);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t k = (i + 2) % 3;
+            twice_[i] += static_cast<Uint128>(Int128{p[j]} * q[k] - Int128{p[k]} * q[j]);
         }
     }
     Int128 twice(std::size_t i) const { return static_cast<Int128>(twice_[i]); }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -55,7 +56,8 @@ std::array<double, 3> rounded(const GridPoint& p) {
 }  // namespace
 
 GridPoint to_grid(const LatticePoint& p) {
-    return {Int128{p.x} << grid_bits, Int128{p.y} << grid_bits, Int128{p.z} << grid_bits};
+    const auto c = to_integers(p);
+    return {Int128{c[0]} << grid_bits, Int128{c[1]} << grid_bits, Int128{c[2]} << grid_bits};
 }
 
 GridPoint to_grid(const Point& p) {

@@ -34,6 +34,7 @@
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
 #include <trisect/brep/measure/fraction_tree.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
 
@@ -57,20 +58,24 @@ class LatticeSums {
 public:
     explicit LatticeSums(Want want) : want_(want) {}
 
-    void add(const LatticePoint& o, const LatticePoint& p, const LatticePoint& q) {
-        const auto det = multiply<3>(WideInt<2>(minor(p, q, 1, 2)), WideInt<1>(o.x)) +
-                         multiply<3>(WideInt<2>(minor(p, q, 2, 0)), WideInt<1>(o.y)) +
-                         multiply<3>(WideInt<2>(minor(p, q, 0, 1)), WideInt<1>(o.z));
+    void add(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+        const Integers o = to_integers(a);
+        const Integers p = to_integers(b);
+        const Integers q = to_integers(c);
+        const auto det = multiply<3>(WideInt<2>(minor(p, q, 1, 2)), WideInt<1>(o[0])) +
+                         multiply<3>(WideInt<2>(minor(p, q, 2, 0)), WideInt<1>(o[1])) +
+                         multiply<3>(WideInt<2>(minor(p, q, 0, 1)), WideInt<1>(o[2]));
         sums_.volume6 += WideInt<4>(det);
         if (want_ == Want::Volume) return;
-        for (int i = 0; i < 3; ++i)
-            sums_.moment24[static_cast<std::size_t>(i)] +=
-                multiply<4>(det, WideInt<1>(o[i] + p[i] + q[i]));
+        for (std::size_t i = 0; i < 3; ++i)
+            sums_.moment24[i] += multiply<4>(det, WideInt<1>(o[i] + p[i] + q[i]));
     }
     const Sums<WideInt<4>>& sums() const { return sums_; }
 
 private:
-    static Int128 minor(const LatticePoint& p, const LatticePoint& q, int i, int j) {
+    using Integers = VectorOf<std::int64_t>;
+
+    static Int128 minor(const Integers& p, const Integers& q, std::size_t i, std::size_t j) {
         return Int128{p[i]} * q[j] - Int128{p[j]} * q[i];
     }
 

@@ -11,6 +11,7 @@
 #include <gmpxx.h>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 
 namespace trisect {
@@ -97,8 +98,10 @@ private:
     int turn(const LatticePoint& a, const LatticePoint& b, int u, int v) const {
         const auto pu = static_cast<std::size_t>(u);
         const auto pv = static_cast<std::size_t>(v);
-        const mpz_class left = mpz_class(b[u] - a[u]) * (q_.x[pv] - q_.w * mpz_class(a[v]));
-        const mpz_class right = mpz_class(b[v] - a[v]) * (q_.x[pu] - q_.w * mpz_class(a[u]));
+        const mpz_class au(a[u].to_integer());
+        const mpz_class av(a[v].to_integer());
+        const mpz_class left = detail::difference(b[u], a[u]) * (q_.x[pv] - q_.w * av);
+        const mpz_class right = detail::difference(b[v], a[v]) * (q_.x[pu] - q_.w * au);
         return sgn(mpz_class(left - right));
     }
 

@@ -15,6 +15,8 @@
 
 #include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/flat_corner.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -48,15 +50,12 @@ private:
         return best;
     }
     [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const LatticePoint p = points_[b] - points_[a];
-        const LatticePoint q = points_[c] - points_[a];
-        const Int128 left = Int128{p.x} * q.y;
-        const Int128 right = Int128{p.y} * q.x;
-        return left > right ? 1 : (left < right ? -1 : 0);
+        const auto flat = [this](std::uint32_t p) { return flat_corner(points_[p], 0, 1); };
+        return detail::turn(flat(a), flat(b), flat(c));
     }
     [[nodiscard]] Int128 squared_distance(std::uint32_t a, std::uint32_t b) const {
-        const LatticePoint d = points_[b] - points_[a];
-        return Int128{d.x} * d.x + Int128{d.y} * d.y;
+        const auto d = difference(points_[b], points_[a]);
+        return Int128{d[0]} * d[0] + Int128{d[1]} * d[1];
     }
     // Is corner c between a and b (which are collinear with it), ends included?
     [[nodiscard]] bool is_between(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {

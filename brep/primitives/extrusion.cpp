@@ -9,6 +9,7 @@
 #include <trisect/brep/primitives/cap.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect {
@@ -18,11 +19,11 @@ namespace {
 // Sign of the area, exact on the lattice: WideInt<4> holds any number of 110-bit products.
 int area_sign(std::span<const LatticePoint> points, std::span<const std::uint32_t> loop) {
     WideInt<4> sum;
-    const LatticePoint o = points[loop[0]];
+    const LatticePoint& o = points[loop[0]];
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-        const LatticePoint a = points[loop[i]] - o;
-        const LatticePoint b = points[loop[i + 1]] - o;
-        sum += WideInt<4>(Int128{a.x} * b.y - Int128{a.y} * b.x);
+        const auto a = detail::difference(points[loop[i]], o);
+        const auto b = detail::difference(points[loop[i + 1]], o);
+        sum += WideInt<4>(Int128{a[0]} * b[1] - Int128{a[1]} * b[0]);
     }
     return sum.sign();
 }

@@ -125,9 +125,8 @@ std::string place_text(const Point3d& p) {
 }
 
 Point3d to_user(const LatticePoint& p, Lattice lattice) {
-    return {lattice.to_double(static_cast<double>(p.x)),
-            lattice.to_double(static_cast<double>(p.y)),
-            lattice.to_double(static_cast<double>(p.z))};
+    return {lattice.to_double(p.x.to_double()), lattice.to_double(p.y.to_double()),
+            lattice.to_double(p.z.to_double())};
 }
 
 }  // namespace trisect

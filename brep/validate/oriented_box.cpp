@@ -31,10 +31,9 @@ Vector3 without(const Vector3& a, const Vector3& unit) {
     return {a[0] - along * unit[0], a[1] - along * unit[1], a[2] - along * unit[2]};
 }
 
-// Relative to the frame; the difference is exact, the double rounds it once.
+// Relative to the frame, rounded once.
 Vector3 relative(const BoxFrame& frame, const LatticePoint& p) {
-    return {static_cast<double>(p.x - frame.origin[0]), static_cast<double>(p.y - frame.origin[1]),
-            static_cast<double>(p.z - frame.origin[2])};
+    return minus(p.doubles(), frame.origin.doubles());
 }
 
 bool are_orthonormal(const std::array<Vector3, 3>& axis) {
@@ -80,18 +79,14 @@ Directions directions_of(const BoxFrame& frame, std::span<const LatticePoint> po
 
 }  // namespace
 
-BoxFrame::BoxFrame(const std::array<std::int64_t, 3>& low, const std::array<std::int64_t, 3>& high)
-    : origin(low) {
-    double reach = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        reach = std::max(reach, static_cast<double>(high[k] - low[k]));
-    margin = 0x1p-44 * reach;
+BoxFrame::BoxFrame(const LatticePoint& low, const LatticePoint& high) : origin(low) {
+    const Vector3 d = relative(*this, high);
+    margin = 0x1p-44 * std::max({0.0, d[0], d[1], d[2]});
 }
 
-TurnedBox::TurnedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
-                     const std::array<std::int64_t, 3>& high_corner)
-    : low(relative(frame, {low_corner[0], low_corner[1], low_corner[2]})),
-      high(relative(frame, {high_corner[0], high_corner[1], high_corner[2]})) {}
+TurnedBox::TurnedBox(const BoxFrame& frame, const LatticePoint& low_corner,
+                     const LatticePoint& high_corner)
+    : low(relative(frame, low_corner)), high(relative(frame, high_corner)) {}
 
 std::optional<TurnedBox> TurnedBox::around(const BoxFrame& frame,
                                            std::span<const LatticePoint> points,

@@ -15,12 +15,12 @@ namespace trisect::detail {
 /// What boxes of one figure are computed with: an origin, so that numbers are small, and a margin
 /// larger than all their errors together.
 struct BoxFrame {
-    std::array<std::int64_t, 3> origin{};
+    LatticePoint origin;
     double margin = 0;
 
     /// For points between two corners.
     BoxFrame() = default;
-    BoxFrame(const std::array<std::int64_t, 3>& low, const std::array<std::int64_t, 3>& high);
+    BoxFrame(const LatticePoint& low, const LatticePoint& high);
 };
 
 /// The points whose coordinates along three nearly orthonormal axes are between `low` and `high`.
@@ -31,8 +31,8 @@ struct TurnedBox {
     Vector low{}, high{};
 
     /// Along the axes.
-    TurnedBox(const BoxFrame& frame, const std::array<std::int64_t, 3>& low_corner,
-              const std::array<std::int64_t, 3>& high_corner);
+    TurnedBox(const BoxFrame& frame, const LatticePoint& low_corner,
+              const LatticePoint& high_corner);
 
     /// Turned with the triangles `order`: along their normals where these agree, and along their
     /// longest edge. Nothing when they suggest no directions. O(n).

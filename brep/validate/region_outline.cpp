@@ -22,7 +22,7 @@
 #include <vector>
 
 #include <trisect/brep/face/sweep_line.h>
-#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -31,24 +31,6 @@ namespace trisect::detail {
 namespace {
 
 using Index = std::uint32_t;
-
-struct FlatPoint {
-    std::int64_t u, v;
-    friend auto operator<=>(const FlatPoint&, const FlatPoint&) = default;
-};
-
-// 1 when a, b, c turn left. Doubles first: differences are below 2^54 and round once, so the turn
-// is within 4·2^-53 of the sum of the magnitudes of its products.
-int turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
-    const double left = static_cast<double>(b.u - a.u) * static_cast<double>(c.v - a.v);
-    const double right = static_cast<double>(b.v - a.v) * static_cast<double>(c.u - a.u);
-    const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
-    if (left - right > bound) return 1;
-    if (left - right < -bound) return -1;
-    const Int128 l = Int128{b.u - a.u} * (c.v - a.v);
-    const Int128 r = Int128{b.v - a.v} * (c.u - a.u);
-    return l > r ? 1 : (l < r ? -1 : 0);
-}
 
 // Segments between vertices, which are numbered in the order of the sweep.
 class Segments {
@@ -65,9 +47,9 @@ public:
         names.erase(std::unique(names.begin(), names.end()), names.end());
         std::vector<Index> order(names.size());
         std::iota(order.begin(), order.end(), 0U);
-        std::vector<FlatPoint> flat(names.size());
+        std::vector<FlatCorner> flat(names.size());
         for (std::size_t i = 0; i < names.size(); ++i)
-            flat[i] = {points[names[i]][axes.u], points[names[i]][axes.v]};
+            flat[i] = flat_corner(points[names[i]], axes.u, axes.v);
         std::sort(order.begin(), order.end(), [&](Index a, Index b) { return flat[a] < flat[b]; });
         places_.reserve(order.size());
         std::vector<Index> rank(order.size());
@@ -116,7 +98,7 @@ private:
         Index first, last;
         bool with_sweep;
     };
-    std::vector<FlatPoint> places_;
+    std::vector<FlatCorner> places_;
     std::vector<Segment> segments_;
     std::vector<Index> by_last_;
 };

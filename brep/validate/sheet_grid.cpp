@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 
 #include <trisect/brep/validate/sheets.h>
 #include <trisect/brep/validate/triangle_tree.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -38,15 +40,17 @@ public:
         // About as many cubes as triangles: a surface comes to few of them.
         const int bits = std::clamp((static_cast<int>(std::bit_width(triangles.size())) + 4) / 3,
                                     least_bits, most_bits);
+        int shift = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            origin_[k] = all.low[k];
-            const auto extent = static_cast<std::uint64_t>(all.high[k] - all.low[k]);
-            shift_ = std::max(shift_, static_cast<int>(std::bit_width(extent)) - bits);
+            origin_[k] = coordinate(all.low, k).to_double();
+            const double extent = coordinate(all.high, k).to_double() - origin_[k];
+            if (extent > 0) shift = std::max(shift, std::ilogb(extent) + 1 - bits);
         }
+        scale_ = std::ldexp(1, -shift);
         std::size_t count = 1;
         for (std::size_t k = 0; k < 3; ++k) {
             stride_[k] = count;
-            count *= static_cast<std::size_t>((all.high[k] - all.low[k]) >> shift_) + 1;
+            count *= at(all.high, k) + 1;
         }
         cubes_.assign(count, empty);
     }
@@ -73,8 +77,9 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t at(const std::array<std::int64_t, 3>& p, std::size_t k) const {
-        return static_cast<std::size_t>((p[k] - origin_[k]) >> shift_);
+    // Monotone in the coordinate, which is all that counts.
+    [[nodiscard]] std::size_t at(const LatticePoint& p, std::size_t k) const {
+        return static_cast<std::size_t>((coordinate(p, k).to_double() - origin_[k]) * scale_);
     }
 
     template <class Visit>
@@ -92,8 +97,8 @@ private:
     }
 
     std::vector<LatticeBox> boxes_;
-    std::array<std::int64_t, 3> origin_{};
-    int shift_ = 0;
+    Vector3 origin_{};
+    double scale_ = 1;
     std::array<std::size_t, 3> stride_{};
     std::vector<std::uint32_t> cubes_;
 };

@@ -30,6 +30,8 @@
 #include <trisect/brep/validate/region_outline.h>
 #include <trisect/brep/validate/twins.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/flat_corner.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -50,26 +52,27 @@ struct RoughNormal {
     std::size_t most;  // the axis in which it is largest, nearly
 };
 
-// Differences round once and are below 2^54, so a coordinate is within 4·2^-53 of the sum of the
+// Differences round once, so a coordinate is within 4·2^-53 of the sum of the
 // magnitudes of its products.
 RoughNormal normal_of(std::span<const LatticePoint> points, const Triangle& t) {
-    const LatticePoint p = points[t[1]] - points[t[0]];
-    const LatticePoint q = points[t[2]] - points[t[0]];
+    const LatticePoint& a = points[t[0]];
+    const Vector3 p = minus(points[t[1]].doubles(), a.doubles());
+    const Vector3 q = minus(points[t[2]].doubles(), a.doubles());
     RoughNormal out{};
     std::array<double, 3> n{};
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto k = static_cast<std::size_t>(axis);
-        const int u = (axis + 1) % 3;
-        const int v = (axis + 2) % 3;
-        const double left = static_cast<double>(p[u]) * static_cast<double>(q[v]);
-        const double right = static_cast<double>(p[v]) * static_cast<double>(q[u]);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t u = (k + 1) % 3;
+        const std::size_t v = (k + 2) % 3;
+        const double left = p[u] * q[v];
+        const double right = p[v] * q[u];
         n[k] = left - right;
         if (std::fabs(n[k]) > minor_rounding * (std::fabs(left) + std::fabs(right))) {
             out.sign[k] = n[k] > 0 ? 1 : -1;
         } else {
-            const Int128 l = Int128{p[u]} * q[v];
-            const Int128 r = Int128{p[v]} * q[u];
-            out.sign[k] = l > r ? 1 : (l < r ? -1 : 0);
+            const auto flat = [&](std::uint32_t c) {
+                return flat_corner(points[c], static_cast<int>(u), static_cast<int>(v));
+            };
+            out.sign[k] = exact_turn(flat(t[0]), flat(t[1]), flat(t[2]));
         }
     }
     const auto size = [&](std::size_t k) { return out.sign[k] == 0 ? -1 : std::fabs(n[k]); };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/wide_int.h>
@@ -21,9 +22,8 @@ constexpr std::size_t corner_limit = 64;
 
 // Sign of the turn a, b, p + (e, e²) in the (y, z) plane; never 0 for different a and b.
 int perturbed_turn(const LatticePoint& a, const LatticePoint& b, const LatticePoint& p) {
-    const Int128 left = Int128{b.y - a.y} * (p.z - a.z);
-    const Int128 right = Int128{b.z - a.z} * (p.y - a.y);
-    if (left != right) return left > right ? 1 : -1;
+    const int exact = turn(flat_corner(a, 1, 2), flat_corner(b, 1, 2), flat_corner(p, 1, 2));
+    if (exact != 0) return exact;
     if (b.z != a.z) return b.z > a.z ? -1 : 1;
     return b.y > a.y ? 1 : -1;
 }
@@ -56,12 +56,10 @@ bool lies_on(const LatticePoint& p, const std::array<LatticePoint, 3>& t) {
     bool left = false;
     bool right = false;
     for (std::size_t i = 0; i < 3; ++i) {
-        const LatticePoint& a = t[i];
-        const LatticePoint& b = t[(i + 1) % 3];
-        const Int128 turn =
-            Int128{b[u] - a[u]} * (p[v] - a[v]) - Int128{b[v] - a[v]} * (p[u] - a[u]);
-        left = left || turn > 0;
-        right = right || turn < 0;
+        const int side =
+            turn(flat_corner(t[i], u, v), flat_corner(t[(i + 1) % 3], u, v), flat_corner(p, u, v));
+        left = left || side > 0;
+        right = right || side < 0;
     }
     return !(left && right);
 }
@@ -82,7 +80,7 @@ std::optional<int> ShellNesting::winding_outside(std::uint32_t shell,
 std::optional<int> ShellNesting::winding_at(const LatticePoint& p, std::uint32_t without) {
     LatticeBox ray;
     ray.add(p);
-    ray.high[0] = coordinate_limit;
+    ray.high.x = coordinate_limit;
     int winding = 0;
     bool known = true;
     tree_.for_each_in(ray, [&](std::uint32_t t) {

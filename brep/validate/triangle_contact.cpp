@@ -26,6 +26,8 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/flat_corner.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -83,19 +85,15 @@ private:
     using Flat = std::array<double, 2>;
 
     static int largest_normal_axis(std::span<const LatticePoint> points, const IndexedTriangle& t) {
-        std::array<double, 3> p{}, q{};
-        for (int i = 0; i < 3; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            p[k] = static_cast<double>(points[t[1]][i] - points[t[0]][i]);
-            q[k] = static_cast<double>(points[t[2]][i] - points[t[0]][i]);
-        }
+        const Vector3 p = minus(points[t[1]].doubles(), points[t[0]].doubles());
+        const Vector3 q = minus(points[t[2]].doubles(), points[t[0]].doubles());
         const std::array<double, 3> n{std::fabs(p[1] * q[2] - p[2] * q[1]),
                                       std::fabs(p[2] * q[0] - p[0] * q[2]),
                                       std::fabs(p[0] * q[1] - p[1] * q[0])};
         return n[0] >= n[1] ? (n[0] >= n[2] ? 0 : 2) : (n[1] >= n[2] ? 1 : 2);
     }
     [[nodiscard]] Flat flat(const LatticePoint& p) const {
-        return {static_cast<double>(p[u_]), static_cast<double>(p[v_])};
+        return {p[u_].to_double(), p[v_].to_double()};
     }
     // -1, 1, or 0 for unknown.
     static int turn(const Flat& p, const Flat& q, const Flat& r) {
@@ -209,9 +207,7 @@ public:
 private:
     [[nodiscard]] int turn(const LatticePoint& p, const LatticePoint& q,
                            const LatticePoint& r) const {
-        const Int128 left = Int128{q[u_] - p[u_]} * (r[v_] - p[v_]);
-        const Int128 right = Int128{q[v_] - p[v_]} * (r[u_] - p[u_]);
-        return left > right ? 1 : (left < right ? -1 : 0);
+        return exact_turn(flat_corner(p, u_, v_), flat_corner(q, u_, v_), flat_corner(r, u_, v_));
     }
     [[nodiscard]] int turn(const Half& h, std::size_t edge, const LatticePoint& q) const {
         return turn(h.p[edge], h.p[(edge + 1) % 3], q);

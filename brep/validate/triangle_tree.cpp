@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include <trisect/kernel/number/vector3.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -15,12 +17,12 @@ template <class Iterator, class BoxOf, class IdOf>
 Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id_of) {
     const auto centre = [&](const auto& item, std::size_t axis) {
         const LatticeBox& box = box_of(item);
-        return box.low[axis] + box.high[axis];
+        return coordinate(box.low, axis).to_double() + coordinate(box.high, axis).to_double();
     };
-    std::array<std::int64_t, 3> low{}, high{};
+    std::array<double, 3> low{}, high{};
     for (Iterator it = begin; it != end; ++it)
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::int64_t c = centre(*it, k);
+            const double c = centre(*it, k);
             low[k] = it == begin ? c : std::min(low[k], c);
             high[k] = it == begin ? c : std::max(high[k], c);
         }
@@ -29,8 +31,8 @@ Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id
         if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
     const Iterator middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [&](const auto& a, const auto& b) {
-        const std::int64_t ca = centre(a, axis);
-        const std::int64_t cb = centre(b, axis);
+        const double ca = centre(a, axis);
+        const double cb = centre(b, axis);
         return ca != cb ? ca < cb : id_of(a) < id_of(b);
     });
     return middle;

@@ -7,6 +7,7 @@
 // (oriented_box.h); most meshes never need one.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -21,26 +22,18 @@ namespace trisect::detail {
 
 /// Closed boxes with lattice corners: exact.
 struct LatticeBox {
-    std::array<std::int64_t, 3> low{coordinate_limit, coordinate_limit, coordinate_limit};
-    std::array<std::int64_t, 3> high{-coordinate_limit, -coordinate_limit, -coordinate_limit};
+    LatticePoint low{coordinate_limit, coordinate_limit, coordinate_limit};
+    LatticePoint high{-coordinate_limit, -coordinate_limit, -coordinate_limit};
 
-    void add(const LatticePoint& p) {
-        for (int i = 0; i < 3; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            low[k] = low[k] < p[i] ? low[k] : p[i];
-            high[k] = high[k] > p[i] ? high[k] : p[i];
-        }
-    }
+    void add(const LatticePoint& p) { add({p, p}); }
     void add(const LatticeBox& b) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = low[k] < b.low[k] ? low[k] : b.low[k];
-            high[k] = high[k] > b.high[k] ? high[k] : b.high[k];
-        }
+        low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
+        high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
     }
     /// Touching counts.
     [[nodiscard]] bool overlaps(const LatticeBox& b) const {
-        return low[0] <= b.high[0] && b.low[0] <= high[0] && low[1] <= b.high[1] &&
-               b.low[1] <= high[1] && low[2] <= b.high[2] && b.low[2] <= high[2];
+        return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
+               low.z <= b.high.z && b.low.z <= high.z;
     }
 };
 

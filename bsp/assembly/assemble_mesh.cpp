@@ -221,8 +221,7 @@ private:
     }
 
     [[nodiscard]] Point3d coordinates_of(const LatticePoint& p, double unit) const {
-        return in_units(
-            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}, unit);
+        return in_units(p.doubles(), unit);
     }
 
     std::uint32_t add_point(const Point3d& p) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -22,13 +23,9 @@ std::size_t axis_of(const LatticePoint& a, const LatticePoint& b, const LatticeP
 // Of the normal of (a, b, c), which lie in a plane across `axis`.
 int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                    std::size_t axis) {
-    const std::size_t u = (axis + 1) % 3;
-    const std::size_t v = (axis + 2) % 3;
-    const Int128 s =
-        Int128{coordinate(b, u) - coordinate(a, u)} * (coordinate(c, v) - coordinate(a, v));
-    const Int128 t =
-        Int128{coordinate(b, v) - coordinate(a, v)} * (coordinate(c, u) - coordinate(a, u));
-    return s > t ? 1 : -1;
+    const auto flat = [u = static_cast<int>((axis + 1) % 3), v = static_cast<int>((axis + 2) % 3)](
+                          const LatticePoint& p) { return flat_corner(p, u, v); };
+    return turn(flat(a), flat(b), flat(c));
 }
 
 }  // namespace
@@ -44,7 +41,7 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     if (!name.is_edge()) {
         if (across == 3) return std::nullopt;
         return AxisPlane{across, sign_of_normal(a, b, c, across),
-                         coordinate(a, across) * splitting_scale};
+                         fine_position(coordinate(a, across))};
     }
     // Through an edge and along the axis that the support lies across, or nearly so.
     const auto i = static_cast<int>(name.kind);
@@ -61,7 +58,7 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     const std::size_t axis = 3 - along - across;
     // The facet lies below its edge planes.
     const int sign = coordinate(third, axis) < coordinate(from, axis) ? 1 : -1;
-    return AxisPlane{axis, sign, coordinate(from, axis) * splitting_scale};
+    return AxisPlane{axis, sign, fine_position(coordinate(from, axis))};
 }
 
 bool AxisPolygon::read(const PolygonRef& polygon) {
@@ -73,7 +70,7 @@ bool AxisPolygon::read(const PolygonRef& polygon) {
     if (plane.axis == 3) return false;
     ref = polygon;
     plane.sign = sign_of_normal(*corners[0], *corners[1], *corners[2], plane.axis);
-    plane.position = coordinate(*corners[0], plane.axis) * splitting_scale;
+    plane.position = fine_position(coordinate(*corners[0], plane.axis));
     slanted_count = 0;
     if (polygon.fragment != nullptr) return read_fragment(corners);
     read_facet(corners);
@@ -103,8 +100,8 @@ void AxisPolygon::read_facet(const Corners& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(
             {coordinate(*corners[0], k), coordinate(*corners[1], k), coordinate(*corners[2], k)});
-        lo[k] = low * splitting_scale;
-        hi[k] = high * splitting_scale;
+        lo[k] = fine_position(low);
+        hi[k] = fine_position(high);
     }
     for (std::size_t i = 0; i < 3; ++i) add_slanted(*corners[i], *corners[i == 2 ? 0 : i + 1]);
 }
@@ -115,7 +112,10 @@ void AxisPolygon::add_slanted(const LatticePoint& from, const LatticePoint& to) 
     if (coordinate(from, u) == coordinate(to, u) || coordinate(from, v) == coordinate(to, v))
         return;
     SlantedEdge& e = slanted[slanted_count++];
-    e = {{coordinate(from, u), coordinate(from, v)}, {coordinate(to, u), coordinate(to, v)}};
+    const auto at = [&](const LatticePoint& p) {
+        return std::array{coordinate(p, u).to_integer(), coordinate(p, v).to_integer()};
+    };
+    e = {at(from), at(to)};
     if (plane.sign < 0) std::swap(e.from, e.to);
 }
 

@@ -16,6 +16,9 @@
 
 namespace trisect::detail {
 
+/// The position of a coordinate among lattice planes.
+[[nodiscard]] constexpr std::int64_t position_of(Coordinate c) { return c.to_integer(); }
+
 /// Closed box in lattice units; empty when lo > hi.
 struct Box {
     std::array<std::int64_t, 3> lo{coordinate_limit, coordinate_limit, coordinate_limit};
@@ -29,8 +32,9 @@ struct Box {
     [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
     void add(const LatticePoint& p) {
         for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], p[static_cast<int>(k)]);
-            hi[k] = std::max(hi[k], p[static_cast<int>(k)]);
+            const std::int64_t at = position_of(p[static_cast<int>(k)]);
+            lo[k] = std::min(lo[k], at);
+            hi[k] = std::max(hi[k], at);
         }
     }
     void add(const Box& b) {
@@ -57,6 +61,10 @@ struct Box {
 /// Positions of splitting planes and reference points count in 1/256 of the lattice unit.
 inline constexpr int splitting_bits = 8;
 inline constexpr std::int64_t splitting_scale = std::int64_t{1} << splitting_bits;
+/// Of a coordinate, in the same units.
+[[nodiscard]] constexpr std::int64_t fine_position(Coordinate c) {
+    return c.to_integer() * splitting_scale;
+}
 /// Beyond every lattice point.
 inline constexpr std::int64_t universe_limit = (coordinate_limit + 16) * splitting_scale + 1;
 

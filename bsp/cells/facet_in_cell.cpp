@@ -75,8 +75,7 @@ bool certainly_misses(const PolygonRef& ref, const Box& box) {
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& c = ref.source->corner(ref.facet, i);
         Vector3& v = p.corners[static_cast<std::size_t>(i)];
-        v = {static_cast<double>(c.x) - centre[0], static_cast<double>(c.y) - centre[1],
-             static_cast<double>(c.z) - centre[2]};
+        v = minus(c.doubles(), centre);
         p.reach = std::max(p.reach, largest_component(v));
     }
     for (std::size_t i = 0; i < 3; ++i) {

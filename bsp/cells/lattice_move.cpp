@@ -32,7 +32,7 @@ int LatticeMove::image_of_axis(int axis) const {
 
 LatticePoint LatticeMove::applied(const LatticePoint& p) const {
     const auto c = [&](std::size_t i) {
-        return within(sign[i] * p[from[i]] + by[i], coordinate_limit);
+        return within(sign[i] * p[from[i]].to_integer() + by[i], coordinate_limit);
     };
     return {c(0), c(1), c(2)};
 }

@@ -159,7 +159,7 @@ private:
 [[nodiscard]] inline PackedBox packed_point(const Frame& frame, const LatticePoint& p) {
     PackedBox b;
     for (std::size_t k = 0; k < 3; ++k) {
-        b.lo[k] = frame.at(k, p[static_cast<int>(k)]);
+        b.lo[k] = frame.at(k, position_of(p[static_cast<int>(k)]));
         b.minus_hi[k] = static_cast<std::int16_t>(-b.lo[k]);
     }
     return b;

@@ -11,6 +11,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/bounded_int.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -135,7 +136,7 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
     LatticeMesh fine = mesh_;
     fine.lattice.exponent = exponent;
     for (LatticePoint& p : fine.points) {
-        for (const std::int64_t c : {p.x, p.y, p.z}) {
+        for (const std::int64_t c : to_integers(p)) {
             if (shift >= coordinate_bits || std::abs(c) >= (coordinate_limit >> shift))
                 throw LimitError(
                     "operands of units 2^" + std::to_string(mesh_.lattice.exponent) + " and 2^" +
@@ -143,7 +144,10 @@ std::shared_ptr<const Source> Source::refined(int exponent) const {
                     " have no common lattice: their sizes differ too much; coordinate " +
                     std::to_string(c) + " of the coarser one would not fit");
         }
-        p = {p.x << shift, p.y << shift, p.z << shift};
+        const auto moved = [factor = std::ldexp(1, shift)](Coordinate c) {
+            return Coordinate(c.to_double() * factor);
+        };
+        p = {moved(p.x), moved(p.y), moved(p.z)};
     }
     auto out = renamed_as_this(make(std::move(fine)));
     const_cast<Source&>(*out).serial_ = serial_;

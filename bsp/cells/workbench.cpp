@@ -8,6 +8,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -207,10 +208,7 @@ PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId 
 
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
     const PointRecord& r = points_[as_index(id)];
-    if (r.is_lattice) {
-        const LatticePoint at = r.lattice();
-        return {{WideInt<7>(at.x), WideInt<7>(at.y), WideInt<7>(at.z)}, WideInt<6>(1)};
-    }
+    if (r.is_lattice) return trisect::homogeneous(r.lattice());
     const auto h = intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
     TRISECT_EXPECTS(h.has_value(), "a point of planes that do not meet in one");
     return *h;

@@ -144,9 +144,8 @@ private:
         bool is_lattice = false;
         // Lattice positions are doubles.
         [[nodiscard]] LatticePoint lattice() const {
-            return {static_cast<std::int64_t>(approximation.c[0]),
-                    static_cast<std::int64_t>(approximation.c[1]),
-                    static_cast<std::int64_t>(approximation.c[2])};
+            return {Coordinate(approximation.c[0]), Coordinate(approximation.c[1]),
+                    Coordinate(approximation.c[2])};
         }
     };
     [[nodiscard]] int unfiltered_side(PointId point, PlaneId plane) const;

@@ -16,6 +16,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail::msp {
 
@@ -59,9 +60,7 @@ Side MspGeometry::side(PointIndex point, PlaneIndex plane) const {
 }
 
 HomogeneousPoint MspGeometry::homogeneous(const Record& p) const {
-    if (p.is_lattice)
-        return {{WideInt<7>(p.lattice.x), WideInt<7>(p.lattice.y), WideInt<7>(p.lattice.z)},
-                WideInt<6>(1)};
+    if (p.is_lattice) return trisect::homogeneous(p.lattice);
     const auto exact = intersect(planes_[p.planes[0]], planes_[p.planes[1]], planes_[p.planes[2]]);
     TRISECT_EXPECTS(exact.has_value(), "MSP tree: three planes do not meet in a point");
     return *exact;

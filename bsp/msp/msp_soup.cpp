@@ -84,7 +84,7 @@ private:
         } while (count < 3 && h != brep_.outgoing(v));
         for (int axis = 0; count < 3 && axis < 3; ++axis) {
             const PlaneIndex p =
-                at.is_lattice() ? plane_of_coordinate(axis, at.lattice()[axis])
+                at.is_lattice() ? plane_of_coordinate(axis, at.lattice()[axis].to_integer())
                                 : geometry().add_plane(at.plane_point()->planes[as_index(axis)]);
             take(p);
         }

@@ -10,7 +10,7 @@ CubeGrid::CubeGrid(const Box& box, int slabs) {
     double longest = 0;
     std::array<double, 3> extent{};
     for (std::size_t k = 0; k < 3; ++k) {
-        origin_[k] = box.lo[k];
+        origin_[k] = static_cast<double>(box.lo[k]);
         extent[k] = static_cast<double>(box.hi[k] - box.lo[k] + 1);
         longest = std::max(longest, extent[k]);
     }

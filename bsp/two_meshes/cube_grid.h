@@ -38,7 +38,7 @@ public:
     [[nodiscard]] Cube cube_of(const LatticePoint& p) const {
         Cube c = 0;
         for (unsigned k = 0; k < 3; ++k) {
-            const auto d = static_cast<double>(p[static_cast<int>(k)] - origin_[k]);
+            const double d = p[static_cast<int>(k)].to_double() - origin_[k];
             const double slab = std::min(std::max(d * scale_ + 1.0, 0.0), last_[k]);
             c |= static_cast<Cube>(static_cast<std::int32_t>(slab)) << 8 * k;
         }
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::size_t row(Cube c) const { return row_stride_ * z(c) + y(c); }
 
 private:
-    std::array<std::int64_t, 3> origin_{};
+    std::array<double, 3> origin_{};
     std::array<double, 3> last_{};
     double scale_ = 0;
     std::size_t row_stride_ = 0;

@@ -286,9 +286,9 @@ private:
             const auto p = nearest_lattice_point(a);
             const auto q = nearest_lattice_point(b);
             if (!p || !q || beyond <= most) continue;
-            LatticePoint above = *p;
-            (axis == 0 ? above.x : (axis == 1 ? above.y : above.z)) += 1;
-            if (are_collinear(*p, *q, above)) continue;
+            const int j = (axis + 1) % 3;
+            const int l = (axis + 2) % 3;
+            if ((*p)[j] == (*q)[j] && (*p)[l] == (*q)[l]) continue;
             const Plane plane = Plane::along_axis(*p, *q, axis);
             if (!parts(plane) || depth(plane, a) <= margin) continue;
             most = beyond;

@@ -59,13 +59,22 @@ template <class N>
 /// sqrt(a · a).
 [[nodiscard]] inline double length(const Vector3& a) { return std::sqrt(dot(a, a)); }
 
-[[nodiscard]] constexpr std::int64_t coordinate(const LatticePoint& p, std::size_t axis) {
+[[nodiscard]] constexpr Coordinate coordinate(const LatticePoint& p, std::size_t axis) {
     return p[static_cast<int>(axis)];
 }
 
-/// Exact: coordinates have at most 53 bits.
-[[nodiscard]] constexpr Vector3 to_vector(const LatticePoint& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+/// The coordinates as integers, for exact arithmetic.
+[[nodiscard]] constexpr VectorOf<std::int64_t> to_integers(const LatticePoint& p) {
+    return {p.x.to_integer(), p.y.to_integer(), p.z.to_integer()};
+}
+
+/// a - b, exact.
+[[nodiscard]] constexpr std::int64_t difference(Coordinate a, Coordinate b) {
+    return a.to_integer() - b.to_integer();
+}
+[[nodiscard]] constexpr VectorOf<std::int64_t> difference(const LatticePoint& a,
+                                                          const LatticePoint& b) {
+    return {difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z)};
 }
 
 }  // namespace trisect::detail

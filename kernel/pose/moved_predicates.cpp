@@ -37,8 +37,8 @@ namespace {
 
 double mag(double v) { return v < 0 ? -v : v; }
 
-IntVector to_ints(const LatticePoint& p) {
-    return {BoundedInt(p.x), BoundedInt(p.y), BoundedInt(p.z)};
+IntVector to_ints(const VectorOf<std::int64_t>& x) {
+    return {BoundedInt(x[0]), BoundedInt(x[1]), BoundedInt(x[2])};
 }
 
 int counted(int sign, bool narrow) {
@@ -65,14 +65,13 @@ int bits(Int128 v) {
 }
 int bits(const ShortVector& v) { return std::max({bits(v[0]), bits(v[1]), bits(v[2])}); }
 
-ShortVector to_short(const LatticePoint& p) { return {p.x, p.y, p.z}; }
+ShortVector to_short(const VectorOf<std::int64_t>& v) { return {v[0], v[1], v[2]}; }
 // The way from p to the moved point r, times the pose's denominator; below 2^88.
 ShortVector way(const LatticePoint& p, const MovedPoint& r) {
     ShortVector v = r.short_numbers();
     const std::int64_t s = r.pose().short_numbers()->s;
-    v[0] -= Int128{s} * p.x;
-    v[1] -= Int128{s} * p.y;
-    v[2] -= Int128{s} * p.z;
+    const auto x = to_integers(p);
+    for (std::size_t k = 0; k < 3; ++k) v[k] -= Int128{s} * x[k];
     return v;
 }
 int counted_short(Int128 v) {
@@ -82,7 +81,7 @@ int counted_short(Int128 v) {
 
 std::optional<int> short_orientation(const LatticePoint& p, const LatticePoint& q,
                                      const MovedPoint& r, const MovedPoint& s) {
-    const ShortVector u = to_short(q - p);
+    const ShortVector u = to_short(difference(q, p));
     const ShortVector v = minus(s.short_numbers(), r.short_numbers());
     const ShortVector w = way(p, r);
     if (bits(u) + bits(v) + bits(w) + 3 > short_bits) return std::nullopt;
@@ -91,7 +90,7 @@ std::optional<int> short_orientation(const LatticePoint& p, const LatticePoint& 
 
 std::optional<int> short_planar_orientation(const LatticePoint& p, const LatticePoint& q,
                                             const MovedPoint& r, std::size_t i, std::size_t j) {
-    const ShortVector u = to_short(q - p);
+    const ShortVector u = to_short(difference(q, p));
     const ShortVector w = way(p, r);
     if (bits(u) + bits(w) + 1 > short_bits) return std::nullopt;
     return counted_short(u[i] * w[j] - u[j] * w[i]);
@@ -144,7 +143,7 @@ int filtered_orientation(const SizedVector& u, const SizedVector& v, const Sized
 }  // namespace
 
 IntPoint exact_point(const Point& p) {
-    if (p.is_lattice()) return {to_ints(p.lattice()), BoundedInt(1)};
+    if (p.is_lattice()) return {to_ints(to_integers(p.lattice())), BoundedInt(1)};
     const HomogeneousPoint& h = p.plane_point()->exact;
     return {{BoundedInt(h.xyz[0]), BoundedInt(h.xyz[1]), BoundedInt(h.xyz[2])}, BoundedInt(h.w)};
 }
@@ -153,7 +152,7 @@ IntPoint exact_point(const Point& p) {
 
 Direction::Direction(const Point& from, const Point& to) {
     if (from.is_lattice() && to.is_lattice()) {
-        v_ = to_ints(to.lattice() - from.lattice());
+        v_ = to_ints(difference(to.lattice(), from.lattice()));
     } else {
         v_ = difference(exact_point(from), exact_point(to));
     }
@@ -251,12 +250,13 @@ const PulledPlane::Short& PulledPlane::short_numbers() const {
 int PulledPlane::exact_side_of(const Point& p) const {
     if (p.is_lattice() && pose_->short_numbers() != nullptr) {
         const Short& e = short_numbers();
-        const ShortVector x = to_short(p.lattice());
+        const ShortVector x = to_short(to_integers(p.lattice()));
         // n·x is below 2^125, d below 2^126.
         if (e.n_bits + bits(x) + 3 <= short_bits) return counted_short(dot(e.n, x) + e.d);
     }
     const Exact& e = exact();
-    if (p.is_lattice()) return counted((dot(e.n, to_ints(p.lattice())) + e.d).sign(), e.narrow);
+    if (p.is_lattice())
+        return counted((dot(e.n, to_ints(to_integers(p.lattice()))) + e.d).sign(), e.narrow);
     const IntPoint x = exact_point(p);
     return counted((dot(e.n, x.x) + e.d * x.w).sign(), false);
 }
@@ -348,11 +348,11 @@ const IntPoint& MovedPoint::exact() const {
 
 std::array<Int128, 3> MovedPoint::short_numbers() const {
     const RelativePose::Short& pose = *pose_->short_numbers();
-    const LatticePoint& p = point_->lattice();
+    const auto p = to_integers(point_->lattice());
     ShortVector x;
     for (std::size_t i = 0; i < 3; ++i)
-        x[i] = Int128{pose.m[i][0]} * p.x + Int128{pose.m[i][1]} * p.y +
-               Int128{pose.m[i][2]} * p.z + pose.t[i];
+        x[i] = Int128{pose.m[i][0]} * p[0] + Int128{pose.m[i][1]} * p[1] +
+               Int128{pose.m[i][2]} * p[2] + pose.t[i];
     return x;
 }
 

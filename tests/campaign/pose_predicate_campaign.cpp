@@ -38,8 +38,11 @@
 #include <trisect/kernel/pose.h>
 #include <trisect/kernel/pose/moved_predicates.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
+using trisect::Coordinate;
 using trisect::Lattice;
 using trisect::LatticePoint;
 using trisect::Plane;
@@ -61,7 +64,9 @@ int sign(const Rational& v) { return static_cast<int>(CGAL::sign(v)); }
 
 Rational rational(std::int64_t v) { return Rational(static_cast<long>(v)); }
 
-ExactPoint exact(const LatticePoint& p) { return {rational(p.x), rational(p.y), rational(p.z)}; }
+ExactPoint exact(const LatticePoint& p) {
+    return {rational(p.x.to_integer()), rational(p.y.to_integer()), rational(p.z.to_integer())};
+}
 
 Rational determinant(const ExactVector& u, const ExactVector& v, const ExactVector& w) {
     return CGAL::determinant(u, v, w);
@@ -260,13 +265,16 @@ std::optional<LatticePoint> brought_over(const Transformation& a_to_b, const Lat
                                          Source& random) {
     const ExactPoint x = a_to_b.transform(exact(p));
     LatticePoint r;
-    const std::array<std::int64_t*, 3> to{&r.x, &r.y, &r.z};
+    const std::array<Coordinate*, 3> to{&r.x, &r.y, &r.z};
     for (int i = 0; i < 3; ++i) {
         const double c = CGAL::to_double(x[i]);
         if (!(std::fabs(c) < 0x1p52)) return std::nullopt;
-        *to[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::nearbyint(c));
+        *to[static_cast<std::size_t>(i)] = Coordinate(std::nearbyint(c));
     }
-    if (random.below(3) == 0) *to[random.below(3)] += random.coin() ? 1 : -1;
+    if (random.below(3) == 0) {
+        Coordinate& c = *to[random.below(3)];
+        c = c + (random.coin() ? 1 : -1);
+    }
     return r;
 }
 
@@ -317,7 +325,7 @@ private:
             a[i] = {static_cast<std::int64_t>(CGAL::to_double(x[0])),
                     static_cast<std::int64_t>(CGAL::to_double(x[1])),
                     static_cast<std::int64_t>(CGAL::to_double(x[2]))};
-            if (random_.below(4) == 0) a[i].x += random_.coin() ? 1 : -1;
+            if (random_.below(4) == 0) a[i].x = a[i].x + (random_.coin() ? 1 : -1);
         }
         if (random_.below(4) == 0) std::swap(b[0], b[1]);
         if (random_.coin())

@@ -38,6 +38,8 @@
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using trisect::Approximation;
@@ -69,7 +71,9 @@ CGAL::Gmpz integer(const WideInt<N>& v) {
 Rational rational(std::int64_t v) { return Rational(integer(WideInt<1>(v))); }
 Rational rational(double v) { return Rational(v); }
 
-ExactPoint exact(const LatticePoint& p) { return {rational(p.x), rational(p.y), rational(p.z)}; }
+ExactPoint exact(const LatticePoint& p) {
+    return {rational(p.x.to_integer()), rational(p.y.to_integer()), rational(p.z.to_integer())};
+}
 
 ExactPlane exact(const Plane& p) {
     return {Rational(integer(WideInt<2>(p.normal(0)))), Rational(integer(WideInt<2>(p.normal(1)))),
@@ -217,9 +221,9 @@ private:
     LatticePoint nudge() {  // one unit in a direction, or nothing
         return {between(-1, 1), between(-1, 1), between(-1, 1)};
     }
-    static std::int64_t clamp(std::int64_t v) {
+    static trisect::Coordinate clamp(trisect::Coordinate v) {
         constexpr std::int64_t most = trisect::coordinate_limit - 1;
-        return std::clamp(v, -most, most);
+        return std::clamp(v.to_integer(), -most, most);
     }
     static LatticePoint clamp(LatticePoint p) { return {clamp(p.x), clamp(p.y), clamp(p.z)}; }
     LatticePoint maybe_nudged(LatticePoint p) {

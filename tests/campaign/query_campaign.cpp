@@ -29,6 +29,7 @@
 #include "bench/shapes.h"
 #include "engines/engines.h"
 #include "reference/random_solids.h"
+#include "support/lattice_arithmetic.h"
 #include "support/query_oracle.h"
 #include "support/random_result.h"
 
@@ -90,7 +91,7 @@ LatticeMesh block(const std::array<int, 3>& lo, const std::array<int, 3>& hi) {
     // In the common unit of all blocks here.
     for (auto& p : mesh.points)
         for (int k = 0; k < 3; ++k) {
-            const double v = std::ldexp(static_cast<double>(p[k]), mesh.lattice.exponent) * 8;
+            const double v = std::ldexp(p[k].to_double(), mesh.lattice.exponent) * 8;
             (k == 0 ? p.x : (k == 1 ? p.y : p.z)) = static_cast<std::int64_t>(v);
         }
     return mesh;

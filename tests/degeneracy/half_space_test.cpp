@@ -156,9 +156,7 @@ trisect::Int128 decimal128(std::int64_t high, std::int64_t low) {
 trisect::PolygonMesh mesh_of(const reference::Operand& operand) {
     const trisect::LatticeMesh lattice_mesh = engines::lattice_mesh(operand);
     trisect::PolygonMesh mesh;
-    for (const auto& p : lattice_mesh.points)
-        mesh.points.push_back(
-            {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+    for (const auto& p : lattice_mesh.points) mesh.points.push_back(p.doubles());
     for (const auto& t : lattice_mesh.triangles) mesh.add_triangle(t[0], t[1], t[2]);
     return mesh;
 }

@@ -13,6 +13,7 @@
 
 #include "engines/evaluate_stats.h"
 #include "figures.h"
+#include "support/lattice_arithmetic.h"
 #include "support/solids.h"
 
 namespace {
@@ -93,7 +94,8 @@ TEST(LatticeMix, SetsWithoutBoundaryHaveNoLattice) {
 Solid large_cube(int exponent, int k) {
     trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box({0, 0, 0}, {1, 1, 1}));
     mesh.lattice = Lattice{exponent};
-    for (trisect::LatticePoint& p : mesh.points) p = {p.x << k, p.y << k, p.z << k};
+    for (trisect::LatticePoint& p : mesh.points)
+        p = {p.x.to_integer() << k, p.y.to_integer() << k, p.z.to_integer() << k};
     return Solid::from_lattice_mesh(std::move(mesh));
 }
 

@@ -36,7 +36,7 @@ public:
     void operator()(Polyhedron::HalfedgeDS& target) override {
         CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(target, true);
         builder.begin_surface(mesh_.points.size(), mesh_.triangles.size());
-        const auto number = [](std::int64_t x) { return CGAL::Gmpq(static_cast<int>(x)); };
+        const auto number = [](trisect::Coordinate x) { return CGAL::Gmpq(x.to_double()); };
         for (const trisect::LatticePoint& p : mesh_.points)
             builder.add_vertex(Kernel::Point_3(number(p.x), number(p.y), number(p.z)));
         for (const auto& triangle : mesh_.triangles) {

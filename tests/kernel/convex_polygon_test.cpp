@@ -12,6 +12,7 @@
 #include <trisect/kernel/error.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace {
 

@@ -13,6 +13,7 @@
 #include <trisect/kernel/error.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace {
 
@@ -114,7 +115,7 @@ TEST(Lattice, EveryCoordinateAsIfAlone) {
                     outside || !(std::fabs(units) < static_cast<double>(trisect::coordinate_limit));
                 if (outside) break;
                 const double r = std::nearbyint(units);
-                ASSERT_TRUE(refused || static_cast<double>(found[i][k]) == r);
+                ASSERT_TRUE(refused || found[i][k].to_double() == r);
                 if (r == units && (r != 0 || c == 0)) continue;
                 any = true;
                 largest_move = std::max(
@@ -216,7 +217,7 @@ TEST(Lattice, OneOddCoordinateAmongManyIntegers) {
             for (int k = 0; k < 3; ++k) {
                 const double units =
                     std::ldexp(points[i][static_cast<std::size_t>(k)], -lattice.exponent);
-                ASSERT_EQ(static_cast<double>(out[i][k]), std::nearbyint(units));
+                ASSERT_EQ(out[i][k].to_double(), std::nearbyint(units));
             }
     }
 }

@@ -8,6 +8,7 @@
 #include <trisect/kernel/predicates.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace plane_test {
 namespace {
@@ -48,7 +49,9 @@ TEST(Plane, ThroughAgreesWithGmp) {
         const LatticePoint a = random.point(bits);
         const LatticePoint b = random.point(bits);
         const LatticePoint c = random.point(bits);
-        const auto x = [](const LatticePoint& p, int i) { return oracle::integer(p[i]); };
+        const auto x = [](const LatticePoint& p, int i) {
+            return oracle::integer(p[i].to_integer());
+        };
         bool collinear = true;
         std::array<mpz_class, 3> n;
         for (int i = 0; i < 3; ++i) {
@@ -95,7 +98,8 @@ TEST(Plane, AlongAxis) {
         (axis == 0 ? shifted.x : (axis == 1 ? shifted.y : shifted.z)) = far;
         EXPECT_EQ(side_of(shifted, p), Side::On);
         // Above is where (b - a) × e points to.
-        const Plane q = Plane::through(a, b, a + LatticePoint{axis == 0, axis == 1, axis == 2});
+        const Plane q = Plane::through(
+            a, b, a + LatticePoint{axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0});
         EXPECT_TRUE(is_same_plane(p, q));
         EXPECT_TRUE(same_orientation(p, q));
         expect_doubles(p);

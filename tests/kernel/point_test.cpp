@@ -13,6 +13,7 @@
 #include <trisect/kernel/error.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace point_test {
 namespace {
@@ -57,7 +58,7 @@ TEST(Point, IntegerCoordinatesMakeALatticePoint) {
         ASSERT_TRUE(named.is_lattice());
         EXPECT_EQ(named.lattice(), x);
         EXPECT_EQ(named, Point(x));
-        EXPECT_EQ(named.nearest()[0], static_cast<double>(x.x));
+        EXPECT_EQ(named.nearest()[0], x.x.to_double());
         EXPECT_EQ(named.approximation().error, 0);
     }
 }

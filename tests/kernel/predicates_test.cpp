@@ -15,6 +15,7 @@
 #include <trisect/kernel/point.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace predicates_test {
 namespace {
@@ -277,9 +278,9 @@ TEST(Consistency, AllNamesOfALatticePointAgree) {
     for (int round = 0; round < 5000; ++round) {
         const int bits = static_cast<int>(1 + random.below(53));
         const LatticePoint x = random.point(bits);
-        const Plane px = Plane::axis_aligned(0, 1, x.x);
-        const Plane py = Plane::axis_aligned(1, 1, x.y);
-        const Plane pz = Plane::axis_aligned(2, 1, x.z);
+        const Plane px = Plane::axis_aligned(0, 1, x.x.to_integer());
+        const Plane py = Plane::axis_aligned(1, 1, x.y.to_integer());
+        const Plane pz = Plane::axis_aligned(2, 1, x.z.to_integer());
         const Plane s = random.coin() ? random.plane(bits) : [&] {
             for (;;) {
                 const LatticePoint b = random.point(bits);

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <random>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using trisect::LatticePoint;

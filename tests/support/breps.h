@@ -11,6 +11,8 @@
 
 #include <trisect/brep/brep_builder.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace trisect::test {
 
 using Polygon = std::vector<LatticePoint>;
@@ -94,7 +96,7 @@ inline Brep prism(const std::vector<Polygon>& loops, std::int64_t height, Lattic
         sketch.walls(loop, height);
     }
     sketch.face(Plane(0, 0, 1, Plane::Offset(-(loops[0][0].z + height))), top);
-    sketch.face(Plane(0, 0, -1, Plane::Offset(loops[0][0].z)), bottom);
+    sketch.face(Plane(0, 0, -1, Plane::Offset(loops[0][0].z.to_integer())), bottom);
     return sketch.build();
 }
 

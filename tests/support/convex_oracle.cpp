@@ -5,6 +5,7 @@
 // their error on small grids, then exactly.
 
 #include "convex_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 #include <gmpxx.h>
 
@@ -182,7 +183,7 @@ Scene::Scene(const ConvexPolytope& a, const Pose& pose_a, const ConvexPolytope& 
                 r[i] = trisect::detail::to_gmp(pose.translation(i));
                 for (int k = 0; k < 3; ++k)
                     r[i] += trisect::detail::to_gmp(pose.matrix(i, static_cast<std::size_t>(k))) *
-                            unit * static_cast<long>(v[k]);
+                            unit * static_cast<long>(v[k].to_integer());
                 r[i] /= s;
                 f[i] = r[i].get_d();
             }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "reference/vector.h"
+#include "support/lattice_arithmetic.h"
 
 namespace trisect::test {
 
@@ -54,7 +55,9 @@ Point3 rational(const Point& p) {
     return out;
 }
 
-Point3 rational(const LatticePoint& p) { return reference::to_point({p.x, p.y, p.z}); }
+Point3 rational(const LatticePoint& p) {
+    return reference::to_point({p.x.to_integer(), p.y.to_integer(), p.z.to_integer()});
+}
 
 EntityOracle::EntityOracle(const Brep& brep) {
     for (const VertexId v : brep.vertices()) vertices_.push_back(rational(brep.point(v)));

@@ -78,7 +78,8 @@ inline RationalPoint rational(const trisect::HomogeneousPoint& p) {
 }
 inline RationalPoint rational(const trisect::Point& p) { return rational(p.homogeneous()); }
 inline RationalPoint rational(const LatticePoint& p) {
-    return {mpq_class(integer(p.x)), mpq_class(integer(p.y)), mpq_class(integer(p.z))};
+    return {mpq_class(integer(p.x.to_integer())), mpq_class(integer(p.y.to_integer())),
+            mpq_class(integer(p.z.to_integer()))};
 }
 
 /// The common point by Cramer's rule. \pre det(n, n, n) != 0.

@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "reference/vector.h"
+#include "support/lattice_arithmetic.h"
+
+#include <trisect/kernel/number/vector3.h>
 
 namespace brute {
 
@@ -159,7 +162,7 @@ Boundary Boundary::of_mesh(const trisect::LatticeMesh& mesh, std::uint32_t opera
         std::vector<Point3> corners;
         for (const std::uint32_t v : mesh.triangles[i]) {
             const trisect::LatticePoint& p = mesh.points[v];
-            corners.push_back(reference::to_point({p.x, p.y, p.z}));
+            corners.push_back(reference::to_point(trisect::detail::to_integers(p)));
         }
         b.add(std::move(corners), {operand, mesh.face_of(i)});
     }
@@ -358,8 +361,8 @@ PointMaker::PointMaker(const trisect::LatticeMesh& mesh, std::uint64_t seed)
     hi_.fill(-HUGE_VAL);
     for (const trisect::LatticePoint& p : mesh.points)
         for (std::size_t k = 0; k < 3; ++k) {
-            lo_[k] = std::min(lo_[k], static_cast<double>(p[static_cast<int>(k)]));
-            hi_[k] = std::max(hi_[k], static_cast<double>(p[static_cast<int>(k)]));
+            lo_[k] = std::min(lo_[k], p[static_cast<int>(k)].to_double());
+            hi_[k] = std::max(hi_[k], p[static_cast<int>(k)].to_double());
         }
 }
 
@@ -372,8 +375,7 @@ std::array<double, 3> PointMaker::combined(const std::array<int, 3>& eighths) {
     std::array<double, 3> p{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            p[k] +=
-                eighths[i] * 0.125 * static_cast<double>(mesh_.points[t[i]][static_cast<int>(k)]);
+            p[k] += eighths[i] * 0.125 * mesh_.points[t[i]][static_cast<int>(k)].to_double();
     return p;
 }
 

@@ -32,6 +32,7 @@
 #include <trisect/bsp/leaf/grid/axis_clip.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -50,7 +51,7 @@ bool is_across_an_axis(const PolygonRef& r) {
 bool lies_in(const PolygonRef& r, const AxisPlane& plane) {
     const auto axis = static_cast<int>(plane.axis);
     for (int i = 0; i < 3; ++i)
-        if (r.source->corner(r.facet, i)[axis] * splitting_scale != plane.position) return false;
+        if (fine_position(r.source->corner(r.facet, i)[axis]) != plane.position) return false;
     return true;
 }
 
@@ -340,8 +341,8 @@ void AxisFaces::note_corners(const PolygonRef& part, Facet& facet, std::size_t a
         for (int c = 0; c < 3; ++c) {
             if (!near[as_index(c)]) continue;
             const LatticePoint& corner = part.source->corner(part.facet, c);
-            if (at[0] == corner[static_cast<int>((axis + 1) % 3)] * splitting_scale &&
-                at[1] == corner[static_cast<int>((axis + 2) % 3)] * splitting_scale)
+            if (at[0] == fine_position(coordinate(corner, (axis + 1) % 3)) &&
+                at[1] == fine_position(coordinate(corner, (axis + 2) % 3)))
                 facet.corners |= static_cast<std::uint8_t>(1U << c);
         }
     }
@@ -384,9 +385,10 @@ bool AxisFaces::has_changed(std::int32_t number) const {
             const auto across = static_cast<int>((face_plane.plane.axis + 1 + k) % 3);
             const auto along = static_cast<int>((face_plane.plane.axis + 2 - k) % 3);
             if (from[across] != to[across]) continue;
-            const std::int64_t low = std::min(from[along], to[along]);
-            const std::int64_t high = std::max(from[along], to[along]);
-            if (face_plane.outline.turns_between(faces_up, k, from[across], low, high)) return true;
+            const std::int64_t low = std::min(from[along], to[along]).to_integer();
+            const std::int64_t high = std::max(from[along], to[along]).to_integer();
+            const std::int64_t at = from[across].to_integer();
+            if (face_plane.outline.turns_between(faces_up, k, at, low, high)) return true;
         }
     }
     return false;
@@ -439,7 +441,7 @@ std::uint32_t AxisFaces::rank(std::size_t axis, std::int64_t at) const {
 }
 
 AxisFaces::Ranks AxisFaces::ranks_of(const LatticePoint& p) const {
-    return {rank(0, p.x), rank(1, p.y), rank(2, p.z)};
+    return {rank(0, p.x.to_integer()), rank(1, p.y.to_integer()), rank(2, p.z.to_integer())};
 }
 
 // Corners of parts count as vertices even where all faces run straight on: a facet with one inside
@@ -461,7 +463,8 @@ void AxisFaces::list_corners() {
 // Outlines turn where planes of other axes are, so their places need not be listed.
 void AxisFaces::rank_coordinates() {
     const auto add = [&](const LatticePoint& p) {
-        for (std::size_t k = 0; k < 3; ++k) coordinates_[k].push_back(p[static_cast<int>(k)]);
+        for (std::size_t k = 0; k < 3; ++k)
+            coordinates_[k].push_back(coordinate(p, k).to_integer());
     };
     for (const LatticePoint& p : places_) add(p);
     for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));

@@ -30,14 +30,14 @@ AxisSide own_side(const Source& source, std::uint32_t facet, int i, std::size_t 
         const std::size_t across = (axis + 1 + k) % 3;
         if (coordinate(from, across) != coordinate(to, across)) continue;
         side.axis = k;
-        side.at = coordinate(from, across) * splitting_scale;
+        side.at = fine_position(coordinate(from, across));
         side.is_low = coordinate(third, across) > coordinate(from, across);
         return side;
     }
     side.is_slanted = true;
     for (std::size_t k = 0; k < 2; ++k) {
-        side.line.from[k] = coordinate(from, (axis + 1 + k) % 3);
-        side.line.to[k] = coordinate(to, (axis + 1 + k) % 3);
+        side.line.from[k] = coordinate(from, (axis + 1 + k) % 3).to_integer();
+        side.line.to[k] = coordinate(to, (axis + 1 + k) % 3).to_integer();
     }
     return side;
 }

@@ -28,7 +28,7 @@ struct NamedEdge {
 
     [[nodiscard]] Vector3 end(std::size_t i) const {
         const LatticePoint& p = source->mesh().points[ends[i]];
-        return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+        return p.doubles();
     }
 };
 

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -26,11 +27,7 @@ std::uint32_t face_of(const Source& source, std::uint32_t facet) { return source
 // are each rounded once: below 10 · 2^-53 of the sum of all products.
 bool is_clearly_off(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                     const LatticePoint& d) {
-    const auto vector_to = [&](const LatticePoint& p) {
-        const LatticePoint v = p - a;
-        return std::array{static_cast<double>(v.x), static_cast<double>(v.y),
-                          static_cast<double>(v.z)};
-    };
+    const auto vector_to = [&](const LatticePoint& p) { return minus(p.doubles(), a.doubles()); };
     const auto x = vector_to(b);
     const auto y = vector_to(c);
     const auto z = vector_to(d);

@@ -32,6 +32,7 @@
 
 #include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -112,10 +113,11 @@ bool FacetOutline::sort_stops() {
 // Along the axis along which the edge is longest.
 bool FacetOutline::sort_stops_on(std::size_t edge) {
     std::size_t axis = 0;
-    std::int64_t way = 0;
+    double way = 0;
     for (int k = 0; k < 3; ++k) {
-        const std::int64_t step = (*corners_[(edge + 1) % 3])[k] - (*corners_[edge])[k];
-        if (k > 0 && std::abs(step) <= std::abs(way)) continue;
+        const double step =
+            (*corners_[(edge + 1) % 3])[k].to_double() - (*corners_[edge])[k].to_double();
+        if (k > 0 && std::fabs(step) <= std::fabs(way)) continue;
         axis = static_cast<std::size_t>(k);
         way = step;
     }
@@ -156,8 +158,8 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
     if (!set_projection()) return false;
     double area = 0;
     double error = 0;
-    const double u0 = static_cast<double>((*corners_[0])[static_cast<int>(axis_u_)]);
-    const double v0 = static_cast<double>((*corners_[0])[static_cast<int>(axis_v_)]);
+    const double u0 = coordinate(*corners_[0], axis_u_).to_double();
+    const double v0 = coordinate(*corners_[0], axis_v_).to_double();
     for (const OutlineSegment& s : segments_) {
         if (s.cutter != cutter) continue;
         const Approximation& a = *s.at[0];

@@ -28,6 +28,7 @@
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/double2.h>
 
 namespace trisect::detail {
@@ -47,14 +48,9 @@ std::pair<std::size_t, double> longest_way(const OutlineSegment& s) {
 }  // namespace
 
 OutlinePlane::OutlinePlane(const std::array<const LatticePoint*, 3>& corners) {
-    std::array<double, 3> v{};
-    std::array<double, 3> w{};
-    for (int k = 0; k < 3; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        origin[i] = static_cast<double>((*corners[0])[k]);
-        v[i] = static_cast<double>((*corners[1])[k] - (*corners[0])[k]);
-        w[i] = static_cast<double>((*corners[2])[k] - (*corners[0])[k]);
-    }
+    origin = corners[0]->doubles();
+    const Vector3 v = minus(corners[1]->doubles(), origin);
+    const Vector3 w = minus(corners[2]->doubles(), origin);
     for (std::size_t k = 0; k < 3; ++k) {
         const double s = v[(k + 1) % 3] * w[(k + 2) % 3];
         const double t = v[(k + 2) % 3] * w[(k + 1) % 3];

@@ -15,6 +15,7 @@
 #include <trisect/bsp/cells/trace/trace_winding.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -37,10 +38,9 @@ bool AxisTrace::decide(const PolygonRef& polygon) {
     std::array<std::int64_t, 3> height;
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& c = polygon.source->corner(polygon.facet, i);
-        const auto k = static_cast<int>(axis_);
-        height[static_cast<std::size_t>(i)] = c[k];
-        d[static_cast<std::size_t>(i)] = {static_cast<double>(c[(k + 1) % 3]) - at_[0],
-                                          static_cast<double>(c[(k + 2) % 3]) - at_[1]};
+        height[static_cast<std::size_t>(i)] = position_of(coordinate(c, axis_));
+        d[static_cast<std::size_t>(i)] = {coordinate(c, (axis_ + 1) % 3).to_double() - at_[0],
+                                          coordinate(c, (axis_ + 2) % 3).to_double() - at_[1]};
     }
     int positive = 0;
     int negative = 0;

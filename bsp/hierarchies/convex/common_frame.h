@@ -47,8 +47,7 @@ public:
     /// Up to a factor `unit()`; all coordinates are at most about 1.
     [[nodiscard]] detail::BallVector approximate(Body body, const LatticePoint& p) const {
         const Map& m = body == Body::A ? a_ : b_;
-        const std::array<double, 3> x{static_cast<double>(p.x), static_cast<double>(p.y),
-                                      static_cast<double>(p.z)};
+        const std::array<double, 3> x = p.doubles();
         detail::BallVector r;
         for (std::size_t i = 0; i < 3; ++i)
             r[i] = {((m.m[i][0] * x[0] + m.m[i][1] * x[1]) + m.m[i][2] * x[2]) + m.t[i], m.error};

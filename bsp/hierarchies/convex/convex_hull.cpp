@@ -29,6 +29,8 @@
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/flat_corner.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::hierarchies {
@@ -50,7 +52,7 @@ struct Facet {
 
 double height(const LatticePoint& p, const Plane& plane) {
     double h = plane.approx_offset();
-    for (int k = 0; k < 3; ++k) h += plane.approx_normal(k) * static_cast<double>(p[k]);
+    for (int k = 0; k < 3; ++k) h += plane.approx_normal(k) * p[k].to_double();
     return h;
 }
 
@@ -259,13 +261,6 @@ private:
     std::uint32_t visit_ = 0;
 };
 
-// Twice the signed area of a triangle seen along an axis.
-Int128 turn(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c, int axis) {
-    const int j = (axis + 1) % 3;
-    const int k = (axis + 2) % 3;
-    return Int128{b[j] - a[j]} * (c[k] - a[k]) - Int128{b[k] - a[k]} * (c[j] - a[j]);
-}
-
 // Points of one plane, in lexicographic order, not all collinear: Andrew's two chains.
 ConvexPolytope flat_hull(std::span<const LatticePoint> points, const Plane& plane,
                          Lattice lattice) {
@@ -280,8 +275,10 @@ ConvexPolytope flat_hull(std::span<const LatticePoint> points, const Plane& plan
         return std::pair(a[j], a[k]) < std::pair(b[j], b[k]);
     });
     std::vector<LatticePoint> ring;
+    const auto flat = [&](const LatticePoint& p) { return detail::flat_corner(p, j, k); };
     const auto extend = [&](const LatticePoint& p, std::size_t keep) {
-        while (ring.size() > keep && turn(ring[ring.size() - 2], ring.back(), p, axis) <= 0)
+        while (ring.size() > keep &&
+               detail::turn(flat(ring[ring.size() - 2]), flat(ring.back()), flat(p)) <= 0)
             ring.pop_back();
         ring.push_back(p);
     };
@@ -314,11 +311,9 @@ ConvexPolytope convex_hull(std::span<const LatticePoint> given, Lattice lattice)
     double best = -1;
     for (Index i = 1; i + 1 < count; ++i) {
         if (are_collinear(a, b, points[i])) continue;
-        double square = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto t = static_cast<double>(turn(a, b, points[i], axis));
-            square += t * t;
-        }
+        const auto n = detail::cross(detail::minus(b.doubles(), a.doubles()),
+                                     detail::minus(points[i].doubles(), a.doubles()));
+        const double square = detail::dot(n, n);
         if (square > best) {
             best = square;
             third = i;

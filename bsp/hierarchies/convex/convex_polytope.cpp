@@ -13,6 +13,7 @@
 #include <utility>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::hierarchies {
@@ -123,8 +124,7 @@ void ConvexPolytope::make_spokes() {
 
 void ConvexPolytope::note_largest() {
     for (const LatticePoint& p : vertices_)
-        for (int k = 0; k < 3; ++k)
-            largest_ = std::max(largest_, std::abs(static_cast<double>(p[k])));
+        for (int k = 0; k < 3; ++k) largest_ = std::max(largest_, std::fabs(p[k].to_double()));
 }
 
 std::size_t ConvexPolytope::bytes() const {
@@ -145,9 +145,9 @@ bool ConvexPolytope::contains(const LatticePoint& p) const {
             const LatticePoint& b = vertices_[loop[(i + 1) % loop.size()]];
             const int j = (axis + 1) % 3;
             const int k = (axis + 2) % 3;
-            const Int128 turn =
-                Int128{b[j] - a[j]} * (p[k] - a[k]) - Int128{b[k] - a[k]} * (p[j] - a[j]);
-            if (planes_[f].normal(axis) > 0 ? turn < 0 : turn > 0) return false;
+            const auto flat = [&](const LatticePoint& c) { return detail::flat_corner(c, j, k); };
+            const int side = detail::turn(flat(a), flat(b), flat(p));
+            if (planes_[f].normal(axis) > 0 ? side < 0 : side > 0) return false;
         }
     }
     return !is_empty();

@@ -24,14 +24,15 @@ struct CommonFrame::Exact {
     mpq_class scale;
 
     [[nodiscard]] detail::VectorOf<mpz_class> place(Body body, const LatticePoint& p) const {
-        static_assert(sizeof(long) == sizeof(p.x), "GMP takes long");
+        static_assert(sizeof(long) == sizeof(std::int64_t), "GMP takes long");
+        const auto x = detail::to_integers(p);
         const Map& map = body == Body::A ? a : b;
         detail::VectorOf<mpz_class> r;
         for (std::size_t i = 0; i < 3; ++i) {
             r[i] = map.t[i];
-            r[i] += map.m[i][0] * static_cast<long>(p.x);
-            r[i] += map.m[i][1] * static_cast<long>(p.y);
-            r[i] += map.m[i][2] * static_cast<long>(p.z);
+            r[i] += map.m[i][0] * static_cast<long>(x[0]);
+            r[i] += map.m[i][1] * static_cast<long>(x[1]);
+            r[i] += map.m[i][2] * static_cast<long>(x[2]);
         }
         return r;
     }

@@ -23,6 +23,7 @@
 #include <trisect/bsp/hierarchies/convex/convex_parts.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::hierarchies {
@@ -171,13 +172,13 @@ private:
     // Twice the area of a loop seen along an axis.
     template <class Corner>
     static WideInt<3> area(std::size_t count, int axis, const Corner& corner) {
-        const int j = (axis + 1) % 3;
-        const int k = (axis + 2) % 3;
+        const auto j = static_cast<std::size_t>((axis + 1) % 3);
+        const auto k = static_cast<std::size_t>((axis + 2) % 3);
         WideInt<3> sum = 0;
         const LatticePoint o = corner(0);
         for (std::size_t i = 1; i + 1 < count; ++i) {
-            const LatticePoint a = corner(i) - o;
-            const LatticePoint b = corner(i + 1) - o;
+            const auto a = detail::difference(corner(i), o);
+            const auto b = detail::difference(corner(i + 1), o);
             sum += WideInt<3>(Int128{a[j]} * b[k] - Int128{a[k]} * b[j]);
         }
         return sum;

@@ -41,8 +41,9 @@ public:
         : error_(0.5 * frame_hull_unit + error) {
         const ConvexPolytope hull = frame_hull(corners);
         for (const LatticePoint& v : hull.vertices())
-            corner_.push_back({static_cast<std::int32_t>(v[0]), static_cast<std::int32_t>(v[1]),
-                               static_cast<std::int32_t>(v[2])});
+            corner_.push_back({static_cast<std::int32_t>(v.x.to_integer()),
+                               static_cast<std::int32_t>(v.y.to_integer()),
+                               static_cast<std::int32_t>(v.z.to_integer())});
         first_.push_back(0);
         for (std::size_t v = 0; v < corner_.size(); ++v) {
             for (const ConvexPolytope::Spoke& s : hull.spokes(v)) neighbour_.push_back(s.vertex);

@@ -7,15 +7,14 @@
 #include <vector>
 
 #include <trisect/bsp/hierarchies/convex/convex_hull.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {
 
 ConvexPolytope frame_hull(std::span<const detail::Vector3> points) {
     std::vector<LatticePoint> rounded;
     rounded.reserve(points.size());
-    const auto r = [](double v) {
-        return static_cast<std::int64_t>(std::nearbyint(v / frame_hull_unit));
-    };
+    const auto r = [](double v) { return Coordinate(std::nearbyint(v / frame_hull_unit)); };
     for (const detail::Vector3& p : points) rounded.push_back({r(p[0]), r(p[1]), r(p[2])});
     // A corner of a mesh comes with every triangle at it.
     std::ranges::sort(rounded);
@@ -25,10 +24,7 @@ ConvexPolytope frame_hull(std::span<const detail::Vector3> points) {
 
 detail::AreaMoments surface_moments(const ConvexPolytope& hull) {
     const auto position = [&hull](std::uint32_t i) {
-        const LatticePoint& v = hull.vertices()[i];
-        return detail::Vector3{static_cast<double>(v[0]) * frame_hull_unit,
-                               static_cast<double>(v[1]) * frame_hull_unit,
-                               static_cast<double>(v[2]) * frame_hull_unit};
+        return detail::scaled(hull.vertices()[i].doubles(), frame_hull_unit);
     };
     detail::AreaMoments m;
     for (std::size_t f = 0; f < hull.face_count(); ++f) {

@@ -77,8 +77,8 @@ struct ExactPoints {
 
     void add(const Point& p) {
         if (p.is_lattice()) {
-            const LatticePoint& l = p.lattice();
-            xyz.push_back({to_gmp(l.x) * weight, to_gmp(l.y) * weight, to_gmp(l.z) * weight});
+            const auto x = to_integers(p.lattice());
+            xyz.push_back({to_gmp(x[0]) * weight, to_gmp(x[1]) * weight, to_gmp(x[2]) * weight});
             return;
         }
         const HomogeneousPoint h = p.homogeneous();

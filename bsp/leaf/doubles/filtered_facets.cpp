@@ -14,6 +14,7 @@
 #include <span>
 
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -52,7 +53,8 @@ std::optional<std::size_t> filtered_polygons(const LeafProblem& leaf) {
 
 void FilteredFacets::set_origin(const LatticePoint& origin) {
     const Cell& cell = problem_->cell;
-    origin_ = {origin.x, origin.y, origin.z};
+    origin_ = to_integers(origin);
+    corner_origin_ = origin.doubles();
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto from_origin = [&](std::int64_t fine) {
@@ -158,10 +160,7 @@ void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, Leaf
     const LatticeMesh& mesh = ref.source->mesh();
     f.vertices = mesh.triangles[ref.facet];
     for (std::size_t i = 0; i < 3; ++i) {
-        const LatticePoint& p = mesh.points[f.vertices[i]];
-        f.corners[i] = {static_cast<double>(p.x - origin_[0]),
-                        static_cast<double>(p.y - origin_[1]),
-                        static_cast<double>(p.z - origin_[2])};
+        f.corners[i] = minus(mesh.points[f.vertices[i]].doubles(), corner_origin_);
     }
     if (!f.is_whole()) {
         add_box(f);

@@ -198,6 +198,7 @@ private:
     std::size_t fragments_ = 0;
     StampMap surfaces_;
     std::array<std::int64_t, 3> origin_{};
+    Vector3 corner_origin_{};  // the same
     Approximation reference_;
     Vector3 inner_lo_{};
     Vector3 inner_hi_{};

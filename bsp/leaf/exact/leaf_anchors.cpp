@@ -27,8 +27,8 @@ bool runs_through(const Cell& cell, const LatticePoint& a, const LatticePoint& b
     for (int k = 0; k < 3; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const auto scale = static_cast<double>(splitting_scale);
-        const double p = static_cast<double>(a[k]);
-        const double d = static_cast<double>(b[k]) - p;
+        const double p = a[k].to_double();
+        const double d = b[k].to_double() - p;
         const double lo = static_cast<double>(cell.lo[i]) / scale - p;
         const double hi = static_cast<double>(cell.hi[i]) / scale - p;
         if (d == 0) {
@@ -179,7 +179,7 @@ bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
     if (is_facet(item)) {
         const LatticePoint& c = item.ref.source->corner(item.ref.facet, v.corner);
         const TraceTarget target(
-            FinePoint{{c.x * splitting_scale, c.y * splitting_scale, c.z * splitting_scale}});
+            FinePoint{{fine_position(c.x), fine_position(c.y), fine_position(c.z)}});
         return windings_->at_point(target, item.operand, w);
     }
     const PointId p = work_->shape(v.item).points[static_cast<std::size_t>(v.corner)];

@@ -419,7 +419,7 @@ void AxisLeaf::emit_uncut(const AxisPolygon& p, const UnitRows& units) {
 std::uint8_t AxisLeaf::corners_in(const AxisPolygon& p, const UnitRows& units) const {
     const AxisGrid::Frame frame = AxisGrid::frame(axis_);
     const auto units_at = [&](const LatticePoint& corner, std::size_t axis) {
-        return grid_.units(axis).units_at(corner[static_cast<int>(axis)] * splitting_scale);
+        return grid_.units(axis).units_at(fine_position(corner[static_cast<int>(axis)]));
     };
     std::uint8_t out = 0;
     for (int i = 0; i < 3; ++i) {

@@ -25,7 +25,8 @@ bool same_rectangle(const PrismSideFace& a, const PrismSideFace& b) {
 }  // namespace
 
 FlatPoint PrismFacets::flat(const LatticePoint& p) const {
-    return {coordinate(p, (axis_ + 1) % 3), coordinate(p, (axis_ + 2) % 3)};
+    return {coordinate(p, (axis_ + 1) % 3).to_integer(),
+            coordinate(p, (axis_ + 2) % 3).to_integer()};
 }
 
 bool PrismFacets::faces_up(const PolygonRef& cap) const {
@@ -105,7 +106,7 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& p = ref.source->corner(ref.facet, i);
         corners[static_cast<std::size_t>(i)] = flat(p);
-        height[static_cast<std::size_t>(i)] = coordinate(p, axis_);
+        height[static_cast<std::size_t>(i)] = coordinate(p, axis_).to_integer();
     }
     if (height[0] == height[1] && height[0] == height[2]) {
         caps_.push_back({operand, ref, 0});
@@ -161,7 +162,7 @@ bool PrismFacets::join_halves() {
 
 bool PrismFacets::find_layers() {
     const auto height = [&](const PolygonRef& ref) {
-        return coordinate(ref.source->corner(ref.facet, 0), axis_);
+        return coordinate(ref.source->corner(ref.facet, 0), axis_).to_integer();
     };
     positions_.clear();
     for (const PrismCap& c : caps_) positions_.push_back(height(c.ref));

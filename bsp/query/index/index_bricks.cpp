@@ -47,9 +47,9 @@ void IndexBrickBuilder::gather_triangle(BlockItem& item, Coefficients& plane,
     item.hi.fill(-HUGE_VAL);
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& c = polygons_.corner(item.id, i);
-        const Vector p{(static_cast<double>(c.x) - block.origin[0]) * scale[0],
-                       (static_cast<double>(c.y) - block.origin[1]) * scale[1],
-                       (static_cast<double>(c.z) - block.origin[2]) * scale[2]};
+        const Vector p{(c.x.to_double() - block.origin[0]) * scale[0],
+                       (c.y.to_double() - block.origin[1]) * scale[1],
+                       (c.z.to_double() - block.origin[2]) * scale[2]};
         for (std::size_t k = 0; k < 3; ++k) {
             item.lo[k] = std::min(item.lo[k], p[k]);
             item.hi[k] = std::max(item.hi[k], p[k]);

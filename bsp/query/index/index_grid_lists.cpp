@@ -39,7 +39,7 @@ BlockItem IndexGridLists::item(Id id) const {
         const LatticePoint& c = polygons_.corner(id, i);
         auto& p = out.corner[static_cast<std::size_t>(i)];
         for (std::size_t k = 0; k < 3; ++k) {
-            p[k] = (static_cast<double>(c[static_cast<int>(k)]) - block_.origin[k]) * scale_[k];
+            p[k] = (c[static_cast<int>(k)].to_double() - block_.origin[k]) * scale_[k];
             out.lo[k] = std::min(out.lo[k], p[k]);
             out.hi[k] = std::max(out.hi[k], p[k]);
         }

@@ -29,8 +29,7 @@ public:
         for (const double x : p)
             if (!(x < 0x1p600 && x > -0x1p600)) set_huge();
     }
-    explicit IndexPoint(const LatticePoint& p)
-        : c_{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} {}
+    explicit IndexPoint(const LatticePoint& p) : c_(p.doubles()) {}
     explicit IndexPoint(const Point& p);
     explicit IndexPoint(const FinePoint& p);
     explicit IndexPoint(Rational p);

@@ -78,9 +78,8 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base
     return sum.sign();
 }
 
-Fine coordinates(const LatticePoint& p) { return {p.x, p.y, p.z}; }
 Fine fine_coordinates(const LatticePoint& p) {
-    return {p.x * splitting_scale, p.y * splitting_scale, p.z * splitting_scale};
+    return {fine_position(p.x), fine_position(p.y), fine_position(p.z)};
 }
 
 Normal exact_cross(const Fine& u, const Fine& v) {
@@ -91,24 +90,24 @@ Normal exact_cross(const Fine& u, const Fine& v) {
 }
 
 Normal triangle_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-    return exact_cross(minus(coordinates(b), coordinates(a)),
-                       minus(coordinates(c), coordinates(a)));
+    return exact_cross(minus(to_integers(b), to_integers(a)),
+                       minus(to_integers(c), to_integers(a)));
 }
 
 int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
                const LatticePoint& c) {
-    return sign_linear(p, triangle_normal(a, b, c), coordinates(a), 0);
+    return sign_linear(p, triangle_normal(a, b, c), to_integers(a), 0);
 }
 
 // Component k of (a - p) × (b - p): which way p, a, b turn seen along axis k.
 int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b, std::size_t k) {
     const std::size_t j = (k + 1) % 3;
     const std::size_t l = (k + 2) % 3;
-    const Fine e = minus(coordinates(b), coordinates(a));
+    const Fine e = minus(to_integers(b), to_integers(a));
     Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
     n[l] = e[j];
     n[j] = -Int128{e[l]};
-    return sign_linear(p, n, coordinates(a), 0);
+    return sign_linear(p, n, to_integers(a), 0);
 }
 
 // det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
@@ -147,8 +146,8 @@ bool is_in_triangle(const IndexPoint& p, const LatticePoint& a, const LatticePoi
     // Doubles reject most: a point outside the box of the triangle.
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<int>(i);
-        const double lo = static_cast<double>(std::min({a[axis], b[axis], c[axis]}));
-        const double hi = static_cast<double>(std::max({a[axis], b[axis], c[axis]}));
+        const double lo = std::min({a[axis], b[axis], c[axis]}).to_double();
+        const double hi = std::max({a[axis], b[axis], c[axis]}).to_double();
         if (p[i] + p.error() < lo || p[i] - p.error() > hi) return false;
     }
     return exact_turn(p, a, b, k) * turn >= 0 && exact_turn(p, b, c, k) * turn >= 0 &&
@@ -172,13 +171,14 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, con
         const LatticePoint& to = *corner[(i + 1) % 3];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto axis = static_cast<int>(k);
-            const auto start = static_cast<double>(from[axis]);
-            edge[i][k] = to[axis] - from[axis];
-            longest_edge = std::max(longest_edge, std::fabs(static_cast<double>(to[axis]) - start));
+            const double start = from[axis].to_double();
+            edge[i][k] = difference(to[axis], from[axis]);
+            longest_edge = std::max(longest_edge, std::fabs(to[axis].to_double() - start));
             longest_way = std::max(longest_way, std::fabs(p[k] - start));
             // What overflows on the way comes back.
-            way[i][k] = static_cast<std::int64_t>(static_cast<std::uint64_t>(small->c[k]) -
-                                                  (static_cast<std::uint64_t>(from[axis]) << bits));
+            way[i][k] = static_cast<std::int64_t>(
+                static_cast<std::uint64_t>(small->c[k]) -
+                (static_cast<std::uint64_t>(from[axis].to_integer()) << bits));
         }
     }
     longest_way *= static_cast<double>(std::uint64_t{1} << bits);
@@ -283,9 +283,9 @@ void Reference::set_error() {
 
 Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const IndexPoint& p, const Reference& r) {
-    const Vector3 fa = to_vector(a);
-    const Vector3 fb = to_vector(b);
-    const Vector3 fc = to_vector(c);
+    const Vector3 fa = a.doubles();
+    const Vector3 fb = b.doubles();
+    const Vector3 fc = c.doubles();
     const Vector3 u = minus(fb, fa);
     const Vector3 v = minus(fc, fa);
     const Vector3 n = cross(u, v);
@@ -356,14 +356,14 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
         const LatticePoint& a = s.corner(f, 0);
         const LatticePoint& b = s.corner(f, 1);
         const LatticePoint& c = s.corner(f, 2);
-        const Vector3 fa = to_vector(a);
-        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == to_vector(b) ||
-                               p.approximate() == to_vector(c))) {
+        const Vector3 fa = a.doubles();
+        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == b.doubles() ||
+                               p.approximate() == c.doubles())) {
             ++detail::counters_of_thread<PredicateCounters>.symbolic;
             return true;
         }
-        const Vector3 u = minus(to_vector(b), fa);
-        const Vector3 v = minus(to_vector(c), fa);
+        const Vector3 u = minus(b.doubles(), fa);
+        const Vector3 v = minus(c.doubles(), fa);
         const Vector3 w = minus(p.approximate(), fa);
         const double edge = std::max(largest_component(u), largest_component(v));
         const double bound =

@@ -390,8 +390,8 @@ LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
     LineContact contact;
     int known = 0;
     if (polygons.is_triangle(id)) {
-        known = meet_triangle(to_vector(polygons.corner(id, 0)), to_vector(polygons.corner(id, 1)),
-                              to_vector(polygons.corner(id, 2)), line, contact);
+        known = meet_triangle(polygons.corner(id, 0).doubles(), polygons.corner(id, 1).doubles(),
+                              polygons.corner(id, 2).doubles(), line, contact);
     } else {
         known = meet_convex(polygons.support(id), polygons.edges(id), line, contact);
     }

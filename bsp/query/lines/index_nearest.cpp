@@ -380,9 +380,7 @@ private:
         std::array<Vector3, 3> out{};
         for (int i = 0; i < 3; ++i) {
             const LatticePoint& c = polygons_.corner(id, i);
-            out[static_cast<std::size_t>(i)] = minus(
-                {static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)},
-                p_.approximate());
+            out[static_cast<std::size_t>(i)] = minus(c.doubles(), p_.approximate());
         }
         return out;
     }

@@ -27,8 +27,7 @@ bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector3& n) {
     std::array<Vector3, 3> c{};
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& p = polygons.corner(id, i);
-        c[static_cast<std::size_t>(i)] = {static_cast<double>(p.x), static_cast<double>(p.y),
-                                          static_cast<double>(p.z)};
+        c[static_cast<std::size_t>(i)] = p.doubles();
     }
     const Vector3 u{c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]};
     const Vector3 v{c[2][0] - c[0][0], c[2][1] - c[0][1], c[2][2] - c[0][2]};
@@ -117,8 +116,8 @@ Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on, const 
         if (s.is_half_space()) continue;
         for (int i = 0; i < 3; ++i) {
             const LatticePoint& c = s.corner(polygons.facet(id), i);
-            if (static_cast<double>(c.x) != point[0] || static_cast<double>(c.y) != point[1] ||
-                static_cast<double>(c.z) != point[2])
+            if (c.x.to_double() != point[0] || c.y.to_double() != point[1] ||
+                c.z.to_double() != point[2])
                 continue;
             const CornerSource name{s.operand(), s.corner_index(polygons.facet(id), i)};
             if (!place.corner.is_valid() || name < place.corner) place.corner = name;

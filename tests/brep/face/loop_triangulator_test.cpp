@@ -19,6 +19,8 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using trisect::are_collinear;
@@ -28,18 +30,18 @@ using trisect::detail::LoopTriangulator;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 // Segments between neighbouring grid points of a line, signed: equal chains of points are equal.
-using Steps = std::map<std::array<std::int64_t, 6>, int>;
+using Steps = std::map<std::array<LatticePoint, 2>, int>;
 
 void add_side(Steps& steps, const LatticePoint& from, const LatticePoint& to, int sign) {
     const LatticePoint d = to - from;
-    const std::int64_t n = std::gcd(std::gcd(d.x, d.y), d.z);
+    const std::int64_t n = std::gcd(std::gcd(d.x.to_integer(), d.y.to_integer()), d.z.to_integer());
     LatticePoint at = from;
     for (std::int64_t i = 0; i < n; ++i) {
         const LatticePoint next{at.x + d.x / n, at.y + d.y / n, at.z + d.z / n};
         const bool forward = at < next;
         const LatticePoint& a = forward ? at : next;
         const LatticePoint& b = forward ? next : at;
-        const std::array<std::int64_t, 6> key{a.x, a.y, a.z, b.x, b.y, b.z};
+        const std::array<LatticePoint, 2> key{a, b};
         if ((steps[key] += forward ? sign : -sign) == 0) steps.erase(key);
         at = next;
     }

@@ -10,6 +10,8 @@
 
 #include <trisect/brep/planar_loops.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using namespace trisect;

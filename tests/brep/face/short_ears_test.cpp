@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using trisect::detail::FlatCorner;

@@ -14,6 +14,7 @@
 #include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/brep/validate/validate.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"
 
 namespace trisect {

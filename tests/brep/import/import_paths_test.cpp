@@ -26,6 +26,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"
 
 namespace trisect {
@@ -435,12 +436,12 @@ TEST(WeldInPlace, NumbersLikeWeldPointsForEveryHint) {
         for (LatticePoint& p : points)
             p = {static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(grid)),
                  static_cast<std::int64_t>(random() % 3), -1};
-        std::map<std::tuple<std::int64_t, std::int64_t, std::int64_t>, std::uint32_t> names;
+        std::map<LatticePoint, std::uint32_t> names;
         std::vector<LatticePoint> distinct;
         std::vector<std::uint32_t> ids;
         for (const LatticePoint& p : points) {
             const auto [at, is_new] =
-                names.try_emplace({p.x, p.y, p.z}, static_cast<std::uint32_t>(names.size()));
+                names.try_emplace(p, static_cast<std::uint32_t>(names.size()));
             if (is_new) distinct.push_back(p);
             ids.push_back(at->second);
         }

@@ -13,6 +13,7 @@
 #include <trisect/brep/validate/manifold_counts.h>
 #include <trisect/brep/validate/validate.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"
 
 namespace {
@@ -79,8 +80,8 @@ TEST(Embedding, SameAsValidationWhereCornersMove) {
         const std::int64_t reach = std::int64_t{1} << (36 + round % 8);
         for (std::size_t n = 0; n < 1 + round % 5; ++n) {
             trisect::LatticePoint& p = mesh.points[random() % mesh.points.size()];
-            for (std::int64_t* const c : {&p.x, &p.y, &p.z})
-                *c += (static_cast<std::int64_t>(random() % 5) - 2) * reach / 4;
+            for (trisect::Coordinate* const c : {&p.x, &p.y, &p.z})
+                *c = *c + (static_cast<std::int64_t>(random() % 5) - 2) * reach / 4;
         }
         if (random() % 4 == 0)
             mesh.points[random() % mesh.points.size()] = mesh.points[random() % mesh.points.size()];

@@ -22,6 +22,8 @@
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace trisect {
 namespace {
 
@@ -67,10 +69,10 @@ int winding_beside(const std::vector<LatticePoint>& p, const std::vector<Outline
     const double y = static_cast<double>(a.y + b.y) / 2 + 1e-4 * side * dx;
     double angle = 0;
     for (const OutlineEdge& g : edges) {
-        const double px = static_cast<double>(p[g.from].x) - x;
-        const double py = static_cast<double>(p[g.from].y) - y;
-        const double qx = static_cast<double>(p[g.to].x) - x;
-        const double qy = static_cast<double>(p[g.to].y) - y;
+        const double px = p[g.from].x.to_double() - x;
+        const double py = p[g.from].y.to_double() - y;
+        const double qx = p[g.to].x.to_double() - x;
+        const double qy = p[g.to].y.to_double() - y;
         angle += std::atan2(px * qy - py * qx, px * qx + py * qy);
     }
     return static_cast<int>(std::lround(angle / (2 * std::numbers::pi)));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "support/breps.h"
+#include "support/lattice_arithmetic.h"
 
 namespace {
 

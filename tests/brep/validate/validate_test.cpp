@@ -9,6 +9,7 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/validate/triangle_contact.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"
 
 namespace trisect {

@@ -16,6 +16,7 @@
 
 #include "membership_oracle.h"
 #include "meshes.h"
+#include "support/lattice_arithmetic.h"
 
 namespace trisect {
 namespace {

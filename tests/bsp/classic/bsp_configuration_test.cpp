@@ -16,6 +16,7 @@
 #include <trisect/bsp/classic/bsp_boundary.h>
 
 #include "meshes.h"
+#include "support/lattice_arithmetic.h"
 
 namespace trisect {
 namespace {
@@ -189,17 +190,16 @@ TEST(BspConfiguration, AllPositionsOfTwoBoxes) {
         for (std::int64_t i = 0; i < 343; ++i) {
             const LatticePoint at{i % 7 - 4, i / 7 % 7 - 4, i / 49 - 4};
             const BspTree other = build_bsp(test::box(at, at + size));
-            const std::int64_t both = common(0, 2, at.x, at.x + size.x) *
-                                      common(0, 2, at.y, at.y + size.y) *
-                                      common(0, 2, at.z, at.z + size.z);
+            const std::int64_t both = common(0, 2, at.x.to_integer(), at.x + size.x) *
+                                      common(0, 2, at.y.to_integer(), at.y + size.y) *
+                                      common(0, 2, at.z.to_integer(), at.z + size.z);
             const std::int64_t own = size.x * size.y * size.z;
             const auto check = [&](BooleanRule rule, std::int64_t volume) {
                 const auto fragments = boundary_of(merge(tree, other, rule));
                 EXPECT_EQ(enclosed_volume(fragments), ExactRational(volume));
                 EXPECT_EQ(brep_from_fragments(fragments, {}).is_empty(), volume == 0);
             };
-            SCOPED_TRACE(std::to_string(at.x) + " " + std::to_string(at.y) + " " +
-                         std::to_string(at.z));
+            SCOPED_TRACE(i);
             check(unite, 8 + own - both);
             check(intersect_sets, both);
             check(subtract, 8 - both);

@@ -13,6 +13,7 @@
 #include <trisect/bsp/classic/bsp_boundary.h>
 
 #include "meshes.h"
+#include "support/lattice_arithmetic.h"
 #include "support/small_stack.h"
 
 namespace trisect {

@@ -9,6 +9,8 @@
 
 #include <trisect/kernel/wide_int.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace trisect::test {
 
 namespace {
@@ -18,11 +20,12 @@ int orientation(const LatticePoint& p, const LatticePoint& q, const LatticePoint
     const LatticePoint a = q - p;
     const LatticePoint b = r - p;
     const LatticePoint c = s - p;
-    const auto minor = [](std::int64_t u, std::int64_t v, std::int64_t w, std::int64_t x) {
-        return Int128{u} * x - Int128{v} * w;
+    const auto minor = [](Coordinate u, Coordinate v, Coordinate w, Coordinate x) {
+        return Int128{u.to_integer()} * x.to_integer() - Int128{v.to_integer()} * w.to_integer();
     };
-    const Int128 d = a.x * minor(b.y, b.z, c.y, c.z) - a.y * minor(b.x, b.z, c.x, c.z) +
-                     a.z * minor(b.x, b.y, c.x, c.y);
+    const Int128 d = a.x.to_integer() * minor(b.y, b.z, c.y, c.z) -
+                     a.y.to_integer() * minor(b.x, b.z, c.x, c.z) +
+                     a.z.to_integer() * minor(b.x, b.y, c.x, c.y);
     return d > 0 ? 1 : (d < 0 ? -1 : 0);
 }
 

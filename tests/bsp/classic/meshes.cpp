@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "support/lattice_arithmetic.h"
+
 namespace trisect::test {
 
 namespace {

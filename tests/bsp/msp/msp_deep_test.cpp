@@ -11,6 +11,7 @@
 #include <trisect/brep/brep_builder.h>
 #include <trisect/bsp/msp_tree.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/small_stack.h"
 
 namespace trisect {

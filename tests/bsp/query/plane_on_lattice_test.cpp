@@ -16,6 +16,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/predicates.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/query_oracle.h"
 
 namespace {
@@ -33,7 +34,7 @@ int sign_by_rationals(const std::array<double, 4>& plane, Lattice lattice,
     Rational sum = d;
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        sum += n[k] * unit * brute::point({static_cast<double>(p[i]), 0, 0})[0];
+        sum += n[k] * unit * brute::point({p[i].to_double(), 0, 0})[0];
     }
     return sum > 0 ? 1 : (sum < 0 ? -1 : 0);
 }

@@ -11,6 +11,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/query/points/index_counters.h>
 
+#include "support/lattice_arithmetic.h"
 #include "support/query_oracle.h"
 
 namespace {
@@ -148,9 +149,9 @@ TEST_F(Torus, LightAnswersAreBoundsOfExactOnes) {
 
 LatticeMesh moved(LatticeMesh mesh, std::int64_t by) {
     for (auto& p : mesh.points) {
-        p.x += by;
-        p.y += by / 3;
-        p.z += by / 7;
+        p.x = p.x + by;
+        p.y = p.y + by / 3;
+        p.z = p.z + by / 7;
     }
     return mesh;
 }

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/lattice_arithmetic.h"
+
 namespace {
 
 using trisect::LatticeMesh;

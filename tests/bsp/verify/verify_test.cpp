@@ -238,9 +238,7 @@ protected:
     static PolygonMesh mesh_of(const reference::Operand& operand) {
         const LatticeMesh mesh = engines::lattice_mesh(operand);
         PolygonMesh out;
-        for (const LatticePoint& p : mesh.points)
-            out.points.push_back(
-                {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+        for (const LatticePoint& p : mesh.points) out.points.push_back(p.doubles());
         for (const auto& t : mesh.triangles) out.add_triangle(t[0], t[1], t[2]);
         return out;
     }

@@ -15,6 +15,7 @@
 #include <trisect/kernel/pose/relative_pose.h>
 
 #include "support/gmp_oracle.h"
+#include "support/lattice_arithmetic.h"
 #include "support/pose_oracle.h"
 
 namespace {
@@ -147,11 +148,11 @@ TEST(MovedPredicates, AgreeNextToThePlane) {
         const auto nearby = [&](const LatticePoint& p) -> Point {
             const RationalPoint x = s.to_b(oracle::rational(p));
             LatticePoint r;
-            const std::array<std::int64_t*, 3> at{&r.x, &r.y, &r.z};
+            const std::array<trisect::Coordinate*, 3> at{&r.x, &r.y, &r.z};
             for (std::size_t i = 0; i < 3; ++i) {
                 const double c = oracle::nearest(x[i]);
                 if (!(std::fabs(c) < 0x1p52)) return random.point(s.bits);
-                *at[i] = static_cast<std::int64_t>(std::nearbyint(c));
+                *at[i] = trisect::Coordinate(std::nearbyint(c));
             }
             return r;
         };

@@ -14,6 +14,7 @@
 #include <trisect/kernel/predicates.h>
 
 #include "support/convex_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace {
 
@@ -31,8 +32,7 @@ TEST(ConvexHullAgainstCgal, SameVerticesAndPlanes) {
             for (int i = 0; i < 80; ++i) {
                 const LatticePoint p{d(engine), d(engine), d(engine)};
                 points.push_back(p);
-                theirs.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y),
-                                    static_cast<double>(p.z));
+                theirs.emplace_back(p.x.to_double(), p.y.to_double(), p.z.to_double());
             }
             const auto ours = trisect::hierarchies::convex_hull(points, {});
             Mesh mesh;

@@ -17,6 +17,7 @@
 #include <trisect/kernel/error.h>
 
 #include "support/convex_oracle.h"
+#include "support/lattice_arithmetic.h"
 
 namespace {
 
@@ -34,8 +35,8 @@ BodyBox box_of(const ConvexPolytope& p) {
         r.lo[k] = std::numeric_limits<double>::infinity();
         r.hi[k] = -r.lo[k];
         for (const auto& v : p.vertices()) {
-            r.lo[k] = std::min(r.lo[k], static_cast<double>(v[static_cast<int>(k)]));
-            r.hi[k] = std::max(r.hi[k], static_cast<double>(v[static_cast<int>(k)]));
+            r.lo[k] = std::min(r.lo[k], v[static_cast<int>(k)].to_double());
+            r.hi[k] = std::max(r.hi[k], v[static_cast<int>(k)].to_double());
         }
     }
     return r;

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// FlatCorner: a lattice point in the projection along an axis, and its turns.
+#pragma once
+
+#include <cmath>
+#include <compare>
+
+#include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/wide_int.h>
+
+namespace trisect::detail {
+
+struct FlatCorner {
+    Coordinate u;
+    Coordinate v;
+    friend constexpr bool operator==(const FlatCorner&, const FlatCorner&) = default;
+    friend constexpr std::strong_ordering operator<=>(const FlatCorner&,
+                                                      const FlatCorner&) = default;
+};
+
+/// The coordinates u and v of a point.
+[[nodiscard]] constexpr FlatCorner flat_corner(const LatticePoint& p, int u, int v) {
+    return {p[u], p[v]};
+}
+
+/// Sign of p.u q.v - p.v q.u for differences p = b - a and q = c - a; exact.
+[[nodiscard]] inline int exact_turn(const FlatCorner& a, const FlatCorner& b, const FlatCorner& c) {
+    const Int128 left = Int128{difference(b.u, a.u)} * difference(c.v, a.v);
+    const Int128 right = Int128{difference(b.v, a.v)} * difference(c.u, a.u);
+    return left > right ? 1 : (left < right ? -1 : 0);
+}
+
+/// 1 for a left turn, -1 for a right turn, 0 on a line. Doubles first: differences round once.
+[[nodiscard]] inline int turn(const FlatCorner& a, const FlatCorner& b, const FlatCorner& c) {
+    const double left = (b.u.to_double() - a.u.to_double()) * (c.v.to_double() - a.v.to_double());
+    const double right = (b.v.to_double() - a.v.to_double()) * (c.u.to_double() - a.u.to_double());
+    const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
+    const int sign = certain_sign(left - right, bound);
+    return sign != 0 ? sign : exact_turn(a, b, c);
+}
+
+}  // namespace trisect::detail
