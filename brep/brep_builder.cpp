@@ -307,7 +307,7 @@ void BrepBuilder::add_polygon(const Plane& plane, std::span<const std::uint32_t>
 
 void BrepBuilder::check_loop(const Plane& plane, std::span<const std::uint32_t> loop) const {
     TRISECT_EXPECTS(plane.is_valid(), "a face has a plane");
-    TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+    TRISECT_EXPECTS(loop.size() >= 2, "a loop has at least three corners, a slit two");
     for (const std::uint32_t v : loop) {
         TRISECT_EXPECTS(v < points_.size(), "a loop names an unknown vertex");
         TRISECT_AUDIT_CHECK(side_of(points_[v], plane) == Side::On,
@@ -337,7 +337,7 @@ void BrepBuilder::append_face(const Plane& plane, FaceSource source) {
 }
 
 void BrepBuilder::append_loop(std::span<const std::uint32_t> loop) {
-    TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+    TRISECT_EXPECTS(loop.size() >= 2, "a loop has at least three corners, a slit two");
     if (corners_.size() + loop.size() >= HalfedgeId::none)
         throw LimitError("more than 2^32 - 2 halfedges");
     loop_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));

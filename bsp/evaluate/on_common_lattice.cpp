@@ -305,7 +305,10 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
     out->lattice = lattice;
     // Refining clips every facet to its cell, so none is incomplete.
     out->form =
-        CellTree{Refiner(state->lattice.exponent, lattice.exponent).refine(state->root()), {}, {}};
+        CellTree{Refiner(state->lattice.exponent, lattice.exponent).refine(state->root()),
+                 {},
+                 {},
+                 state->tree().may_have_straight_crossings};
     return out;
 }
 

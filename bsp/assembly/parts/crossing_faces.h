@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faces that go straight across each other in a line.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/boundary_parts.h>
+
+namespace trisect::detail {
+
+/// The ends of an edge as one number, the same for both directions.
+[[nodiscard]] inline std::uint64_t ends_of(const BoundaryEdge& e) {
+    const PointId lo = e.from < e.to ? e.from : e.to;
+    const PointId hi = e.from < e.to ? e.to : e.from;
+    return (static_cast<std::uint64_t>(lo) << 32) | static_cast<std::uint32_t>(hi);
+}
+
+/// A directed edge, by its facet and by which of its two ends it begins at.
+struct FacetEdge {
+    const Source* source = nullptr;
+    std::uint32_t facet = 0;
+    bool flipped = false;
+    bool up = false;
+};
+
+/// Of edges with the same two ends: whether faces of two planes or more go straight across each
+/// other there. A face goes straight across where facets in one oriented plane have the edge in
+/// both directions. Sectors of inside and outside alternate six times or more around such an edge.
+/// O(n²).
+[[nodiscard]] bool cross_straight(std::span<const FacetEdge> edges);
+
+/// Adds to `edges` those of the cancelled ones, which come in opposite pairs, on which faces go
+/// straight across each other. \pre edges on one segment have the same ends, those of `edges` are
+/// sorted by facet; so they come out, in the order of their loops where they are few.
+void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge> cancelled,
+                        std::vector<BoundaryEdge>& edges);
+
+}  // namespace trisect::detail
