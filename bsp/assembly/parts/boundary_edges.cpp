@@ -225,6 +225,7 @@ public:
             // The last edge of two pairs meets another one, whichever comes first in the table.
             if (others >= 2) crowded_.push_back(ends);
         }
+        find_whole_facets();
         keep_crossings();
         for (const auto& [e, f] : pairs_)
             if (gone_[e]) join(edges_[e].facet, edges_[f].facet);
@@ -248,6 +249,17 @@ private:
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
     }
 
+    // Facets that pass through as they are have no edges here.
+    void find_whole_facets() {
+        std::vector<BoundaryEdge> inside;
+        for (const auto& [e, f] : pairs_)
+            if (parts_.facets[as_index(edges_[e].facet)].source ==
+                parts_.facets[as_index(edges_[f].facet)].source)
+                inside.push_back(edges_[e]);
+        whole_ = whole_facets_on(parts_, inside);
+        for (const WholeFacetEdge& w : whole_) crowded_.push_back(w.ends);
+    }
+
     // Pairs stay where facets of several planes go straight across each other. Few edges have
     // more than one other edge with the same ends.
     void keep_crossings() {
@@ -267,6 +279,8 @@ private:
                 const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
                 group.push_back({f.source, f.facet, f.flipped, e.from < e.to});
             }
+            for (const WholeFacetEdge& w : whole_)
+                if (w.ends == here[i].first) group.push_back(w.edge);
             const bool cross = cross_straight(group);
             for (; i < j; ++i)
                 if (cross) gone_[here[i].second] = false;
@@ -281,6 +295,7 @@ private:
     std::vector<bool> gone_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<std::uint64_t> crowded_;  // ends of more than two edges
+    std::vector<WholeFacetEdge> whole_;
 };
 
 }  // namespace

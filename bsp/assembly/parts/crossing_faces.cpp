@@ -10,6 +10,7 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
@@ -43,6 +44,57 @@ bool cross_straight(std::span<const FacetEdge> edges) {
         if (up && down && ++straight == 2) return true;
     }
     return false;
+}
+
+std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
+                                            std::span<const BoundaryEdge> edges) {
+    // An edge by its vertices in the mesh, the smaller one first.
+    struct MeshEdge {
+        std::size_t table;
+        std::uint32_t low;
+        std::uint32_t high;
+        std::uint64_t ends;
+        bool low_is_first;  // of the points
+        [[nodiscard]] auto key() const { return std::tuple(table, low, high); }
+    };
+    const Workbench& bench = parts.bench;
+    std::vector<MeshEdge> wanted;
+    for (const BoundaryEdge& e : edges) {
+        if (!bench.is_corner(e.from) || !bench.is_corner(e.to)) continue;
+        const Source* const source = parts.facets[as_index(e.facet)].source;
+        const auto [s, v] = bench.corner_name(e.from);
+        const auto [t, w] = bench.corner_name(e.to);
+        if (s != source || t != source) continue;
+        wanted.push_back({parts.table_of(source), std::min(v, w), std::max(v, w), ends_of(e),
+                          (v < w) == (e.from < e.to)});
+    }
+    std::ranges::sort(wanted, {}, &MeshEdge::key);
+    std::vector<WholeFacetEdge> out;
+    for (auto first = wanted.begin(); first != wanted.end();) {
+        const std::size_t table = first->table;
+        const auto end = std::ranges::find_if(
+            first, wanted.end(), [&](const MeshEdge& e) { return e.table != table; });
+        const Source* const source = parts.sources[table].source();
+        const LatticeMesh& mesh = source->mesh();
+        std::vector<bool> is_end(mesh.points.size(), false);
+        for (auto e = first; e != end; ++e) is_end[e->low] = is_end[e->high] = true;
+        parts.sources[table].for_each_whole([&](std::uint32_t facet, bool flipped) {
+            const auto& corners = mesh.triangles[facet];
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint32_t v = corners[i];
+                const std::uint32_t w = corners[(i + 1) % 3];
+                if (!is_end[v] || !is_end[w]) continue;
+                const auto at = std::ranges::lower_bound(
+                    first, end, std::tuple(table, std::min(v, w), std::max(v, w)), {},
+                    &MeshEdge::key);
+                if (at == end || at->low != std::min(v, w) || at->high != std::max(v, w)) continue;
+                const bool up = ((v < w) == at->low_is_first) != flipped;
+                out.push_back({at->ends, {source, facet, flipped, up}});
+            }
+        });
+        first = end;
+    }
+    return out;
 }
 
 void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge> cancelled,

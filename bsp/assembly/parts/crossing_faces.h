@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces that go straight across each other in a line.
+// CrossingFaces: faces that go straight across each other in a line.
 #pragma once
 
 #include <cstdint>
@@ -37,5 +37,16 @@ struct FacetEdge {
 /// sorted by facet; so they come out, in the order of their loops where they are few.
 void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge> cancelled,
                         std::vector<BoundaryEdge>& edges);
+
+/// Of facets that pass through whole: an edge with the ends of one of the boundary's edges.
+struct WholeFacetEdge {
+    std::uint64_t ends = 0;
+    FacetEdge edge;
+};
+
+/// The edges of facets that pass through whole on edges of cut facets of the same mesh. There are
+/// some only where more than two facets of a mesh meet in an edge. O(whole facets of those meshes).
+[[nodiscard]] std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
+                                                          std::span<const BoundaryEdge> edges);
 
 }  // namespace trisect::detail
