@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Straight crossings: lines in which faces of a result go straight across each other.
+// Straight crossings: lines in which faces of a result cross each other.
 #pragma once
 
 #include <trisect/bsp/cells/leaf_problem.h>

@@ -72,8 +72,8 @@ std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
     std::vector<WholeFacetEdge> out;
     for (auto first = wanted.begin(); first != wanted.end();) {
         const std::size_t table = first->table;
-        const auto end = std::ranges::find_if(
-            first, wanted.end(), [&](const MeshEdge& e) { return e.table != table; });
+        const auto end = std::ranges::find_if(first, wanted.end(),
+                                              [&](const MeshEdge& e) { return e.table != table; });
         const Source* const source = parts.sources[table].source();
         const LatticeMesh& mesh = source->mesh();
         std::vector<bool> is_end(mesh.points.size(), false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CrossingFaces: faces that go straight across each other in a line.
+// CrossingFaces: edges in which faces cross each other.
 #pragma once
 
 #include <cstdint>

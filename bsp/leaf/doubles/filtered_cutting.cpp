@@ -373,7 +373,8 @@ FilteredCutting::Split FilteredCutting::split(std::size_t part, std::size_t cont
         above = above || s > 0;
     }
     if (!below || !above) {
-        if (keeps_common_lines_ && !is_common_line_) is_common_line_ = runs_along(from, signs, contact);
+        if (keeps_common_lines_ && !is_common_line_)
+            is_common_line_ = runs_along(from, signs, contact);
         return Split::Missed;
     }
     if (from.size + 2U > FilteredPart::max_size) return Split::Uncertain;

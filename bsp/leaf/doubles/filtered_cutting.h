@@ -170,11 +170,11 @@ private:
     std::span<const int> open_;
     EvaluateStats* stats_ = nullptr;
     bool keeps_common_lines_ = false;
-    bool is_common_line_ = false;     // of a cutter of the part that is cut now
-    bool has_common_lines_ = false;   // of the item
+    bool is_common_line_ = false;      // of a cutter of the part that is cut now
+    bool has_common_lines_ = false;    // of the item
     bool found_common_lines_ = false;  // of some item
-    std::size_t n_ = 0;    // operands
-    std::size_t row_ = 0;  // of the formula
+    std::size_t n_ = 0;                // operands
+    std::size_t row_ = 0;              // of the formula
     LeafIndex item_ = -1;
     std::span<const FilteredContact> contacts_;
     std::vector<std::int16_t> line_;  // of a contact: the first one in the same plane

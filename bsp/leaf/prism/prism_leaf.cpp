@@ -150,8 +150,7 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
         } while (c < crossings.size() && crossings_.compare(crossings[first], crossings[c]) == 0);
         if (!changed) continue;
         const Sides next = sides();
-        const bool is_common_line =
-            keeps_common_lines_ && met > 1 && side_face.is_in(position);
+        const bool is_common_line = keeps_common_lines_ && met > 1 && side_face.is_in(position);
         if (next == now && !is_common_line) continue;
         interval.end = crossings[first].side_face;
         add_interval(interval, now, position);

@@ -116,9 +116,8 @@ TEST(ThreePlanesThroughALine, PrismsThatDoNotTouchAreArrangedInAPlane) {
     const ExactRational two(2);
     const ExactRational pairs = volume(a & b) + volume(a & c) + volume(b & c);
     const ExactRational triple = volume(a & b & c);
-    expect_no_crossings(
-        set, volume(a) + volume(b) + volume(c) - two * pairs + two * two * triple,
-        trisect::components(set).size());
+    expect_no_crossings(set, volume(a) + volume(b) + volume(c) - two * pairs + two * two * triple,
+                        trisect::components(set).size());
 }
 
 TEST(ThreePlanesThroughALine, ObliquePrismsDoTheSame) {
@@ -164,8 +163,8 @@ TEST(ThreePlanesThroughALine, ResultsAreOperands) {
     }
 }
 
-// Facets of two planes pass through whole, with an edge on the axis. Those of the third one were cut
-// elsewhere, and are joined with their neighbours but not across the axis.
+// Facets of two planes pass through whole, with an edge on the axis. Those of the third one were
+// cut elsewhere, and are joined with their neighbours but not across the axis.
 TEST(ThreePlanesThroughALine, FacetsThatPassThroughCount) {
     const Solid of_mesh = Solid::from_mesh(evaluate(sectors()).to_mesh());
     const Expression holes = solids::box(-0.5, -0.125, -0.5, -0.25, 0.125, 0.5) |
@@ -219,8 +218,8 @@ TEST(SectorsThatEnd, AFaceGoesOnBeyondThem) {
     expect_no_crossings(set, ExactRational(90), trisect::components(set).size());
 }
 
-// Two tetrahedra with a common edge, vertically opposite each other; the edge lies in the upper side
-// of a block. There that side is slit, from one end of the edge to the other.
+// Two tetrahedra with a common edge, vertically opposite each other; the edge lies in the upper
+// side of a block. There that side is slit, from one end of the edge to the other.
 TEST(SectorsThatEnd, AFaceIsSlitWhereTheyAreWithinIt) {
     const Solid block = solids::box(-4, -4, -4, 4, 4, 0);
     const auto wedge = [](double z) {
