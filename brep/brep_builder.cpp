@@ -279,6 +279,7 @@ std::uint32_t BrepBuilder::add_vertex(const Point& p) {
 void BrepBuilder::add_face(const Plane& plane, const std::vector<std::vector<std::uint32_t>>& loops,
                            FaceSource source) {
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
+    TRISECT_EXPECTS(loops[0].size() >= 3, "an outer loop has at least three corners");
     ++call_;
     bool touches = false;
     for (const IndexLoop& loop : loops) {
@@ -296,6 +297,7 @@ void BrepBuilder::add_face(const Plane& plane, const std::vector<std::vector<std
 void BrepBuilder::add_polygon(const Plane& plane, std::span<const std::uint32_t> loop,
                               FaceSource source) {
     ++call_;
+    TRISECT_EXPECTS(loop.size() >= 3, "an outer loop has at least three corners");
     check_loop(plane, loop);
     if (loop.size() > 3 && repeats_a_vertex(loop)) {
         append_regions(plane, std::vector<IndexLoop>{{loop.begin(), loop.end()}}, source);
