@@ -106,7 +106,7 @@ struct BrepCounts {
 ///  4. The halfedges leaving a vertex form one cycle under h -> twin(prev(h)).
 ///  5. Every entity is used: no isolated vertex, no empty shell.
 ///  6. A face is connected. Its loops do not touch each other; where one touches itself, its
-///     corners there have disjoint interior wedges that contain no edge.
+///     corners there have disjoint wedges that contain no edge. A hole of two corners is a slit.
 ///
 /// Where the solid touches itself the set is not a manifold. There the boundary is taken apart by
 /// an infinitesimal amount, so that the solid's inside decides what stays connected: two cubes

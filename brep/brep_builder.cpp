@@ -279,6 +279,7 @@ std::uint32_t BrepBuilder::add_vertex(const Point& p) {
 void BrepBuilder::add_face(const Plane& plane, const std::vector<std::vector<std::uint32_t>>& loops,
                            FaceSource source) {
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
+    TRISECT_EXPECTS(loops[0].size() >= 3, "an outer loop has at least three corners");
     ++call_;
     bool touches = false;
     for (const IndexLoop& loop : loops) {
@@ -296,6 +297,7 @@ void BrepBuilder::add_face(const Plane& plane, const std::vector<std::vector<std
 void BrepBuilder::add_polygon(const Plane& plane, std::span<const std::uint32_t> loop,
                               FaceSource source) {
     ++call_;
+    TRISECT_EXPECTS(loop.size() >= 3, "an outer loop has at least three corners");
     check_loop(plane, loop);
     if (loop.size() > 3 && repeats_a_vertex(loop)) {
         append_regions(plane, std::vector<IndexLoop>{{loop.begin(), loop.end()}}, source);
@@ -307,7 +309,7 @@ void BrepBuilder::add_polygon(const Plane& plane, std::span<const std::uint32_t>
 
 void BrepBuilder::check_loop(const Plane& plane, std::span<const std::uint32_t> loop) const {
     TRISECT_EXPECTS(plane.is_valid(), "a face has a plane");
-    TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+    TRISECT_EXPECTS(loop.size() >= 2, "a loop has at least three corners, a slit two");
     for (const std::uint32_t v : loop) {
         TRISECT_EXPECTS(v < points_.size(), "a loop names an unknown vertex");
         TRISECT_AUDIT_CHECK(side_of(points_[v], plane) == Side::On,
@@ -337,7 +339,7 @@ void BrepBuilder::append_face(const Plane& plane, FaceSource source) {
 }
 
 void BrepBuilder::append_loop(std::span<const std::uint32_t> loop) {
-    TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+    TRISECT_EXPECTS(loop.size() >= 2, "a loop has at least three corners, a slit two");
     if (corners_.size() + loop.size() >= HalfedgeId::none)
         throw LimitError("more than 2^32 - 2 halfedges");
     loop_begin_.push_back(static_cast<std::uint32_t>(corners_.size()));

@@ -25,11 +25,11 @@ public:
 
     std::uint32_t add_vertex(const Point& p);
     /// loops[0] is the outer loop, counter-clockwise seen from outside; the others are holes,
-    /// clockwise. A loop has at least three corners; loops may touch themselves and each other in
-    /// vertices. Then they are linked anew into the form that Brep states (invariant 6), and a face
-    /// that falls apart becomes several with the same source.
-    /// \pre all corners lie on the plane, whose normal points outward.
-    /// \throw Error Internal when a loop is too short or names an unknown vertex.
+    /// clockwise. A loop has at least three corners, or two where it is a slit; loops may touch
+    /// themselves and each other in vertices, and run along a segment in both directions. Then they
+    /// are linked anew into the form that Brep states (invariant 6), and a face that falls apart
+    /// becomes several with the same source. \pre all corners lie on the plane, whose normal points
+    /// outward. \throw Error Internal when a loop is too short or names an unknown vertex.
     void add_face(const Plane& plane, const std::vector<std::vector<std::uint32_t>>& loops,
                   FaceSource source);
     /// A face without holes.

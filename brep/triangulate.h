@@ -21,7 +21,9 @@ using IndexTriangle = std::array<std::uint32_t, 3>;
 /// order does not matter). Every corner is used, also one in the middle of a straight run, no
 /// triangle has area zero and no corner lies inside a triangle or on its sides: neighbouring faces
 /// match. Loops may touch themselves and each other in vertices (equal points under one or
-/// several indices). The result depends on the exact points and the order of the loops only.
+/// several indices), and run along a segment in both directions: there the face is slit. A hole may
+/// be a slit of two corners. The result depends on the exact points and the order of the loops
+/// only.
 ///
 /// A convex loop is halved again and again, O(n), so that no corner has many triangles; one with
 /// few corners is cut by ears; all others by a sweep, O(n log n) whatever their shape and however

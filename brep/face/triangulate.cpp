@@ -305,7 +305,8 @@ std::vector<IndexTriangle> triangulate(const Plane& plane, std::span<const Point
                                        std::span<const IndexLoop> loops) {
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
     for (const auto& loop : loops)
-        TRISECT_EXPECTS(loop.size() >= 3, "a loop has at least three corners");
+        TRISECT_EXPECTS(loop.size() >= (&loop == loops.data() ? 3U : 2U),
+                        "a loop has at least three corners, a slit two");
     if (loops.size() == 1) {
         const IndexLoop& loop = loops[0];
         if (loop.size() == 3) return cut_convex(loop);

@@ -137,6 +137,7 @@ private:
 
 void Gatherer::gather(const CellTree& tree) {
     incomplete_ = tree.incomplete;
+    out_.may_have_straight_crossings = tree.may_have_straight_crossings;
     defers_ = tree.crossings != nullptr;
     list_leaves(*tree.root.node, tree.root.complemented, Cell{});
     mark_leaves();
@@ -481,7 +482,9 @@ void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
         if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
         if (axis_faces_.takes(facet)) continue;
-        if (r.fragment == nullptr || !ends_at_splitters(*r.fragment, leaf.cell)) {
+        // What cancels within a group is not known afterwards.
+        if (r.fragment == nullptr || out_.may_have_straight_crossings ||
+            !ends_at_splitters(*r.fragment, leaf.cell)) {
             make_part(r, leaf, facet);
             continue;
         }

@@ -38,6 +38,10 @@ struct CellTree {
     /// Of the result of imported meshes; else null. It says nothing about what is made of the
     /// result in turn.
     std::shared_ptr<const Crossings> crossings;
+    /// Whether parts of one facet that have a common edge may go straight across other faces there.
+    /// Then the assembly must find these lines before it joins the parts. Conservative; false for
+    /// imported meshes, whose facets end at their edges.
+    bool may_have_straight_crossings = false;
 };
 
 /// Facets of a mesh that bound a result as they are.

@@ -600,7 +600,10 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
         const LeafFindings& found = worker.findings();
         result.stats += found.stats;
         incomplete.insert(incomplete.end(), found.incomplete.begin(), found.incomplete.end());
+        if (found.may_have_straight_crossings) result.tree.may_have_straight_crossings = true;
     });
+    for (const auto& s : solids)
+        if (s->tree().may_have_straight_crossings) result.tree.may_have_straight_crossings = true;
     result.tree.incomplete = all_incomplete(std::move(incomplete), solids);
     shared.workers.for_each([](Worker& worker) { worker.give_back_arrangers(); });
     result.stats.memory = shared.memory.peak();

@@ -304,8 +304,10 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
     auto out = std::make_shared<SolidState>(*state);
     out->lattice = lattice;
     // Refining clips every facet to its cell, so none is incomplete.
-    out->form =
-        CellTree{Refiner(state->lattice.exponent, lattice.exponent).refine(state->root()), {}, {}};
+    out->form = CellTree{Refiner(state->lattice.exponent, lattice.exponent).refine(state->root()),
+                         {},
+                         {},
+                         state->tree().may_have_straight_crossings};
     return out;
 }
 

@@ -50,6 +50,9 @@ struct LeafFindings {
     EvaluateStats stats;
     /// Facets that lost a part to a coincident one (CellTree::incomplete); unordered.
     std::vector<FacetName> incomplete;
+    /// Whether facets may go straight across each other in a line
+    /// (CellTree::may_have_straight_crossings).
+    bool may_have_straight_crossings = false;
     /// With the operands of the formula by slot, where crossings are collected; unordered, and
     /// pairs may be there several times.
     std::optional<Crossings> crossings;

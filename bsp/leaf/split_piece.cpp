@@ -50,8 +50,16 @@ bool meets_interior(Workbench& bench, const WorkPolygon& piece, const Workbench:
 }  // namespace
 
 bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
-                 bool sure, WorkPolygon& above) {
+                 bool sure, WorkPolygon& above, PlaneId* along) {
     const Workbench::Sides& sides = bench.sides_of(piece, line);
+    if (along != nullptr) {
+        const std::size_t n = piece.points.size();
+        for (std::size_t i = 0; i < n; ++i)
+            if (sides[i] == 0 && sides[i + 1 < n ? i + 1 : 0] == 0) {
+                *along = piece.edges[i].plane;
+                return false;
+            }
+    }
     std::array<PointId, 2> ends{};
     if (!sure && !meets_interior(bench, piece, sides, line, cutter, ends)) return false;
     WorkPolygon below;
@@ -63,6 +71,15 @@ bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkP
 bool segment_meets_interior(Workbench& bench, const WorkPolygon& piece, PlaneId line,
                             const WorkPolygon& cutter, std::array<PointId, 2>& ends) {
     return meets_interior(bench, piece, bench.sides_of(piece, line), line, cutter, ends);
+}
+
+bool is_common_line(const Workbench& bench, const Few<WorkEdge>& own, PlaneId edge,
+                    PlaneId cutter) {
+    for (const PlaneId p : {edge, cutter})
+        if (bench.name(p).is_splitter() || bench.name(p).is_edge()) return false;
+    for (const WorkEdge& e : own)
+        if (e.plane == edge) return false;
+    return !is_same_plane(bench.plane_at(edge), bench.plane_at(cutter));
 }
 
 }  // namespace trisect::detail

@@ -17,8 +17,16 @@ namespace trisect::detail {
                                           const WorkPolygon& cutter, std::array<PointId, 2>& ends);
 
 /// Splits a piece along a line if the cutter runs through its interior there: `piece` is then the
-/// part below and `above` the other one. False when nothing was split. `sure`: it does.
+/// part below and `above` the other one. False when nothing was split. `sure`: it does. `along`, if
+/// not null: set to the plane of an edge of the piece that lies on `line`, if there is one and
+/// nothing was split.
 bool split_along(Workbench& bench, WorkPolygon& piece, PlaneId line, const WorkPolygon& cutter,
-                 bool sure, WorkPolygon& above);
+                 bool sure, WorkPolygon& above, PlaneId* along = nullptr);
+
+/// Whether three planes have a line in common: `cutter`, the support of a piece, and the support of
+/// another facet along which the piece was cut, `edge`, the plane of an edge that lies in `cutter`
+/// too. \pre `own`, the edges of the polygon that the piece is part of, are no such cuts.
+[[nodiscard]] bool is_common_line(const Workbench& bench, const Few<WorkEdge>& own, PlaneId edge,
+                                  PlaneId cutter);
 
 }  // namespace trisect::detail

@@ -160,7 +160,8 @@ std::shared_ptr<const SolidState> moved_state(const SolidState& state, const Lat
     auto out = std::make_shared<SolidState>(state);
     // The root first: it moves the sources that are named.
     CellRef root = mover.moved(state.root());
-    out->form = CellTree{std::move(root), mover.moved(state.tree().incomplete), nullptr};
+    out->form = CellTree{std::move(root), mover.moved(state.tree().incomplete), nullptr,
+                         state.tree().may_have_straight_crossings};
     return out;
 }
 

@@ -139,7 +139,8 @@ Solid solid_from(const SourcePtr& source, PolygonList polygons, const Box& box, 
     state->form = detail::CellTree{
         {CellNode::leaf(std::move(polygons), detail::point_beyond(box), 0, mixed), false},
         {},
-        nullptr};
+        nullptr,
+        true};
     state->embedded = embedded;
     state->source = source->serial();
     return detail::solid_of(std::move(state));

@@ -266,6 +266,7 @@ TEST(BrepBuilder, MalformedLoopsAreRefused) {
     const Plane plane(0, 0, 1, Plane::Offset(0));
     EXPECT_THROW(b.add_face(plane, {}, {}), Error);
     EXPECT_THROW(b.add_face(plane, {{0, 1}}, {}), Error);
+    EXPECT_THROW(b.add_face(plane, {{0, 1, 2}, {0}}, {}), Error);
     EXPECT_THROW(b.add_face(plane, {{0, 1, 3}}, {}), Error);
 }
 

@@ -17,6 +17,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 #include <trisect/bsp/assembly/parts/vertex_turn.h>
@@ -30,14 +31,11 @@ namespace trisect::detail {
 
 namespace {
 
-// The same for both directions.
-std::uint64_t ends_of(const BoundaryEdge& e) {
-    const auto [lo, hi] = std::minmax(e.from, e.to);
-    return (static_cast<std::uint64_t>(lo) << 32) | static_cast<std::uint32_t>(hi);
-}
+// Takes what cancels, if it is wanted.
+using Cancelled = std::vector<BoundaryEdge>;
 
 // Cancels opposite pairs of few edges, in place; keeps the order of what is left.
-std::size_t cancel_few(std::span<BoundaryEdge> edges) {
+std::size_t cancel_few(std::span<BoundaryEdge> edges, Cancelled* cancelled) {
     std::array<std::uint64_t, EdgeChains::few> way{};
     const auto directed = [](PointId from, PointId to) {
         return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
@@ -48,7 +46,9 @@ std::size_t cancel_few(std::span<BoundaryEdge> edges) {
         const std::uint64_t back = directed(edges[i].to, edges[i].from);
         std::size_t j = 0;
         while (j < i && way[j] != back) ++j;
-        if (j < i) way[j] = way[i] = gone;
+        if (j == i) continue;
+        way[j] = way[i] = gone;
+        if (cancelled != nullptr) cancelled->insert(cancelled->end(), {edges[j], edges[i]});
     }
     std::size_t left = 0;
     for (std::size_t i = 0; i < edges.size(); ++i)
@@ -57,7 +57,7 @@ std::size_t cancel_few(std::span<BoundaryEdge> edges) {
 }
 
 // The same for any number; what is left is ordered by (min, max, from).
-std::size_t cancel_many(std::span<BoundaryEdge> edges) {
+std::size_t cancel_many(std::span<BoundaryEdge> edges, Cancelled* cancelled) {
     std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& a, const BoundaryEdge& b) {
         const std::uint64_t ka = ends_of(a);
         const std::uint64_t kb = ends_of(b);
@@ -73,6 +73,8 @@ std::size_t cancel_many(std::span<BoundaryEdge> edges) {
             if (edges[j].from == lo) ++up;
         const std::size_t down = (j - i) - up;
         // `up` edges come first.
+        for (std::size_t k = 0; cancelled != nullptr && k < std::min(up, down); ++k)
+            cancelled->insert(cancelled->end(), {edges[i + up - 1 - k], edges[j - 1 - k]});
         for (std::size_t k = 0; up > down && k < up - down; ++k) edges[left++] = edges[i + k];
         for (std::size_t k = 0; down > up && k < down - up; ++k) edges[left++] = edges[i + up + k];
         i = j;
@@ -81,8 +83,9 @@ std::size_t cancel_many(std::span<BoundaryEdge> edges) {
 }
 
 // Cancels opposite pairs within one region. Returns how many edges are left; they come first.
-std::size_t cancel_opposites(std::span<BoundaryEdge> edges) {
-    return edges.size() <= EdgeChains::few ? cancel_few(edges) : cancel_many(edges);
+std::size_t cancel_opposites(std::span<BoundaryEdge> edges, Cancelled* cancelled) {
+    return edges.size() <= EdgeChains::few ? cancel_few(edges, cancelled)
+                                           : cancel_many(edges, cancelled);
 }
 
 // Where coincident facets of two operands meet at a splitting plane because one of them dropped out
@@ -117,11 +120,22 @@ void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
     edges.swap(sorted);
 }
 
+void arrange_loops(std::span<BoundaryEdge> edges) {
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t j = i;
+        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+        EdgeChains::arrange(edges.subspan(i, j - i));
+        i = j;
+    }
+}
+
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     sort_by_facet(parts, edges);
     std::vector<BoundaryEdge> out;
     out.reserve(edges.size());
     EdgeSplitter splitter(parts.bench, parts.facets);
+    std::vector<BoundaryEdge> all_cancelled;
+    Cancelled* const cancelled = parts.may_have_straight_crossings ? &all_cancelled : nullptr;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
         while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
@@ -132,7 +146,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
         const bool conforms = !parts.facets[as_index(group[0].facet)].in_several_cells;
         if (parts.facets[as_index(group[0].facet)].parts == 1) {  // nothing to join
             out.insert(out.end(), group.begin(), group.end());
-        } else if (const auto left = group.first(cancel_opposites(group)); conforms) {
+        } else if (const auto left = group.first(cancel_opposites(group, cancelled)); conforms) {
             out.insert(out.end(), left.begin(), left.end());
         } else {
             splitter.clear();
@@ -142,7 +156,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
             }
             splitter.split(left, out);
             if (out.size() - first > left.size())
-                out.resize(first + cancel_opposites(std::span(out).subspan(first)));
+                out.resize(first + cancel_opposites(std::span(out).subspan(first), cancelled));
         }
         EdgeChains::arrange(std::span(out).subspan(first));
         for (const BoundaryEdge& e : std::span(out).subspan(first)) {
@@ -153,6 +167,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     }
     edges.swap(out);
     conform_splitters(parts, edges);
+    put_back_crossings(parts, all_cancelled, edges);
 }
 
 void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
@@ -191,18 +206,31 @@ public:
     template <class Join>
     void run(Join&& join) {
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            if (parts_.facets[as_index(edges_[e].facet)].unchanged) continue;
-            std::size_t slot = mix64(ends_of(edges_[e])) & (table_.size() - 1);
-            for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1))
-                if (are_pair(edges_[table_[slot]], edges_[e]) && !gone_[table_[slot]]) break;
+            const std::uint64_t ends = ends_of(edges_[e]);
+            std::size_t slot = mix64(ends) & (table_.size() - 1);
+            std::size_t others = 0;  // edges with the same ends that were met on the way
+            for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
+                const std::uint32_t at = table_[slot];
+                if (ends_of(edges_[at]) != ends) continue;
+                if (!gone_[at] && are_pair(edges_[at], edges_[e])) break;
+                others += gone_[at] ? 2 : 1;
+            }
             if (table_[slot] == none) {
                 table_[slot] = e;
             } else {
                 gone_[e] = gone_[table_[slot]] = true;
-                join(edges_[table_[slot]].facet, edges_[e].facet);
+                pairs_.push_back({table_[slot], e});
+                ++others;
             }
+            // The last edge of two pairs meets another one, whichever comes first in the table.
+            if (others >= 2) crowded_.push_back(ends);
         }
+        find_whole_facets();
+        keep_crossings();
+        for (const auto& [e, f] : pairs_)
+            if (gone_[e]) join(edges_[e].facet, edges_[f].facet);
     }
+    [[nodiscard]] bool any_gone() const { return !pairs_.empty(); }
     [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge]; }
 
 private:
@@ -212,6 +240,7 @@ private:
     [[nodiscard]] bool belong_together(const BoundaryEdge& e, const BoundaryEdge& f) const {
         const BoundaryFacet& a = parts_.facets[as_index(e.facet)];
         const BoundaryFacet& b = parts_.facets[as_index(f.facet)];
+        if (a.unchanged || b.unchanged) return false;
         // Where one's support cuts out the other's edge they cross.
         if (e.line.plane == b.support || f.line.plane == a.support) return false;
         if (!may_join(a, b, within_faces_)) return false;
@@ -220,23 +249,54 @@ private:
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
     }
 
+    // Facets that pass through as they are have no edges here.
+    void find_whole_facets() {
+        std::vector<BoundaryEdge> inside;
+        for (const auto& [e, f] : pairs_)
+            if (parts_.facets[as_index(edges_[e].facet)].source ==
+                parts_.facets[as_index(edges_[f].facet)].source)
+                inside.push_back(edges_[e]);
+        whole_ = whole_facets_on(parts_, inside);
+        for (const WholeFacetEdge& w : whole_) crowded_.push_back(w.ends);
+    }
+
+    // Pairs stay where facets of several planes go straight across each other. Few edges have
+    // more than one other edge with the same ends.
+    void keep_crossings() {
+        if (pairs_.empty() || crowded_.empty()) return;
+        std::ranges::sort(crowded_);
+        std::vector<std::pair<std::uint64_t, std::uint32_t>> here;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e)
+            if (std::ranges::binary_search(crowded_, ends_of(edges_[e])))
+                here.emplace_back(ends_of(edges_[e]), e);
+        std::ranges::sort(here);
+        std::vector<FacetEdge> group;
+        for (std::size_t i = 0; i < here.size();) {
+            std::size_t j = i;
+            group.clear();
+            for (; j < here.size() && here[j].first == here[i].first; ++j) {
+                const BoundaryEdge& e = edges_[here[j].second];
+                const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
+                group.push_back({f.source, f.facet, f.flipped, e.from < e.to});
+            }
+            for (const WholeFacetEdge& w : whole_)
+                if (w.ends == here[i].first) group.push_back(w.edge);
+            const bool cross = cross_straight(group);
+            for (; i < j; ++i)
+                if (cross) gone_[here[i].second] = false;
+        }
+    }
+
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const BoundaryParts& parts_;
     bool within_faces_;
     const std::vector<BoundaryEdge>& edges_;
     std::vector<std::uint32_t> table_;  // of edges by their ends, open addressing
     std::vector<bool> gone_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    std::vector<std::uint64_t> crowded_;  // ends of more than two edges
+    std::vector<WholeFacetEdge> whole_;
 };
-
-// Edges of facets that were joined come one facet after the other.
-void arrange_all(std::span<BoundaryEdge> edges) {
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t j = i;
-        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-        EdgeChains::arrange(edges.subspan(i, j - i));
-        i = j;
-    }
-}
 
 }  // namespace
 
@@ -258,7 +318,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         if (x != y) ++joined;
         cluster[as_index(std::max(x, y))] = std::min(x, y);
     });
-    if (joined != 0) {
+    if (pairs.any_gone()) {
         std::size_t left = 0;
         for (std::size_t i = 0; i < edges.size(); ++i) {
             if (pairs.is_gone(i)) continue;
@@ -269,7 +329,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
         edges.resize(left);
     }
     sort_by_facet(parts, edges);
-    if (joined != 0) arrange_all(edges);
+    if (pairs.any_gone()) arrange_loops(edges);
     for ([[maybe_unused]] const BoundaryEdge& e : edges)
         TRISECT_AUDIT_CHECK(within_faces || !parts.bench.name(e.line.plane).is_splitter(),
                             "an edge on a cell splitter survived joining");
@@ -295,7 +355,7 @@ void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdg
     }
     if (!joined) return;
     sort_by_facet(parts, edges);
-    arrange_all(edges);
+    arrange_loops(edges);
 }
 
 namespace {
@@ -326,7 +386,7 @@ public:
                 name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
                 keep_[as_index(p)] = 1;
             } else {
-                uncertain_.push_back({first + in, first + out});
+                add_passage(first + in, first + out);
             }
         });
     }
@@ -390,12 +450,39 @@ private:
             TRISECT_EXPECTS(p == q, "boundary of a face is not closed");
             const bool single = (k == 0 || by_from_[k - 1].first != p) &&
                                 (k + 1 == n || by_from_[k + 1].first != p);
-            if (!single || (keep_corners_ && bench_.is_corner(p))) {
+            if (keep_[as_index(p)] != 0) continue;
+            if (keep_corners_ && bench_.is_corner(p)) {
                 keep_[as_index(p)] = 1;
-            } else if (keep_[as_index(p)] == 0) {
-                uncertain_.push_back({in, out});
+            } else if (single) {
+                add_passage(in, out);
+            } else if (k + 1 == n || by_from_[k + 1].first != p) {
+                add_passages_of_slit(k);
             }
         }
+    }
+
+    void add_passage(std::size_t in, std::size_t out) {
+        if (edges_[in].from == edges_[out].to) {
+            keep_[as_index(edges_[out].from)] = 1;  // the tip of a slit
+        } else {
+            uncertain_.push_back({in, out});
+        }
+    }
+
+    // A vertex that several edges leave, the last of them at place k. Where these are two, and two
+    // others come from where they go to, it may lie inside a line along which the region is slit.
+    void add_passages_of_slit(std::size_t k) {
+        const PointId p = by_from_[k].first;
+        const bool two = by_from_[k - 1].first == p && (k < 2 || by_from_[k - 2].first != p);
+        std::array<std::size_t, 2> in{by_to_[k - 1].second, by_to_[k].second};
+        const std::array<std::size_t, 2> out{by_from_[k - 1].second, by_from_[k].second};
+        if (edges_[in[0]].from == edges_[out[0]].to) std::swap(in[0], in[1]);
+        if (!two || edges_[in[0]].from != edges_[out[1]].to ||
+            edges_[in[1]].from != edges_[out[0]].to) {
+            keep_[as_index(p)] = 1;
+            return;
+        }
+        for (std::size_t i = 0; i < 2; ++i) add_passage(in[i], out[i]);
     }
 
     [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {

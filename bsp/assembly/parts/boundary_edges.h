@@ -13,7 +13,11 @@ namespace trisect::detail {
 /// Puts the edges into the order of their facets; those of one facet stay in theirs.
 void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
-/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish.
+/// Arranges the edges of every facet (EdgeChains). \pre sorted by facet
+void arrange_loops(std::span<BoundaryEdge> edges);
+
+/// Joins the parts of every facet: edges that two parts traverse in opposite directions vanish,
+/// unless facets of another plane go straight across there (crossing_faces.h).
 /// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
 /// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
 /// of space (an unbounded face).
@@ -25,7 +29,8 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges);
 
 /// Renumbers `facet` of every edge to the smallest facet of its face: facets in one oriented plane
-/// that share an edge are joined and the edge vanishes. With `within_faces` only facets of the same
+/// that share an edge are joined and the edge vanishes, unless facets of another plane go straight
+/// across there. With `within_faces` only facets of the same
 /// face of the same operand are, and facets marked as unchanged never. The edges come out sorted by
 /// facet. Returns how many facets became part of another one's face.
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,

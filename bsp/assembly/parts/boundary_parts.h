@@ -33,6 +33,8 @@ struct BoundaryParts {
     std::vector<PointId> representatives;
     /// The edges are those of whole faces, and no vertex is left that means nothing.
     bool are_joined = false;
+    /// As CellTree::may_have_straight_crossings.
+    bool may_have_straight_crossings = false;
     AssemblyStats stats;
 };
 

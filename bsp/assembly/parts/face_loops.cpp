@@ -4,7 +4,8 @@
 // vertex several edges leave, and the right continuation of an arriving edge is the other side of
 // the same wedge of the region: the first leaving edge clockwise from the way back. Then loops
 // touch but never cross. All turns are decided by which side of an edge's line a point lies on,
-// never by angles.
+// never by angles. Where the region is slit, a segment is an edge in both directions; at the tip of
+// a slit the only way on is the way back, a full turn.
 //
 // Holes: the region lies immediately to the low side of a hole's smallest vertex, so the edge
 // straight below that vertex, with the region above it, belongs to the same face: to its outer
@@ -48,13 +49,17 @@ std::span<const std::pair<PointId, std::uint32_t>> FaceLoops::leaving(PointId p)
 }
 
 // Clockwise from the way back: first what lies to the left of the arriving edge, then straight on,
-// then what lies to the right; of two on the same side the one that has the other on its right.
+// then what lies to the right, then the way back itself; of two on the same side the one that has
+// the other on its right.
 std::size_t FaceLoops::continuation(std::size_t arriving, PointId at) const {
     const auto choices = leaving(at);
     TRISECT_EXPECTS(!choices.empty(), "boundary of a face is not closed");
+    const auto side = [&](std::size_t e) {
+        return edges_[e].to == edges_[arriving].from ? -2 : left_of(arriving, edges_[e].to);
+    };
     const auto comes_first = [&](std::size_t a, std::size_t b) {
-        const int sa = left_of(arriving, edges_[a].to);
-        const int sb = left_of(arriving, edges_[b].to);
+        const int sa = side(a);
+        const int sb = side(b);
         if (sa != sb) return sa > sb;
         return left_of(b, edges_[a].to) > 0;
     };
@@ -75,13 +80,16 @@ void FaceLoops::chain_from(std::size_t start) {
     } while (e != start);
 }
 
-// At the smallest vertex an outer loop only turns left; a hole turns right there at least once.
+// At the smallest vertex an outer loop only turns left; a hole turns right or back there at least
+// once.
 bool FaceLoops::is_outer(std::size_t smallest) const {
     const std::size_t n = chain_.size();
     const PointId p = edges_[chain_[smallest]].from;
     for (std::size_t i = 0; i < n; ++i) {
         if (edges_[chain_[i]].from != p) continue;
-        if (left_of(chain_[i == 0 ? n - 1 : i - 1], edges_[chain_[i]].to) < 0) return false;
+        const std::size_t before = chain_[i == 0 ? n - 1 : i - 1];
+        if (edges_[before].from == edges_[chain_[i]].to) return false;
+        if (left_of(before, edges_[chain_[i]].to) < 0) return false;
     }
     return true;
 }

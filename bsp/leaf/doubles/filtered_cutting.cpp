@@ -17,6 +17,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/facet_in_cell.h>
+#include <trisect/bsp/leaf/straight_crossings.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/support/as_index.h>
@@ -47,6 +48,8 @@ std::size_t longest_axis(const Approximation& a, const Approximation& b) {
 void FilteredCutting::start(FilteredFacets& facets, const FilteredPairs& pairs,
                             FilteredWindings& windings, LeafFormula& formula,
                             std::span<const int> open, EvaluateStats& stats) {
+    keeps_common_lines_ = may_have_straight_crossings(facets.problem());
+    found_common_lines_ = false;
     facets_ = &facets;
     pairs_ = &pairs;
     windings_ = &windings;
@@ -340,6 +343,24 @@ void FilteredCutting::divide(const FilteredPart& from, FilteredLine line, const 
     }
 }
 
+// Whether the part was cut before along the contact's line by a facet of another plane.
+bool FilteredCutting::runs_along(const FilteredPart& part, const Signs& signs,
+                                 std::size_t contact) const {
+    const auto support = [&](std::size_t c) {
+        const PolygonRef& ref = (*facets_)[contacts_[c].other].ref;
+        return ref.source->support(ref.facet);
+    };
+    for (std::size_t i = 0; i < part.size; ++i) {
+        const FilteredLine line = part.lines[i];
+        if (signs[i] != 0 || signs[i + 1 < part.size ? i + 1 : 0] != 0) continue;
+        if (line >= first_contact_line && line != line_of(contact) &&
+            !is_same_plane(support(static_cast<std::size_t>(line - first_contact_line)),
+                           support(contact)))
+            return true;
+    }
+    return false;
+}
+
 FilteredCutting::Split FilteredCutting::split(std::size_t part, std::size_t contact, bool sure) {
     const FilteredPart from = parts_[part];
     Signs signs;
@@ -351,7 +372,11 @@ FilteredCutting::Split FilteredCutting::split(std::size_t part, std::size_t cont
         below = below || s < 0;
         above = above || s > 0;
     }
-    if (!below || !above) return Split::Missed;
+    if (!below || !above) {
+        if (keeps_common_lines_ && !is_common_line_)
+            is_common_line_ = runs_along(from, signs, contact);
+        return Split::Missed;
+    }
     if (from.size + 2U > FilteredPart::max_size) return Split::Uncertain;
     // Where the line enters the part and where it leaves it, in its direction.
     const FilteredPlane& plane = facets_->plane(contacts_[contact].other);
@@ -567,6 +592,7 @@ void FilteredCutting::settle(FilteredPart& part) {
 
 void FilteredCutting::start_item(LeafIndex item) {
     item_ = item;
+    has_common_lines_ = false;
     contacts_ = pairs_->contacts(item);
     sides_.clear();
     count_ = 0;
@@ -669,6 +695,7 @@ FilteredCutting::Result FilteredCutting::cut(LeafIndex item) {
         }
     }
     stats_->pieces += count_;
+    found_common_lines_ = found_common_lines_ || has_common_lines_;
     return remains();
 }
 
@@ -690,6 +717,7 @@ bool FilteredCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t e
         // Nothing but the first cutter can have cut a whole item in the cell: it need not be
         // tested.
         bool sure = first == 1 && (*facets_)[item_].contained;
+        is_common_line_ = false;
         for (std::size_t c = begin; c < end; ++c) {
             const std::size_t last = count_;
             for (std::size_t j = first; j < last; ++j)
@@ -698,7 +726,9 @@ bool FilteredCutting::cut_by(LeafIndex operand, std::size_t begin, std::size_t e
         }
         for (std::size_t j = first; j < count_; ++j)
             if (!find_sides(parts_[j], operand, begin, end)) return false;
-        if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
+        has_common_lines_ = has_common_lines_ || is_common_line_;
+        if (count_ == first + 1 ||
+            (!is_common_line_ && same_sides(first, operand, above_matters, below_matters))) {
             // Undone, if anything was cut.
             FilteredPart& part = parts_[k];
             if (above_matters) formula_->set(above(part), o, above(parts_[first])[o]);
@@ -740,7 +770,8 @@ FilteredCutting::Result FilteredCutting::remains() const {
         uniform = uniform && p.inside_above == inside_above;
     }
     if (kept == 0) return {};
-    if (kept == count_ && uniform) return {Remains::Uncut, inside_above};
+    if (kept == count_ && uniform && (count_ == 1 || !has_common_lines_))
+        return {Remains::Uncut, inside_above};
     return {Remains::Parts, false};
 }
 

@@ -85,6 +85,9 @@ public:
     [[nodiscard]] PolygonRef fragment(const FilteredPart& part);
     /// The part of the last item in the cell.
     [[nodiscard]] const FilteredPart& clipped() const { return clipped_; }
+    /// Whether the last items, since start(), were cut along lines in which three planes meet and
+    /// faces may go straight across each other (straight_crossings.h). Such cuts are not undone.
+    [[nodiscard]] bool found_common_lines() const { return found_common_lines_; }
     /// Whether the cell's bounding planes cut anything off the last item.
     [[nodiscard]] bool was_clipped() const { return was_clipped_; }
 
@@ -109,6 +112,8 @@ private:
                                   std::size_t end);
     [[nodiscard]] bool change_to(const FilteredPart& part, int attempt, std::size_t begin,
                                  std::size_t end, int& change);
+    [[nodiscard]] bool runs_along(const FilteredPart& part, const Signs& signs,
+                                  std::size_t contact) const;
     [[nodiscard]] bool same_sides(std::size_t first, LeafIndex operand, bool above_matters,
                                   bool below_matters) const;
     void set_sides(const FilteredPart& part, std::span<const int> windings);
@@ -164,8 +169,12 @@ private:
     LeafFormula* formula_ = nullptr;
     std::span<const int> open_;
     EvaluateStats* stats_ = nullptr;
-    std::size_t n_ = 0;    // operands
-    std::size_t row_ = 0;  // of the formula
+    bool keeps_common_lines_ = false;
+    bool is_common_line_ = false;      // of a cutter of the part that is cut now
+    bool has_common_lines_ = false;    // of the item
+    bool found_common_lines_ = false;  // of some item
+    std::size_t n_ = 0;                // operands
+    std::size_t row_ = 0;              // of the formula
     LeafIndex item_ = -1;
     std::span<const FilteredContact> contacts_;
     std::vector<std::int16_t> line_;  // of a contact: the first one in the same plane

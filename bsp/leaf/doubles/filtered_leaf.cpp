@@ -85,6 +85,7 @@ bool FilteredLeaf::arrange_listed() {
         if (result.kind == FilteredCutting::Remains::Uncertain) return false;
         emit(i, result);
     }
+    if (cutting_.found_common_lines()) findings_->may_have_straight_crossings = true;
     stats.filtered_fragments += facets_.fragment_count();
     return true;
 }

@@ -27,6 +27,7 @@
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/leaf/exact/leaf_pieces.h>
+#include <trisect/bsp/leaf/straight_crossings.h>
 
 namespace trisect::detail {
 
@@ -35,6 +36,8 @@ std::optional<LeafResult> ExactLeaf::try_to_arrange(const LeafProblem& problem,
     findings.note_uncertain(problem);
     work_.start(problem, findings.stats);
     pairs_.relate_all(work_);
+    may_cross_straight_ = may_have_straight_crossings(problem);
+    if (may_cross_straight_) findings.may_have_straight_crossings = true;
     if (std::ranges::all_of(problem.operands, &LeafOperand::embedded)) {
         arrange_embedded();
     } else {
@@ -50,7 +53,7 @@ void ExactLeaf::arrange_embedded() {
     windings_.start(work_);
     anchors_.build(work_, windings_);
     formula_.start(*work_.problem);
-    cutting_.start(work_, windings_, anchors_, formula_);
+    cutting_.start(work_, windings_, anchors_, formula_, may_cross_straight_);
     for (LeafIndex i = 0; i < work_.item_count(); ++i) {
         const bool whole = work_.item(i).is_whole();
         if (whole && !work_.item(i).ref.touched) ++work_.stats->untouched_polygons;
@@ -84,8 +87,9 @@ void ExactLeaf::emit_remains(LeafIndex i, const LeafRemains& remains) {
 
 // Any operands: cut everything, then classify the pieces by their neighbours.
 void ExactLeaf::arrange_any() {
+    has_common_lines_.assign(work_.items.size(), false);
     for (LeafIndex i = 0; i < work_.item_count(); ++i)
-        if (!work_.item(i).is_whole()) make_pieces(work_, i);
+        if (!work_.item(i).is_whole()) has_common_lines_[as_index(i)] = make_pieces(work_, i);
     links_.build(work_);
     classes_.classify(work_, links_);
     emit_all();
@@ -119,7 +123,8 @@ void ExactLeaf::emit_pieces(LeafIndex i, std::size_t first, std::size_t last) {
     const bool uniform = std::all_of(kept_.begin(), kept_.end(), [&](const auto& k) {
         return k.second.above == kept_.front().second.above;
     });
-    if (kept_.size() == last - first && uniform) {
+    if (kept_.size() == last - first && uniform &&
+        (kept_.size() == 1 || !has_common_lines_[as_index(i)])) {
         // Every cut was in vain here: keep what there was. What cuts a facet somewhere must show in
         // every cell, though (see PolygonRef), so only a facet within the cell stays whole.
         make_room(out_);

@@ -40,6 +40,8 @@ private:
     LeafAnchors anchors_;
     LeafCutting cutting_;
     LeafFormula formula_;
+    bool may_cross_straight_ = false;
+    std::vector<bool> has_common_lines_;  // by item; see make_pieces
     std::vector<std::pair<const WorkPolygon*, LeafSides>> kept_;
 };
 

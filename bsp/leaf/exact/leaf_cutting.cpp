@@ -22,10 +22,9 @@
 
 namespace trisect::detail {
 
-namespace {}  // namespace
-
 void LeafCutting::start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors,
-                        LeafFormula& formula) {
+                        LeafFormula& formula, bool keeps_common_lines) {
+    keeps_common_lines_ = keeps_common_lines;
     work_ = &work;
     windings_ = &windings;
     anchors_ = &anchors;
@@ -154,6 +153,7 @@ LeafRemains LeafCutting::whole(LeafIndex i) {
 
 LeafRemains LeafCutting::cut(LeafIndex i) {
     item_ = i;
+    has_common_lines_ = false;
     count_ = 0;
     kept_.clear();
     const LeafItem& item = work_->item(i);
@@ -209,7 +209,8 @@ LeafRemains LeafCutting::remains() {
         uniform = uniform && p.inside_above == first->inside_above;
     }
     if (kept == 0) return {};
-    if (kept == count_ && uniform) return {LeafRemains::Kind::Uncut, first->inside_above};
+    if (kept == count_ && uniform && (count_ == 1 || !has_common_lines_))
+        return {LeafRemains::Kind::Uncut, first->inside_above};
     for (std::size_t k = 0; k < count_; ++k)
         if (parts_[k].state == Part::State::Kept)
             kept_.push_back({std::move(parts_[k].shape), parts_[k].inside_above});
@@ -232,9 +233,12 @@ void LeafCutting::cut_by(LeafIndex operand, std::span<const LeafContact> contact
         const std::size_t first = count_;
         (void)add_part();
         parts_[first] = parts_[k];
+        is_common_line_ = false;
         split(first, contacts);
+        has_common_lines_ = has_common_lines_ || is_common_line_;
         for (std::size_t j = first; j < count_; ++j) find_sides(parts_[j], operand, contacts);
-        if (count_ == first + 1 || same_sides(first, operand, above_matters, below_matters)) {
+        if (count_ == first + 1 ||
+            (!is_common_line_ && same_sides(first, operand, above_matters, below_matters))) {
             // Undone, if anything was cut.
             Part& part = parts_[k];
             const Sides& found = parts_[first].sides;
@@ -298,9 +302,14 @@ void LeafCutting::split_along_line(std::size_t first, PlaneId line, LeafIndex cu
     for (std::size_t j = first; j < end; ++j) {
         if (!is_near(parts_[j], cutter)) continue;
         WorkPolygon above;
+        PlaneId edge = -1;
         if (!split_along(work_->bench, parts_[j].shape, line, work_->item(cutter).shape, sure,
-                         above))
+                         above, keeps_common_lines_ && !sure ? &edge : nullptr)) {
+            if (edge >= 0 && !is_common_line_)
+                is_common_line_ =
+                    is_common_line(work_->bench, work_->item(item_).shape.edges, edge, line);
             continue;
+        }
         set_box(parts_[j]);
         Part& other = add_part();
         other.shape = std::move(above);

@@ -36,11 +36,15 @@ struct LeafRemains {
 /// at: a part on which the formula is decided is not cut further, one that cannot bound the result
 /// is dropped, and a cut whose two sides do not differ in what matters is undone. In a union of
 /// many solids most parts lie within some other solid; and of n coplanar caps that overlap each
-/// other no one is cut into n² parts. Scratch memory that is kept from leaf to leaf.
+/// other no one is cut into n² parts. Cuts along a line in which three planes meet are kept where
+/// faces may go straight across each other there. Scratch memory that is kept from leaf to leaf.
 class LeafCutting {
 public:
     /// \pre contacts are known, all operands are embedded. `formula` must outlive the leaf.
-    void start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors, LeafFormula& formula);
+    /// `keeps_common_lines`: cuts along a line that two cutters have in common with the item, three
+    /// planes in all, are not undone (straight_crossings.h).
+    void start(LeafWork& work, LeafWindings& windings, LeafAnchors& anchors, LeafFormula& formula,
+               bool keeps_common_lines);
 
     /// An item that another one cuts or overlaps. Its parts are in parts() until the next call.
     [[nodiscard]] LeafRemains cut(LeafIndex item);
@@ -98,6 +102,9 @@ private:
     LeafAnchors* anchors_ = nullptr;
     LeafFormula* formula_ = nullptr;
     LeafIndex item_ = -1;
+    bool keeps_common_lines_ = false;
+    bool is_common_line_ = false;    // of a cutter that splits the item now
+    bool has_common_lines_ = false;  // of the item
     Start start_;
     // The last answer of whole(): most items hang together with the one before.
     LeafIndex last_anchor_ = -1;

@@ -9,6 +9,8 @@ namespace trisect::detail {
 
 /// Clips an item to the cell and splits it along its cutters and the edges of overlapping polygons.
 /// The pieces are appended to the work's list; each is on one side of everything else in the leaf.
-void make_pieces(LeafWork& work, LeafIndex item);
+/// Returns whether two cutters of different planes cut the item along one line
+/// (straight_crossings.h).
+bool make_pieces(LeafWork& work, LeafIndex item);
 
 }  // namespace trisect::detail

@@ -29,6 +29,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/straight_crossings.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -41,6 +42,7 @@ std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& pr
     outlines_ = {};
     if (!facets_.list(problem) || !crossings_.find(problem, facets_.side_faces(), stats))
         return std::nullopt;
+    if (may_have_straight_crossings(problem) && crossings_.any_coincide()) return std::nullopt;
     if (!has_few_layers() || !components_.list(problem, facets_)) return std::nullopt;
     formula_.start(problem);
     row_size_ = formula_.row_size();

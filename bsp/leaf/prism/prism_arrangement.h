@@ -27,8 +27,9 @@ namespace trisect::detail {
 /// it is, without a vertex in its edges, comes out whole, the rest as LeafOutlines. \pre each
 /// operand is all facets of one source.
 ///
-/// Not for operands of another kind, nor where side faces touch or coincide, or there are so many
-/// layers, or side faces beside each other, that cells are the better way.
+/// Not for operands of another kind, nor where side faces touch or coincide, or three of them meet
+/// in a line and may go straight across each other there, or there are so many layers, or side
+/// faces beside each other, that cells are the better way.
 class PrismArrangement final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,

@@ -96,6 +96,12 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideF
     return true;
 }
 
+bool PrismCrossings::any_coincide() const {
+    return std::ranges::adjacent_find(found_, [&](const PrismCrossing& a, const PrismCrossing& b) {
+               return a.on == b.on && compare(a, b) == 0;
+           }) != found_.end();
+}
+
 // Notes where two side faces cross, if they do; false when they touch otherwise than as neighbours.
 bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
     const PrismSideFace& a = side_faces_[as_index(s)];

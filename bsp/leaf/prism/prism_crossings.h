@@ -38,6 +38,8 @@ public:
         const std::size_t i = as_index(side_face);
         return std::span(found_).subspan(first_[i], first_[i + 1] - first_[i]);
     }
+    /// Whether two side faces cross a third one in the same place.
+    [[nodiscard]] bool any_coincide() const;
     /// Exact order of two places on one side face.
     [[nodiscard]] int compare(const PrismCrossing& a, const PrismCrossing& b) const;
 

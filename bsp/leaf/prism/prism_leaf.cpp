@@ -27,6 +27,7 @@
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
+#include <trisect/bsp/leaf/straight_crossings.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -74,6 +75,8 @@ std::optional<LeafResult> PrismLeaf::try_to_arrange(const LeafProblem& problem,
     stats.pieces += side_face_parts_.size() + caps_.size();
     caps_.clear();
     findings.note_uncertain(problem);
+    if (keeps_common_lines_ && crossings_.any_coincide())
+        findings.may_have_straight_crossings = true;
     return LeafPolygons{listed()};
 }
 
@@ -93,6 +96,7 @@ bool PrismLeaf::arrange_listed(const LeafProblem& problem, EvaluateStats& stats)
     if (!crossings_.find(problem, facets_.side_faces(), stats)) return false;
     bench_.clear();
     formula_.start(problem);
+    keeps_common_lines_ = may_have_straight_crossings(problem);
     operands_ = problem.operands.size();
     row_size_ = formula_.row_size();
     rows_.assign(4 * row_size_, 0);
@@ -133,10 +137,12 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
     for (std::size_t c = 0; c < crossings.size();) {
         const std::size_t first = c;
         bool changed = false;
+        std::size_t met = 0;  // in the layer below the position
         do {
             const PrismSideFace& other = facets_.side_faces()[as_index(crossings[c].side_face)];
             for (std::size_t layer = 0; layer < 2; ++layer) {
                 if (!other.is_in(position + layer)) continue;
+                met += layer == 0 ? 1 : 0;
                 cross(other.operand, layer);
                 changed = true;
             }
@@ -144,9 +150,11 @@ void PrismLeaf::walk(LeafIndex i, std::size_t position) {
         } while (c < crossings.size() && crossings_.compare(crossings[first], crossings[c]) == 0);
         if (!changed) continue;
         const Sides next = sides();
-        if (next == now) continue;
+        const bool is_common_line = keeps_common_lines_ && met > 1 && side_face.is_in(position);
+        if (next == now && !is_common_line) continue;
         interval.end = crossings[first].side_face;
         add_interval(interval, now, position);
+        if (is_common_line) end_part(interval, position);
         interval.begin = interval.end;
         now = next;
     }
@@ -215,11 +223,11 @@ void PrismLeaf::add_interval(const Interval& interval, const Sides& s, std::size
         const bool inside_left = s[on_left].below == 1;
         SideFacePart* last = side_face_parts_.empty() ? nullptr : &side_face_parts_.back();
         if (last != nullptr && last->interval.side_face == interval.side_face &&
-            last->layer == position && last->inside_left == inside_left &&
+            last->layer == position && last->inside_left == inside_left && !last->is_ended &&
             last->interval.end == interval.begin && interval.begin != open) {
             last->interval.end = interval.end;
         } else {
-            side_face_parts_.push_back({interval, position, inside_left});
+            side_face_parts_.push_back({interval, position, inside_left, false});
         }
     }
     const auto share = [](const Side& side) {
@@ -230,6 +238,15 @@ void PrismLeaf::add_interval(const Interval& interval, const Sides& s, std::size
         if (s[side].bounds() && (side == on_left || !s[on_left].bounds() ||
                                  s[on_left].representative != s[on_right].representative))
             outlines_[as_index(s[side].representative)].push_back(interval);
+}
+
+// Other side faces cross in one line here: nothing that begins there is joined with what ends.
+void PrismLeaf::end_part(const Interval& interval, std::size_t position) {
+    if (side_face_parts_.empty()) return;
+    SideFacePart& last = side_face_parts_.back();
+    if (last.interval.side_face == interval.side_face && last.layer == position &&
+        last.interval.end == interval.end)
+        last.is_ended = true;
 }
 
 // --- Caps.

@@ -39,6 +39,7 @@ private:
         Interval interval;
         std::size_t layer = 0;
         bool inside_left = false;
+        bool is_ended = false;  // the next part is apart from it, though it goes on with it
     };
     // What is on one side of an interval, in the layers below and above a position.
     struct Side {
@@ -60,6 +61,7 @@ private:
     void cross(LeafIndex operand, std::size_t layer);
     [[nodiscard]] Sides sides() const;
     void add_interval(const Interval& interval, const Sides& sides, std::size_t position);
+    void end_part(const Interval& interval, std::size_t position);
     [[nodiscard]] bool cut_cap(const PrismCap& cap);
     void keep_bench_small();
     [[nodiscard]] std::optional<Side> side_of_middle(const WorkPolygon& part, std::size_t position);
@@ -85,6 +87,7 @@ private:
     Workbench bench_;
     std::size_t operands_ = 0;
     std::size_t row_size_ = 0;
+    bool keeps_common_lines_ = false;  // in which three side faces cross; straight_crossings.h
     // By layer (below or above the position) and side (left or right of the side face).
     std::vector<int> rows_;
     std::vector<std::uint8_t> insides_;

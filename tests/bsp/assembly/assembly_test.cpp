@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/brep/certificate.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
@@ -388,26 +387,6 @@ TEST(AssemblyOrder, TrianglesDoNotDependOnTheTree) {
             EXPECT_EQ(evaluate(formula, options).to_mesh(), first) << leaf << ' ' << offset;
         }
     }
-}
-
-// The face straight across a line in which three planes meet is not parted there (docs/plan.md):
-// the set is right, the mesh meets itself, and that is no secret.
-TEST(ThreePlanesThroughALine, TheSetIsRightAndTheCertificateRefusesTheMesh) {
-    using trisect::Outline;
-    const auto prism = [](const Outline& outline) {
-        return Solid::from_mesh(trisect::transformed(trisect::make_prism(outline, 2),
-                                                     trisect::AffineMap::translation({0, 0, -1})));
-    };
-    const Solid x = prism({{-3, -3}, {0, -3}, {0, 3}, {-3, 3}});
-    const Solid y = prism({{-3, -3}, {3, -3}, {3, 0}, {-3, 0}});
-    const Solid d = prism({{-3, -3}, {3, -3}, {-3, 3}});
-    const Solid sectors = evaluate(x ^ y ^ d);
-    EXPECT_EQ(trisect::exact_volume(sectors), trisect::ExactRational(36));
-    const trisect::Certificate certificate = trisect::certify(sectors.to_mesh());
-    EXPECT_TRUE(certificate.closed);
-    EXPECT_TRUE(certificate.oriented);
-    EXPECT_GT(certificate.self_intersecting_pairs.value_or(0), 0U);
-    EXPECT_FALSE(certificate.holds());
 }
 
 }  // namespace
