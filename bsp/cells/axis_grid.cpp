@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Positions are below 2^61 in 1/256 units, centres below 2^62 in 1/512. An edge's step has 54 bits
+// Positions are below 2^61 in 1/192 units, centres below 2^62 in 1/384. An edge's step has 54 bits
 // in lattice units, a centre seen from its end 63: their products fit into 128.
 
 #include <trisect/bsp/cells/axis_grid.h>

@@ -15,7 +15,7 @@
 
 namespace trisect::detail {
 
-/// An axis-perpendicular plane. Positions count in 1/256 lattice units, as those of splitting
+/// An axis-perpendicular plane. Positions count in 1/192 lattice units, as those of splitting
 /// planes do.
 struct AxisPlane {
     std::size_t axis = 0;
@@ -41,7 +41,7 @@ struct AxisPolygon {
     PolygonRef ref;
     LeafIndex operand = 0;
     AxisPlane plane;
-    std::array<std::int64_t, 3> lo{};  ///< the box, in 1/256 lattice units
+    std::array<std::int64_t, 3> lo{};  ///< the box, in 1/192 lattice units
     std::array<std::int64_t, 3> hi{};
     std::array<SlantedEdge, 3> slanted{};
     std::size_t slanted_count = 0;

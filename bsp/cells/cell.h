@@ -2,10 +2,11 @@
 //
 // Boxes and cells of the partition.
 //
-// A splitting plane lies at an odd multiple of 1/256 of the lattice unit, so no lattice point lies
-// on one, and a closed box of lattice points is on one side of a splitting plane or truly crosses
-// it. That makes closed cells as good as half-open ones: nothing is listed twice because it ends at
-// a splitting plane.
+// A splitting plane lies at a third of a lattice unit, so no lattice point lies on one, and a
+// closed box of lattice points is on one side of a splitting plane or truly crosses it. That makes
+// closed cells as good as half-open ones: nothing is listed twice because it ends at a splitting
+// plane. No fraction with a power of two below the line is a third, so no double at all lies on
+// one.
 #pragma once
 
 #include <algorithm>
@@ -58,23 +59,41 @@ struct Box {
     friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Positions of splitting planes and reference points count in 1/256 of the lattice unit.
-inline constexpr int splitting_bits = 8;
-inline constexpr std::int64_t splitting_scale = std::int64_t{1} << splitting_bits;
-/// Of a coordinate, in the same units.
+/// Positions of splitting planes and reference points count in 1/192 of the lattice unit. Those of
+/// splitting planes are odd and no multiples of three, those of reference points even; multiples of
+/// three are doubles.
+inline constexpr std::int64_t splitting_scale = 192;
+inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
+[[nodiscard]] constexpr bool may_be_splitter(std::int64_t position) {
+    return position % 2 != 0 && position % 3 != 0;
+}
+/// The position of a coordinate.
 [[nodiscard]] constexpr std::int64_t fine_position(Coordinate c) {
     return c.to_integer() * splitting_scale;
+}
+/// The last lattice plane at or below a position.
+[[nodiscard]] constexpr std::int64_t lattice_below(std::int64_t position) {
+    const std::int64_t q = position / splitting_scale;
+    return q - (q * splitting_scale > position ? 1 : 0);
+}
+/// A position in lattice units, rounded: within last_place of its size.
+[[nodiscard]] constexpr double rounded_position(std::int64_t position) {
+    return static_cast<double>(position) / static_cast<double>(splitting_scale);
+}
+/// Whether rounded_position() is exact.
+[[nodiscard]] constexpr bool is_double(std::int64_t position) {
+    return position % 3 == 0 && position / 3 < coordinate_limit && position / 3 > -coordinate_limit;
 }
 /// Beyond every lattice point.
 inline constexpr std::int64_t universe_limit = (coordinate_limit + 16) * splitting_scale + 1;
 
-/// A point with coordinates in 1/256 lattice units.
+/// A point with coordinates in 1/192 lattice units.
 struct FinePoint {
     std::array<std::int64_t, 3> c{};
     friend bool operator==(const FinePoint&, const FinePoint&) = default;
 };
 
-/// A box of the partition, bounded by splitting planes; positions in 1/256 lattice units.
+/// A box of the partition, bounded by splitting planes; positions in 1/192 lattice units.
 struct Cell {
     std::array<std::int64_t, 3> lo{-universe_limit, -universe_limit, -universe_limit};
     std::array<std::int64_t, 3> hi{universe_limit, universe_limit, universe_limit};
@@ -83,23 +102,20 @@ struct Cell {
     [[nodiscard]] Box lattice_box() const {
         Box b;
         for (std::size_t k = 0; k < 3; ++k) {
-            b.lo[k] =
-                (lo[k] >> splitting_bits) + 1;  // splitting planes are never lattice positions
-            b.hi[k] = hi[k] >> splitting_bits;
+            b.lo[k] = lattice_below(lo[k]) + 1;  // splitting planes are never lattice positions
+            b.hi[k] = lattice_below(hi[k]);
         }
         return b;
     }
     /// Whether a closed box of lattice points meets the cell.
     [[nodiscard]] bool meets(const Box& b) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (b.hi[k] <= (lo[k] >> splitting_bits) || b.lo[k] > (hi[k] >> splitting_bits))
-                return false;
+            if (b.hi[k] <= lattice_below(lo[k]) || b.lo[k] > lattice_below(hi[k])) return false;
         return true;
     }
     [[nodiscard]] bool contains(const Box& b) const {
         for (std::size_t k = 0; k < 3; ++k)
-            if (b.lo[k] <= (lo[k] >> splitting_bits) || b.hi[k] > (hi[k] >> splitting_bits))
-                return false;
+            if (b.lo[k] <= lattice_below(lo[k]) || b.hi[k] > lattice_below(hi[k])) return false;
         return true;
     }
     [[nodiscard]] bool contains(const FinePoint& p) const {

@@ -121,7 +121,7 @@ std::shared_ptr<const CellNode> CellNode::fresh(const Source& source, const Fine
 
 std::shared_ptr<const CellNode> CellNode::split(int axis, std::int64_t splitter, CellRef below,
                                                 CellRef above) {
-    TRISECT_EXPECTS((splitter & 1) != 0, "a splitter must lie at an odd position");
+    TRISECT_EXPECTS(may_be_splitter(splitter), "a splitter must lie at a third of a unit");
     struct Made : CellNode {};  // with its counts in one piece of memory
     const auto n = std::make_shared<Made>();
     n->axis_ = axis;

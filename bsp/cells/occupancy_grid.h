@@ -26,7 +26,7 @@ struct OccupancyGrid {
     /// One layer of units: a word for each row (AxisGrid::frame).
     using Layer = UnitRows;
 
-    /// Positions of the planes of each axis, bounding planes of the cell first and last; in 1/256
+    /// Positions of the planes of each axis, bounding planes of the cell first and last; in 1/192
     /// lattice units.
     std::array<std::vector<std::int64_t>, 3> planes;
     /// Bits of all units: layer by layer across z, row by row along y, a bit for each along x.

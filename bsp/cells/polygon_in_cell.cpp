@@ -30,9 +30,8 @@ bool lies_in(const Fragment& fragment, const Cell& cell) {
     for (const EdgeName& e : fragment.edges()) {
         if (!e.plane.is_splitter()) continue;
         const std::size_t k = e.plane.facet;
-        if (e.above && e.plane.position() == cell.lo[k])
-            box.lo[k] = (cell.lo[k] >> splitting_bits) + 1;
-        if (!e.above && e.plane.position() == cell.hi[k]) box.hi[k] = cell.hi[k] >> splitting_bits;
+        if (e.above && e.plane.position() == cell.lo[k]) box.lo[k] = lattice_below(cell.lo[k]) + 1;
+        if (!e.above && e.plane.position() == cell.hi[k]) box.hi[k] = lattice_below(cell.hi[k]);
     }
     return cell.contains(box);
 }
@@ -84,9 +83,9 @@ bool ends_at_splitters(const Fragment& fragment, const Cell& cell) {
         return std::ranges::find(fragment.edges(), e) != fragment.edges().end();
     };
     for (std::size_t k = 0; k < 3; ++k) {
-        if (fragment.box().lo[k] <= (cell.lo[k] >> splitting_bits) && !ends_at(k, cell.lo[k], true))
+        if (fragment.box().lo[k] <= lattice_below(cell.lo[k]) && !ends_at(k, cell.lo[k], true))
             return false;
-        if (fragment.box().hi[k] > (cell.hi[k] >> splitting_bits) && !ends_at(k, cell.hi[k], false))
+        if (fragment.box().hi[k] > lattice_below(cell.hi[k]) && !ends_at(k, cell.hi[k], false))
             return false;
     }
     return true;

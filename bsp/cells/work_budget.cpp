@@ -46,8 +46,8 @@ void check_budget(const EvaluateSettings& settings, const EvaluateStats& stats) 
 }
 
 SplittingOffset::SplittingOffset(std::uint32_t offset) : outer_(splitting_offset_of_thread) {
-    if (offset % 2 == 0 || offset >= splitting_scale)
-        throw UsageError("SplittingOffset: must be odd and below " +
+    if (!may_be_splitter(offset) || offset >= splitting_scale)
+        throw UsageError("SplittingOffset: must be odd, no multiple of three and below " +
                          std::to_string(splitting_scale));
     splitting_offset_of_thread = offset;
 }

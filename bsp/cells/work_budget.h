@@ -11,8 +11,8 @@
 
 namespace trisect::detail {
 
-/// Offset of splitting planes from lattice positions, in 1/256 units.
-inline constexpr std::uint32_t usual_splitting_offset = 83;
+/// Offset of splitting planes from lattice positions, in 1/192 units.
+inline constexpr std::uint32_t usual_splitting_offset = 61;
 
 /// The work of one evaluation under a limit, on one thread.
 struct WorkBudget {
@@ -22,10 +22,10 @@ struct WorkBudget {
 
 /// Without a LimitedEvaluation nothing limits it.
 struct EvaluateSettings : EvaluateOptions {
-    std::uint32_t splitting_offset = usual_splitting_offset;  ///< odd, below 256
-    const StopScope* scope = nullptr;                         ///< its flags stop all threads
-    WorkBudget* budget = nullptr;                             ///< null: no limit
-    std::uint64_t max_memory = 0;                             ///< 0: no limit
+    std::uint32_t splitting_offset = usual_splitting_offset;
+    const StopScope* scope = nullptr;  ///< its flags stop all threads
+    WorkBudget* budget = nullptr;      ///< null: no limit
+    std::uint64_t max_memory = 0;      ///< 0: no limit
 };
 
 /// Puts an evaluation under the scopes of the calling thread while it lives, and counts its work
@@ -51,8 +51,8 @@ void check_budget(const EvaluateSettings& settings, const EvaluateStats& stats);
 /// on splitting planes: results do not depend on it. Scopes nest.
 class SplittingOffset {
 public:
-    /// \throw UsageError unless the offset is odd and below 256: another one could put a splitting
-    /// plane through a corner or a reference point, whose coordinates are even in this scale
+    /// \throw UsageError unless the offset is odd, no multiple of three and below 192: another one
+    /// could put a splitting plane through a corner or a reference point (cell.h)
     explicit SplittingOffset(std::uint32_t offset);
     SplittingOffset(const SplittingOffset&) = delete;
     SplittingOffset& operator=(const SplittingOffset&) = delete;

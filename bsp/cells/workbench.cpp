@@ -457,11 +457,11 @@ WorkPolygon Workbench::clipped(WorkPolygon polygon, const Box& box, const Cell& 
         const auto k = static_cast<std::size_t>(axis);
         // Boxes are rounded outwards, so those of parts that end at a splitting plane reach beyond
         // it.
-        if ((unbounded || box.lo[k] <= (cell.lo[k] >> splitting_bits)) &&
+        if ((unbounded || box.lo[k] <= lattice_below(cell.lo[k])) &&
             !is_bounded_by(w, axis, cell.lo[k], true))
             w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.lo[k])), 1);
         if (w.is_empty()) return w;
-        if ((unbounded || box.hi[k] > (cell.hi[k] >> splitting_bits)) &&
+        if ((unbounded || box.hi[k] > lattice_below(cell.hi[k])) &&
             !is_bounded_by(w, axis, cell.hi[k], false))
             w = clipped(std::move(w), plane(PlaneName::splitter(axis, cell.hi[k])), -1);
         if (w.is_empty()) return w;

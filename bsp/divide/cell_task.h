@@ -60,7 +60,7 @@ struct SplittingPlane {
     int axis = 0;
     std::int64_t position = 0;
 
-    [[nodiscard]] std::int64_t last_below() const { return position >> splitting_bits; }
+    [[nodiscard]] std::int64_t last_below() const { return lattice_below(position); }
 };
 
 /// Winding numbers of a complement; those of solids with trees are 0 and 1.

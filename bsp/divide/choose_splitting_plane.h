@@ -14,7 +14,7 @@ namespace trisect::detail {
 /// them enters, when that is at least 30 % of the extent; else it halves the box of what at least
 /// two enter (or what an operand that has to be resolved by itself enters). Nothing when the
 /// polygons cannot be separated in the task's frame. `offset` is that of splitting planes from
-/// lattice positions, in 1/256 units. \pre all operands are lists.
+/// lattice positions, in 1/192 units. \pre all operands are lists.
 [[nodiscard]] std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task,
                                                                    std::int64_t offset);
 

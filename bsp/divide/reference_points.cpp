@@ -61,8 +61,8 @@ namespace {
 Box box_around(const FinePoint& a, const FinePoint& b) {
     Box segment;
     for (std::size_t k = 0; k < 3; ++k) {
-        segment.lo[k] = (std::min(a.c[k], b.c[k]) >> splitting_bits) - 1;
-        segment.hi[k] = (std::max(a.c[k], b.c[k]) >> splitting_bits) + 2;
+        segment.lo[k] = lattice_below(std::min(a.c[k], b.c[k])) - 1;
+        segment.hi[k] = lattice_below(std::max(a.c[k], b.c[k])) + 2;
     }
     return segment;
 }
@@ -110,7 +110,7 @@ bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> ax
 bool pass_splitter(const CellTask& task, const SplittingPlane& splitter, const FinePoint& p,
                    const CellTask& other_side, CellTask& out) {
     const auto k = static_cast<std::size_t>(splitter.axis);
-    if (p.c[k] >> splitting_bits != splitter.last_below() || p.c[k] % splitting_scale == 0)
+    if (lattice_below(p.c[k]) != splitter.last_below() || p.c[k] % splitting_scale == 0)
         return windings_at(task, p, splitter.axis, out);
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& o = task.operands[i];

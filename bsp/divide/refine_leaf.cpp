@@ -22,6 +22,7 @@
 
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/trace/axis_trace.h>
+#include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
 
@@ -29,7 +30,7 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::int64_t splitting_offset = 83;
+constexpr std::int64_t splitting_offset = usual_splitting_offset;
 // Levels made at once. More cost the first visitor more, fewer mean that corners are looked up more
 // often.
 constexpr int levels_at_once = 4;
@@ -159,8 +160,8 @@ std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, cons
         AxisTrace trace(from.at, p, axis);
         Box segment;
         for (std::size_t i = 0; i < 3; ++i) {
-            segment.lo[i] = (std::min(p.c[i], from.at.c[i]) >> splitting_bits) - 1;
-            segment.hi[i] = (std::max(p.c[i], from.at.c[i]) >> splitting_bits) + 2;
+            segment.lo[i] = lattice_below(std::min(p.c[i], from.at.c[i])) - 1;
+            segment.hi[i] = lattice_below(std::max(p.c[i], from.at.c[i])) + 2;
         }
         const PackedReach reach(PackedBox::of(frame_, segment));
         for (const auto& part : {list.contained, list.crossing})

@@ -27,11 +27,9 @@ PackedBox certain_positions(const CellTask& task) {
     PackedBox b = packed_cell(task.frame, task.cell);
     // Rounding outwards at splitting planes of other frames: one position farther in is certain.
     for (std::size_t k = 0; k < 3; ++k) {
-        if (!task.frame.first_above(k, task.cell.lo[k] >> splitting_bits) &&
-            b.low(k) > -packed_limit)
+        if (!task.frame.first_above(k, lattice_below(task.cell.lo[k])) && b.low(k) > -packed_limit)
             ++b.lo[k];
-        if (!task.frame.first_above(k, task.cell.hi[k] >> splitting_bits) &&
-            b.high(k) < packed_limit)
+        if (!task.frame.first_above(k, lattice_below(task.cell.hi[k])) && b.high(k) < packed_limit)
             ++b.minus_hi[k];
     }
     return b;

@@ -14,7 +14,7 @@
 namespace trisect::detail {
 
 /// What an operand has of a cell where all its polygons are perpendicular to one axis: the space
-/// between two positions, in 1/256 lattice units, or beyond one of them. The cell's bounding planes
+/// between two positions, in 1/192 lattice units, or beyond one of them. The cell's bounding planes
 /// stand for no bound.
 struct Slab {
     std::int32_t slot = -1;

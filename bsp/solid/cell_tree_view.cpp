@@ -83,9 +83,9 @@ struct PositionInterval {
     std::int64_t upper = 0;
 };
 
-/// Positions count in 1/256 of the lattice unit. Beyond the universe all positions are alike.
+/// Positions count in 1/192 of the lattice unit. Beyond the universe all positions are alike.
 double fine_position(double user, Lattice lattice) {
-    return std::ldexp(user, detail::splitting_bits - lattice.exponent);
+    return std::ldexp(user, -lattice.exponent) * static_cast<double>(detail::splitting_scale);
 }
 
 std::int64_t clamped(double position) {
@@ -113,7 +113,7 @@ double user_position(std::int64_t position, Lattice lattice) {
         return std::copysign(std::numeric_limits<double>::infinity(),
                              static_cast<double>(position));
     }
-    return std::ldexp(static_cast<double>(position), lattice.exponent - detail::splitting_bits);
+    return std::ldexp(detail::rounded_position(position), lattice.exponent);
 }
 
 CellLeaf leaf_of(const Visit& visit, Lattice lattice) {

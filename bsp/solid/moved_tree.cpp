@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Splitters lie at odd multiples of a 256th of the unit and stay odd under quarter turns, mirrors
-// and translations by units; so the tree keeps its shape. What has a name is renamed: sources
-// become moved sources, edges of fragments planes of these, splitters moved splitters. A mirror
-// turns the order of corners over, and then the first and the last edge of a triangle change
-// places.
+// Splitters lie at thirds of a unit and stay there under quarter turns, mirrors and translations by
+// units; so the tree keeps its shape. What has a name is renamed: sources become moved sources,
+// edges of fragments planes of these, splitters moved splitters. A mirror turns the order of
+// corners over, and then the first and the last edge of a triangle change places.
 
 #include <trisect/bsp/solid/moved_tree.h>
 

@@ -183,8 +183,7 @@ public:
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-        // Multiples of 1/128: the position fits 64 bits, and splitting planes are at odd multiples
-        // of 1/256.
+        // Multiples of 1/128: the position fits 64 bits, and splitting planes are at thirds.
         constexpr int fine_bits = 7;
         const Int128 middle = (low[axis] + high[axis]) / 2;
         const auto position = static_cast<std::int64_t>(middle >> (grid_bits - fine_bits));

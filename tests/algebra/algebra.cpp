@@ -23,7 +23,7 @@ Family::Family(std::uint64_t seed, std::size_t count) {
 
 Options options_of(std::uint64_t seed) {
     constexpr std::array<std::uint32_t, 4> leaves{25, 4, 12, 1000};
-    constexpr std::array<std::uint32_t, 3> offsets{83, 1, 127};
+    constexpr std::array<std::uint32_t, 3> offsets{61, 1, 127};
     return Options(leaves[seed % leaves.size()], offsets[seed % offsets.size()]);
 }
 

@@ -99,9 +99,10 @@ TEST_F(Operators, MovedFromIsTheFormulaOfTheEmptySet) {
 }
 
 TEST_F(Operators, WallsThatMayMeetCornersAreRefused) {
-    for (const std::uint32_t offset : {0U, 2U, 82U, 256U, 257U}) {
+    for (const std::uint32_t offset : {0U, 2U, 3U, 63U, 82U, 192U, 193U})
         EXPECT_THROW(const SplittingOffset refused(offset), trisect::UsageError) << offset;
-        const SplittingOffset taken(offset % 256 + 1 - offset % 2);
+    for (const std::uint32_t offset : {1U, 5U, 83U, 191U}) {
+        const SplittingOffset taken(offset);
         EXPECT_FALSE(evaluate(a | b).is_empty()) << SplittingOffset::of_thread();
     }
 }

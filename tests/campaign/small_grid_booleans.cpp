@@ -160,7 +160,7 @@ public:
         if (!embedded_ && random.chance(1, 2))
             for (auto& o : operands_) o = reference::with_folds(random, o, 4);
         constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 1000};
-        constexpr std::array<std::uint32_t, 4> wall_offsets{1, 83, 127, 255};
+        constexpr std::array<std::uint32_t, 4> wall_offsets{1, 61, 127, 191};
         options_.leaf_polygons = leaf_sizes[random.below(4)];
         offset_.emplace(wall_offsets[random.below(4)]);
         const bool assume = embedded_ && random.chance(1, 2);

@@ -24,7 +24,7 @@ using Kind = reference::Expression::Kind;
 // Runs body for walls at many offsets and for small leaves.
 template <class Body>
 void for_all_walls(Body&& body) {
-    for (const std::uint32_t offset : {1U, 83U, 127U, 255U})
+    for (const std::uint32_t offset : {1U, 61U, 127U, 191U})
         for (const std::uint32_t leaf : {1U, 4U, 10U}) {
             SCOPED_TRACE("wall offset " + std::to_string(offset) + ", leaf size " +
                          std::to_string(leaf));
@@ -35,11 +35,11 @@ void for_all_walls(Body&& body) {
         }
 }
 
-// x = 127 y and x = 1 - 129 y meet at (127/256, 1/256). The bodies lie below these lines and the
-// box that they share runs from -127 to 128, so that the first wall is x = 0 + offset / 256.
+// x = 127 y and x = 1 - 65 y meet at (127/192, 1/192). The bodies lie below these lines and the box
+// that they share runs from -127 to 128, so that the first wall is x = 0 + offset / 192.
 struct SlopesThatMeetInAWall {
     Operand a = reference::prism({{-127, -1}, {127, 1}, {128, 1}, {128, -5}, {-127, -5}}, 0, 2);
-    Operand b = reference::prism({{130, -1}, {-128, 1}, {-128, -5}, {130, -5}}, 0, 2);
+    Operand b = reference::prism({{131, -2}, {-129, 2}, {-129, -5}, {131, -5}}, 0, 2);
 
     [[nodiscard]] Operand turned(const Operand& o, std::size_t turns) const {
         return reference::axes_rotated(o, turns);

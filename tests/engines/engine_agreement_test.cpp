@@ -80,7 +80,7 @@ TEST(EngineAgreement, TheResultDoesNotDependOnTheTreesShape) {
         for (const std::uint32_t leaf : {3U, 8U, 1000U}) {
             trisect::EvaluateOptions options;
             options.leaf_polygons = leaf;
-            const trisect::detail::SplittingOffset offset(leaf == 8 ? 127 : 83);
+            const trisect::detail::SplittingOffset offset(leaf == 8 ? 127 : 61);
             const auto expression = reference::pair_expression(Kind::Difference);
             EXPECT_EQ(disagreement(operands, expression, options), "")
                 << "seed " << seed << " leaf size " << leaf;
@@ -95,7 +95,7 @@ TEST(EngineAgreement, EmbeddedPairsInSmallCells) {
         const auto operands = reference::random_family(random, 2, true);
         trisect::EvaluateOptions options;
         options.leaf_polygons = seed % 2 == 0 ? 3 : 8;
-        const trisect::detail::SplittingOffset offset(seed % 3 == 0 ? 255 : 83);
+        const trisect::detail::SplittingOffset offset(seed % 3 == 0 ? 191 : 61);
         for (const Kind kind : {Kind::Intersection, Kind::Xor}) {
             const auto expression = reference::pair_expression(kind);
             EXPECT_EQ(disagreement(operands, expression, options, trisect::Embedding::Assume), "")

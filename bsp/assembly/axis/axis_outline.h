@@ -23,7 +23,7 @@ struct AxisSide {
     bool is_slanted = false;
     bool is_low = false;    ///< the polygon is on the higher side of it; not of slanted ones
     std::uint8_t axis = 0;  ///< 0 or 1: it lies across that one
-    std::int64_t at = 0;    ///< in 1/256 lattice units
+    std::int64_t at = 0;    ///< in 1/192 lattice units
     SlantedEdge line;       ///< of slanted ones
 };
 
@@ -32,7 +32,7 @@ struct AxisSide {
 [[nodiscard]] bool read_axis_sides(const PolygonRef& polygon, std::size_t axis,
                                    std::vector<AxisSide>& out);
 
-/// Where a side ends at its neighbour in a polygon, along the other axis, in 1/256 lattice units;
+/// Where a side ends at its neighbour in a polygon, along the other axis, in 1/192 lattice units;
 /// nothing when that is no integer.
 [[nodiscard]] std::optional<std::int64_t> end_of_side(const AxisSide& side,
                                                       const AxisSide& neighbour);

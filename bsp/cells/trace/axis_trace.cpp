@@ -22,9 +22,8 @@ namespace trisect::detail {
 AxisTrace::AxisTrace(const FinePoint& from, const FinePoint& to, int axis)
     : from_(from), to_(to), axis_(static_cast<std::size_t>(axis)) {
     for (std::size_t i = 0; i < 2; ++i) {
-        at_[i] = static_cast<double>(from.c[(axis_ + 1 + i) % 3]) *
-                 (1.0 / static_cast<double>(splitting_scale));
-        at_error_ = std::max(at_error_, std::fabs(at_[i]) * unit_roundoff);
+        at_[i] = rounded_position(from.c[(axis_ + 1 + i) % 3]);
+        at_error_ = std::max(at_error_, std::fabs(at_[i]) * last_place);
     }
 }
 

@@ -31,7 +31,7 @@ int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
 }
 
 WideInt<4> plane_value_at(const FinePoint& p, const Plane& plane) {
-    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(splitting_bits);
+    WideInt<4> sum = multiply<4>(plane.offset(), WideInt<1>(splitting_scale));
     for (int k = 0; k < 3; ++k)
         sum +=
             multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
@@ -102,8 +102,8 @@ const TraceTarget::Exact& TraceTarget::exact() const {
 Approximation approximate(const FinePoint& p) {
     Approximation a;
     for (std::size_t k = 0; k < 3; ++k) {
-        a.c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
-        a.error = std::max(a.error, std::fabs(a.c[k]) * unit_roundoff);
+        a.c[k] = rounded_position(p.c[k]);
+        a.error = std::max(a.error, std::fabs(a.c[k]) * last_place);
     }
     return a;
 }

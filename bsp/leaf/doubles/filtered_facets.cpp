@@ -58,18 +58,17 @@ void FilteredFacets::set_origin(const LatticePoint& origin) {
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto from_origin = [&](std::int64_t fine) {
-            return static_cast<double>(fine - origin_[k] * splitting_scale) *
-                   (1.0 / static_cast<double>(splitting_scale));
+            return rounded_position(fine - origin_[k] * splitting_scale);
         };
         splitter_lo_[k] = from_origin(cell.lo[k]);
         splitter_hi_[k] = from_origin(cell.hi[k]);
         reference_.c[k] = from_origin(problem_->reference.c[k]);
-        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * unit_roundoff);
+        reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * last_place);
         const auto inner = [&](std::int64_t c) {
             return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
         };
-        inner_lo_[k] = inner((cell.lo[k] >> splitting_bits) + 1);
-        inner_hi_[k] = inner(cell.hi[k] >> splitting_bits);
+        inner_lo_[k] = inner(lattice_below(cell.lo[k]) + 1);
+        inner_hi_[k] = inner(lattice_below(cell.hi[k]));
         outer_lo_[k] = inner_lo_[k] - 1;
         outer_hi_[k] = inner_hi_[k] + 1;
     }

@@ -42,8 +42,8 @@ bool certainly_enters(const Cell& cell, const Approximation& p, const Approximat
     double to = 1 - 0x1p-6;
     double largest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = static_cast<double>(cell.lo[k]) / static_cast<double>(splitting_scale);
-        hi[k] = static_cast<double>(cell.hi[k]) / static_cast<double>(splitting_scale);
+        lo[k] = rounded_position(cell.lo[k]);
+        hi[k] = rounded_position(cell.hi[k]);
         largest = std::max({largest, std::fabs(p.c[k]), std::fabs(q.c[k])});
         const double d = q.c[k] - p.c[k];
         if (d == 0) continue;

@@ -47,7 +47,7 @@ OwnEdges own_edges(const AxisPolygon& p) {
     return out;
 }
 
-// Of the rectangle, in 1/256 lattice units.
+// Of the rectangle, in 1/192 lattice units.
 struct RectangleCorner {
     std::array<std::int64_t, 2> at{};
     EdgeName edge;  // that begins here
@@ -93,7 +93,7 @@ RectangleCorners corners_of(const RectangleSides& sides, bool up) {
             corner(at_high, at_high, 0, at_high), corner(at_high, at_low, 1, at_low)};
 }
 
-// A coordinate of a place that is given in 1/256 units.
+// A coordinate of a place that is given in 1/192 units.
 void set(Approximation& a, std::size_t axis, std::int64_t at) {
     a.c[axis] = static_cast<double>(at) / static_cast<double>(splitting_scale);
     if (at % splitting_scale != 0) a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));

@@ -15,7 +15,7 @@ namespace trisect::detail {
 /// its higher side with the plane that ends it there.
 struct AxisRectangle {
     struct Side {
-        std::int64_t at = 0;  ///< in 1/256 lattice units
+        std::int64_t at = 0;  ///< in 1/192 lattice units
         EdgeName edge;
     };
     std::array<std::array<Side, 2>, 2> sides;

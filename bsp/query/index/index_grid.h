@@ -75,7 +75,7 @@ struct IndexBlock {
 /// A grid of n[0] · n[1] · n[2] cells, each of which may be divided `levels` times.
 ///
 /// Finest cells are counted from `origin`; `fine` is their edge, such that all splitting planes are
-/// doubles, at odd multiples of 1/256 where coordinates leave room for that. A cell is half-open:
+/// doubles, at odd multiples of 1/64 where coordinates leave room for that. A cell is half-open:
 /// its lower splitting planes belong to it. The first and last cells along an axis reach as far as
 /// the node's cell does.
 ///

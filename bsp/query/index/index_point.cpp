@@ -71,9 +71,8 @@ IndexPoint::IndexPoint(const Point& p) : c_(p.approximation().c), error_(p.appro
 IndexPoint::IndexPoint(const FinePoint& p) {
     bool rounded = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        c_[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
-        if (static_cast<std::int64_t>(c_[k] * static_cast<double>(splitting_scale)) == p.c[k])
-            continue;
+        c_[k] = rounded_position(p.c[k]);
+        if (is_double(p.c[k])) continue;
         rounded = true;
         error_ = std::max(error_, std::fabs(c_[k]) * last_place);
     }
@@ -184,12 +183,12 @@ int IndexPoint::compare_slowly(std::size_t k, double position) const {
 }
 
 int IndexPoint::compare_fine(std::size_t k, std::int64_t position) const {
-    const double at = static_cast<double>(position) * (1.0 / static_cast<double>(splitting_scale));
+    const double at = rounded_position(position);
     const double d = c_[k] - at;
     const double slack = 2 * error_ + std::fabs(at) * last_place;
     if (d > slack) return 1;
     if (d < -slack) return -1;
-    return (rational()[k].scaled(splitting_bits) - ExactRational(position)).sign();
+    return (rational()[k] * ExactRational(splitting_scale) - ExactRational(position)).sign();
 }
 
 ExactRational value_at(const IndexPoint::Rational& p, const Plane& plane) {

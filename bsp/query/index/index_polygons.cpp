@@ -143,9 +143,9 @@ IndexPolygons::Id IndexPolygons::add_clipped(const PolygonRef& ref, bool flipped
         for (int i = 0; i < 3; ++i) edges.push_back(ref.source->edge_plane(ref.facet, i, support));
     for (int k = 0; k < 3; ++k) {
         const auto kk = static_cast<std::size_t>(k);
-        if (box.lo[kk] <= (cell.lo[kk] >> splitting_bits))
+        if (box.lo[kk] <= lattice_below(cell.lo[kk]))
             edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.lo[kk]).flipped());
-        if (box.hi[kk] > (cell.hi[kk] >> splitting_bits))
+        if (box.hi[kk] > lattice_below(cell.hi[kk]))
             edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.hi[kk]));
     }
     edges = edges_in_order(support, edges);

@@ -45,14 +45,14 @@ int bit_length(const Normal& n) {
     return std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])});
 }
 
-// The sign of n · (2^base_bits p - base). \pre |n| < 2^126, |base| < 2^63, base_bits <= 8.
-int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base_bits) {
+// The sign of n · (scale p - base). \pre |n| < 2^126, |base| < 2^63, scale is 1 or splitting_scale.
+int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, std::int64_t scale) {
     if (const auto& small = p.small()) {
-        // |c| < 2^62: c 2^8 and base 2^62 fit 128 bits.
+        // |c| < 2^62: c scale and base 2^62 fit 128 bits.
         std::array<Int128, 3> x{};
         int bits = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            x[k] = (Int128{small->c[k]} << base_bits) - (Int128{base[k]} << small->bits);
+            x[k] = Int128{small->c[k]} * scale - (Int128{base[k]} << small->bits);
             bits = std::max(bits, bit_length(x[k]));
         }
         if (bit_length(n) + bits <= 125) {
@@ -65,8 +65,8 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base
     if (const HomogeneousPoint* h = p.homogeneous()) {
         WideInt<9> sum;
         for (std::size_t k = 0; k < 3; ++k) {
-            const WideInt<8> x = WideInt<8>(h->xyz[k]).shifted_left(base_bits) -
-                                 multiply<8>(h->w, WideInt<1>(base[k]));
+            const WideInt<8> x =
+                multiply<8>(h->xyz[k], WideInt<1>(scale)) - multiply<8>(h->w, WideInt<1>(base[k]));
             sum += multiply<9>(x, WideInt<2>(n[k]));
         }
         return sum.sign();
@@ -74,7 +74,7 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, int base
     ExactRational sum;
     for (std::size_t k = 0; k < 3; ++k)
         sum += ExactRational(WideInt<2>(n[k])) *
-               (p.rational()[k].scaled(base_bits) - ExactRational(base[k]));
+               (p.rational()[k] * ExactRational(scale) - ExactRational(base[k]));
     return sum.sign();
 }
 
@@ -96,7 +96,7 @@ Normal triangle_normal(const LatticePoint& a, const LatticePoint& b, const Latti
 
 int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
                const LatticePoint& c) {
-    return sign_linear(p, triangle_normal(a, b, c), to_integers(a), 0);
+    return sign_linear(p, triangle_normal(a, b, c), to_integers(a), 1);
 }
 
 // Component k of (a - p) × (b - p): which way p, a, b turn seen along axis k.
@@ -107,7 +107,7 @@ int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b
     Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
     n[l] = e[j];
     n[j] = -Int128{e[l]};
-    return sign_linear(p, n, to_integers(a), 0);
+    return sign_linear(p, n, to_integers(a), 1);
 }
 
 // det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
@@ -115,7 +115,7 @@ int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoi
                        const LatticePoint& b) {
     Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
-    if (const int s = sign_linear(p, n, r.c, splitting_bits); s != 0) return s;
+    if (const int s = sign_linear(p, n, r.c, splitting_scale); s != 0) return s;
     ++detail::counters_of_thread<PredicateCounters>.symbolic;
     for (std::size_t k = 0; k < 3; ++k)
         if (const int s = exact_turn(p, a, b, k); s != 0) return s;
@@ -210,7 +210,7 @@ int filtered_sign(const Reference& r, const Plane& plane) {
 }
 
 WideInt<4> exact_value(const FinePoint& r, const Plane& plane) {
-    WideInt<4> sum = WideInt<4>(plane.offset()).shifted_left(splitting_bits);
+    WideInt<4> sum = multiply<4>(plane.offset(), WideInt<1>(splitting_scale));
     for (int k = 0; k < 3; ++k)
         sum +=
             multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
@@ -274,12 +274,6 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
 }
 
 }  // namespace
-
-void Reference::set_error() {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (static_cast<std::int64_t>(c[k] * static_cast<double>(splitting_scale)) != fine.c[k])
-            error = std::max(error, std::fabs(c[k]) * last_place);
-}
 
 Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
                 const IndexPoint& p, const Reference& r) {

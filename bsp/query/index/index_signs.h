@@ -19,17 +19,14 @@ namespace trisect::detail {
 struct Reference {
     explicit Reference(const FinePoint& p) : fine(p) {
         for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = static_cast<double>(p.c[k]) * (1.0 / static_cast<double>(splitting_scale));
-            if (!(c[k] < 0x1p45 && c[k] > -0x1p45)) set_error();
+            c[k] = rounded_position(p.c[k]);
+            if (!is_double(p.c[k])) error = std::max(error, std::fabs(c[k]) * last_place);
         }
     }
 
     FinePoint fine;
     std::array<double, 3> c{};  // lattice units
     double error = 0;
-
-private:
-    void set_error();
 };
 
 /// What a segment from a reference to a point does at a polygon.

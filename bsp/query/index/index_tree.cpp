@@ -195,9 +195,9 @@ private:
     IndexTree& t_;
     IndexCells& cells_;
     IndexPolygons& polygons_;
-    double quantum_ =
-        1.0 / static_cast<double>(splitting_scale);  // positions are odd multiples of it
-    std::vector<Id> ids_;                            // of a leaf
+    // Positions are odd multiples of it.
+    double quantum_ = 1.0 / static_cast<double>(dyadic_scale);
+    std::vector<Id> ids_;  // of a leaf
 };
 
 void IndexTreeBuilder::build(const SolidState& state) {
@@ -334,8 +334,8 @@ IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const Box& 
     Place p;
     p.whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double lo = static_cast<double>(cell.lo[k]) / static_cast<double>(splitting_scale);
-        const double hi = static_cast<double>(cell.hi[k]) / static_cast<double>(splitting_scale);
+        const double lo = rounded_position(cell.lo[k]);
+        const double hi = rounded_position(cell.hi[k]);
         const auto first = static_cast<double>(polygons.lo[k]);
         const auto last = static_cast<double>(polygons.hi[k]);
         const double around = room + std::floor(relative_room * (last - first));
@@ -355,7 +355,7 @@ std::optional<IndexGrid> IndexTreeBuilder::grid_over(const Place& place, int att
     for (std::size_t k = 0; k < 3; ++k) {
         // Odd multiples of the quantum, not in step with each other: planes that lie at 45 degrees
         // through lattice points pass by.
-        constexpr std::array<double, 3> step{36, 90, 148};
+        constexpr std::array<double, 3> step{9, 23, 37};
         const double shift =
             std::min(step[k] * (1 + attempt), 0x1p-6 * (place.hi[k] - place.lo[k]) / quantum_);
         double position = std::ceil(place.lo[k] / quantum_) + std::floor(shift);

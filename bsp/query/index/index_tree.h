@@ -59,7 +59,7 @@ public:
         static constexpr std::uint32_t grid_flag = 16;  // beside `leaf`: no leaf but a grid
         static constexpr std::uint32_t none = 0xffffffffU;
 
-        /// The splitting plane's position, 1/256 units; the number of a mixed leaf's reference.
+        /// The splitting plane's position, 1/192 units; the number of a mixed leaf's reference.
         std::int64_t position = 0;
         /// The child below (the child above is next), or the number of a mixed leaf or grid, or
         /// `none`.
@@ -72,9 +72,7 @@ public:
         [[nodiscard]] std::size_t axis() const { return flags & 3U; }
         [[nodiscard]] bool is_inside() const { return (flags & inside) != 0; }
         [[nodiscard]] bool is_mixed() const { return next != none; }  // of a leaf
-        [[nodiscard]] double rounded_splitter() const {
-            return static_cast<double>(position) * (1.0 / static_cast<double>(splitting_scale));
-        }
+        [[nodiscard]] double rounded_splitter() const { return detail::rounded_position(position); }
     };
 
     /// Where a descent ends: a mixed leaf or an empty cell.

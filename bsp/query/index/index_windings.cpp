@@ -32,7 +32,7 @@ IntegerRange integers(double lo, double hi, std::uint32_t n) {
 }  // namespace
 
 std::int64_t fine_position(double v) {
-    return static_cast<std::int64_t>(v * static_cast<double>(splitting_scale));
+    return 3 * static_cast<std::int64_t>(v * static_cast<double>(dyadic_scale));
 }
 
 void IndexWindings::reset(const Vector& origin, const Vector& step,

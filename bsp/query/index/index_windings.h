@@ -66,7 +66,7 @@ private:
     std::vector<std::int32_t> winding_;  // at first the change on the way to a corner
 };
 
-/// The exact position of a double in 1/256 units. \pre it is a multiple of that.
+/// The exact position of a double in 1/192 units. \pre it is a multiple of 1/64.
 [[nodiscard]] std::int64_t fine_position(double v);
 
 }  // namespace trisect::detail

@@ -312,7 +312,7 @@ void random_boxes(int rounds, bool coincident) {
         for (const std::uint32_t leaf : {4U, 20U, 100000U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
-            const trisect::detail::SplittingOffset offset(leaf == 4 ? 1 : 83);
+            const trisect::detail::SplittingOffset offset(leaf == 4 ? 1 : 61);
             const Solid divided = evaluate(formula, options);
             const PolygonMesh other = divided.to_mesh();
             expect_matching_edges(other);
@@ -380,7 +380,7 @@ TEST(AssemblyOrder, TrianglesDoNotDependOnTheTree) {
     const Expression formula = (a | b) - c;
     const PolygonMesh first = evaluate(formula).to_mesh();
     for (const std::uint32_t leaf : {20U, 200U, 100000U}) {
-        for (const std::uint32_t offset : {83U, 1U, 127U}) {
+        for (const std::uint32_t offset : {61U, 1U, 127U}) {
             EvaluateOptions options;
             options.leaf_polygons = leaf;
             const trisect::detail::SplittingOffset at(offset);
