@@ -96,8 +96,7 @@ std::optional<Seen> look(const Placed& placed, const Vector& origin, const Vecto
     if (!hit) return std::nullopt;
     // Poses here are rigid, so normals turn as directions do.
     const Vector normal = normalized(placed.to_world.direction(
-        {static_cast<double>(hit->plane.normal(0)), static_cast<double>(hit->plane.normal(1)),
-         static_cast<double>(hit->plane.normal(2))}));
+        {hit->plane.approx_normal(0), hit->plane.approx_normal(1), hit->plane.approx_normal(2)}));
     const double light =
         0.45 + 0.55 * std::max(0.0, dot(normal, normalized(Vector{-0.5, -0.8, 1.2})));
     return Seen{hit->enter.nearest(), light * placed.body.color, &placed.body, hit->place.face};

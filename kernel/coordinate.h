@@ -13,12 +13,14 @@
 
 namespace trisect {
 
-/// Largest number of bits of a coordinate: |coordinate| < 2^53, so that a double holds it exactly.
+/// Largest number of bits before the point: |coordinate| < 2^53.
 inline constexpr int coordinate_bits = 53;
 inline constexpr std::int64_t coordinate_limit = std::int64_t{1} << coordinate_bits;
+/// Largest number of bits behind the point.
+inline constexpr int fraction_limit = 73;
 
-/// A whole number of lattice units below coordinate_limit in magnitude. Regular value type of eight
-/// bytes, totally ordered; there is one zero.
+/// A double below coordinate_limit in magnitude that is a multiple of 2^-fraction_limit, in lattice
+/// units. Regular value type of eight bytes, totally ordered; there is one zero.
 class Coordinate {
 public:
     constexpr Coordinate() = default;
@@ -26,10 +28,14 @@ public:
     template <std::signed_integral Integer>
     constexpr Coordinate(Integer value)  // NOLINT(google-explicit-constructor): a number
         : value_(static_cast<double>(value)) {}
-    /// \pre a whole number, |value| < coordinate_limit
+    /// \pre a multiple of 2^-fraction_limit, |value| < coordinate_limit
     explicit constexpr Coordinate(double value) : value_(value + 0.0) {}  // -0 becomes +0
 
     [[nodiscard]] constexpr double to_double() const { return value_; }
+    [[nodiscard]] constexpr bool is_whole() const {
+        return static_cast<double>(static_cast<std::int64_t>(value_)) == value_;
+    }
+    /// \pre is_whole()
     [[nodiscard]] constexpr std::int64_t to_integer() const {
         return static_cast<std::int64_t>(value_);
     }

@@ -24,6 +24,9 @@ struct LatticePoint {
     [[nodiscard]] constexpr std::array<double, 3> doubles() const {
         return {x.to_double(), y.to_double(), z.to_double()};
     }
+    [[nodiscard]] constexpr bool is_whole() const {
+        return x.is_whole() && y.is_whole() && z.is_whole();
+    }
     friend constexpr bool operator==(const LatticePoint&, const LatticePoint&) = default;
     friend constexpr std::strong_ordering operator<=>(const LatticePoint& a,
                                                       const LatticePoint& b) = default;

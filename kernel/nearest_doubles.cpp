@@ -12,9 +12,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <type_traits>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/bounded_int.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/number/vector3.h>
@@ -48,22 +50,29 @@ double sum_of_magnitudes(const Vector3& v) {
 // n·c + d 2^k at integers c below 2^61, 0 <= k <= 100, that are within `reach` of a point of the
 // plane: exact, then rounded at most twice. It is at most reach Σ|n_i|, so it mostly has fewer than
 // 127 bits, and then its terms need no more either: all is modulo 2^128. Else |d| 2^k is at most
-// about 3 max|n| 2^61, so 174 bits hold all terms.
+// about 3 max|n| 2^61, so 177 bits hold all terms on whole coordinates. The result is scaled as the
+// plane's doubles are.
 double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k, double reach) {
-    if (sum_of_magnitudes(normal_of(plane)) * reach < 0x1p125) [[likely]] {
-        const Plane::Offset& d = plane.offset();
+    const double unit = power_of_two(-plane.approx_shift());
+    if (sum_of_magnitudes(normal_of(plane)) * reach < 0x1p125 * unit) [[likely]] {
+        const Plane::Coefficient& d = plane.offset();
         Uint128 sum = (Uint128{d.limb(1)} << 64 | d.limb(0)) << k;
         for (int i = 0; i < 3; ++i)
-            sum += static_cast<Uint128>(plane.normal(i)) *
+            sum += (Uint128{plane.normal(i).limb(1)} << 64 | plane.normal(i).limb(0)) *
                    static_cast<Uint128>(Int128{c[static_cast<std::size_t>(i)]});
         const bool negative = (sum >> 127) != 0;
         const double size = to_double(negative ? -sum : sum);
-        return negative ? -size : size;
+        return (negative ? -size : size) * unit;
     }
-    WideInt<3> sum = plane.offset().shifted_left(k);
-    for (int i = 0; i < 3; ++i)
-        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(c[static_cast<std::size_t>(i)]));
-    return sum.to_double();
+    const auto wide = [&]<int N>(std::integral_constant<int, N>) {
+        auto sum = WideInt<N>(plane.offset()).shifted_left(k);
+        for (int i = 0; i < 3; ++i)
+            sum += multiply<N>(plane.normal(i), WideInt<1>(c[static_cast<std::size_t>(i)]));
+        return sum.to_double() * unit;
+    };
+    // 484 bits above the first two tiers.
+    return plane.tier() <= 1 ? wide(std::integral_constant<int, 3>())
+                             : wide(std::integral_constant<int, 8>());
 }
 
 // Three planes n·x + d = 0, in doubles.
@@ -175,23 +184,35 @@ std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, 
 
 }  // namespace
 
-double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator) {
+namespace {
+
+// Within a few roundings.
+template <int N>
+double rough_quotient(const WideInt<N>& n, const WideInt<N>& d) {
+    if constexpr (64 * N < 1000) return n.to_double() / d.to_double();
+    const auto a = detail::BoundedInt(n).scaled();
+    const auto b = detail::BoundedInt(d).scaled();
+    return std::ldexp(a.mantissa / b.mantissa, a.exponent - b.exponent);
+}
+
+// N limbs hold the numbers, and the smaller one with as many bits as the other one has, and 56.
+template <int N>
+double nearest_quotient(const WideInt<N>& numerator, const WideInt<N>& denominator) {
     if (numerator.is_zero()) return 0;
     // Scale so that the integer quotient q has 55 or 56 bits: n = |numerator| 2^k, or the divisor
-    // takes 2^-k. The scaled numbers have at most 385 bits.
-    WideInt<7> n = numerator.abs();
-    WideInt<7> d(denominator);
+    // takes 2^-k.
+    WideInt<N> n = numerator.abs();
+    WideInt<N> d(denominator);
     const int k = 55 - (n.bit_length() - d.bit_length());
     (k >= 0 ? n : d) = (k >= 0 ? n : d).shifted_left(std::abs(k));
     // Two quotients of doubles leave an error of a few units; the exact remainder corrects it and
     // proves q: 0 <= rest < d.
-    const double divisor = d.to_double();
     std::int64_t q = 0;
-    WideInt<7> rest = n;
+    WideInt<N> rest = n;
     for (int step = 0; step < 2; ++step) {
-        const auto t = static_cast<std::int64_t>(rest.to_double() / divisor);
+        const auto t = static_cast<std::int64_t>(rough_quotient(rest, d));
         q += t;
-        rest -= multiply<7>(d, WideInt<1>(t));
+        rest -= multiply<N>(d, WideInt<1>(t));
     }
     for (; rest.is_negative(); rest += d) --q;
     for (; rest >= d; rest -= d) ++q;
@@ -205,7 +226,20 @@ double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator
     return numerator.is_negative() ? -r : r;
 }
 
+// Of the first two tiers: 398 and 342 bits.
+double short_quotient(const HomogeneousPoint& p, std::size_t k) {
+    return nearest_quotient(WideInt<7>(p.xyz[k]), WideInt<7>(p.w));
+}
+
+}  // namespace
+
+double nearest_double(const HomogeneousPoint::Coordinate& numerator,
+                      const HomogeneousPoint::Weight& denominator) {
+    return nearest_quotient(WideInt<18>(numerator), WideInt<18>(denominator));
+}
+
 std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
+    if (p.is_short()) return {short_quotient(p, 0), short_quotient(p, 1), short_quotient(p, 2)};
     return {nearest_double(p.xyz[0], p.w), nearest_double(p.xyz[1], p.w),
             nearest_double(p.xyz[2], p.w)};
 }

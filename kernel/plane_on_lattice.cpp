@@ -31,20 +31,17 @@ Plane plane_on_lattice(const std::array<double, 4>& coefficients, Lattice lattic
     }
     if (mantissa[0] == 0 && mantissa[1] == 0 && mantissa[2] == 0)
         throw UsageError("a plane whose normal is 0");
-    std::array<Plane::Offset, 4> n;
+    std::array<Plane::Coefficient, 4> n;
     for (std::size_t i = 0; i < 4; ++i) {
         if (mantissa[i] == 0) continue;
         const int shift = exponent[i] - least;
         const int limit = i < 3 ? 109 : 162;
-        const Plane::Offset m(mantissa[i]);
+        const Plane::Coefficient m(mantissa[i]);
         if (shift > limit || m.bit_length() + shift >= limit)
             throw LimitError("the coefficients of the plane span too many bits for the lattice");
         n[i] = m.shifted_left(shift);
     }
-    const auto narrow = [](const Plane::Offset& v) {
-        return static_cast<Int128>((Uint128{v.limb(1)} << 64) | v.limb(0));
-    };
-    return {narrow(n[0]), narrow(n[1]), narrow(n[2]), n[3]};
+    return {n[0], n[1], n[2], n[3]};
 }
 
 }  // namespace trisect

@@ -58,11 +58,13 @@ HomogeneousPoint Point::homogeneous() const {
 std::array<double, 3> Point::nearest() const { return approximation_.c; }
 
 bool operator==(const Point& a, const Point& b) {
-    if (a.is_lattice() != b.is_lattice()) return false;
-    if (a.is_lattice()) return a.lattice_ == b.lattice_;
+    if (a.is_lattice() && b.is_lattice()) return a.lattice_ == b.lattice_;
     if (a.planes_ == b.planes_) return true;
     // Correctly rounded coordinates are a function of the exact point.
     if (a.approximation_.c != b.approximation_.c) return false;
+    if (a.is_lattice()) return b == a;
+    // Whole points of planes are lattice points.
+    if (b.is_lattice() && b.lattice_.is_whole()) return false;
     for (const Plane& plane : a.planes_->planes)
         if (side_of(b, plane) != Side::On) return false;
     return true;

@@ -17,7 +17,7 @@ namespace trisect::predicate_suite {
                                          const PlaneEquation& r, const PlaneEquation& s) {
     const auto plane = [](const PlaneEquation& e) {
         const auto n = [&e](std::size_t i) { return static_cast<std::int64_t>(e[i]); };
-        return Plane(n(0), n(1), n(2), Plane::Offset(n(3)));
+        return Plane(n(0), n(1), n(2), Plane::Coefficient(n(3)));
     };
     const Plane a = plane(p);
     const Plane b = plane(q);

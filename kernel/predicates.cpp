@@ -24,6 +24,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/digits.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/filters.h>
 #include <trisect/kernel/number/vector3.h>
@@ -34,6 +35,7 @@ using detail::add_product;
 using detail::carried;
 using detail::Columns;
 using detail::determinant_rounding;
+using detail::digit_bits;
 using detail::Digits;
 using detail::negate_if;
 using detail::sign_of;
@@ -43,13 +45,45 @@ using detail::to_wide_int;
 
 namespace {
 
-// Widths of one tier in digits of 56 bits; the top digit may have 62 bits.
-struct Narrow {
-    static constexpr int normal = 1, offset = 2, cross = 2, w = 3, xyz = 4;
+// Widths of the tiers in digits of 56 bits; the top digit may have 62 bits. With n and d bits of a
+// normal and an offset (plane.cpp) a minor has 2 n + 1, w has 3 n + 3, xyz has 2 n + d + 4.
+template <int Normal, int Offset, int Cross, int W, int Xyz>
+struct Tier {
+    static constexpr int normal = Normal, offset = Offset, cross = Cross, w = W, xyz = Xyz;
 };
-struct Wide {
-    static constexpr int normal = 2, offset = 3, cross = 4, w = 6, xyz = 7;
-};
+using Narrow = Tier<1, 2, 2, 3, 4>;    // 56 and 83 bits
+using Wide = Tier<2, 3, 4, 6, 7>;      // 112 and 168: all that whole coordinates give
+using Wide2 = Tier<3, 4, 7, 10, 11>;   // 174 and 230
+using Wide3 = Tier<4, 5, 9, 13, 14>;   // 230 and 286
+using Wide4 = Tier<6, 7, 12, 18, 19>;  // 328 and 384: all
+
+constexpr int bits_of(int digits) { return digit_bits * (digits - 1) + 62; }
+
+template <class T, int N, int D>
+constexpr bool holds = bits_of(T::normal) >= N&& bits_of(T::offset) >= D&& bits_of(T::cross) >=
+                           2 * N + 1 &&
+                       bits_of(T::w) >= 3 * N + 3 && bits_of(T::xyz) >= 2 * N + D + 4;
+static_assert(holds<Narrow, 56, 83> && holds<Wide, 112, 168> && holds<Wide2, 174, 230> &&
+              holds<Wide3, 230, 286> && holds<Wide4, 328, 384>);
+
+// Calls f with the tier of that number. Most are of the first two.
+template <class F>
+auto in_tier(int tier, F&& f) {
+    if (tier == 0) return f(Narrow{});
+    if (tier == 1) return f(Wide{});
+    if (tier == 2) return f(Wide2{});
+    return tier == 3 ? f(Wide3{}) : f(Wide4{});
+}
+
+template <class... P>
+int tier_of(const P&... planes) {
+    return std::max({planes.tier()...});
+}
+
+void count_exact(int tier) {
+    auto& counters = detail::counters_of_thread<PredicateCounters>;
+    ++(tier == 0 ? counters.exact_narrow : counters.exact_wide);
+}
 
 template <class T>
 using Normal = std::array<Digits<T::normal>, 3>;
@@ -121,9 +155,12 @@ template <class T>
 }
 
 template <class T>
-HomogeneousPoint homogeneous(const TierPoint<T>& x) {
-    return {{to_wide_int<7>(x.xyz[0]), to_wide_int<7>(x.xyz[1]), to_wide_int<7>(x.xyz[2])},
-            to_wide_int<6>(x.w)};
+HomogeneousPoint homogeneous(const TierPoint<T>& x, int tier) {
+    HomogeneousPoint out;
+    for (std::size_t i = 0; i < 3; ++i) out.xyz[i] = to_wide_int<17>(x.xyz[i]);
+    out.w = to_wide_int<16>(x.w);
+    out.tier = tier;
+    return out;
 }
 
 template <class T>
@@ -142,17 +179,9 @@ TierPoint<T> tier_point(const HomogeneousPoint& p) {
             1};
 }
 
-// Whether the digits of the narrow tier hold the point: |x| < 2^229 (of 230), w < 2^173 (of 174).
-bool fits_narrow(const HomogeneousPoint& p) {
-    bool fits =
-        p.w.limb(2) < (std::uint64_t{1} << 45) && (p.w.limb(3) | p.w.limb(4) | p.w.limb(5)) == 0;
-    constexpr std::uint64_t half = std::uint64_t{1} << 37;
-    for (const auto& x : p.xyz) {
-        const std::uint64_t sign = x.is_negative() ? ~std::uint64_t{0} : 0;
-        const std::uint64_t above = (x.limb(4) ^ sign) | (x.limb(5) ^ sign) | (x.limb(6) ^ sign);
-        fits = fits && above == 0 && x.limb(3) + half < 2 * half;
-    }
-    return fits;
+template <class T>
+constexpr bool has_room(int xyz_bits, int w_bits) {
+    return xyz_bits <= bits_of(T::xyz) && w_bits <= bits_of(T::w);
 }
 
 template <class T>
@@ -173,10 +202,6 @@ int sign_of_dot(const Plane& a, const Plane& b) {
 
 std::array<double, 3> approx_normal(const Plane& p) {
     return {p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
-}
-
-bool all_narrow(const Plane& p, const Plane& q, const Plane& r) {
-    return p.is_narrow() && q.is_narrow() && r.is_narrow();
 }
 
 // Cramer's rule in doubles, off by less than determinant_rounding of the magnitudes.
@@ -238,33 +263,39 @@ std::optional<Quotients> quotients(const DoubleCramer& d) {
 
 }  // namespace
 
+HomogeneousPoint::HomogeneousPoint(const std::array<Coordinate, 3>& coordinates,
+                                   const Weight& weight)
+    : xyz(coordinates), w(weight) {
+    const int bits = std::max({xyz[0].bit_length(), xyz[1].bit_length(), xyz[2].bit_length()});
+    const int w_bits = w.bit_length();
+    tier = has_room<Narrow>(bits, w_bits)  ? 0
+           : has_room<Wide>(bits, w_bits)  ? 1
+           : has_room<Wide2>(bits, w_bits) ? 2
+           : has_room<Wide3>(bits, w_bits) ? 3
+                                           : 4;
+}
+
 std::optional<HomogeneousPoint> intersect(const Plane& p, const Plane& q, const Plane& r) {
-    if (all_narrow(p, q, r)) {
-        const auto t = cramer<Narrow>(p, q, r);
+    const int tier = tier_of(p, q, r);
+    return in_tier(tier, [&]<class T>(T) -> std::optional<HomogeneousPoint> {
+        const auto t = cramer<T>(p, q, r);
         if (t.sign_w == 0) return std::nullopt;
-        return homogeneous(t);
-    }
-    const auto t = cramer<Wide>(p, q, r);
-    if (t.sign_w == 0) return std::nullopt;
-    return homogeneous(t);
+        return homogeneous(t, tier);
+    });
 }
 
 int sign_of_det(const Plane& a, const Plane& b, const Plane& c) {
     const int filtered =
         detail::filter_det(approx_normal(a), approx_normal(b), approx_normal(c)).sign();
-    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (filtered != 0) {
-        ++counters.filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return filtered;
     }
-    if (all_narrow(a, b, c)) {
-        ++counters.exact_narrow;
-        return sign_of(det<Narrow>(normal_of<Narrow>(a),
-                                   cross<Narrow>(normal_of<Narrow>(b), normal_of<Narrow>(c))));
-    }
-    ++counters.exact_wide;
-    return sign_of(
-        det<Wide>(normal_of<Wide>(a), cross<Wide>(normal_of<Wide>(b), normal_of<Wide>(c))));
+    const int tier = tier_of(a, b, c);
+    count_exact(tier);
+    return in_tier(tier, [&]<class T>(T) {
+        return sign_of(det<T>(normal_of<T>(a), cross<T>(normal_of<T>(b), normal_of<T>(c))));
+    });
 }
 
 bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
@@ -272,8 +303,13 @@ bool meet_in_a_point(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 HomogeneousPoint homogeneous(const LatticePoint& p) {
-    const auto x = detail::to_integers(p);
-    return {{WideInt<7>(x[0]), WideInt<7>(x[1]), WideInt<7>(x[2])}, WideInt<6>(1)};
+    const int bits = detail::fraction_bits(p);
+    HomogeneousPoint out;
+    for (std::size_t k = 0; k < 3; ++k)
+        out.xyz[k] = detail::scaled_integer(detail::coordinate(p, k), bits);
+    out.w = HomogeneousPoint::Weight(1).shifted_left(bits);
+    out.tier = 0;  // 126 and 74 bits
+    return out;
 }
 
 Approximation approximate(const LatticePoint& p) { return {p.doubles(), 0.0}; }
@@ -306,30 +342,30 @@ Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
 }
 
 Side side_of(const LatticePoint& point, const Plane& plane) {
-    auto& counters = detail::counters_of_thread<PredicateCounters>;
     if (const auto s = filtered_side(approximate(point), plane)) {
-        ++counters.filtered;
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
         return *s;
     }
-    if (plane.is_narrow()) {
-        ++counters.exact_narrow;
-    } else {
-        ++counters.exact_wide;
+    count_exact(plane.tier());
+    if (plane.tier() <= 1 && point.is_whole()) {
+        WideInt<3> sum(plane.offset());
+        for (int i = 0; i < 3; ++i)
+            sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(point[i].to_integer()));
+        return side_from_sign(sum.sign());
     }
-    Plane::Offset sum = plane.offset();
+    // 384 + 73 bits, and 328 + 126.
+    const int bits = detail::fraction_bits(point);
+    WideInt<8> sum = WideInt<8>(plane.offset()).shifted_left(bits);
     for (int i = 0; i < 3; ++i)
-        sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(point[i].to_integer()));
+        sum += multiply<8>(plane.normal(i), WideInt<2>(detail::scaled_integer(point[i], bits)));
     return side_from_sign(sum.sign());
 }
 
 Side side_of(const HomogeneousPoint& point, const Plane& plane) {
-    auto& counters = detail::counters_of_thread<PredicateCounters>;
-    if (plane.is_narrow() && fits_narrow(point)) {
-        ++counters.exact_narrow;
-        return side_from_sign(sign_at(tier_point<Narrow>(point), plane));
-    }
-    ++counters.exact_wide;
-    return side_from_sign(sign_at(tier_point<Wide>(point), plane));
+    const int tier = std::max(plane.tier(), point.tier);
+    count_exact(tier);
+    return in_tier(
+        tier, [&]<class T>(T) { return side_from_sign(sign_at(tier_point<T>(point), plane)); });
 }
 
 Side side_of(const Approximation& approximation, const Plane& p, const Plane& q, const Plane& r,
@@ -343,19 +379,23 @@ Side side_of(const Approximation& approximation, const Plane& p, const Plane& q,
         ++counters.symbolic;
         return Side::On;
     }
-    if (plane.is_narrow() && all_narrow(p, q, r)) {
-        ++counters.exact_narrow;
-        return side_from_sign(sign_at(cramer<Narrow>(p, q, r), plane));
-    }
-    ++counters.exact_wide;
-    return side_from_sign(sign_at(cramer<Wide>(p, q, r), plane));
+    const int tier = tier_of(p, q, r, plane);
+    count_exact(tier);
+    return in_tier(tier,
+                   [&]<class T>(T) { return side_from_sign(sign_at(cramer<T>(p, q, r), plane)); });
 }
 
 std::strong_ordering compare_coordinate(const HomogeneousPoint& a, const HomogeneousPoint& b,
                                         int axis) {
     const auto i = static_cast<std::size_t>(axis);
-    // 384 + 330 bits; both denominators are positive.
-    return multiply<13>(a.xyz[i], b.w) <=> multiply<13>(b.xyz[i], a.w);
+    // Both denominators are positive. 398 + 342 bits, or 1070 + 1014.
+    if (a.is_short() && b.is_short()) {
+        const auto product = [i](const HomogeneousPoint& x, const HomogeneousPoint& y) {
+            return multiply<13>(WideInt<7>(x.xyz[i]), WideInt<6>(y.w));
+        };
+        return product(a, b) <=> product(b, a);
+    }
+    return multiply<33>(a.xyz[i], b.w) <=> multiply<33>(b.xyz[i], a.w);
 }
 
 int sign_of_cross(const Plane& a, const Plane& b, int axis) {
@@ -369,12 +409,9 @@ int sign_of_cross(const Plane& a, const Plane& b, int axis) {
         ++counters.filtered;
         return filtered.sign();
     }
-    if (a.is_narrow() && b.is_narrow()) {
-        ++counters.exact_narrow;
-        return sign_of_cross<Narrow>(a, b, j, l);
-    }
-    ++counters.exact_wide;
-    return sign_of_cross<Wide>(a, b, j, l);
+    const int tier = tier_of(a, b);
+    count_exact(tier);
+    return in_tier(tier, [&]<class T>(T) { return sign_of_cross<T>(a, b, j, l); });
 }
 
 int sign_of_dot(const Plane& a, const Plane& b) {
@@ -384,12 +421,9 @@ int sign_of_dot(const Plane& a, const Plane& b) {
         ++counters.filtered;
         return filtered;
     }
-    if (a.is_narrow() && b.is_narrow()) {
-        ++counters.exact_narrow;
-        return sign_of_dot<Narrow>(a, b);
-    }
-    ++counters.exact_wide;
-    return sign_of_dot<Wide>(a, b);
+    const int tier = tier_of(a, b);
+    count_exact(tier);
+    return in_tier(tier, [&]<class T>(T) { return sign_of_dot<T>(a, b); });
 }
 
 bool is_same_plane(const Plane& a, const Plane& b) {
@@ -397,8 +431,13 @@ bool is_same_plane(const Plane& a, const Plane& b) {
         if (sign_of_cross(a, b, i) != 0) return false;
     // Parallel normals: compare offsets scaled by the other's normal along the dominant axis.
     const int k = a.dominant_axis();
-    return multiply<5>(a.offset(), WideInt<2>(b.normal(k))) ==
-           multiply<5>(b.offset(), WideInt<2>(a.normal(k)));
+    if (std::max(a.tier(), b.tier()) <= 1) {
+        const auto product = [k](const Plane& p, const Plane& q) {
+            return multiply<5>(WideInt<3>(p.offset()), WideInt<2>(q.normal(k)));
+        };
+        return product(a, b) == product(b, a);
+    }
+    return multiply<12>(a.offset(), b.normal(k)) == multiply<12>(b.offset(), a.normal(k));
 }
 
 bool same_orientation(const Plane& a, const Plane& b) { return sign_of_dot(a, b) > 0; }

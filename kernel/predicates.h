@@ -4,7 +4,8 @@
 //   1. symbolic  a point built from a plane lies on it: by name, or by equal coefficients;
 //   2. filtered  double arithmetic with a derived error bound, for round-to-nearest (no other
 //                assumption: no extended registers, no subnormals, -ffp-contract=off);
-//   3. exact     fixed-width integers, 256 bits for narrow planes, 512 bits otherwise.
+//   3. exact     fixed-width integers in five tiers, by the bits that the coefficients at hand
+//   have.
 // There is no tolerance. Which stage decided is counted (counters.h).
 #pragma once
 
@@ -20,10 +21,21 @@
 
 namespace trisect {
 
-/// A point (x/w, y/w, z/w), w > 0. With the widths of plane.h |w| < 2^330 and |x| < 2^384.
+/// A point (x/w, y/w, z/w), w > 0. With the widths of plane.h |w| < 2^988 and |x| < 2^1044; on
+/// whole coordinates |w| < 2^330 and |x| < 2^384.
 struct HomogeneousPoint {
-    std::array<WideInt<7>, 3> xyz;
-    WideInt<6> w;
+    using Coordinate = WideInt<17>;
+    using Weight = WideInt<16>;
+
+    HomogeneousPoint() = default;
+    HomogeneousPoint(const std::array<Coordinate, 3>& coordinates, const Weight& weight);
+
+    std::array<Coordinate, 3> xyz;
+    Weight w;
+    /// The least tier of predicates with room for these numbers, or one above it.
+    int tier = 4;
+    /// Whether |w| < 2^383 and |x| < 2^447.
+    [[nodiscard]] bool is_short() const { return tier <= 1; }
 };
 
 /// Certified double coordinates: every exact coordinate is within `error` of its approximation.
@@ -47,7 +59,8 @@ struct Approximation {
 [[nodiscard]] Approximation approximate(const HomogeneousPoint& p);
 
 /// The double nearest to numerator / denominator, ties to even. \pre denominator > 0.
-[[nodiscard]] double nearest_double(const WideInt<7>& numerator, const WideInt<6>& denominator);
+[[nodiscard]] double nearest_double(const HomogeneousPoint::Coordinate& numerator,
+                                    const HomogeneousPoint::Weight& denominator);
 /// Correctly rounded coordinates: a function of the exact point alone.
 [[nodiscard]] std::array<double, 3> nearest_doubles(const HomogeneousPoint& p);
 /// The same for p∩q∩r, given what approximate(p, q, r) returned: filtered, then exact.

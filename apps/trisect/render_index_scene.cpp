@@ -13,34 +13,20 @@
 namespace trisect::app {
 namespace {
 
-Int128 magnitude(Int128 a) { return a < 0 ? -a : a; }
-
-Int128 common_divisor(Int128 a, Int128 b) {
-    a = magnitude(a);
-    b = magnitude(b);
-    while (b != 0) {
-        const Int128 rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /// A plane with what tells quickly that two planes differ.
 struct Candidate {
-    std::array<Int128, 3> direction{};  ///< the normal in lowest terms
-    double distance = 0;                ///< of the origin, rounded
+    std::array<Plane::Coefficient, 3> direction{};  ///< the normal in lowest terms
+    double distance = 0;                            ///< of the origin, rounded
     const Plane* plane = nullptr;
     std::uint32_t look = 0;
 };
 
 Candidate candidate_of(const Plane& plane, std::uint32_t look) {
     Candidate c;
-    Int128 divisor = 0;
-    for (int k = 0; k < 3; ++k) divisor = common_divisor(divisor, plane.normal(k));
-    for (int k = 0; k < 3; ++k)
-        c.direction[static_cast<std::size_t>(k)] = plane.normal(k) / divisor;
-    c.distance = plane.approx_offset() / static_cast<double>(divisor);
+    c.direction = plane.direction();
+    const double length =
+        std::hypot(plane.approx_normal(0), plane.approx_normal(1), plane.approx_normal(2));
+    c.distance = plane.approx_offset() / length;
     c.plane = &plane;
     c.look = look;
     return c;
@@ -77,9 +63,8 @@ std::size_t IndexScene::Hash::operator()(const Key& key) const {
         h ^= h >> 29;
     };
     for (int k = 0; k < 3; ++k) {
-        const Int128 n = key.plane.normal(k);
-        mix(static_cast<std::uint64_t>(n));
-        mix(static_cast<std::uint64_t>(n >> 64));
+        mix(key.plane.normal(k).limb(0));
+        mix(key.plane.normal(k).limb(1));
     }
     mix(key.plane.offset().limb(0));
     return h;

@@ -18,6 +18,7 @@
 
 #include <trisect/brep/face/loops_below.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/bounded_int.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/predicates.h>
@@ -87,12 +88,21 @@ int PlaneProjection::exact_orientation(const HomogeneousPoint& a, const Homogene
                                        const HomogeneousPoint& c, Axes axes) {
     const auto i = static_cast<std::size_t>(axes.u);
     const auto j = static_cast<std::size_t>(axes.v);
+    if (!(a.is_short() && b.is_short() && c.is_short())) {
+        using detail::BoundedInt;  // 3157 bits
+        const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
+            return BoundedInt(s.xyz[i]) * t.xyz[j] - BoundedInt(s.xyz[j]) * t.xyz[i];
+        };
+        return (minor(a, b) * c.w + minor(b, c) * a.w + minor(c, a) * b.w).sign();
+    }
     const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
-        return multiply<13>(s.xyz[i], t.xyz[j]) - multiply<13>(s.xyz[j], t.xyz[i]);
+        return multiply<13>(WideInt<7>(s.xyz[i]), WideInt<7>(t.xyz[j])) -
+               multiply<13>(WideInt<7>(s.xyz[j]), WideInt<7>(t.xyz[i]));
     };
-    return (multiply<18>(minor(a, b), c.w) + multiply<18>(minor(b, c), a.w) +
-            multiply<18>(minor(c, a), b.w))
-        .sign();
+    const auto times = [](const WideInt<13>& m, const HomogeneousPoint& p) {
+        return multiply<18>(m, WideInt<6>(p.w));
+    };
+    return (times(minor(a, b), c) + times(minor(b, c), a) + times(minor(c, a), b)).sign();
 }
 
 PlanarLoops::PlanarLoops(const Plane& plane, std::span<const Point> points,

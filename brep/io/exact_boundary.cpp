@@ -42,10 +42,7 @@ public:
 
 private:
     struct Key {
-        Int128 a;
-        Int128 b;
-        Int128 c;
-        Plane::Offset d;
+        Plane::Coefficient a, b, c, d;
         bool operator<(const Key& o) const {
             if (a != o.a) return a < o.a;
             if (b != o.b) return b < o.b;
@@ -192,7 +189,7 @@ private:
     }
 
     // An integer below 2^bits.
-    Plane::Offset wide(const char* what, int bits) {
+    Plane::Coefficient wide(const char* what, int bits) {
         const std::string_view word = text_.word();
         std::string_view digits = word;
         if (!digits.empty() && digits.front() == '-') digits.remove_prefix(1);
@@ -202,29 +199,26 @@ private:
             source_.fail(word.empty() ? text_.here() : word.data(),
                          detail::shown_word(word) + ", read as " + what + ", is not an integer");
         // 10^56 < 2^187: nothing is lost before the check.
-        Plane::Offset value;
+        Plane::Coefficient value;
         if (digits.size() <= 56)
             for (const char c : digits)
-                value = multiply<3>(value, WideInt<1>(10)) + Plane::Offset(c - '0');
+                value = multiply<6>(value, WideInt<1>(10)) + Plane::Coefficient(c - '0');
         if (digits.size() > 56 || value.bit_length() > bits)
             source_.fail(word.data(), detail::shown_word(word) + ", read as " + what +
                                           ", is not below 2^" + std::to_string(bits));
         return word.front() == '-' ? -value : value;
     }
-    Int128 narrow(const char* what) {
-        const Plane::Offset v = wide(what, 109);
-        return static_cast<Int128>(Uint128{v.limb(1)} << 64 | v.limb(0));
-    }
+    Plane::Coefficient narrow(const char* what) { return wide(what, 109); }
 
     void read_planes() {
         const std::uint64_t n = counted("planes", source_.limits().faces);
         for (std::uint64_t i = 0; i < n; ++i) {
             seek("plane", i, n);
             const char* at = text_.here();
-            const Int128 a = narrow("a coefficient of a plane");
-            const Int128 b = narrow("a coefficient of a plane");
-            const Int128 c = narrow("a coefficient of a plane");
-            const Plane::Offset d = wide("the offset of a plane", 162);
+            const Plane::Coefficient a = narrow("a coefficient of a plane");
+            const Plane::Coefficient b = narrow("a coefficient of a plane");
+            const Plane::Coefficient c = narrow("a coefficient of a plane");
+            const Plane::Coefficient d = wide("the offset of a plane", 162);
             text_.expect_line_end();
             if (a == 0 && b == 0 && c == 0) source_.fail(at, "a plane without a normal");
             planes_.emplace_back(a, b, c, d);

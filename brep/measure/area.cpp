@@ -113,10 +113,10 @@ FaceArea face_area(const Brep& brep, FaceId f) {
     const int k = plane.dominant_axis();
     mpz_class square = 0;
     for (int i = 0; i < 3; ++i) {
-        const mpz_class n = to_integer(WideInt<2>(plane.normal(i)));
+        const mpz_class n = to_integer(plane.normal(i));
         square += n * n;
     }
-    const mpz_class divisor = 2 * abs(to_integer(WideInt<2>(plane.normal(k))));
+    const mpz_class divisor = 2 * abs(to_integer(plane.normal(k)));
     return {abs(doubled_projection(brep, f, k)) / divisor, std::move(square)};
 }
 

@@ -29,8 +29,7 @@ ExactVector vector_of(const Point& p) {
 }
 
 std::array<mpz_class, 3> normal_of(const Plane& p) {
-    return {to_integer(WideInt<2>(p.normal(0))), to_integer(WideInt<2>(p.normal(1))),
-            to_integer(WideInt<2>(p.normal(2)))};
+    return {to_integer(p.normal(0)), to_integer(p.normal(1)), to_integer(p.normal(2))};
 }
 
 mpz_class largest(const std::array<mpz_class, 3>& v) {

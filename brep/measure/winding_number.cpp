@@ -90,7 +90,7 @@ private:
     int side_of_plane(const Plane& p) const {
         mpz_class value = to_integer(p.offset()) * q_.w;
         for (int i = 0; i < 3; ++i)
-            value += to_integer(WideInt<2>(p.normal(i))) * q_.x[static_cast<std::size_t>(i)];
+            value += to_integer(p.normal(i)) * q_.x[static_cast<std::size_t>(i)];
         return sgn(value);
     }
 

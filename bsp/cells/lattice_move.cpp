@@ -63,11 +63,11 @@ FinePoint LatticeMove::applied(const FinePoint& p) const {
 
 // n' = P n and n' · x' + d' = n · x + d.
 Plane LatticeMove::applied(const Plane& plane) const {
-    std::array<Int128, 3> n{};
-    Plane::Offset d = plane.offset();
+    std::array<Plane::Coefficient, 3> n{};
+    Plane::Coefficient d = plane.offset();
     for (std::size_t i = 0; i < 3; ++i) {
-        n[i] = sign[i] * plane.normal(from[i]);
-        d -= multiply<3>(WideInt<2>(n[i]), WideInt<1>(by[i]));
+        n[i] = sign[i] < 0 ? -plane.normal(from[i]) : plane.normal(from[i]);
+        d -= multiply<6>(n[i], WideInt<1>(by[i]));
     }
     if (d.bit_length() > offset_bits) throw LimitError("a moved plane leaves the lattice");
     return {n[0], n[1], n[2], d};

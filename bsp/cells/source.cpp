@@ -81,14 +81,7 @@ Plane Source::edge_plane(std::uint32_t facet, int i, const Plane& support) const
 }
 
 int Source::edge_axis(const Plane& support) const {
-    const auto size = [&](int i) {
-        const Int128 n = support.normal(i);
-        return n < 0 ? -n : n;
-    };
-    int best = axes_[0];
-    for (const int i : {axes_[1], axes_[2]})
-        if (size(i) > size(best)) best = i;
-    return best;
+    return support.largest_normal(axes_[0], axes_[1], axes_[2]);
 }
 
 // The source is not shared yet.
@@ -175,9 +168,9 @@ std::shared_ptr<const Source> Source::half_space_on(int exponent) const {
                              " cannot move to the lattice of unit 2^" + std::to_string(exponent));
         n[i] = by >= 0 ? n[i].shifted_left(by) : n[i].shifted_right(-by);
     }
-    auto out = renamed_as_this(
-        half_space(Plane(n[0].to_int128(), n[1].to_int128(), n[2].to_int128(), n[3].to_wide<3>()),
-                   Lattice{exponent}));
+    auto out = renamed_as_this(half_space(
+        Plane(n[0].to_wide<6>(), n[1].to_wide<6>(), n[2].to_wide<6>(), n[3].to_wide<6>()),
+        Lattice{exponent}));
     const_cast<Source&>(*out).serial_ = serial_;
     return out;
 }

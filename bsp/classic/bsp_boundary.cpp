@@ -67,8 +67,8 @@ private:
     std::vector<std::pair<ConvexPolygon, BspNodeId>> pending_;
 };
 
-template <int N>
-ExactRational fraction(const WideInt<N>& numerator, const WideInt<6>& denominator) {
+ExactRational fraction(const HomogeneousPoint::Coordinate& numerator,
+                       const HomogeneousPoint::Weight& denominator) {
     return ExactRational(numerator) / ExactRational(denominator);
 }
 
@@ -92,8 +92,7 @@ ExactRational six_cone_volumes(const ConvexPolygon& polygon) {
         const auto& b = corners[i + 1 < corners.size() ? i + 1 : 0];
         twice_area += a[0] * b[1] - a[1] * b[0];
     }
-    return -(twice_area * ExactRational(plane.offset()) /
-             ExactRational(WideInt<2>(plane.normal(axis))));
+    return -(twice_area * ExactRational(plane.offset()) / ExactRational(plane.normal(axis)));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ private:
         const auto mix = [&h](std::uint64_t v) { h = (h ^ v) * 0x9e3779b97f4a7c15U + (h >> 29U); };
         mix(child_key(node.below));
         mix(child_key(node.above));
-        for (int i = 0; i < 3; ++i) mix(static_cast<std::uint64_t>(node.plane.normal(i)));
+        for (int i = 0; i < 3; ++i) mix(node.plane.normal(i).limb(0));
         mix(node.plane.offset().limb(0));
         return static_cast<std::size_t>(h);
     }

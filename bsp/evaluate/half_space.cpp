@@ -14,9 +14,7 @@ CellRef half_space_root(const Source& source) {
     int s = 0;
     for (std::int64_t k = 1; s == 0; ++k) {
         p.c = {2 * k, 6 * k * k, 10 * k * k * k};
-        s = sign_of(side_of({{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
-                             WideInt<6>(splitting_scale)},
-                            plane));
+        s = sign_of(side_of(HomogeneousPoint({p.c[0], p.c[1], p.c[2]}, splitting_scale), plane));
     }
     return {CellNode::fresh(source, p, s < 0 ? 1 : 0, false), false};
 }

@@ -71,7 +71,7 @@ public:
         ++detail::counters_of_thread<PredicateCounters>.exact_wide;
         ExactRational sum(plane.offset());
         for (int i = 0; i < 3; ++i)
-            sum += ExactRational(WideInt<2>(plane.normal(i))) *
+            sum += ExactRational(plane.normal(i)) *
                    ExactRational::from_double(p_[static_cast<std::size_t>(i)]).scaled(-exponent_);
         return side_from_sign(sum.sign());
     }

@@ -16,4 +16,11 @@ namespace trisect::detail {
     return v < 0 ? -static_cast<Uint128>(v) : static_cast<Uint128>(v);
 }
 
+/// \pre the number fits.
+template <int N>
+[[nodiscard]] constexpr Int128 to_int128(const WideInt<N>& v) {
+    static_assert(N >= 2);
+    return static_cast<Int128>(Uint128{v.limb(1)} << 64 | v.limb(0));
+}
+
 }  // namespace trisect::detail

@@ -29,6 +29,7 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -48,6 +49,9 @@ int counted(int sign, bool narrow) {
 }
 
 constexpr int narrow_bits = 255;
+
+// A lattice point without fractions.
+bool is_whole(const Point& p) { return p.is_lattice() && p.lattice().is_whole(); }
 
 // 128 bits ------------------------------------------------------------------------------------
 //
@@ -143,15 +147,15 @@ int filtered_orientation(const SizedVector& u, const SizedVector& v, const Sized
 }  // namespace
 
 IntPoint exact_point(const Point& p) {
-    if (p.is_lattice()) return {to_ints(to_integers(p.lattice())), BoundedInt(1)};
-    const HomogeneousPoint& h = p.plane_point()->exact;
+    if (is_whole(p)) return {to_ints(to_integers(p.lattice())), BoundedInt(1)};
+    const HomogeneousPoint h = p.homogeneous();
     return {{BoundedInt(h.xyz[0]), BoundedInt(h.xyz[1]), BoundedInt(h.xyz[2])}, BoundedInt(h.w)};
 }
 
 // Directions ---------------------------------------------------------------------------------
 
 Direction::Direction(const Point& from, const Point& to) {
-    if (from.is_lattice() && to.is_lattice()) {
+    if (is_whole(from) && is_whole(to)) {
         v_ = to_ints(difference(to.lattice(), from.lattice()));
     } else {
         v_ = difference(exact_point(from), exact_point(to));
@@ -233,7 +237,9 @@ const PulledPlane::Short& PulledPlane::short_numbers() const {
     short_known_ = true;
     const RelativePose::Short* pose = pose_->short_numbers();
     if (pose == nullptr) return short_;
-    const ShortVector n{plane_->normal(0), plane_->normal(1), plane_->normal(2)};
+    if (plane_->tier() > 1) return short_;
+    const ShortVector n{to_int128(plane_->normal(0)), to_int128(plane_->normal(1)),
+                        to_int128(plane_->normal(2))};
     const BoundedInt offset(plane_->offset());
     // S d and n·t are below 2^125 each.
     if (bits(n) + pose->bits + 3 > short_bits ||
@@ -248,15 +254,15 @@ const PulledPlane::Short& PulledPlane::short_numbers() const {
 }
 
 int PulledPlane::exact_side_of(const Point& p) const {
-    if (p.is_lattice() && pose_->short_numbers() != nullptr) {
+    const bool whole = is_whole(p);
+    if (whole && pose_->short_numbers() != nullptr) {
         const Short& e = short_numbers();
         const ShortVector x = to_short(to_integers(p.lattice()));
         // n·x is below 2^125, d below 2^126.
         if (e.n_bits + bits(x) + 3 <= short_bits) return counted_short(dot(e.n, x) + e.d);
     }
     const Exact& e = exact();
-    if (p.is_lattice())
-        return counted((dot(e.n, to_ints(to_integers(p.lattice()))) + e.d).sign(), e.narrow);
+    if (whole) return counted((dot(e.n, to_ints(to_integers(p.lattice()))) + e.d).sign(), e.narrow);
     const IntPoint x = exact_point(p);
     return counted((dot(e.n, x.x) + e.d * x.w).sign(), false);
 }
@@ -364,7 +370,7 @@ bool MovedPoint::is_at(const Point& p) const {
         for (std::size_t i = 0; i < 3; ++i)
             if (mag(a.c[i] - b.c[i]) > error) return false;
     }
-    if (p.is_lattice() && point_->is_lattice() && pose_->short_numbers() != nullptr) {
+    if (is_whole(p) && is_whole(*point_) && pose_->short_numbers() != nullptr) {
         ++detail::counters_of_thread<PredicateCounters>.exact_short;
         return way(p.lattice(), *this) == ShortVector{};
     }
@@ -379,8 +385,7 @@ bool MovedPoint::is_at(const Point& p) const {
 namespace {
 
 bool are_short(const Point& p, const Point& q, const MovedPoint& r) {
-    return p.is_lattice() && q.is_lattice() && r.point().is_lattice() &&
-           r.pose().short_numbers() != nullptr;
+    return is_whole(p) && is_whole(q) && is_whole(r.point()) && r.pose().short_numbers() != nullptr;
 }
 
 }  // namespace
@@ -395,7 +400,7 @@ int orientation(const Point& p, const Point& q, const MovedPoint& r, const Moved
             return sign;
         }
     }
-    if (are_short(p, q, r) && s.point().is_lattice())
+    if (are_short(p, q, r) && is_whole(s.point()))
         if (const auto sign = short_orientation(p.lattice(), q.lattice(), r, s)) return *sign;
     const IntPoint from = exact_point(p);
     const IntVector u = difference(from, exact_point(q));

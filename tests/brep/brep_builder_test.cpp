@@ -220,8 +220,8 @@ TEST(BrepBuilder, PitThatTouchesTheRimKeepsTheVertex) {
     const LatticePoint rim{4, 0, 8}, p{3, 3, 8}, q{5, 3, 8}, bottom{4, 2, 4};
     const Polygon outline{{0, 0, 8}, rim, {8, 0, 8}, {8, 8, 8}, {0, 8, 8}};
     const Polygon base = lifted(outline, -8);
-    s.face(Plane(0, 0, 1, Plane::Offset(-8)), {outline, {rim, p, q}});
-    s.face(Plane(0, 0, -1, Plane::Offset(0)), {reversed(base)});
+    s.face(Plane(0, 0, 1, Plane::Coefficient(-8)), {outline, {rim, p, q}});
+    s.face(Plane(0, 0, -1, Plane::Coefficient(0)), {reversed(base)});
     s.walls(base, 8);
     s.face({{p, rim, bottom}}).face({{q, p, bottom}}).face({{rim, q, bottom}});
     const Brep b = s.build();
@@ -263,7 +263,7 @@ TEST(BrepBuilder, FacesThatDisagreeOnOutsideAreRefused) {
 TEST(BrepBuilder, MalformedLoopsAreRefused) {
     BrepBuilder b{Lattice{}};
     for (int i = 0; i < 3; ++i) b.add_vertex(LatticePoint{i, i * i, 0});
-    const Plane plane(0, 0, 1, Plane::Offset(0));
+    const Plane plane(0, 0, 1, Plane::Coefficient(0));
     EXPECT_THROW(b.add_face(plane, {}, {}), Error);
     EXPECT_THROW(b.add_face(plane, {{0, 1}}, {}), Error);
     EXPECT_THROW(b.add_face(plane, {{0, 1, 2}, {0}}, {}), Error);
@@ -280,8 +280,8 @@ TEST(BrepBuilder, UnusedVerticesAreDropped) {
 
 TEST(BrepBuilder, PlanePointsNameVertices) {
     // The pyramid cut from the corner of the octant by 3x + 5y + 7z = 11.
-    const Plane x(-1, 0, 0, Plane::Offset(0)), y(0, -1, 0, Plane::Offset(0));
-    const Plane z(0, 0, -1, Plane::Offset(0)), cut(3, 5, 7, Plane::Offset(-11));
+    const Plane x(-1, 0, 0, Plane::Coefficient(0)), y(0, -1, 0, Plane::Coefficient(0));
+    const Plane z(0, 0, -1, Plane::Coefficient(0)), cut(3, 5, 7, Plane::Coefficient(-11));
     BrepBuilder b{Lattice{}};
     const auto o = b.add_vertex(Point(x, y, z)), px = b.add_vertex(Point(cut, y, z));
     const auto py = b.add_vertex(Point(x, cut, z)), pz = b.add_vertex(Point(x, y, cut));

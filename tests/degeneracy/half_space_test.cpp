@@ -26,7 +26,7 @@ using trisect::Plane;
 using trisect::Solid;
 
 Solid below(std::int64_t nx, std::int64_t ny, std::int64_t nz, std::int64_t d) {
-    return Solid::half_space(Plane(nx, ny, nz, Plane::Offset(d)), {});
+    return Solid::half_space(Plane(nx, ny, nz, Plane::Coefficient(d)), {});
 }
 
 Figures of(const Expression& e) { return figures(evaluate(e).to_brep()); }
@@ -179,12 +179,12 @@ TEST_F(HalfSpaces, VerticesNearerToEachOtherThanDoublesCanTell) {
         (Expression(Solid::from_mesh(a, options)) | Solid::from_mesh(b, options)) ^
         Solid::from_mesh(moved, options);
     const Solid across = Solid::half_space(
-        Plane(-256, 0, 0, decimal<3>({647, 421'111'883'655'301})), trisect::Lattice{-48});
+        Plane(-256, 0, 0, decimal<6>({647, 421'111'883'655'301})), trisect::Lattice{-48});
     const Solid along = Solid::half_space(
         Plane(decimal128(121'052'679'546'074, 197'102'485'208'651),
               decimal128(31'413'198'769'670, 819'350'603'989'429),
               decimal128(151'545'855'209'223, 92'059'580'759'731),
-              -decimal<3>({469'996'917'169'182, 401'677'154'693'457, 65'189'528'567'808})),
+              -decimal<6>({469'996'917'169'182, 401'677'154'693'457, 65'189'528'567'808})),
         trisect::Lattice{-48});
     const auto volume = [](const Expression& e) {
         return trisect::exact_volume(evaluate(e).to_brep());

@@ -75,12 +75,12 @@ TEST(LatticeMix, FlushFacesStayFlush) {
 }
 
 TEST(LatticeMix, HalfSpacesMoveToo) {
-    const Solid half = Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)),
+    const Solid half = Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Coefficient(-1)),
                                          Lattice{0});  // x < 1
     const Solid fine = box_on(-8, {0, 0, 0}, {512, 512, 512});
     EXPECT_EQ(volume(fine & half), "4");
-    const Solid fine_half = Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-128)),
-                                              Lattice{-8});  // x < 1/2
+    const Solid fine_half = Solid::half_space(
+        trisect::Plane(1, 0, 0, trisect::Plane::Coefficient(-128)), Lattice{-8});  // x < 1/2
     EXPECT_EQ(volume(box_on(0, {0, 0, 0}, {2, 2, 2}) & fine_half), "2");
 }
 
@@ -134,12 +134,12 @@ TEST(LatticeMix, ResultsAreRoundedByTheirBoundary) {
 TEST(LatticeMix, HalfSpacesHaveAPlaceOnEveryLattice) {
     // x <= 2^-16, and no room for that unit: the half-space moves, exactly.
     const Solid half =
-        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{-16});
+        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Coefficient(-1)), Lattice{-16});
     const Solid cut = evaluate(half & large_cube(0, 44));
     EXPECT_EQ(cut.lattice(), Lattice{0});
     EXPECT_EQ(trisect::exact_volume(cut.to_brep()), trisect::ExactRational(1).scaled(88 - 16));
     const Solid coarse =
-        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Offset(-1)), Lattice{48});
+        Solid::half_space(trisect::Plane(1, 0, 0, trisect::Plane::Coefficient(-1)), Lattice{48});
     EXPECT_EQ(volume(coarse & box_on(-8, {0, 0, 0}, {256, 256, 256})), "1");
     EXPECT_EQ(volume(box_on(-8, {0, 0, 0}, {256, 256, 256}) - coarse), "0");
     // In the user's units.

@@ -66,7 +66,7 @@ void expect_exact(const Plane& p, const Plane& q, const Plane& r, const Plane& s
 
 // Planes whose coefficients all have the largest magnitude, with every pattern of signs; among them
 // are the Hadamard matrices, whose determinants reach the bound 16 N^3 D.
-void all_sign_patterns(const trisect::Int128& n, const Plane::Offset& d) {
+void all_sign_patterns(const Plane::Coefficient& n, const Plane::Coefficient& d) {
     const auto plane = [&](unsigned signs) {
         return Plane((signs & 1U) != 0 ? -n : n, (signs & 2U) != 0 ? -n : n,
                      (signs & 4U) != 0 ? -n : n, (signs & 8U) != 0 ? -d : d);
@@ -76,23 +76,56 @@ void all_sign_patterns(const trisect::Int128& n, const Plane::Offset& d) {
     expect_exact(plane(10), plane(12), plane(6), plane(0));  // Hadamard
 }
 
-TEST(Bounds, LargestNarrowCoefficients) {
-    const auto n = (trisect::Int128{1} << 56) - 1;
-    const auto d = Plane::Offset(1).shifted_left(83) - Plane::Offset(1);
-    ASSERT_TRUE(Plane(n, n, n, d).is_narrow());
-    all_sign_patterns(n, d);
+// The largest coefficients of every tier, and the smallest of the next one (plane.cpp).
+struct TierLimit {
+    int tier;
+    int normal_bits;
+    int offset_bits;
+};
+constexpr std::array<TierLimit, 5> tier_limits{TierLimit{0, 56, 83}, TierLimit{1, 112, 168},
+                                               TierLimit{2, 174, 230}, TierLimit{3, 230, 286},
+                                               TierLimit{4, 328, 383}};
+
+Plane::Coefficient largest(int bits) {
+    if (bits == 383)  // 2^383 is negative
+        return Plane::Coefficient(1).shifted_left(382) - Plane::Coefficient(1) +
+               Plane::Coefficient(1).shifted_left(382);
+    return Plane::Coefficient(1).shifted_left(bits) - Plane::Coefficient(1);
 }
 
-TEST(Bounds, LargestCoefficients) {
-    const auto n = (trisect::Int128{1} << 109) - 1;
-    const auto d = Plane::Offset(1).shifted_left(163) - Plane::Offset(1);
-    ASSERT_FALSE(Plane(n, n, n, d).is_narrow());
-    all_sign_patterns(n, d);
+TEST(Bounds, LargestCoefficientsOfAllTiers) {
+    for (const TierLimit& t : tier_limits) {
+        SCOPED_TRACE(t.tier);
+        const Plane::Coefficient n = largest(t.normal_bits);
+        const Plane::Coefficient d = largest(t.offset_bits);
+        ASSERT_EQ(Plane(n, n, n, d).tier(), t.tier);
+        ASSERT_EQ(Plane(n, n, n, d).is_narrow(), t.tier == 0);
+        all_sign_patterns(n, d);
+        if (t.tier == 4) continue;
+        const Plane::Coefficient beyond = Plane::Coefficient(1).shifted_left(t.normal_bits);
+        EXPECT_EQ(Plane(beyond, n, n, d).tier(), t.tier + 1);
+        EXPECT_EQ(Plane(n, n, n, Plane::Coefficient(1).shifted_left(t.offset_bits)).tier(),
+                  t.tier + 1);
+    }
+}
+
+TEST(Bounds, TiersMixed) {
+    for (const TierLimit& t : tier_limits)
+        for (const TierLimit& u : tier_limits) {
+            const Plane::Coefficient n = largest(t.normal_bits);
+            const Plane::Coefficient d = largest(t.offset_bits);
+            const Plane::Coefficient m = largest(u.normal_bits);
+            const Plane::Coefficient e = largest(u.offset_bits);
+            expect_exact(Plane(n, n, -n, d), Plane(m, -m, m, -e), Plane(-n, n, n, d),
+                         Plane(m, m, m, e));
+            expect_exact(Plane(n, n, n, d), Plane(m, m, -m, e), Plane(n, -n, n, d),
+                         Plane(m, m, m, -e));
+        }
 }
 
 TEST(Bounds, NarrowAndWideMixed) {
     const auto n = (trisect::Int128{1} << 109) - 1;
-    const auto d = Plane::Offset(1).shifted_left(163) - Plane::Offset(1);
+    const auto d = Plane::Coefficient(1).shifted_left(163) - Plane::Coefficient(1);
     const Plane x = Plane::axis_aligned(0, 1, 1);
     const Plane y = Plane::axis_aligned(1, 1, 1);
     const Plane wide(n, -n, n, d);
@@ -103,14 +136,57 @@ TEST(Bounds, NarrowAndWideMixed) {
 
 // One unit beside the exact coincidence, where the largest numbers cancel completely.
 TEST(Bounds, LargestNumbersThatCancel) {
-    const auto n = (trisect::Int128{1} << 109) - 1;
-    const auto d = Plane::Offset(1).shifted_left(163) - Plane::Offset(1);
-    const Plane::Offset one(1);
-    for (const auto& off : {Plane::Offset(0), one, one + one}) {
-        expect_exact(Plane(n, n, n, d), Plane(n, -n, n, d), Plane(n, n, -n, d),
-                     Plane(-n, n, n, d - off));
-        expect_exact(Plane(n, n, n, d), Plane(n, n - 1, n, d - off), Plane(n - 1, n, n, d),
-                     Plane(n, n, n - 1, d - one));
+    const Plane::Coefficient one(1);
+    for (const TierLimit& t : tier_limits) {
+        const Plane::Coefficient n = largest(t.normal_bits);
+        const Plane::Coefficient d = largest(t.offset_bits);
+        for (const auto& off : {Plane::Coefficient(0), one, one + one}) {
+            expect_exact(Plane(n, n, n, d), Plane(n, -n, n, d), Plane(n, n, -n, d),
+                         Plane(-n, n, n, d - off));
+            expect_exact(Plane(n, n, n, d), Plane(n, n - one, n, d - off), Plane(n - one, n, n, d),
+                         Plane(n, n, n - one, d - one));
+        }
+    }
+}
+
+// Coordinates with bits behind the point: each from none to all that are allowed.
+TEST(Bounds, FractionalCoordinates) {
+    oracle::Source random(20261123);
+    std::array<int, 5> planes_of_tier{};
+    for (int round = 0; round < 4000; ++round) {
+        const int before = static_cast<int>(random.between(1, 53));
+        const int behind = static_cast<int>(random.between(0, trisect::fraction_limit));
+        const auto plane = [&] {
+            const Plane p = random.plane(before, behind);
+            ++planes_of_tier[static_cast<std::size_t>(p.tier())];
+            return p;
+        };
+        expect_exact(plane(), plane(), plane(), plane());
+    }
+    for (const int n : planes_of_tier) EXPECT_GT(n, 50);
+}
+
+// The finest lattice's largest coordinates: the bounds of plane.h.
+TEST(Bounds, FinestCoordinates) {
+    oracle::Source random(7);
+    const auto coordinate = [&] {
+        // The largest coordinate with all its bits, and the finest one.
+        const double v = random.coin() ? 0x1p53 - 1 : 0x1p-20 - 0x1p-73;
+        return trisect::Coordinate(random.coin() ? v : -v);
+    };
+    const auto corner = [&] {
+        return trisect::LatticePoint{coordinate(), coordinate(), coordinate()};
+    };
+    for (int round = 0; round < 2000; ++round) {
+        const auto plane = [&] {
+            for (;;) {
+                const auto a = corner();
+                const auto b = corner();
+                const auto c = corner();
+                if (!are_collinear(a, b, c)) return Plane::through(a, b, c);
+            }
+        };
+        expect_exact(plane(), plane(), plane(), plane());
     }
 }
 

@@ -244,7 +244,7 @@ ConvexPolygon upright_strip(int axis) {
     n[static_cast<std::size_t>(l)] = -(trisect::Int128{1} << 20);
     const std::int64_t scale = 1 << 12;
     return {
-        Plane(n[0], n[1], n[2], Plane::Offset()),
+        Plane(n[0], n[1], n[2], Plane::Coefficient()),
         {Plane::axis_aligned(axis, scale, scale << 49), Plane::axis_aligned(j, 100, 1).flipped(),
          Plane::axis_aligned(axis, scale, -(scale << 49)).flipped(),
          Plane::axis_aligned(j, 100, 301)}};
@@ -252,12 +252,12 @@ ConvexPolygon upright_strip(int axis) {
 
 // The plane with one of its four coefficients changed by so much.
 Plane with_other_coefficient(const Plane& p, int coefficient, int change) {
-    std::array<trisect::Int128, 3> n{p.normal(0), p.normal(1), p.normal(2)};
-    Plane::Offset d = p.offset();
+    std::array<Plane::Coefficient, 3> n{p.normal(0), p.normal(1), p.normal(2)};
+    Plane::Coefficient d = p.offset();
     if (coefficient < 3)
         n[static_cast<std::size_t>(coefficient)] += change;
     else
-        d += Plane::Offset(trisect::Int128{change});
+        d += change;
     return {n[0], n[1], n[2], d};
 }
 

@@ -128,7 +128,8 @@ TEST(Point, EqualPointsHaveEqualDoubles) {
     const Plane q = Plane::axis_aligned(1, 3, 2);
     const Plane r = Plane::axis_aligned(2, 7, 1);
     const Point a(p, q, r);
-    const Point b(Plane(3, 3, 0, Plane::Offset(-3)), Plane(3, -3, 7, Plane::Offset(0)), r);
+    const Point b(Plane(3, 3, 0, Plane::Coefficient(-3)), Plane(3, -3, 7, Plane::Coefficient(0)),
+                  r);
     EXPECT_EQ(a, b);
     EXPECT_EQ(a.nearest(), b.nearest());
     EXPECT_EQ(a.nearest(), (std::array<double, 3>{1.0 / 3, 2.0 / 3, 1.0 / 7}));
@@ -196,7 +197,7 @@ TEST(Point, NearestOfPlanesIsFilteredAndCorrectlyRounded) {
 void expect_nearest(const mpz_class& n, const mpz_class& d) {
     mpq_class q(n, d);
     q.canonicalize();
-    EXPECT_EQ(nearest_double(oracle::register_of<7>(n), oracle::register_of<6>(d)),
+    EXPECT_EQ(nearest_double(oracle::register_of<17>(n), oracle::register_of<16>(d)),
               oracle::nearest(q))
         << n << " / " << d;
 }

@@ -144,7 +144,7 @@ TEST(PredicateSuite, ConventionOfTheOtherHandIsUnderstood) {
 
 Plane plane_of(const PlaneEquation& e) {
     const auto n = [&e](std::size_t i) { return trisect::Int128{static_cast<std::int64_t>(e[i])}; };
-    return {n(0), n(1), n(2), Plane::Offset(static_cast<std::int64_t>(e[3]))};
+    return {n(0), n(1), n(2), Plane::Coefficient(static_cast<std::int64_t>(e[3]))};
 }
 
 // By the library: nothing where the points do not fit on one lattice, which import would report.

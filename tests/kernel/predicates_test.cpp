@@ -142,7 +142,7 @@ TEST(Laws, SamePlaneWhateverTheCoefficients) {
         const Plane off = Plane::through(a + e, a + u + e, a + v + e);
         EXPECT_EQ(is_same_plane(p, off), p.normal(2) == 0);
         EXPECT_FALSE(is_same_plane(
-            p, Plane(p.normal(0), p.normal(1), p.normal(2), p.offset() + Plane::Offset(1))));
+            p, Plane(p.normal(0), p.normal(1), p.normal(2), p.offset() + Plane::Coefficient(1))));
     }
 }
 
@@ -191,8 +191,8 @@ TEST(Coverage, PointOfPlanes) {
     EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, clear); }).filtered, 1U);
     EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, q); }).symbolic, 1U);
     EXPECT_EQ(counted([&] { (void)side_of(a, p, q, r, r.flipped()); }).exact_narrow, 1U);
-    const Plane huge(p.normal(0) << 60, p.normal(1) << 60, p.normal(2) << 60,
-                     p.offset().shifted_left(60));
+    const Plane huge(p.normal(0).shifted_left(60), p.normal(1).shifted_left(60),
+                     p.normal(2).shifted_left(60), p.offset().shifted_left(60));
     ASSERT_FALSE(huge.is_narrow());
     const PredicateCounters c = counted([&] {
         EXPECT_EQ(side_of(a, p, q, r, huge), Side::On);
@@ -218,8 +218,8 @@ TEST(Coverage, SignsOfPlanes) {
     EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_cross(x, y, 0), 0); }).filtered, 1U);
     EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_cross(p, p, 0), 0); }).exact_narrow, 1U);
     EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_det(p, p, x), 0); }).exact_narrow, 1U);
-    const Plane a(3, 5, 0, Plane::Offset(0));
-    const Plane b(5, -3, 0, Plane::Offset(0));
+    const Plane a(3, 5, 0, Plane::Coefficient(0));
+    const Plane b(5, -3, 0, Plane::Coefficient(0));
     EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_dot(a, b), 0); }).exact_narrow, 1U);
     EXPECT_EQ(counted([&] { EXPECT_EQ(sign_of_dot(a, a), 1); }).filtered, 1U);
 }

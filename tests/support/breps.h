@@ -95,8 +95,8 @@ inline Brep prism(const std::vector<Polygon>& loops, std::int64_t height, Lattic
         bottom.push_back(reversed(loop));
         sketch.walls(loop, height);
     }
-    sketch.face(Plane(0, 0, 1, Plane::Offset(-(loops[0][0].z + height))), top);
-    sketch.face(Plane(0, 0, -1, Plane::Offset(loops[0][0].z.to_integer())), bottom);
+    sketch.face(Plane(0, 0, 1, Plane::Coefficient(-(loops[0][0].z + height))), top);
+    sketch.face(Plane(0, 0, -1, Plane::Coefficient(loops[0][0].z.to_integer())), bottom);
     return sketch.build();
 }
 

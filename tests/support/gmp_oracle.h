@@ -6,6 +6,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -78,8 +79,7 @@ inline RationalPoint rational(const trisect::HomogeneousPoint& p) {
 }
 inline RationalPoint rational(const trisect::Point& p) { return rational(p.homogeneous()); }
 inline RationalPoint rational(const LatticePoint& p) {
-    return {mpq_class(integer(p.x.to_integer())), mpq_class(integer(p.y.to_integer())),
-            mpq_class(integer(p.z.to_integer()))};
+    return {mpq_class(p.x.to_double()), mpq_class(p.y.to_double()), mpq_class(p.z.to_double())};
 }
 
 /// The common point by Cramer's rule. \pre det(n, n, n) != 0.
@@ -145,11 +145,22 @@ public:
         return low + static_cast<std::int64_t>(below(static_cast<std::uint64_t>(high - low + 1)));
     }
     LatticePoint point(int bits) { return {coordinate(bits), coordinate(bits), coordinate(bits)}; }
-    Plane plane(int bits) {
+    /// |value| < 2^bits, with up to `behind` bits behind the point and 53 in all.
+    double fraction(int bits, int behind) {
+        const int exponent = static_cast<int>(between(-behind, bits - 1));
+        const int length = static_cast<int>(between(1, std::min(53, bits - exponent)));
+        return std::ldexp(static_cast<double>(coordinate(length)), exponent);
+    }
+    LatticePoint point(int bits, int behind) {
+        const auto c = [&] { return trisect::Coordinate(fraction(bits, behind)); };
+        return {c(), c(), c()};
+    }
+    Plane plane(int bits, int behind = 0) {
         for (;;) {
-            const LatticePoint a = point(bits);
-            const LatticePoint b = point(bits);
-            const LatticePoint c = point(bits);
+            const auto corner = [&] { return behind == 0 ? point(bits) : point(bits, behind); };
+            const LatticePoint a = corner();
+            const LatticePoint b = corner();
+            const LatticePoint c = corner();
             if (!are_collinear(a, b, c)) return Plane::through(a, b, c);
         }
     }

@@ -21,28 +21,19 @@ namespace trisect::detail {
 
 namespace {
 
-using Huge = WideInt<22>;
-
-int sign_at(const std::array<Huge, 3>& x, const Huge& w, const Plane& plane) {
-    Huge sum = multiply<22>(w, plane.offset());
-    for (int k = 0; k < 3; ++k)
-        sum += multiply<22>(x[static_cast<std::size_t>(k)], WideInt<2>(plane.normal(k)));
-    return sum.sign();
-}
-
-WideInt<4> plane_value_at(const FinePoint& p, const Plane& plane) {
-    WideInt<4> sum = multiply<4>(plane.offset(), WideInt<1>(splitting_scale));
-    for (int k = 0; k < 3; ++k)
-        sum +=
-            multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(p.c[static_cast<std::size_t>(k)]));
+BoundedInt plane_value_at(const std::array<BoundedInt, 3>& x, const BoundedInt& w,
+                          const Plane& plane) {
+    BoundedInt sum = w * plane.offset();
+    for (int k = 0; k < 3; ++k) sum += x[static_cast<std::size_t>(k)] * plane.normal(k);
     return sum;
 }
 
-WideInt<20> plane_value_at(const TraceTarget::Exact& t, const Plane& plane) {
-    WideInt<20> sum = multiply<20>(t.w, plane.offset());
-    for (int k = 0; k < 3; ++k)
-        sum += multiply<20>(t.xyz[static_cast<std::size_t>(k)], WideInt<2>(plane.normal(k)));
-    return sum;
+BoundedInt plane_value_at(const FinePoint& p, const Plane& plane) {
+    return plane_value_at({p.c[0], p.c[1], p.c[2]}, splitting_scale, plane);
+}
+
+BoundedInt plane_value_at(const TraceTarget::Exact& t, const Plane& plane) {
+    return plane_value_at(t.xyz, t.w, plane);
 }
 
 }  // namespace
@@ -81,20 +72,19 @@ const TraceTarget::Exact& TraceTarget::exact() const {
     if (exact_) return *exact_;
     Exact e;
     if (bench_ == nullptr) {
-        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] = Wide(fine_.c[k]);
-        e.w = Wide(splitting_scale);
+        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] = fine_.c[k];
+        e.w = splitting_scale;
         exact_ = e;
         return *exact_;
     }
     std::array<HomogeneousPoint, 3> h;
     for (std::size_t i = 0; i < 3; ++i) h[i] = bench_->homogeneous(points_[i]);
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto others =
-            multiply<18>(multiply<12>(h[(i + 1) % 3].w, h[(i + 2) % 3].w), WideInt<1>(weights_[i]));
-        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] += multiply<18>(h[i].xyz[k], others);
+        const BoundedInt others =
+            BoundedInt(h[(i + 1) % 3].w) * h[(i + 2) % 3].w * BoundedInt(weights_[i]);
+        for (std::size_t k = 0; k < 3; ++k) e.xyz[k] += others * h[i].xyz[k];
     }
-    const Wide w = multiply<18>(multiply<12>(h[0].w, h[1].w), h[2].w);
-    e.w = multiply<18>(w, WideInt<1>(weights_[0] + weights_[1] + weights_[2]));
+    e.w = BoundedInt(h[0].w) * h[1].w * h[2].w * (weights_[0] + weights_[1] + weights_[2]);
     exact_ = e;
     return *exact_;
 }
@@ -142,14 +132,13 @@ int SupportCrossing::side_of(const Plane& edge) const {
     }
     ++detail::counters_of_thread<PredicateCounters>.exact_wide;
     const TraceTarget::Exact& t = target_.exact();
-    const WideInt<4> r = plane_value_at(reference_, support_);
-    const WideInt<20> g = plane_value_at(t, support_);
-    std::array<Huge, 3> x;
-    for (std::size_t k = 0; k < 3; ++k)
-        x[k] = multiply<22>(g, WideInt<1>(reference_.c[k])) - multiply<22>(t.xyz[k], r);
-    const Huge w = multiply<22>(g, WideInt<1>(splitting_scale)) - multiply<22>(t.w, r);
-    const int s = sign_at(x, w, edge);
-    return w.is_negative() ? -s : s;
+    const BoundedInt r = plane_value_at(reference_, support_);
+    const BoundedInt g = plane_value_at(t, support_);
+    std::array<BoundedInt, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = g * reference_.c[k] - t.xyz[k] * r;
+    const BoundedInt w = g * splitting_scale - t.w * r;
+    const int s = plane_value_at(x, w, edge).sign();
+    return w.sign() < 0 ? -s : s;
 }
 
 }  // namespace trisect::detail

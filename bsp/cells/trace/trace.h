@@ -14,6 +14,7 @@
 #include <optional>
 
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/number/bounded_int.h>
 
 namespace trisect::detail {
 
@@ -28,12 +29,12 @@ public:
 
     [[nodiscard]] const Approximation& approximation() const { return approximation_; }
 
-    // Coordinates xyz/w with |w| < 2^1000, |xyz| < 2^1056 (three plane points of 330 and 384 bits
-    // combined over their common denominator).
-    using Wide = WideInt<18>;
+    // Coordinates xyz/w with |w| < 2^2984, |xyz| < 2^3040: three plane points of 988 and 1044 bits
+    // over their common denominator. A value at an edge of where a segment to it crosses a plane
+    // is below 2^4000.
     struct Exact {
-        std::array<Wide, 3> xyz;
-        Wide w;
+        std::array<BoundedInt, 3> xyz;
+        BoundedInt w;
     };
     [[nodiscard]] const Exact& exact() const;
 

@@ -46,7 +46,8 @@ std::vector<std::uint64_t> cells_below(const InterferenceModelData& m) {
         for (std::size_t k = 0; k < 3; ++k) {
             middle.xyz[k] = 0;
             for (std::size_t j = 0; j < 3; ++j)
-                middle.xyz[k] += WideInt<7>(corner(t, j)[static_cast<int>(k)].to_integer());
+                middle.xyz[k] +=
+                    HomogeneousPoint::Coordinate(corner(t, j)[static_cast<int>(k)].to_integer());
         }
         middle.w = 3;
         const Plane& own = m.brep.plane(t.face);

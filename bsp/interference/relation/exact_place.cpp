@@ -35,7 +35,7 @@ ExactPlace along(const ExactPlace& from, const ExactPlace& to, const ExactRation
 ExactRational value_at(const Plane& plane, const ExactPlace& p) {
     ExactRational v(plane.offset());
     for (int i = 0; i < 3; ++i)
-        v += ExactRational(WideInt<2>(plane.normal(i))) * p.c[static_cast<std::size_t>(i)];
+        v += ExactRational(plane.normal(i)) * p.c[static_cast<std::size_t>(i)];
     return v;
 }
 

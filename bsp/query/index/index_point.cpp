@@ -8,6 +8,7 @@
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -16,35 +17,19 @@ namespace trisect::detail {
 namespace {
 
 // Bits behind the point that the homogeneous form has room for, and the coordinates' limit:
-// 2^54 · 2^320 stays below the 2^384 of HomogeneousPoint.
+// 2^54 · 2^320 leaves it in the first two tiers.
 constexpr int homogeneous_bits = 320;
 constexpr double homogeneous_limit = 0x1p54;
-
-// The double as mantissa · 2^exponent with an odd mantissa (0 for 0).
-struct Scaled {
-    std::int64_t mantissa = 0;
-    int exponent = 0;
-};
-
-Scaled scaled(double v) {
-    if (v == 0) return {};
-    int e = 0;
-    const double m = std::frexp(v, &e);
-    auto i = static_cast<std::int64_t>(std::ldexp(m, 53));
-    const int zeros = std::countr_zero(static_cast<std::uint64_t>(i));
-    return {i >> zeros, e - 53 + zeros};
-}
 
 // Bits behind the point of the finest coordinate.
 int fraction_bits(const std::array<double, 3>& c) {
     int bits = 0;
-    for (const double v : c)
-        if (v != 0) bits = std::max(bits, -scaled(v).exponent);
+    for (const double v : c) bits = std::max(bits, -dyadic(v).exponent);
     return bits;
 }
 
-template <int N>
-ExactRational fraction(const WideInt<N>& numerator, const WideInt<6>& denominator) {
+ExactRational fraction(const HomogeneousPoint::Coordinate& numerator,
+                       const HomogeneousPoint::Weight& denominator) {
     return ExactRational(numerator) / ExactRational(denominator);
 }
 
@@ -77,8 +62,7 @@ IndexPoint::IndexPoint(const FinePoint& p) {
         error_ = std::max(error_, std::fabs(c_[k]) * last_place);
     }
     if (!rounded) return;
-    homogeneous_ = {{WideInt<7>(p.c[0]), WideInt<7>(p.c[1]), WideInt<7>(p.c[2])},
-                    WideInt<6>(splitting_scale)};
+    homogeneous_ = HomogeneousPoint({p.c[0], p.c[1], p.c[2]}, splitting_scale);
 }
 
 IndexPoint::IndexPoint(Rational p) : fits_(false) {
@@ -145,13 +129,12 @@ const HomogeneousPoint* IndexPoint::homogeneous() const {
     if (!fits_) return nullptr;
     const int bits = fraction_bits(c_);
     if (bits > homogeneous_bits || largest_component(c_) >= homogeneous_limit) return nullptr;
-    HomogeneousPoint h;
-    h.w = WideInt<6>(1).shifted_left(bits);
+    std::array<HomogeneousPoint::Coordinate, 3> xyz;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Scaled s = scaled(c_[k]);
-        h.xyz[k] = WideInt<7>(s.mantissa).shifted_left(s.exponent + bits);
+        const Dyadic d = dyadic(c_[k]);
+        xyz[k] = HomogeneousPoint::Coordinate(d.mantissa).shifted_left(d.exponent + bits);
     }
-    homogeneous_ = h;
+    homogeneous_ = HomogeneousPoint(xyz, HomogeneousPoint::Weight(1).shifted_left(bits));
     return &*homogeneous_;
 }
 
@@ -194,7 +177,7 @@ int IndexPoint::compare_fine(std::size_t k, std::int64_t position) const {
 ExactRational value_at(const IndexPoint::Rational& p, const Plane& plane) {
     ExactRational sum(plane.offset());
     for (int k = 0; k < 3; ++k)
-        sum += p[static_cast<std::size_t>(k)] * ExactRational(WideInt<2>(plane.normal(k)));
+        sum += p[static_cast<std::size_t>(k)] * ExactRational(plane.normal(k));
     return sum;
 }
 

@@ -62,11 +62,11 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, std::int
         }
     }
     ++detail::counters_of_thread<PredicateCounters>.exact_wide;
-    if (const HomogeneousPoint* h = p.homogeneous()) {
+    if (const HomogeneousPoint* h = p.homogeneous(); h != nullptr && h->is_short()) {
         WideInt<9> sum;
         for (std::size_t k = 0; k < 3; ++k) {
-            const WideInt<8> x =
-                multiply<8>(h->xyz[k], WideInt<1>(scale)) - multiply<8>(h->w, WideInt<1>(base[k]));
+            const WideInt<8> x = multiply<8>(WideInt<7>(h->xyz[k]), WideInt<1>(scale)) -
+                                 multiply<8>(WideInt<6>(h->w), WideInt<1>(base[k]));
             sum += multiply<9>(x, WideInt<2>(n[k]));
         }
         return sum.sign();
@@ -209,11 +209,11 @@ int filtered_sign(const Reference& r, const Plane& plane) {
     return s ? sign_of(*s) : 0;
 }
 
-WideInt<4> exact_value(const FinePoint& r, const Plane& plane) {
-    WideInt<4> sum = multiply<4>(plane.offset(), WideInt<1>(splitting_scale));
+// 384 + 8 bits, and 328 + 61.
+WideInt<7> exact_value(const FinePoint& r, const Plane& plane) {
+    WideInt<7> sum = multiply<7>(plane.offset(), WideInt<1>(splitting_scale));
     for (int k = 0; k < 3; ++k)
-        sum +=
-            multiply<4>(WideInt<2>(plane.normal(k)), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
+        sum += multiply<7>(plane.normal(k), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
     return sum;
 }
 
@@ -246,8 +246,8 @@ int edge_side_exact(const IndexPoint& p, const Reference& r, const Plane& suppor
     // s_p - s_r has the sign of s_p.
     if (const int s = (e_r * s_p - e_p * s_r).sign(); s != 0) return s * p_side;
     for (int k = 0; k < 3; ++k) {
-        const ExactRational moved = ExactRational(WideInt<2>(edge.normal(k))) * s_p -
-                                    e_p * ExactRational(WideInt<2>(support.normal(k)));
+        const ExactRational moved =
+            ExactRational(edge.normal(k)) * s_p - e_p * ExactRational(support.normal(k));
         if (const int s = moved.sign(); s != 0) return s * p_side;
     }
     return 0;

@@ -17,40 +17,13 @@
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/error_bounds.h>
-#include <trisect/kernel/number/int128.h>
 
 namespace trisect::detail {
 
 namespace {
 
-Uint128 gcd(Uint128 a, Uint128 b) {
-    while (b != 0) {
-        const bool small = (a >> 64) == 0 && (b >> 64) == 0;
-        if (small) return std::gcd(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b));
-        const Uint128 r = a % b;
-        a = b;
-        b = r;
-    }
-    return a;
-}
-
-// The normal in lowest terms; planes with equal ones are parallel and oriented alike.
-struct NormalKey {
-    std::array<Int128, 3> n{};
-    friend bool operator==(const NormalKey&, const NormalKey&) = default;
-};
-
-NormalKey key_of(const Plane& p) {
-    Uint128 g = 0;
-    for (int k = 0; k < 3; ++k) g = gcd(unsigned_magnitude(p.normal(k)), g);
-    NormalKey key;
-    for (int k = 0; k < 3; ++k) {
-        const auto kk = static_cast<std::size_t>(k);
-        key.n[kk] = static_cast<Int128>(unsigned_magnitude(p.normal(k)) / g);
-        if (p.normal(k) < 0) key.n[kk] = -key.n[kk];
-    }
-    return key;
-}
+// Planes with equal ones are parallel and oriented alike.
+using NormalKey = std::array<Plane::Coefficient, 3>;
 
 // And the offset along the unit normal, which up to rounding is the same for equal planes.
 double height_of(const Plane& p) {
@@ -63,8 +36,8 @@ double height_of(const Plane& p) {
 struct NormalHash {
     std::size_t operator()(const NormalKey& k) const {
         std::uint64_t h = 0;
-        for (const Int128 v : k.n) {
-            h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15ULL;
+        for (const Plane::Coefficient& v : k) {
+            h = (h ^ v.limb(0)) * 0x9e3779b97f4a7c15ULL;
             h ^= h >> 32;
         }
         return h;
@@ -152,7 +125,7 @@ void IndexHandles::find_faces(const IndexBase& base) {
     std::unordered_map<NormalKey, std::vector<PlaneFace>, NormalHash> by_normal;
     by_normal.reserve(brep_.faces().size());
     for (const FaceId f : brep_.faces())
-        by_normal[key_of(brep_.plane(f))].push_back({height_of(brep_.plane(f)), f});
+        by_normal[brep_.plane(f).direction()].push_back({height_of(brep_.plane(f)), f});
     for (auto& [key, faces] : by_normal)
         std::sort(faces.begin(), faces.end(),
                   [](const PlaneFace& a, const PlaneFace& b) { return a.height < b.height; });
@@ -173,7 +146,7 @@ void IndexHandles::find_faces(const IndexBase& base) {
     std::vector<FaceId> near;
     for (PolygonId id = 0; id < base.polygons.size(); ++id) {
         const Plane plane = base.polygons.outward(id);
-        const auto it = by_normal.find(key_of(plane));
+        const auto it = by_normal.find(plane.direction());
         TRISECT_EXPECTS(it != by_normal.end(), "a polygon in the plane of no face");
         const double height = height_of(plane);
         const double slack = (std::fabs(height) + 1) * 0x1p-40;

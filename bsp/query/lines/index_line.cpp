@@ -97,7 +97,7 @@ ExactRational RayParameter::exact() const {
     ExactRational at(plane_.offset());
     ExactRational slope;
     for (std::size_t k = 0; k < 3; ++k) {
-        const ExactRational n(WideInt<2>(plane_.normal(static_cast<int>(k))));
+        const ExactRational n(plane_.normal(static_cast<int>(k)));
         const ExactRational o = exact_coordinate(origin_[k], exponent_);
         ExactRational step = exact_coordinate(towards_[k], exponent_);
         if (form_ == Form::Segment) step -= o;
@@ -148,8 +148,7 @@ struct Course {
 Course course(const IndexLine& line, const Plane& plane) {
     Course c{value_at(line.origin().rational(), plane), ExactRational()};
     for (std::size_t k = 0; k < 3; ++k)
-        c.slope += line.exact_direction()[k] *
-                   ExactRational(WideInt<2>(plane.normal(static_cast<int>(k))));
+        c.slope += line.exact_direction()[k] * ExactRational(plane.normal(static_cast<int>(k)));
     return c;
 }
 

@@ -511,7 +511,7 @@ private:
         const Plane support = polygons_.support(f.polygon);
         Exact n;
         for (int k = 0; k < 3; ++k)
-            n[static_cast<std::size_t>(k)] = ExactRational(WideInt<2>(support.normal(k)));
+            n[static_cast<std::size_t>(k)] = ExactRational(support.normal(k));
         const ExactRational t = value_at(p_.rational(), support) / dot(n, n);
         Exact foot = p_.rational();
         for (std::size_t k = 0; k < 3; ++k) foot[k] -= t * n[k];

@@ -363,7 +363,7 @@ PlaneRelation relation_to(const IndexCore& core, const Plane& plane) {
                         IndexPoint::Rational p;
                         ExactRational nn;
                         for (int k = 0; k < 3; ++k) {
-                            const ExactRational x(WideInt<2>(support.normal(k)));
+                            const ExactRational x(support.normal(k));
                             nn += x * x;
                             p[static_cast<std::size_t>(k)] = -x * ExactRational(support.offset());
                         }

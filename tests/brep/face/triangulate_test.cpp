@@ -259,10 +259,10 @@ TEST(Triangulate, FullWidthCoordinates) {
 // The plane x + y + z = 1 cut by planes through the origin's neighbourhood: no corner is a lattice
 // point, three of them lie on one line, and no area may be lost.
 TEST(Triangulate, PlanePoints) {
-    const Plane support(3, 5, 7, Plane::Offset(-11));
+    const Plane support(3, 5, 7, Plane::Coefficient(-11));
     const auto at = [&](std::int64_t x, std::int64_t y) {  // the point over (x/13, y/17)
-        return Point(support, Plane(13, 0, 0, Plane::Offset(-x)),
-                     Plane(0, 17, 0, Plane::Offset(-y)));
+        return Point(support, Plane(13, 0, 0, Plane::Coefficient(-x)),
+                     Plane(0, 17, 0, Plane::Coefficient(-y)));
     };
     const std::vector<std::array<std::int64_t, 2>> flat{{0, 0},   {10, 0},  {20, 0}, {30, 0},
                                                         {30, 30}, {15, 15}, {0, 30}};

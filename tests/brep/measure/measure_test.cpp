@@ -21,8 +21,8 @@ using namespace trisect::test;
 
 Brep corner_pyramid(Int128 a, Int128 b, Int128 c, std::int64_t d, Lattice lattice = {}) {
     // The octant's corner cut off by a x + b y + c z = d.
-    const Plane x(-1, 0, 0, Plane::Offset(0)), y(0, -1, 0, Plane::Offset(0));
-    const Plane z(0, 0, -1, Plane::Offset(0)), cut(a, b, c, Plane::Offset(-d));
+    const Plane x(-1, 0, 0, Plane::Coefficient(0)), y(0, -1, 0, Plane::Coefficient(0));
+    const Plane z(0, 0, -1, Plane::Coefficient(0)), cut(a, b, c, Plane::Coefficient(-d));
     BrepBuilder builder(lattice);
     const auto o = builder.add_vertex(Point(x, y, z)), px = builder.add_vertex(Point(cut, y, z));
     const auto py = builder.add_vertex(Point(x, cut, z)), pz = builder.add_vertex(Point(x, y, cut));
@@ -173,8 +173,8 @@ TEST(Measure, WideCoefficients) {
 
 TEST(Measure, ZeroVolumeOfPlanePointsIsFoundExactly) {
     // The pyramid and its mirror image turned inside out.
-    const Plane x(-1, 0, 0, Plane::Offset(0)), y(0, -1, 0, Plane::Offset(0));
-    const Plane z(0, 0, -1, Plane::Offset(0)), cut(3, 5, 7, Plane::Offset(-11));
+    const Plane x(-1, 0, 0, Plane::Coefficient(0)), y(0, -1, 0, Plane::Coefficient(0));
+    const Plane z(0, 0, -1, Plane::Coefficient(0)), cut(3, 5, 7, Plane::Coefficient(-11));
     BrepBuilder builder{Lattice{}};
     const auto o = builder.add_vertex(Point(x, y, z)), px = builder.add_vertex(Point(cut, y, z));
     const auto py = builder.add_vertex(Point(x, cut, z)), pz = builder.add_vertex(Point(x, y, cut));
@@ -234,8 +234,8 @@ TEST(Measure, AreaJustAboveTheMiddleBetweenTwoDoubles) {
 TEST(Measure, SignOfVolumeOfShellsOffTheLattice) {
     for (const std::int64_t d : {1, 11, 1'000'003}) {
         for (const bool cavity : {false, true}) {
-            const Plane x(-1, 0, 0, Plane::Offset(0)), y(0, -1, 0, Plane::Offset(0));
-            const Plane z(0, 0, -1, Plane::Offset(0)), cut(3, 5, 7, Plane::Offset(-d));
+            const Plane x(-1, 0, 0, Plane::Coefficient(0)), y(0, -1, 0, Plane::Coefficient(0));
+            const Plane z(0, 0, -1, Plane::Coefficient(0)), cut(3, 5, 7, Plane::Coefficient(-d));
             BrepBuilder builder{Lattice{}};
             const auto o = builder.add_vertex(Point(x, y, z));
             const auto px = builder.add_vertex(Point(cut, y, z));

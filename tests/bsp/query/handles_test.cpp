@@ -79,7 +79,7 @@ void expect_faces(const BrepIndex& index, const trisect::LatticeMesh& mesh, std:
         const trisect::Plane& plane = index.brep().plane(place.face);
         brute::Rational value = brute::rational(trisect::ExactRational(plane.offset()));
         for (int k = 0; k < 3; ++k)
-            value += brute::Rational(static_cast<long>(plane.normal(k))) *
+            value += brute::rational(trisect::ExactRational(plane.normal(k))) *
                      brute::Rational(p[static_cast<std::size_t>(k)]);
         EXPECT_EQ(value, 0) << "seed " << seed;
         const auto box = index.in_box(p, p);

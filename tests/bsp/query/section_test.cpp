@@ -70,7 +70,7 @@ void expect_section(const BrepIndex& index, const brute::Boundary& boundary, con
     const auto axis = static_cast<std::size_t>(plane.dominant_axis());
     const int turned = plane.normal(static_cast<int>(axis)) > 0 ? 1 : -1;
     const auto at = [&](std::size_t k) {
-        return brute::Rational(static_cast<long>(plane.normal(static_cast<int>(k))));
+        return brute::rational(trisect::ExactRational(plane.normal(static_cast<int>(k))));
     };
     for (const SectionRegion& r : regions) ASSERT_GE(r.outer.points.size(), 3U);
     for (int i = 0; i < 40; ++i) {

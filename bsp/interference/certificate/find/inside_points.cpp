@@ -110,9 +110,8 @@ private:
         }
     }
     static ExactPoint normal(const Plane& plane) {
-        return {ExactRational(WideInt<2>(plane.normal(0))),
-                ExactRational(WideInt<2>(plane.normal(1))),
-                ExactRational(WideInt<2>(plane.normal(2)))};
+        return {ExactRational(plane.normal(0)), ExactRational(plane.normal(1)),
+                ExactRational(plane.normal(2))};
     }
     // Seen in A's lattice: the transposed map from A to B.
     [[nodiscard]] ExactPoint normal_of_b(const Plane& plane) const {

@@ -58,7 +58,7 @@ struct CutBox {
             Solid::from_mesh(trisect::make_box({0, 0, 0}, scaled(hi, static_cast<double>(by))));
         // Through the points where it meets the axes, 6 times as far away as the level says.
         const std::int64_t d = by * level;
-        const Plane plane(normal[0], normal[1], normal[2], Plane::Offset(-d));
+        const Plane plane(normal[0], normal[1], normal[2], Plane::Coefficient(-d));
         return evaluate(trisect::Expression(box) &
                         trisect::Expression(Solid::half_space(plane, {})));
     }
