@@ -26,6 +26,7 @@
 #include <trisect/brep/face/convex_cut.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
@@ -37,9 +38,29 @@ namespace {
 
 constexpr std::uint64_t work_limit = std::uint64_t{1} << 32;
 
-// Twice the vector area. 2^17 terms of at most 2^109: below 2^127.
-std::array<Int128, 3> newell(std::span<const LatticePoint> points,
-                             std::span<const std::uint32_t> loop) {
+// Twice the vector area in units of 2^(-2 fraction_limit). 2^17 terms of at most 2^255.
+std::array<WideInt<5>, 3> newell_of_fractions(std::span<const LatticePoint> points,
+                                              std::span<const std::uint32_t> loop) {
+    const auto way = [&](std::uint32_t to, std::size_t k) {
+        const auto fine = [k](const LatticePoint& p) {
+            return WideInt<2>(scaled_integer(coordinate(p, k), fraction_limit));
+        };
+        return fine(points[to]) - fine(points[loop[0]]);
+    };
+    std::array<WideInt<5>, 3> n;
+    for (std::size_t i = 2; i < loop.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t u = (k + 1) % 3;
+            const std::size_t v = (k + 2) % 3;
+            n[k] += multiply<5>(way(loop[i - 1], u), way(loop[i], v)) -
+                    multiply<5>(way(loop[i - 1], v), way(loop[i], u));
+        }
+    return n;
+}
+
+// Twice the vector area of whole coordinates. 2^17 terms of at most 2^109: below 2^127.
+std::array<Int128, 3> newell_of_whole(std::span<const LatticePoint> points,
+                                      std::span<const std::uint32_t> loop) {
     std::array<Int128, 3> n{};
     const LatticePoint& origin = points[loop[0]];
     auto a = difference(points[loop[1]], origin);
@@ -51,6 +72,15 @@ std::array<Int128, 3> newell(std::span<const LatticePoint> points,
         a = b;
     }
     return n;
+}
+
+// Twice the vector area, in some unit.
+std::array<WideInt<5>, 3> newell(std::span<const LatticePoint> points,
+                                 std::span<const std::uint32_t> loop) {
+    if (!std::ranges::all_of(loop, [&](std::uint32_t c) { return points[c].is_whole(); }))
+        return newell_of_fractions(points, loop);
+    const auto n = newell_of_whole(points, loop);
+    return {n[0], n[1], n[2]};
 }
 
 // Index of the first corner that is not on the line of corners 0 and 1 (which differ), or size().
@@ -79,15 +109,15 @@ LoopShape LoopTriangulator::shape(std::span<const std::uint32_t> loop) const {
 
 void LoopTriangulator::project(std::span<const std::uint32_t> loop) {
     auto n = newell(points_, loop);
-    if (n[0] == 0 && n[1] == 0 && n[2] == 0) {  // a figure of eight: any plane of its corners
+    if (n[0].is_zero() && n[1].is_zero() &&
+        n[2].is_zero()) {  // a figure of eight: any plane of its corners
         const std::size_t i = first_off_line(points_, loop);
         const std::array<std::uint32_t, 3> t{loop[0], loop[1], loop[i]};
         n = newell(points_, t);
     }
     int axis = 0;
     for (int i = 1; i < 3; ++i)
-        if (magnitude(n[static_cast<std::size_t>(i)]) >
-            magnitude(n[static_cast<std::size_t>(axis)]))
+        if (n[static_cast<std::size_t>(i)].abs() > n[static_cast<std::size_t>(axis)].abs())
             axis = i;
     int u = (axis + 1) % 3;
     int v = (axis + 2) % 3;

@@ -12,7 +12,10 @@
 
 #include <trisect/brep/import/line_balance.h>
 
+#include <gmpxx.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 #include <trisect/kernel/number/vector3.h>
@@ -21,13 +24,15 @@ namespace trisect::detail {
 
 namespace {
 
-using Integers = VectorOf<std::int64_t>;
+using std::abs;
 
+// Integers of 64 bits, or of any size where coordinates have bits behind the point.
+template <class Integer>
 struct EdgeInterval {
-    Integers direction{};
-    Integers base{};
-    std::int64_t begin = 0;
-    std::int64_t end = 0;
+    VectorOf<Integer> direction{};
+    VectorOf<Integer> base{};
+    Integer begin = 0;
+    Integer end = 0;
     std::int64_t count = 0;
     std::size_t edge = 0;
 
@@ -40,70 +45,79 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
     const std::int64_t q = a / b;
     return a % b != 0 && (a < 0) != (b < 0) ? q - 1 : q;
 }
+mpz_class floor_divide(const mpz_class& a, const mpz_class& b) {
+    mpz_class q;
+    mpz_fdiv_q(q.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+    return q;
+}
 
-std::size_t largest_axis(const Integers& d) {
+std::int64_t common_divisor(std::int64_t a, std::int64_t b) { return std::gcd(a, b); }
+mpz_class common_divisor(const mpz_class& a, const mpz_class& b) { return gcd(a, b); }
+
+template <class Integer>
+std::size_t largest_axis(const VectorOf<Integer>& d) {
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
-        if (std::abs(d[i]) > std::abs(d[axis])) axis = i;
+        if (abs(Integer(d[i])) > abs(Integer(d[axis]))) axis = i;
     return axis;
 }
 
-EdgeInterval interval_of(const LatticePoint& from, const LatticePoint& to, std::int64_t count,
-                         std::size_t edge) {
-    const Integers a = to_integers(from);
-    Integers d = difference(to, from);
-    std::int64_t g = std::gcd(std::gcd(d[0], d[1]), d[2]);
-    if (d < Integers{}) g = -g;  // lexicographically: the first nonzero component decides
+template <class Integer>
+EdgeInterval<Integer> interval_of(const VectorOf<Integer>& a, const VectorOf<Integer>& b,
+                                  std::int64_t count, std::size_t edge) {
+    VectorOf<Integer> d = minus(b, a);
+    Integer g = common_divisor(common_divisor(d[0], d[1]), d[2]);
+    if (d < VectorOf<Integer>{}) g = -g;  // lexicographically: the first nonzero component decides
     d = {d[0] / g, d[1] / g, d[2] / g};
     const std::size_t axis = largest_axis(d);
-    const std::int64_t t = floor_divide(a[axis], d[axis]);
-    EdgeInterval i;
+    const Integer t = floor_divide(a[axis], d[axis]);
+    EdgeInterval<Integer> i;
     i.direction = d;
     i.base = {a[0] - t * d[0], a[1] - t * d[1], a[2] - t * d[2]};
-    i.begin = std::min(t, t + g);
-    i.end = std::max(t, t + g);
+    i.begin = std::min<Integer>(t, t + g);
+    i.end = std::max<Integer>(t, t + g);
     i.count = g > 0 ? count : -count;
     i.edge = edge;
     return i;
 }
 
 // Marks the intervals of one line that meet a part where the counts do not add up to zero.
-void sweep_line(std::span<const EdgeInterval> line, std::vector<bool>& open) {
-    std::vector<std::pair<std::int64_t, std::int64_t>> events;
-    for (const EdgeInterval& i : line) {
+template <class Integer>
+void sweep_line(std::span<const EdgeInterval<Integer>> line, std::vector<bool>& open) {
+    std::vector<std::pair<Integer, std::int64_t>> events;
+    for (const auto& i : line) {
         events.emplace_back(i.begin, i.count);
         events.emplace_back(i.end, -i.count);
     }
     std::sort(events.begin(), events.end());
     // Prefix counts of uncancelled elementary intervals answer "any in [begin, end)?".
-    std::vector<std::int64_t> at;
+    std::vector<Integer> at;
     std::vector<std::size_t> bad_before;
     std::int64_t sum = 0;
     std::size_t bad = 0;
     for (std::size_t i = 0; i < events.size();) {
-        const std::int64_t t = events[i].first;
+        const Integer t = events[i].first;
         at.push_back(t);
         bad_before.push_back(bad);
         while (i < events.size() && events[i].first == t) sum += events[i++].second;
         if (sum != 0) ++bad;
     }
-    const auto index = [&](std::int64_t t) {
+    const auto index = [&](const Integer& t) {
         return static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), t) - at.begin());
     };
-    for (const EdgeInterval& i : line)
+    for (const auto& i : line)
         open[i.edge] = bad_before[index(i.end)] != bad_before[index(i.begin)];
 }
 
-}  // namespace
-
-std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
-                                   std::span<const NetEdge> edges) {
-    std::vector<EdgeInterval> intervals;
+// `at` gives the coordinates of a point.
+template <class Integer, class At>
+std::vector<bool> uncancelled(std::span<const NetEdge> edges, const At& at) {
+    std::vector<EdgeInterval<Integer>> intervals;
     intervals.reserve(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
         intervals.push_back(
-            interval_of(points[edges[i].from], points[edges[i].to], edges[i].count, i));
-    std::sort(intervals.begin(), intervals.end(), [](const EdgeInterval& a, const EdgeInterval& b) {
+            interval_of<Integer>(at(edges[i].from), at(edges[i].to), edges[i].count, i));
+    std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) {
         if (a.direction != b.direction) return a.direction < b.direction;
         if (a.base != b.base) return a.base < b.base;
         return a.edge < b.edge;
@@ -112,10 +126,30 @@ std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
     for (std::size_t i = 0; i < intervals.size();) {
         std::size_t end = i + 1;
         while (end < intervals.size() && intervals[end].same_line(intervals[i])) ++end;
-        sweep_line({intervals.data() + i, end - i}, open);
+        sweep_line<Integer>({intervals.data() + i, end - i}, open);
         i = end;
     }
     return open;
+}
+
+}  // namespace
+
+std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
+                                   std::span<const NetEdge> edges) {
+    const auto are_whole = [&](const NetEdge& e) {
+        return points[e.from].is_whole() && points[e.to].is_whole();
+    };
+    if (std::ranges::all_of(edges, are_whole))
+        return uncancelled<std::int64_t>(edges,
+                                         [&](std::uint32_t p) { return to_integers(points[p]); });
+    return uncancelled<mpz_class>(edges, [&](std::uint32_t p) {
+        VectorOf<mpz_class> x;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const mpf_class fine(coordinate(points[p], k).to_double(), 256);
+            mpz_set_f(x[k].get_mpz_t(), mpf_class(fine << fraction_limit).get_mpf_t());
+        }
+        return x;
+    });
 }
 
 }  // namespace trisect::detail

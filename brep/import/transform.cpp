@@ -105,6 +105,16 @@ void require_on_lattice(const LatticePoint& p) {
             throw LimitError("a transformed coordinate leaves the lattice");
 }
 
+// \throw LimitError when the sum is no coordinate.
+Coordinate exact_sum(Coordinate a, Coordinate b) {
+    const double sum = a.to_double() + b.to_double();
+    const double rest =
+        (a.to_double() - (sum - b.to_double())) + (b.to_double() - (sum - (sum - b.to_double())));
+    if (rest != 0 || std::fabs(sum) >= static_cast<double>(coordinate_limit))
+        throw LimitError("a translation leaves the lattice");
+    return Coordinate(sum);
+}
+
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 // The nearest multiple of the unit to t units, ties to even in the head.
@@ -231,14 +241,8 @@ PolygonMesh transformed(const PolygonMesh& mesh, const AffineMap& map) {
 
 LatticeMesh translated(const LatticeMesh& mesh, const LatticePoint& by) {
     LatticeMesh out = mesh;
-    const auto d = detail::to_integers(by);
-    for (LatticePoint& p : out.points) {
-        const auto c = detail::plus(detail::to_integers(p), d);
-        for (const std::int64_t x : c)
-            if (std::abs(x) >= coordinate_limit)
-                throw LimitError("a translation leaves the lattice");
-        p = {c[0], c[1], c[2]};
-    }
+    for (LatticePoint& p : out.points)
+        p = {exact_sum(p.x, by.x), exact_sum(p.y, by.y), exact_sum(p.z, by.z)};
     return out;
 }
 

@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -39,6 +40,25 @@ int filtered_sign(std::span<const LatticePoint> points,
     return sum > bound ? 1 : (sum < -bound ? -1 : 0);
 }
 
+// In units of 2^(-3 fraction_limit): terms below 2^383.
+int sign_of_fractions(std::span<const LatticePoint> points,
+                      std::span<const std::array<std::uint32_t, 3>> triangles) {
+    WideInt<7> sum;
+    for (const auto& t : triangles) {
+        const auto fine = [&](std::size_t i, std::size_t k) {
+            return WideInt<2>(scaled_integer(coordinate(points[t[i]], k), fraction_limit));
+        };
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t k = (i + 2) % 3;
+            const auto minor =
+                multiply<4>(fine(1, j), fine(2, k)) - multiply<4>(fine(1, k), fine(2, j));
+            sum += multiply<7>(minor, fine(0, i));
+        }
+    }
+    return sum.sign();
+}
+
 }  // namespace
 
 int volume_sign(std::span<const LatticePoint> points,
@@ -46,6 +66,8 @@ int volume_sign(std::span<const LatticePoint> points,
     if (triangles.empty()) return 0;
     const LatticePoint origin = points[triangles[0][0]];
     if (const int s = filtered_sign(points, triangles, origin); s != 0) return s;
+    const auto is_whole = [](const LatticePoint& p) { return p.is_whole(); };
+    if (!std::ranges::all_of(points, is_whole)) return sign_of_fractions(points, triangles);
     WideInt<4> sum;
     for (const auto& t : triangles) {
         const auto a = difference(points[t[0]], origin);

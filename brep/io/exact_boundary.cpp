@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
@@ -17,6 +19,7 @@
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/brep/planar_loops.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 
 namespace trisect {
 
@@ -27,6 +30,22 @@ using detail::TextCursor;
 using detail::TextRules;
 
 // ---------------------------------------------------------------- writing
+
+// Bits of the coefficients of planes.
+struct Widths {
+    int normal;
+    int offset;
+};
+constexpr Widths widths_of(int version) {
+    return version == 1 ? Widths{109, 162} : Widths{328, 383};
+}
+
+// An integer, or the shortest digits that read back as the same double.
+std::string coordinate_text(Coordinate c) {
+    if (c.is_whole()) return std::to_string(c.to_integer());
+    std::array<char, 32> text{};
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), c.to_double()).ptr};
+}
 
 // Planes by their coefficients; a number for each.
 class PlaneTable {
@@ -63,8 +82,9 @@ public:
         // Planes get their numbers while vertices and faces are written, but stand before them.
         write_vertices();
         write_faces();
-        std::string head = "trisect-exact 1\nlattice " + std::to_string(brep_.lattice().exponent) +
-                           "\nplanes " + std::to_string(planes_.planes().size()) + '\n';
+        std::string head = "trisect-exact " + std::to_string(version()) + "\nlattice " +
+                           std::to_string(brep_.lattice().exponent) + "\nplanes " +
+                           std::to_string(planes_.planes().size()) + '\n';
         for (const Plane& p : planes_.planes()) {
             for (int i = 0; i < 3; ++i) head += detail::to_gmp(p.normal(i)).get_str() + ' ';
             head += detail::to_gmp(p.offset()).get_str() + '\n';
@@ -73,6 +93,17 @@ public:
     }
 
 private:
+    // The first one wherever it can say what there is.
+    [[nodiscard]] int version() const {
+        const bool fits = std::ranges::all_of(planes_.planes(), [](const Plane& p) {
+            const Widths& most = widths_of(1);
+            return p.offset().bit_length() <= most.offset &&
+                   p.normal(0).bit_length() <= most.normal &&
+                   p.normal(1).bit_length() <= most.normal &&
+                   p.normal(2).bit_length() <= most.normal;
+        });
+        return fits && are_whole_ ? 1 : 2;
+    }
     // Copies of a vertex are one.
     void number_vertices() {
         number_.resize(brep_.vertices().size());
@@ -94,8 +125,8 @@ private:
             const Point& p = brep_.point(v);
             if (p.is_lattice()) {
                 body_ += 'p';
-                for (int i = 0; i < 3; ++i)
-                    body_ += ' ' + std::to_string(p.lattice()[i].to_integer());
+                for (int i = 0; i < 3; ++i) body_ += ' ' + coordinate_text(p.lattice()[i]);
+                are_whole_ = are_whole_ && p.lattice().is_whole();
             } else {
                 body_ += 'q';
                 for (const Plane& plane : p.plane_point()->planes)
@@ -125,6 +156,7 @@ private:
     std::vector<std::uint32_t> number_;
     std::vector<VertexId> listed_;
     std::string body_;
+    bool are_whole_ = true;
 };
 
 // ---------------------------------------------------------------- reading
@@ -136,7 +168,9 @@ public:
 
     Brep read() {
         expect("trisect-exact");
-        if (text_.integer("the version") != 1) text_.fail_word("the version", "is not 1");
+        const std::int64_t version = text_.integer("the version");
+        if (version != 1 && version != 2) text_.fail_word("the version", "is neither 1 nor 2");
+        version_ = static_cast<int>(version);
         text_.expect_line_end();
         expect("lattice");
         const std::int64_t exponent = text_.integer("the lattice's exponent");
@@ -198,17 +232,18 @@ private:
         if (!good)
             source_.fail(word.empty() ? text_.here() : word.data(),
                          detail::shown_word(word) + ", read as " + what + ", is not an integer");
-        // 10^56 < 2^187: nothing is lost before the check.
-        Plane::Coefficient value;
-        if (digits.size() <= 56)
+        // 10^116 < 2^386: nothing is lost before the check.
+        constexpr std::size_t most_digits = 116;
+        WideInt<7> value;
+        if (digits.size() <= most_digits)
             for (const char c : digits)
-                value = multiply<6>(value, WideInt<1>(10)) + Plane::Coefficient(c - '0');
-        if (digits.size() > 56 || value.bit_length() > bits)
+                value = multiply<7>(value, WideInt<1>(10)) + WideInt<7>(c - '0');
+        if (digits.size() > most_digits || value.bit_length() > bits)
             source_.fail(word.data(), detail::shown_word(word) + ", read as " + what +
                                           ", is not below 2^" + std::to_string(bits));
-        return word.front() == '-' ? -value : value;
+        return Plane::Coefficient(word.front() == '-' ? -value : value);
     }
-    Plane::Coefficient narrow(const char* what) { return wide(what, 109); }
+    Plane::Coefficient narrow(const char* what) { return wide(what, widths_of(version_).normal); }
 
     void read_planes() {
         const std::uint64_t n = counted("planes", source_.limits().faces);
@@ -218,17 +253,27 @@ private:
             const Plane::Coefficient a = narrow("a coefficient of a plane");
             const Plane::Coefficient b = narrow("a coefficient of a plane");
             const Plane::Coefficient c = narrow("a coefficient of a plane");
-            const Plane::Coefficient d = wide("the offset of a plane", 162);
+            const Plane::Coefficient d = wide("the offset of a plane", widths_of(version_).offset);
             text_.expect_line_end();
             if (a == 0 && b == 0 && c == 0) source_.fail(at, "a plane without a normal");
             planes_.emplace_back(a, b, c, d);
         }
     }
 
-    std::int64_t coordinate() {
+    Coordinate coordinate() {
+        if (version_ > 1) return fraction();
         const std::int64_t c = text_.integer("a coordinate");
         if (c <= -coordinate_limit || c >= coordinate_limit)
             text_.fail_word("a coordinate", "is not below 2^53");
+        return c;
+    }
+    Coordinate fraction() {
+        const double v = text_.real("a coordinate");
+        if (!(std::fabs(v) < static_cast<double>(coordinate_limit)))
+            text_.fail_word("a coordinate", "is not below 2^53");
+        const Coordinate c(v);
+        if (detail::fraction_bits(c) > fraction_limit)
+            text_.fail_word("a coordinate", "has more than 73 bits behind the point");
         return c;
     }
     static bool meet_in_one_point(const Plane& p, const Plane& q, const Plane& r) {
@@ -250,8 +295,8 @@ private:
             const std::string_view kind = text_.word();
             places.push_back(kind.data());
             if (kind == "p") {
-                const std::int64_t x = coordinate();
-                const std::int64_t y = coordinate();
+                const Coordinate x = coordinate();
+                const Coordinate y = coordinate();
                 points_.emplace_back(LatticePoint{x, y, coordinate()});
             } else if (kind == "q") {
                 std::array<std::uint32_t, 3> k{};
@@ -292,7 +337,7 @@ private:
             loops.clear();
             for (std::uint64_t l = 0; l < count; ++l) {
                 const char* at = nullptr;
-                loops.push_back(loop(plane, at));
+                loops.push_back(loop(plane, l == 0 ? 3 : 2, at));
                 if (!runs_around(plane, loops.back(), l == 0))
                     source_.fail(at, l == 0 ? "the outer loop of a face runs clockwise"
                                             : "a hole of a face runs counter-clockwise");
@@ -320,11 +365,13 @@ private:
         }
         return is_outer ? !any_right : any_right;
     }
-    // `at` becomes the place of the loop.
-    std::vector<std::uint32_t> loop(const Plane& plane, const char*& at) {
+    // `at` becomes the place of the loop. A hole of two corners is a slit.
+    std::vector<std::uint32_t> loop(const Plane& plane, std::uint64_t least, const char*& at) {
         const std::uint64_t n = text_.count("the number of corners of a loop");
         at = text_.last_number();
-        if (n < 3) text_.fail_word("the number of corners of a loop", "is less than 3");
+        if (n < least)
+            text_.fail_word("the number of corners of a loop",
+                            ("is less than " + std::to_string(least)).c_str());
         if (n > source_.limits().loop_corners)
             source_.fail_limit(text_.last_number(),
                                "a loop of more than " +
@@ -338,6 +385,7 @@ private:
         return corners;
     }
 
+    int version_ = 1;
     const InputText& source_;
     TextCursor text_;
     std::vector<Plane> planes_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lossless text format of boundaries.
-// It has integers only, so a boundary is read back bit for bit on every machine.
+// It has integers only, so a boundary is read back bit for bit on every machine. Boundaries with
+// coordinates that have bits behind the point are of version 2: there a coordinate may be a decimal
+// number, the shortest one that is nearest to its double, and planes have up to 328 and 383 bits.
 //
 //     trisect-exact 1
 //     lattice -32                      unit: coordinates are multiples of 2^-32
@@ -17,7 +19,8 @@
 //     ...                              then each loop: number of corners, corners
 //
 // Everything counts from 0, in units of the lattice. Planes look outward; the first loop of a face
-// is its outer one, counter-clockwise seen from outside, the others are holes, clockwise. Points
+// is its outer one, counter-clockwise seen from outside, the others are holes, clockwise (of two
+// corners: a slit). Points
 // where the solid touches itself are listed once. `#` begins a comment. Any program with integers
 // of 512 bits can check a file: every corner is on its face's plane, every edge is used equally
 // often both ways.

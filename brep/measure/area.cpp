@@ -70,8 +70,16 @@ DoublePair root(const DoublePair& v) {
     return two_sum(x, (((v.high - square) - rest) + v.low) / (2 * x));
 }
 
-// Twice the vector area of a loop of lattice points. A projected area is below (2^54)^2, so the
-// final components have 109 bits; partial sums wrap around without harm.
+bool is_whole_face(const Brep& brep, FaceId f) {
+    for (const HalfedgeId h : brep.halfedges(f)) {
+        const Point& p = brep.point(brep.origin(h));
+        if (!p.is_lattice() || !p.lattice().is_whole()) return false;
+    }
+    return true;
+}
+
+// Twice the vector area of a loop of whole lattice points. A projected area is below (2^54)^2, so
+// the final components have 109 bits; partial sums wrap around without harm.
 class VectorArea {
 public:
     void add_edge(const LatticePoint& from, const LatticePoint& to) {
@@ -140,7 +148,7 @@ public:
     explicit AreaSum(Lattice lattice) : lattice_(lattice) {}
 
     void add(const Brep& brep, FaceId f) {
-        if (!is_lattice_face(BrepFaces(brep), f.index)) {
+        if (!is_whole_face(brep, f)) {
             faces_.push_back(face_area(brep, f));
             return;
         }
@@ -150,6 +158,11 @@ public:
         add(a);
     }
     void add(const LatticePoint& p, const LatticePoint& q, const LatticePoint& r) {
+        if (!(p.is_whole() && q.is_whole() && r.is_whole())) {
+            faces_.push_back(
+                triangle_area(corner_at(Point(p)), corner_at(Point(q)), corner_at(Point(r))));
+            return;
+        }
         VectorArea a;
         a.add_edge(p, q);
         a.add_edge(q, r);

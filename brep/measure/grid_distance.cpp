@@ -56,6 +56,12 @@ std::array<double, 3> rounded(const GridPoint& p) {
 }  // namespace
 
 GridPoint to_grid(const LatticePoint& p) {
+    if (!p.is_whole()) {
+        const auto floored = [](Coordinate x) {
+            return static_cast<Int128>(std::floor(std::ldexp(x.to_double(), grid_bits)));
+        };
+        return {floored(p.x), floored(p.y), floored(p.z)};
+    }
     const auto c = to_integers(p);
     return {Int128{c[0]} << grid_bits, Int128{c[1]} << grid_bits, Int128{c[2]} << grid_bits};
 }

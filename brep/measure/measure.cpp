@@ -34,6 +34,7 @@
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
 #include <trisect/brep/measure/fraction_tree.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
@@ -59,6 +60,8 @@ public:
     explicit LatticeSums(Want want) : want_(want) {}
 
     void add(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+        if (!(a.is_whole() && b.is_whole() && c.is_whole())) [[unlikely]]
+            return add_fractions({a, b, c});
         const Integers o = to_integers(a);
         const Integers p = to_integers(b);
         const Integers q = to_integers(c);
@@ -70,9 +73,53 @@ public:
         for (std::size_t i = 0; i < 3; ++i)
             sums_.moment24[i] += multiply<4>(det, WideInt<1>(o[i] + p[i] + q[i]));
     }
-    const Sums<WideInt<4>>& sums() const { return sums_; }
+    ExactRational volume6() const {
+        return ExactRational(sums_.volume6) +
+               ExactRational(fine_.volume6).scaled(-3 * fraction_limit);
+    }
+    ExactRational moment24(std::size_t i) const {
+        return ExactRational(sums_.moment24[i]) +
+               ExactRational(fine_.moment24[i]).scaled(-4 * fraction_limit);
+    }
+    /// The same, times 2^bits and rounded down.
+    mpz_class volume6(unsigned long bits) const {
+        return fixed(sums_.volume6, fine_.volume6, 3 * fraction_limit, bits);
+    }
+    mpz_class moment24(std::size_t i, unsigned long bits) const {
+        return fixed(sums_.moment24[i], fine_.moment24[i], 4 * fraction_limit, bits);
+    }
 
 private:
+    // Coordinates in units of 2^-fraction_limit have 126 bits: minors 254, determinants 382, times
+    // a sum of three 510, which leaves room for 2^64 triangles.
+    using Fine = WideInt<9>;
+
+    void add_fractions(const std::array<LatticePoint, 3>& corners) {
+        const auto fine = [&](std::size_t i, std::size_t k) {
+            return WideInt<2>(scaled_integer(coordinate(corners[i], k), fraction_limit));
+        };
+        WideInt<6> det;
+        for (std::size_t i = 0; i < axes; ++i) {
+            const std::size_t j = (i + 1) % axes;
+            const std::size_t k = (i + 2) % axes;
+            const auto minor =
+                multiply<4>(fine(1, j), fine(2, k)) - multiply<4>(fine(1, k), fine(2, j));
+            det += multiply<6>(minor, fine(0, i));
+        }
+        fine_.volume6 += Fine(det);
+        if (want_ == Want::Volume) return;
+        for (std::size_t i = 0; i < axes; ++i)
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                fine_.moment24[i] += multiply<9>(det, fine(corner, i));
+    }
+    template <int N>
+    static mpz_class fixed(const WideInt<N>& whole, const Fine& fine, int fine_bits,
+                           unsigned long bits) {
+        mpz_class rest = to_integer(fine) << bits;
+        mpz_fdiv_q_2exp(rest.get_mpz_t(), rest.get_mpz_t(), static_cast<mp_bitcnt_t>(fine_bits));
+        return (to_integer(whole) << bits) + rest;
+    }
+
     using Integers = VectorOf<std::int64_t>;
 
     static Int128 minor(const Integers& p, const Integers& q, std::size_t i, std::size_t j) {
@@ -81,6 +128,7 @@ private:
 
     Want want_;
     Sums<WideInt<4>> sums_;
+    Sums<Fine> fine_;  // of triangles with bits behind the point
 };
 
 mpz_class shifted_quotient(const mpz_class& n, const mpz_class& d, unsigned long bits) {
@@ -103,7 +151,7 @@ public:
     [[nodiscard]] Lattice lattice() const { return boundary_.lattice(); }
 
     ExactRational volume6() const {
-        ExactRational r(lattice_.sums().volume6);
+        ExactRational r = lattice_.volume6();
         if (!exact_faces_.empty())
             r += exact_sum(3, [](const mpz_class& det, const mpz_class& w, const auto&...) {
                 return fraction(det, w);
@@ -111,7 +159,7 @@ public:
         return r;
     }
     ExactRational moment24(std::size_t axis) const {
-        ExactRational r(lattice_.sums().moment24[axis]);
+        ExactRational r = lattice_.moment24(axis);
         if (exact_faces_.empty()) return r;
         r += exact_sum(4, [axis](const mpz_class& det, const mpz_class& w, const Corner& o,
                                  const Corner& p, const Corner& q) {
@@ -124,10 +172,9 @@ public:
     // Enclosures of 6 V and of the 24-fold moments.
     std::pair<Enclosure, std::array<Enclosure, axes>> enclose(unsigned long bits) const {
         Sums<mpz_class> sums;
-        sums.volume6 = to_integer(lattice_.sums().volume6) << bits;
-        for (std::size_t i = 0; i < axes; ++i)
-            sums.moment24[i] = to_integer(lattice_.sums().moment24[i]) << bits;
-        unsigned long terms = 0;
+        sums.volume6 = lattice_.volume6(bits);
+        for (std::size_t i = 0; i < axes; ++i) sums.moment24[i] = lattice_.moment24(i, bits);
+        unsigned long terms = 1;  // what lattice_ rounds down
         for_each_exact_triangle([&](const mpz_class& det, const mpz_class& w, const Corner& o,
                                     const Corner& p, const Corner& q) {
             ++terms;
@@ -325,7 +372,7 @@ ExactRational exact_volume(const Brep& brep, ShellId shell) {
 ExactRational exact_volume(const ExactMesh& mesh) { return exact_volume_of(MeshFaces(mesh)); }
 
 ExactRational exact_volume(const LatticeMesh& mesh) {
-    return volume_from(ExactRational(sums_of(mesh, Want::Volume).sums().volume6), mesh.lattice);
+    return volume_from(sums_of(mesh, Want::Volume).volume6(), mesh.lattice);
 }
 
 double volume(const Brep& brep) { return rounded_volume(BrepFaces(brep)); }
@@ -358,10 +405,10 @@ std::optional<std::array<ExactRational, 3>> exact_centroid(const ExactMesh& mesh
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const LatticeMesh& mesh) {
     const LatticeSums sums = sums_of(mesh, Want::VolumeAndMoments);
-    const ExactRational v(sums.sums().volume6);
+    const ExactRational v = sums.volume6();
     if (v.sign() == 0) return std::nullopt;
     const auto coordinate = [&](std::size_t i) {
-        return coordinate_from(ExactRational(sums.sums().moment24[i]), v, mesh.lattice);
+        return coordinate_from(sums.moment24(i), v, mesh.lattice);
     };
     return std::array{coordinate(0), coordinate(1), coordinate(2)};
 }

@@ -11,6 +11,7 @@
 #include <gmpxx.h>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 
@@ -98,11 +99,24 @@ private:
     int turn(const LatticePoint& a, const LatticePoint& b, int u, int v) const {
         const auto pu = static_cast<std::size_t>(u);
         const auto pv = static_cast<std::size_t>(v);
+        if (!(a.is_whole() && b.is_whole())) return turn_of_fractions(a, b, u, v);
         const mpz_class au(a[u].to_integer());
         const mpz_class av(a[v].to_integer());
         const mpz_class left = detail::difference(b[u], a[u]) * (q_.x[pv] - q_.w * av);
         const mpz_class right = detail::difference(b[v], a[v]) * (q_.x[pu] - q_.w * au);
         return sgn(mpz_class(left - right));
+    }
+
+    int turn_of_fractions(const LatticePoint& a, const LatticePoint& b, int u, int v) const {
+        const auto fine = [](Coordinate c) {
+            return to_integer(WideInt<2>(detail::scaled_integer(c, fraction_limit)));
+        };
+        const auto from = [&](int k) {
+            const mpz_class x = q_.x[static_cast<std::size_t>(k)] << fraction_limit;
+            return mpz_class(x - q_.w * fine(a[k]));
+        };
+        const auto way = [&](int k) { return mpz_class(fine(b[k]) - fine(a[k])); };
+        return sgn(mpz_class(way(u) * from(v) - way(v) * from(u)));
     }
 
     /// \pre the point is in the triangle's plane.

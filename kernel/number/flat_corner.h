@@ -26,8 +26,15 @@ struct FlatCorner {
     return {p[u], p[v]};
 }
 
+/// The same where some coordinate has bits behind the point.
+[[nodiscard]] int exact_turn_of_fractions(const FlatCorner& a, const FlatCorner& b,
+                                          const FlatCorner& c);
+
 /// Sign of p.u q.v - p.v q.u for differences p = b - a and q = c - a; exact.
 [[nodiscard]] inline int exact_turn(const FlatCorner& a, const FlatCorner& b, const FlatCorner& c) {
+    const auto is_whole = [](const FlatCorner& p) { return p.u.is_whole() && p.v.is_whole(); };
+    if (!(is_whole(a) && is_whole(b) && is_whole(c))) [[unlikely]]
+        return exact_turn_of_fractions(a, b, c);
     const Int128 left = Int128{difference(b.u, a.u)} * difference(c.v, a.v);
     const Int128 right = Int128{difference(b.v, a.v)} * difference(c.u, a.u);
     return left > right ? 1 : (left < right ? -1 : 0);

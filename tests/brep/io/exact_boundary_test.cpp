@@ -13,6 +13,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
+#include "support/fractions.h"
 #include "support/solids.h"
 
 namespace {
@@ -94,6 +95,47 @@ const std::string vertices = "vertices 4\np 0 0 0\np 1 0 0\nq 0 2 3\np 0 0 1\n";
 const std::string faces =
     "faces 4\n0 0 0 1 3 0 3 2\n1 0 1 1 3 0 1 3\n2 0 2 1 3 0 2 1\n3 0 3 1 3 1 2 3\n";
 
+// Two wedges, vertically opposite each other on an edge within a side of a box: it is slit there.
+TEST(ExactBoundary, ASlitIsReadBack) {
+    const auto wedge = [](double z) {
+        trisect::PolygonMesh mesh;
+        mesh.points = {{-1, 0, 0}, {1, 0, 0}, {0, z, z}, {0, -z, z}};
+        mesh.corners = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+        for (const std::uint32_t end : {3U, 6U, 9U, 12U}) mesh.face_begin.push_back(end);
+        return Expression(trisect::Solid::from_mesh(mesh));
+    };
+    expect_round_trip(Expression(trisect::Solid::from_mesh(make_box({-4, -4, -4}, {4, 4, 0}))) ^
+                      wedge(1) ^ wedge(-1));
+}
+
+// The same points on coarser lattices: the coordinates of corners have bits behind the point.
+TEST(ExactBoundary, FractionsAreReadBackBitForBit) {
+    const Brep whole =
+        trisect::evaluate(Expression(trisect::Solid::from_mesh(trisect::make_icosphere(1, 1))) -
+                          trisect::Solid::from_mesh(make_box({-0.3, -0.2, -2}, {0.4, 0.1, 2})))
+            .to_brep();
+    for (const int bits : {32, 56}) {
+        const Brep brep = trisect::test::with_fractions(whole, bits);
+        const std::string text = exact_text(brep);
+        EXPECT_EQ(text.rfind("trisect-exact 2\n", 0), 0U);
+        const Brep again = read_exact(text, "text");
+        expect_same(brep, again);
+        EXPECT_EQ(exact_text(again), text);
+        EXPECT_EQ(exact_volume(again), exact_volume(whole));
+        EXPECT_EQ(again.counts(), whole.counts());
+        EXPECT_EQ(area(again).value, area(whole).value);
+        EXPECT_EQ(trisect::centroid(again), trisect::centroid(whole));
+    }
+}
+
+TEST(ExactBoundary, FractionsBeyondTheBounds) {
+    const std::string start = "trisect-exact 2\nlattice 0\nplanes 0\nvertices 1\n";
+    expect_error(start + "p 0.5 1e-30 0\n",
+                 "e:5:7: '1e-30', read as a coordinate, has more than 73 bits behind the point");
+    expect_error(start + "p 0.5 9007199254740992 0\n",
+                 "e:5:7: '9007199254740992', read as a coordinate, is not below 2^53");
+}
+
 TEST(ExactBoundary, ATetrahedronByHand) {
     const Brep brep = read_exact(head + planes + vertices + faces, "e");
     EXPECT_EQ(brep.counts().vertices, 4U);
@@ -103,7 +145,7 @@ TEST(ExactBoundary, ATetrahedronByHand) {
 TEST(ExactBoundary, ErrorsNameTheirPlace) {
     expect_error("", "e:1:1: the file ends where 'trisect-exact' is expected");
     expect_error("off\n", "e:1:1: 'off' where 'trisect-exact' is expected");
-    expect_error("trisect-exact 2\n", "e:1:15: '2', read as the version, is not 1");
+    expect_error("trisect-exact 3\n", "e:1:15: '3', read as the version, is neither 1 nor 2");
     expect_error("trisect-exact 1\nlattice 4\n",
                  "e:2:9: '4', read as the lattice's exponent, is not a multiple of 8 from -1200 to "
                  "1016");
