@@ -13,8 +13,8 @@
 
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/winding_number.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/winding_number.h>
 
 #include "support/fractions.h"
 

@@ -16,10 +16,10 @@
 #include <trisect/brep/import/line_balance.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/kernel/error.h>
-#include <trisect/brep/primitives/sphere.h>
 
 #include "support/fractions.h"
 
