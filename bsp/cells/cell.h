@@ -64,6 +64,11 @@ struct Box {
 /// three are doubles.
 inline constexpr std::int64_t splitting_scale = 192;
 inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
+/// The next position for a reference point, from one on in a direction: even, and a double.
+[[nodiscard]] constexpr std::int64_t reference_position(std::int64_t from, std::int64_t direction) {
+    const std::int64_t above = (from % 6 + 6) % 6;  // the multiple of six below
+    return above == 0 ? from : from - above + (direction > 0 ? 6 : 0);
+}
 [[nodiscard]] constexpr bool may_be_splitter(std::int64_t position) {
     return position % 2 != 0 && position % 3 != 0;
 }
@@ -141,7 +146,7 @@ struct Cell {
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
         p.c[k] = (box.is_empty() ? 0 : box.lo[k] - 2) * splitting_scale +
-                 static_cast<std::int64_t>(12 + 22 * k);
+                 static_cast<std::int64_t>(12 + 24 * k);
     return p;
 }
 

@@ -149,7 +149,8 @@ bool place_reference(const CellTask& task, const SplittingPlane& splitter, int w
     // Straight through the splitting plane; the segment hits little.
     FinePoint p = task.reference;
     for (const std::int64_t step : {3, 37, 59, 101}) {
-        p.c[k] = splitter.position + (which == 0 ? -step : step);
+        const std::int64_t direction = which == 0 ? -1 : 1;
+        p.c[k] = reference_position(splitter.position + direction * step, direction);
         if (out.cell.contains(p) && pass_splitter(task, splitter, p, other_side, out)) return true;
     }
     // Then anywhere near the polygons.
@@ -180,7 +181,7 @@ bool place_reference(const CellTask& task, const SplittingPlane& splitter, int w
             }
             const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
             const auto c = lo + static_cast<std::int64_t>(mix64(attempt * 3 + axis) % range);
-            p.c[axis] = (c & 1) != 0 ? c + 1 : c;
+            p.c[axis] = reference_position(c, 1);
         }
         if (out.cell.contains(p) && windings_at(task, p, std::nullopt, out)) return true;
     }

@@ -155,7 +155,7 @@ std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, cons
     const KnownPoint& from = list.reference;
     for (const std::int64_t step : {3, 37, 59, 101, 1001, 10001}) {
         FinePoint p = from.at;
-        p.c[k] = splitter + direction * step;
+        p.c[k] = reference_position(splitter + direction * step, direction);
         if (!cell.contains(p)) continue;
         AxisTrace trace(from.at, p, axis);
         Box segment;

@@ -46,7 +46,7 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sol
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
         p.c[k] =
-            all.is_empty() ? 0 : (all.lo[k] - 3) * splitting_scale + 2 * static_cast<int>(k) + 12;
+            all.is_empty() ? 0 : (all.lo[k] - 3) * splitting_scale + 6 * static_cast<int>(k) + 12;
     return p;
 }
 
@@ -95,7 +95,7 @@ CellTask root_task(const Residual::Ref& formula,
     for (int attempt = 0; attempt < 100 && !placed; ++attempt) {
         for (std::size_t k = 0; k < 3; ++k)
             task.reference.c[k] -= static_cast<std::int64_t>(
-                2 * (mix64(static_cast<std::uint64_t>(attempt) * 3 + k) % 2000));
+                6 * (mix64(static_cast<std::uint64_t>(attempt) * 3 + k) % 2000));
         placed = place_root(solids, task);
     }
     TRISECT_EXPECTS(placed, "no reference point for the operands");

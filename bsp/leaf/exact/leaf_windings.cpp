@@ -146,7 +146,7 @@ void LeafWindings::next_reference() {
             const auto seed = static_cast<std::uint64_t>(++reference_attempt_) * 3 + axis;
             const auto range = static_cast<std::uint64_t>(std::max<std::int64_t>(hi - lo, 1));
             const auto c = lo + static_cast<std::int64_t>(mix64(seed) % range);
-            p.c[axis] = (c & 1) != 0 ? c + 1 : c;
+            p.c[axis] = reference_position(c, 1);
         }
         if (!work_->problem->cell.contains(p) || p == reference_) continue;
         const std::vector<char> known(work_->problem->operands.size(), 0);
