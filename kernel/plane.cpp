@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/power_of_two.h>
@@ -188,10 +189,8 @@ Plane::Plane(const Coefficient& nx, const Coefficient& ny, const Coefficient& nz
     : n_{nx, ny, nz}, d_(d) {
     const int normal_bits = std::max({nx.bit_length(), ny.bit_length(), nz.bit_length()});
     const int offset_bits = d.bit_length();
-    TRISECT_AUDIT_CHECK(normal_bits <= tier_bits.back().normal,
-                        "a plane's normal exceeds its bound");
-    TRISECT_AUDIT_CHECK(offset_bits <= tier_bits.back().offset,
-                        "a plane's offset exceeds its bound");
+    if (normal_bits > tier_bits.back().normal || offset_bits > tier_bits.back().offset)
+        throw LimitError("a plane's coefficients exceed their bound");
     while (normal_bits > tier_bits[tier_].normal || offset_bits > tier_bits[tier_].offset) ++tier_;
     shift_ = static_cast<std::int16_t>(std::max(normal_bits - unscaled_bits, 0));
     const double unit = detail::power_of_two(-shift_);

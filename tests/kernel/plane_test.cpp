@@ -244,5 +244,10 @@ TEST(Plane, LatticesOf26BitsAreNarrow) {
             }
 }
 
+TEST(Plane, RefusesCoefficientsBeyondTheWidestTier) {
+    const Plane::Coefficient one(1);
+    EXPECT_THROW(Plane(one.shifted_left(330), one, one, one), trisect::LimitError);
+}
+
 }  // namespace
 }  // namespace plane_test
