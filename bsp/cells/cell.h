@@ -11,16 +11,50 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <trisect/kernel/lattice_point.h>
 
 namespace trisect::detail {
 
-/// The position of a coordinate among lattice planes.
-[[nodiscard]] constexpr std::int64_t position_of(Coordinate c) { return c.to_integer(); }
+/// Positions of splitting planes and reference points count in 1/192 of the lattice unit. Those of
+/// splitting planes are odd and no multiples of three, those of reference points even; multiples of
+/// three are doubles.
+inline constexpr std::int64_t splitting_scale = 192;
+inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
+/// The offset of splitting planes from lattice positions, in 1/192 units. Solids whose coordinates
+/// have fractions are divided by no others.
+inline constexpr std::uint32_t usual_splitting_offset = 61;
 
-/// Closed box in lattice units; empty when lo > hi.
+namespace cell_rounding {
+/// The largest double below usual_splitting_offset / splitting_scale.
+inline constexpr double below_offset = 61.0 / 192.0;
+static_assert(static_cast<std::int64_t>(below_offset * 0x1p54) * splitting_scale <
+              std::int64_t{usual_splitting_offset} << 54);
+}  // namespace cell_rounding
+
+/// The position of a coordinate that has a fraction, see position_of().
+[[nodiscard]] inline std::int64_t position_of_fraction(double c) {
+    // c - floor is rounded where c lies in (-1/2, 0) only: to no less than a half.
+    const double floor = std::floor(c);
+    return static_cast<std::int64_t>(floor) + (c - floor > cell_rounding::below_offset ? 1 : 0);
+}
+
+/// The position of a coordinate among lattice planes: p where it lies between the splitting planes
+/// of usual offset above the lattice planes p - 1 and p. A whole number is its own position,
+/// whatever the offset.
+[[nodiscard]] inline std::int64_t position_of(Coordinate c) {
+    const std::int64_t whole = c.to_integer();  // rounded towards zero where there is a fraction
+    return static_cast<double>(whole) == c.to_double() ? whole
+                                                       : position_of_fraction(c.to_double());
+}
+/// Coordinates of position p lie above p - reach_below and below p + reach_above units.
+inline constexpr double reach_below = 131.0 / 192.0;
+inline constexpr double reach_above = 62.0 / 192.0;
+
+/// Closed box of positions; empty when lo > hi. Of points with whole coordinates, their box in
+/// lattice units.
 struct Box {
     std::array<std::int64_t, 3> lo{coordinate_limit, coordinate_limit, coordinate_limit};
     std::array<std::int64_t, 3> hi{-coordinate_limit, -coordinate_limit, -coordinate_limit};
@@ -59,11 +93,6 @@ struct Box {
     friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// Positions of splitting planes and reference points count in 1/192 of the lattice unit. Those of
-/// splitting planes are odd and no multiples of three, those of reference points even; multiples of
-/// three are doubles.
-inline constexpr std::int64_t splitting_scale = 192;
-inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
 /// The next position for a reference point, from one on in a direction: even, and a double.
 [[nodiscard]] constexpr std::int64_t reference_position(std::int64_t from, std::int64_t direction) {
     const std::int64_t above = (from % 6 + 6) % 6;  // the multiple of six below
@@ -72,7 +101,7 @@ inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
 [[nodiscard]] constexpr bool may_be_splitter(std::int64_t position) {
     return position % 2 != 0 && position % 3 != 0;
 }
-/// The position of a coordinate.
+/// The position of a coordinate. \pre is_whole()
 [[nodiscard]] constexpr std::int64_t fine_position(Coordinate c) {
     return c.to_integer() * splitting_scale;
 }

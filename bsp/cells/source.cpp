@@ -39,12 +39,19 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threa
     const std::span<const LatticePoint> points = s->mesh_.points;
     const ParallelParts parts(points.size(), threads, std::size_t{1} << 16);
     std::vector<Box> boxes(parts.count());
+    std::vector<std::uint8_t> whole(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         Box box;
-        for (const LatticePoint& p : points.subspan(begin, end - begin)) box.add(p);
+        bool all = true;
+        for (const LatticePoint& p : points.subspan(begin, end - begin)) {
+            box.add(p);
+            all = all && p.is_whole();
+        }
         boxes[part] = box;
+        whole[part] = all ? 1 : 0;
     });
     for (const Box& b : boxes) s->box_.add(b);
+    s->whole_ = std::ranges::all_of(whole, [](std::uint8_t all) { return all != 0; });
     return shared;
 }
 
@@ -61,6 +68,7 @@ std::shared_ptr<const Source> Source::planes(std::vector<Plane> planes, Lattice 
     auto* s = new Source;
     auto shared = share(s);
     s->planes_ = std::move(planes);
+    s->whole_ = std::ranges::all_of(s->planes_, [](const Plane& p) { return p.tier() <= 1; });
     s->mesh_.lattice = lattice;
     s->box_ = box;
     return shared;

@@ -52,6 +52,8 @@ public:
     [[nodiscard]] std::uint32_t operand() const { return operand_; }
     /// Whether the facets are planes, without corners and edges.
     [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
+    /// Whether all corners are whole, or all planes have the widths that such give them.
+    [[nodiscard]] bool is_whole() const { return whole_; }
     /// Whether the box says nothing.
     [[nodiscard]] bool is_unbounded() const { return box_.hi[0] == coordinate_limit; }
     [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }
@@ -119,6 +121,7 @@ private:
     LatticeMesh mesh_;
     std::vector<Plane> planes_;
     Box box_;
+    bool whole_ = true;
     std::uint64_t serial_ = 0;
     std::uint32_t operand_ = 0;
     std::shared_ptr<const std::vector<FaceSource>> names_;  // by face; null: its own

@@ -5,14 +5,12 @@
 
 #include <cstdint>
 
+#include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/cells/evaluate_stats.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
-
-/// Offset of splitting planes from lattice positions, in 1/192 units.
-inline constexpr std::uint32_t usual_splitting_offset = 61;
 
 /// The work of one evaluation under a limit, on one thread.
 struct WorkBudget {

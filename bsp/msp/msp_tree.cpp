@@ -17,7 +17,6 @@
 #include <utility>
 
 #include <trisect/brep/exact_rational.h>
-#include <trisect/brep/whole_coordinates.h>
 #include <trisect/bsp/msp/msp_build.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
@@ -86,7 +85,6 @@ private:
 }  // namespace
 
 MspTree MspTree::from_brep(const Brep& brep, const MspOptions& options) {
-    detail::require_whole(brep);
     return MspTreeBuilder::run(detail::msp::soup_of(brep), {}, Leaf::Out, options, brep.lattice());
 }
 

@@ -11,7 +11,6 @@
 
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
-#include <trisect/brep/whole_coordinates.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -144,7 +143,6 @@ Solid Solid::half_space(const Plane& plane, Lattice lattice) {
 }
 
 Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
-    detail::require_whole(mesh);
     return of_lattice_mesh(std::move(mesh), embedding, 1);
 }
 

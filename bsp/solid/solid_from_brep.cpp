@@ -17,7 +17,6 @@
 
 #include <trisect/brep/measure.h>
 #include <trisect/brep/triangulate.h>
-#include <trisect/brep/whole_coordinates.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/msp/msp_soup.h>
 #include <trisect/bsp/solid/inside_out.h>
@@ -151,7 +150,6 @@ Solid solid_from(const SourcePtr& source, PolygonList polygons, const Box& box, 
 
 Solid Solid::from_brep(const Brep& brep, Embedding embedding, InsideOut inside_out) {
     if (brep.is_empty()) return {};
-    detail::require_whole(brep);
     const bool accepts_all = embedding != Embedding::Assume && inside_out == InsideOut::Accept;
     if (!accepts_all && !(volume(brep) > 0)) detail::require_accepted(embedding, inside_out);
     if (is_on_the_lattice(brep)) return from_lattice_mesh(triangles_of(brep), embedding);

@@ -11,18 +11,15 @@
 #include <type_traits>
 #include <utility>
 
-#include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/msp_tree.h>
 #include <trisect/kernel/error.h>
 
 #include "engines/evaluate_stats.h"
-#include "support/fractions.h"
 
 namespace {
 
@@ -186,17 +183,6 @@ TEST(SolidValue, FacesOfAPolygonMeshStayWhole) {
 // The two triangles of a quadrilateral are one face.
 TEST(SolidValue, FacesOfAnOperandStayWholeWhereNotJoined) {
     EXPECT_EQ(unit_box().to_brep({.maximal_faces = false}).counts().faces, 6U);
-}
-
-// The tree has whole coordinates only: fractions are refused, never cut off.
-TEST(SolidValue, RefusesFractionsOfTheLattice) {
-    const trisect::Brep brep = trisect::test::with_fractions(unit_box().to_brep(), 60);
-    EXPECT_THROW(Solid::from_brep(brep), trisect::UnsupportedError);
-    EXPECT_THROW(trisect::MspTree::from_brep(brep), trisect::UnsupportedError);
-    trisect::LatticeMesh mesh = trisect::import_mesh(trisect::make_box({1, 1, 1})).mesh;
-    EXPECT_NO_THROW(Solid::from_lattice_mesh(mesh));
-    mesh.points.front().x = trisect::Coordinate(0.5);
-    EXPECT_THROW(Solid::from_lattice_mesh(mesh), trisect::UnsupportedError);
 }
 
 }  // namespace
