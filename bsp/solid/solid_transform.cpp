@@ -124,17 +124,30 @@ Lattice wanted_lattice(const SolidState& state, const Pose& pose) {
 // The same set on the wanted lattice, or one between, as fine as there is room.
 StatePtr refined_towards(const StatePtr& state, Lattice wanted) {
     for (Lattice l = wanted; l < state->lattice; l.exponent += 8) {
-        SolidState fine;  // an operand of this unit
-        fine.lattice = l;
-        fine.form = detail::state_of(Solid())->form;
-        std::vector<StatePtr> both{state, std::make_shared<const SolidState>(fine)};
         try {
-            (void)detail::move_to_common_lattice(both, EvaluateOptions::Lattices::Refuse);
-            return both[0];
+            return detail::moved_to_lattice(state, l);
         } catch (const LimitError&) {  // no room: a coarser one
         }
     }
     return state;
+}
+
+// Coordinates with fractions stay on their lattice. Nothing where a translation is not by whole
+// units, or a moved coordinate is no double.
+std::optional<StatePtr> moved_with_fractions(StatePtr state, LatticeMove move, const Pose& pose) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const mpq_class t = in_units(translation_of(pose, i), state->lattice);
+        if (t.get_den() != 1 || abs(t.get_num()) >= mpz_class(coordinate_limit))
+            return std::nullopt;
+        move.by[i] = t.get_num().get_si();
+    }
+    // Splitting planes that are turned over are not where coordinates with fractions need them.
+    if (std::ranges::min(move.sign) < 0) state = detail::without_tree(state);
+    try {
+        return detail::moved_state(*state, move);
+    } catch (const LimitError&) {
+        return std::nullopt;
+    }
 }
 
 StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport& report) {
@@ -273,6 +286,7 @@ StatePtr state_of(LatticeMesh mesh, std::uint32_t operand, std::vector<FaceSourc
          is_complement},
         {},
         nullptr};
+    state->whole = source->is_whole();
     state->source = operand != 0 ? operand : source->serial();
     state->far_out = is_complement ? 1 : 0;
     return state;
@@ -308,9 +322,14 @@ Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
     Solid out = solid;
     if (detail::state_of(solid)->lattice_matters && !(pose == Pose())) {
         const auto permutation = permutation_of(pose);
-        out =
-            detail::solid_of(permutation ? moved(detail::cut_state(solid), *permutation, pose, made)
-                                         : rounded(solid, pose, made));
+        const StatePtr state = detail::cut_state(solid);
+        std::optional<StatePtr> there;
+        if (permutation && !state->whole) {
+            there = moved_with_fractions(state, *permutation, pose);
+        } else if (permutation) {
+            there = moved(state, *permutation, pose, made);
+        }
+        out = detail::solid_of(there ? *there : rounded(solid, pose, made));
     }
     if (report != nullptr) *report = made;
     return out;
