@@ -174,10 +174,10 @@ public:
         text_.expect_line_end();
         expect("lattice");
         const std::int64_t exponent = text_.integer("the lattice's exponent");
-        if (exponent < -1200 || exponent > 1016)
-            text_.fail_word("the lattice's exponent", "is not from -1200 to 1016");
-        if (version == 1 && exponent % 8 != 0)
-            text_.fail_word("the lattice's exponent", "is not a multiple of 8");
+        const bool in_range = exponent >= -1200 && exponent <= 1016;
+        if (version_ == 1 && (!in_range || exponent % 8 != 0))
+            text_.fail_word("the lattice's exponent", "is not a multiple of 8 from -1200 to 1016");
+        if (!in_range) text_.fail_word("the lattice's exponent", "is not from -1200 to 1016");
         text_.expect_line_end();
         read_planes();
         read_vertices();
