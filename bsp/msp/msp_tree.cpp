@@ -46,8 +46,9 @@ public:
     FreePoint(const Point3d& p, Lattice lattice) : p_(p), exponent_(lattice.exponent) {
         for (std::size_t k = 0; k < 3; ++k) {
             near_.c[k] = std::ldexp(p[k], -exponent_);
-            // Below the normal range scaling may round.
-            if (std::fabs(near_.c[k]) < 0x1p-1000 && p[k] != 0) near_.error = 0x1p-1000;
+            // Below the normal range scaling may round, and so may products with coefficients far
+            // above it.
+            if (std::fabs(near_.c[k]) < least_normal && p[k] != 0) near_.error = least_normal;
         }
     }
     [[nodiscard]] std::optional<LatticePoint> lattice_point() const {
@@ -77,6 +78,8 @@ public:
     }
 
 private:
+    static constexpr double least_normal = 0x1p-500;
+
     Point3d p_;
     int exponent_;
     Approximation near_;
