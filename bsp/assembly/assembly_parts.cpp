@@ -336,7 +336,12 @@ void Gatherer::note_list(const AssembledLeaf& leaf, const PolygonList& polygons,
 template <bool Shared>
 void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
-    const Box inside = list.leaf->cell.lattice_box();
+    // Space reaches beyond all coordinates.
+    const Box space{{-coordinate_limit, -coordinate_limit, -coordinate_limit},
+                    {coordinate_limit, coordinate_limit, coordinate_limit}};
+    const Box inside = list.leaf->cell.lattice_box().intersected(space);
+    const LatticePoint lo{inside.lo[0], inside.lo[1], inside.lo[2]};
+    const LatticePoint hi{inside.hi[0], inside.hi[1], inside.hi[2]};
     const LatticeMesh& mesh = marks.source()->mesh();
     const auto facets = list.facets;
     for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -346,9 +351,8 @@ void mark_list(const ListPart& list, FacetMarks& marks) {
             __builtin_prefetch(&mesh.points[mesh.triangles[facets[i + ahead]][0]]);
         const std::uint32_t f = facets[i];
         const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
-        const bool owned =
-            (int{p.x >= inside.lo[0]} & int{p.x <= inside.hi[0]} & int{p.y >= inside.lo[1]} &
-             int{p.y <= inside.hi[1]} & int{p.z >= inside.lo[2]} & int{p.z <= inside.hi[2]}) != 0;
+        const bool owned = (int{p.x >= lo.x} & int{p.x <= hi.x} & int{p.y >= lo.y} &
+                            int{p.y <= hi.y} & int{p.z >= lo.z} & int{p.z <= hi.z}) != 0;
         if constexpr (Shared) {
             marks.add_present_shared(f, list.flipped, owned);
         } else {

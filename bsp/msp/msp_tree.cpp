@@ -20,6 +20,7 @@
 #include <trisect/bsp/msp/msp_build.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
@@ -54,11 +55,10 @@ public:
     [[nodiscard]] std::optional<LatticePoint> lattice_point() const {
         if (near_.error != 0) return std::nullopt;
         for (const double c : near_.c)
-            if (std::fabs(c) >= static_cast<double>(coordinate_limit) || c != std::rint(c))
+            if (!(std::fabs(c) < static_cast<double>(coordinate_limit)) ||
+                detail::dyadic(c).exponent < -fraction_limit)
                 return std::nullopt;
-        return LatticePoint{static_cast<std::int64_t>(near_.c[0]),
-                            static_cast<std::int64_t>(near_.c[1]),
-                            static_cast<std::int64_t>(near_.c[2])};
+        return LatticePoint{Coordinate(near_.c[0]), Coordinate(near_.c[1]), Coordinate(near_.c[2])};
     }
     [[nodiscard]] Side side(const Plane& plane) const {
         // Out of range a coordinate is infinite and the filter, comparing with NaN, does not
