@@ -14,10 +14,10 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/partitions/inner_balls.h>
 #include <trisect/bsp/hierarchies/partitions/plane_tree.h>
 #include <trisect/bsp/hierarchies/partitions/split_cells.h>
-#include <trisect/bsp/hierarchies/pairs/queries.h>
 #include <trisect/bsp/hierarchies/structures.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/solid.h>
@@ -79,8 +79,9 @@ TEST(HierarchyFractions, KeepAnswersOnSmallGrids) {
         const LatticeMesh a = engines::lattice_mesh(reference::random_embedded_solid(random));
         const LatticeMesh b = engines::lattice_mesh(reference::random_embedded_solid(random));
         if (a.triangles.empty() || b.triangles.empty()) continue;
-        expect_the_same_answers(a, b, {Pose(), Pose::from_translation({3, 1, -2}),
-                                       Pose::from_translation({40, 1, -2})});
+        expect_the_same_answers(
+            a, b,
+            {Pose(), Pose::from_translation({3, 1, -2}), Pose::from_translation({40, 1, -2})});
     }
 }
 

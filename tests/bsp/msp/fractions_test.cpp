@@ -29,8 +29,8 @@ using test::SolidSketch;
 using test::with_fractions;
 
 constexpr std::array<int, 4> shifts{8, 24, 56, 70};
-constexpr std::array heuristics{MspHeuristic::AsGiven, MspHeuristic::LeastSplits,
-                                MspHeuristic::Balanced, MspHeuristic::LargestFirst};
+constexpr std::array all_heuristics{MspHeuristic::AsGiven, MspHeuristic::LeastSplits,
+                                    MspHeuristic::Balanced, MspHeuristic::LargestFirst};
 
 Point with_fractions_at(const Point& p, int bits) {
     if (p.is_lattice()) return with_fractions(p.lattice(), bits);
@@ -69,7 +69,7 @@ Brep named_by_planes(const Brep& brep) {
 
 void expect_the_same_leaves(const Brep& whole, const std::vector<test::Probe>& probes,
                             const Brep& same, int bits) {
-    for (const MspHeuristic h : heuristics) {
+    for (const MspHeuristic h : all_heuristics) {
         MspOptions options;
         options.split_heuristic = h;
         const MspTree coarse = MspTree::from_brep(same, options);
