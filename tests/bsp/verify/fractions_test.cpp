@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/certified_rounding.h>
 #include <trisect/bsp/verify.h>
+#include <trisect/bsp/verify/difference_witness.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
@@ -83,6 +85,61 @@ TEST(VerifyFractions, DoublesAsTheyCome) {
     options.within = 0x1p-19;
     report = verify(BooleanOperation::Intersection, operands, moved, options);
     EXPECT_EQ(report.verdict, Verdict::Within);
+}
+
+// A box over the unit square from `low` to 1.
+LatticeMesh box_from(double low) {
+    LatticeMesh mesh;
+    for (int i = 0; i < 8; ++i)
+        mesh.points.push_back(
+            {(i & 1) != 0 ? 1 : 0, (i & 2) != 0 ? 1 : 0, Coordinate((i & 4) != 0 ? 1.0 : low)});
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+detail::GridTriangles grid_of(const LatticeMesh& mesh) {
+    std::vector<detail::GridTriangle> out;
+    for (const auto& t : mesh.triangles)
+        out.emplace_back(detail::to_grid(mesh.points[t[0]]), detail::to_grid(mesh.points[t[1]]),
+                         detail::to_grid(mesh.points[t[2]]));
+    return detail::GridTriangles(std::move(out));
+}
+
+// The difference is thinner than the grid on which distances are certified.
+TEST(VerifyFractions, AWitnessInASlabBelowTheGrid) {
+    constexpr double thick = 0x1p-60;
+    const LatticeMesh exact = box_from(thick);
+    const LatticeMesh result = box_from(0);
+    LatticeMesh slab = result;
+    for (LatticePoint& p : slab.points)
+        if (p.z == 1) p.z = Coordinate(thick);
+    const std::array meshes{ImportedMesh{exact, ImportReport()},
+                            ImportedMesh{result, ImportReport()}};
+    const std::array solids{Solid::from_lattice_mesh(exact), Solid::from_lattice_mesh(result)};
+    const std::array moved{0.0, 0.0};
+    const detail::GridTriangles exact_grid = grid_of(exact);
+    const detail::GridTriangles result_grid = grid_of(result);
+    detail::DifferenceRadius radius;
+    radius.piece = std::make_shared<Brep>(brep_from_lattice_mesh(slab));
+    radius.vertex = VertexId(0);
+    VerifyOptions options;
+    for (const bool is_asked_for_0 : {false, true}) {
+        if (is_asked_for_0) options.within = 0;
+        const auto witness = detail::find_witness(
+            {BooleanOperation::Union, options, {}, meshes, solids, exact_grid, result_grid, moved},
+            radius);
+        ASSERT_TRUE(witness);
+        EXPECT_FALSE(witness->in_exact);
+        EXPECT_TRUE(witness->in_result);
+        EXPECT_GT(witness->point[2].sign(), 0);
+        EXPECT_LT(witness->point[2], ExactRational::from_double(thick));
+        EXPECT_TRUE(witness->holds_as_given);
+    }
+    options.within = 0x1p-50;
+    EXPECT_FALSE(detail::find_witness(
+        {BooleanOperation::Union, options, {}, meshes, solids, exact_grid, result_grid, moved},
+        radius));
 }
 
 }  // namespace
