@@ -32,7 +32,7 @@ using namespace trisect;
 using namespace trisect::hierarchies;
 using trisect::test::with_fractions;
 
-constexpr std::array<int, 4> shifts{8, 24, 56, 70};
+constexpr std::array<int, 2> shifts{24, 70};
 
 struct Answers {
     bool meet = false;
@@ -73,15 +73,14 @@ void expect_the_same_answers(const LatticeMesh& a, const LatticeMesh& b,
 }
 
 TEST(HierarchyFractions, KeepAnswersOnSmallGrids) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(seed);
         reference::Random random(seed);
         const LatticeMesh a = engines::lattice_mesh(reference::random_embedded_solid(random));
         const LatticeMesh b = engines::lattice_mesh(reference::random_embedded_solid(random));
         if (a.triangles.empty() || b.triangles.empty()) continue;
         expect_the_same_answers(
-            a, b,
-            {Pose(), Pose::from_translation({3, 1, -2}), Pose::from_translation({40, 1, -2})});
+            a, b, {Pose::from_translation({3, 1, -2}), Pose::from_translation({40, 1, -2})});
     }
 }
 
