@@ -19,8 +19,8 @@ struct Overlap {
     Solid scaled_solid;
     ExactRational scale = 1;
     /// Whether the solid is the overlap exactly. Otherwise corners were rounded to a lattice first:
-    /// where a corner is no lattice point because a boolean made it, or the corners of both solids
-    /// in common units need more than 53 bits.
+    /// where a corner is no lattice point because a boolean made it, or a coordinate, times the
+    /// scale, is no double or not in the range of coordinates (kernel/coordinate.h).
     bool is_exact = true;
     /// How far rounding moved a coordinate at most, in A's frame and the user's units.
     double max_move = 0;

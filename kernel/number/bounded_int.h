@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoundedInt: integers of at most 4096 bits on the stack.
+// BoundedInt: integers of at most 8192 bits on the stack.
 // Their cost follows their actual length.
 //
 // The widths of numbers that belong to two posed solids differ by a factor of twenty: a corner on a
@@ -28,7 +28,7 @@ namespace trisect::detail {
 /// internal error. Nothing allocates. Copies move the limbs in use only.
 class BoundedInt {
 public:
-    static constexpr int capacity = 64;
+    static constexpr int capacity = 128;
 
     BoundedInt() noexcept = default;
     BoundedInt(std::int64_t v) noexcept  // NOLINT(google-explicit-constructor): a number

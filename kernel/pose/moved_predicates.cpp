@@ -5,20 +5,21 @@
 // plane would take three times the pose. And a pose is a rational map, so rounded moved corners
 // would destroy nearly all coplanarities that there were.
 //
-// Widths. P bounds the bits of the relative pose (895), |n| < 2^109, |d| < 2^163; homogeneous
-// points have |x| < 2^384, w < 2^330 (plane.h, predicates.h); differences of lattice points are
-// below 2^54.
-//   direction        w_p q - w_q p                     < 2^715      (2^54 on the lattice)
-//   n' = M^T n       three products                    < 2^(P+111)
-//   d' = S d + n·t   S d < 2^(P+163), n·t < 2^(P+111)  < 2^(P+164)
-//   n'·x + d' w                                        < 2^(P+498)
-//   n'·v                                               < 2^(P+828)
-//   M x + t w                                          < 2^(P+386)
-//   w_r (M s) - w_s (M r)                              < 2^(P+717)
-//   w_p (M r) - S w_r p                                < 2^(P+717)
-//   det(q - p, s' - r', r' - p)   six products         < 2^(715 + 2 (P+717) + 3) = 2^(2P+2152)
-// With P = 895 the last is below 2^3942; BoundedInt holds 4096. On lattices of b bits and a pose of
-// m bits the numbers are 3 b + m + 5 for sides and 3 b + 2 m + 8 for two edges.
+// Widths. P bounds the bits of the relative pose (895). Planes have |n| < 2^328, |d| < 2^383,
+// homogeneous points |x| < 2^1044, w < 2^988 (plane.h, predicates.h); in the second column what
+// whole coordinates give: |n| < 2^109, |d| < 2^163, |x| < 2^384, w < 2^330.
+//   direction        w_p q - w_q p                     < 2^2033       2^715
+//   n' = M^T n       three products                    < 2^(P+330)    2^(P+111)
+//   d' = S d + n·t                                     < 2^(P+385)    2^(P+164)
+//   n'·x + d' w                                        < 2^(P+1377)   2^(P+498)
+//   n'·v                                               < 2^(P+2365)   2^(P+828)
+//   M x + t w                                          < 2^(P+1046)   2^(P+386)
+//   w_r (M s) - w_s (M r)                              < 2^(P+2035)   2^(P+717)
+//   w_p (M r) - S w_r p                                < 2^(P+2035)   2^(P+717)
+//   det(q - p, s' - r', r' - p)   six products         < 2^(2P+6106)  2^(2P+2152)
+// With P = 895 the last is below 2^7896, and 2^3942 of whole coordinates; BoundedInt holds 8192. On
+// lattices of b bits and a pose of m bits the numbers are 3 b + m + 5 for sides and 3 b + 2 m + 8
+// for two edges.
 
 #include <trisect/kernel/pose/moved_predicates.h>
 
@@ -170,7 +171,12 @@ void Direction::make_doubles() {
     const int down = top > 64 ? top - 64 : 0;  // a common positive factor does not matter
     for (std::size_t i = 0; i < 3; ++i) {
         const BoundedInt::Scaled s = v_[i].scaled();
-        // At most 651 places down: nothing underflows.
+        // Of whole coordinates at most 651 places down. Farther down a double might underflow;
+        // then there are none, and nothing is decided by them.
+        if (s.mantissa != 0 && s.exponent - down < -900) {
+            f_ = {};
+            return;
+        }
         f_[i] = s.mantissa == 0 ? 0.0 : std::ldexp(s.mantissa, s.exponent - down);
     }
 }
@@ -213,7 +219,8 @@ PulledPlane::PulledPlane(const Plane& plane, const RelativePose& pose)
         d_terms += mag(term);
     }
     for (double& e : fn_error_) e *= 0x1p-49;
-    fd_error_ = 0x1p-49 * d_terms;
+    // The last term is for coordinates of points of planes that nearly underflow.
+    fd_error_ = 0x1p-49 * d_terms + 0x1p-900;
 }
 
 const PulledPlane::Exact& PulledPlane::exact() const {

@@ -42,7 +42,7 @@ public:
 
     [[nodiscard]] const IntVector& exact() const { return v_; }
     /// Doubles within relative_error of the exact components, which are scaled so that they cannot
-    /// overflow in products of three.
+    /// overflow in products of three; 0 where components are too far apart for that.
     [[nodiscard]] const std::array<double, 3>& approx() const { return f_; }
     static constexpr double relative_error = 0x1p-51;
     [[nodiscard]] Direction operator-() const;

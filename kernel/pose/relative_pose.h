@@ -94,8 +94,9 @@ struct PosedPair {
 inline Approximation RelativePose::move(const Approximation& p) const {
     // Coefficients have a relative error of 2^-50, products and three sums add 4 roundings of
     // 2^-53: below 1.5 · 2^-50 of the terms' magnitudes, 2^-49 with the rounding of the bound.
-    // The point's own error passes through the row.
+    // The point's own error passes through the row. What underflows is below the first term.
     Approximation r;
+    r.error = 0x1p-900;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& row = fm_[i];
         const auto mag = [](double v) { return v < 0 ? -v : v; };

@@ -8,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
+#include "support/gmp_oracle.h"
 #include "support/lattice_arithmetic.h"
+#include "support/triangle_oracle.h"
 
 namespace {
 
@@ -97,5 +100,47 @@ void compare(std::int64_t range, int count) {
 TEST(TrianglePair, AgreesOnASmallGridWhereEdgesMeet) { compare(4, 40000); }
 TEST(TrianglePair, AgreesOnALargerGrid) { compare(100, 40000); }
 TEST(TrianglePair, AgreesWithCornersOfTwentyBits) { compare(1 << 19, 40000); }
+
+// Coordinates with up to 60 bits behind the point, whose differences are rounded. Half of the pairs
+// have a side next to one of the other triangle.
+TEST(TrianglePair, AgreesOnCornersWithFractions) {
+    oracle::Source random(5);
+    int crossing = 0;
+    int disjoint = 0;
+    for (int i = 0; i < 4000; ++i) {
+        Triangle a;
+        Triangle b;
+        for (auto* t : {&a, &b})
+            for (LatticePoint& p : *t) p = random.point(3, 60);
+        if (random.coin())
+            for (std::size_t k = 0; k < 2; ++k) {
+                const auto near = [&](trisect::Coordinate c) {
+                    const double by = std::ldexp(1.0, -static_cast<int>(random.between(20, 53)));
+                    return trisect::Coordinate(c.to_double() + (random.coin() ? by : -by));
+                };
+                b[k] = {near(a[k].x), near(a[k].y), near(a[k].z)};
+            }
+        if (are_collinear(a[0], a[1], a[2]) || are_collinear(b[0], b[1], b[2])) continue;
+        const trisect::Plane pa = trisect::Plane::through(a[0], a[1], a[2]);
+        const trisect::Plane pb = trisect::Plane::through(b[0], b[1], b[2]);
+        SidedTriangle sa{a, {}};
+        SidedTriangle sb{b, {}};
+        for (std::size_t k = 0; k < 3; ++k) {
+            sa.sides[k] = oracle::side(oracle::rational(a[k]), pb);
+            sb.sides[k] = oracle::side(oracle::rational(b[k]), pa);
+        }
+        if (!straddles(sa) || !straddles(sb)) continue;
+        const TrianglePair found = relate_triangles(sa, sb);
+        if (found == TrianglePair::Unknown) continue;
+        const auto exact = [](const Triangle& t) {
+            return brute::Triangle3{brute::exact(t[0].doubles()), brute::exact(t[1].doubles()),
+                                    brute::exact(t[2].doubles())};
+        };
+        EXPECT_EQ(found == TrianglePair::Crossing, brute::meet(exact(a), exact(b)));
+        ++(found == TrianglePair::Crossing ? crossing : disjoint);
+    }
+    EXPECT_GT(crossing, 50);
+    EXPECT_GT(disjoint, 50);
+}
 
 }  // namespace

@@ -76,7 +76,7 @@ struct ExactPoints {
     mpz_class weight = 1;
 
     void add(const Point& p) {
-        if (p.is_lattice()) {
+        if (p.is_lattice() && p.lattice().is_whole()) {
             const auto x = to_integers(p.lattice());
             xyz.push_back({to_gmp(x[0]) * weight, to_gmp(x[1]) * weight, to_gmp(x[2]) * weight});
             return;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Solids live on lattices, placed solids do not. With the relative pose (M x + t) / S both are on
-// A's lattice divided by S: A's corners times S and M b + t are integers. What S and all these
-// have in common is taken out; if the rest has 53 bits, the boolean is exact. Powers of two in S go
-// into the unit of the lattice, an odd factor is left in the result as its scale.
+// Solids live on lattices, placed solids do not. With the relative pose (M x + t) / S, and k bits
+// behind the point at most, both are on A's lattice divided by D = 2^k S: A's corners times D and
+// 2^k (M b + t) are integers. What D and all these have in common is taken out. Powers of two in
+// what is left of D go into the unit of the lattice, an odd factor is left in the result as its
+// scale. If corners have 53 bits then, the boolean is exact; and if each of them is a double within
+// the range of coordinates, it is exact with bits behind the point.
 //
 // Else corners are rounded to a lattice a little coarser than 53 bits, which is said, and the
 // operands are resolved, because rounding may make them meet themselves.
@@ -22,6 +24,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/relation/exact_place.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/pose/relative_pose.h>
 
 namespace trisect {
@@ -44,14 +47,57 @@ LatticeMesh mesh_of(const InterferenceModelData& model, Lattice lattice,
     return mesh;
 }
 
-// The images of lattice points times the pose's denominator.
-std::vector<IntVector> images(const InterferenceModelData& model, const RelativePose& pose) {
+// Units of lattices are powers of 2^8.
+int floor_to_unit(int exponent) { return (exponent - (exponent % 8 + 8) % 8); }
+int ceil_to_unit(int exponent) { return -floor_to_unit(-exponent); }
+
+// Bits behind the point. \pre all corners are lattice points
+int fraction_bits_of(const InterferenceModelData& model) {
+    int bits = 0;
+    for (const Point& p : model.brep.points())
+        bits = std::max(bits, detail::fraction_bits(p.lattice()));
+    return bits;
+}
+
+// The images of lattice points times the pose's denominator and 2^bits.
+std::vector<IntVector> images(const InterferenceModelData& model, const RelativePose& pose,
+                              int bits) {
     std::vector<IntVector> out;
     for (const Point& p : model.brep.points()) {
-        const IntVector x = detail::exact_point(p).x;
+        detail::IntPoint x = detail::exact_point(p);
+        const int shift = bits - (x.w.bit_length() - 1);  // the weight is a power of two
+        if (shift > 0)
+            for (BoundedInt& c : x.x) c = c.shifted_left(shift);
         IntVector y;
-        for (std::size_t i = 0; i < 3; ++i) y[i] = dot(pose.row(i), x) + pose.translation()[i];
+        for (std::size_t i = 0; i < 3; ++i)
+            y[i] = dot(pose.row(i), x.x) + pose.translation()[i].shifted_left(bits);
         out.push_back(y);
+    }
+    return out;
+}
+
+// v 2^exponent, where it is a coordinate.
+std::optional<Coordinate> coordinate_of(const BoundedInt& v, int exponent) {
+    if (v.is_zero()) return Coordinate();
+    const int zeros = v.trailing_zeros();
+    const int bits = v.bit_length();
+    if (bits - zeros > coordinate_bits || bits + exponent > coordinate_bits ||
+        zeros + exponent < -fraction_limit)
+        return std::nullopt;
+    const auto digits = static_cast<double>(v.shifted_right(zeros).to_int128());
+    return Coordinate(std::ldexp(digits, zeros + exponent));
+}
+
+std::optional<std::vector<LatticePoint>> coordinates_of(const std::vector<IntVector>& points,
+                                                        int exponent) {
+    std::vector<LatticePoint> out;
+    out.reserve(points.size());
+    for (const IntVector& p : points) {
+        const auto x = coordinate_of(p[0], exponent);
+        const auto y = coordinate_of(p[1], exponent);
+        const auto z = coordinate_of(p[2], exponent);
+        if (!x || !y || !z) return std::nullopt;
+        out.push_back({*x, *y, *z});
     }
     return out;
 }
@@ -82,42 +128,52 @@ public:
 private:
     bool try_exact() {
         if (!a_.all_lattice || !b_.all_lattice) return false;
-        const std::vector<IntVector> moved = images(b_, to_a_);
-        BoundedInt common = to_a_.denominator();
-        for (const IntVector& p : moved)
-            for (const BoundedInt& x : p)
-                if (common.bit_length() > 1) common = gcd(common, x);
-        const BoundedInt s = divided_exactly(to_a_.denominator(), common);
-        // s = odd · 2^twos; the lattice takes multiples of 2^8, rounded up where there is room.
+        const int bits = std::max(fraction_bits_of(a_), fraction_bits_of(b_));
+        const BoundedInt whole = to_a_.denominator().shifted_left(bits);
+        std::vector<IntVector> points_a = images(a_, RelativePose(), bits);
+        for (IntVector& p : points_a)
+            for (BoundedInt& x : p) x = x * to_a_.denominator();
+        std::vector<IntVector> points_b = images(b_, to_a_, bits);
+        BoundedInt common = whole;
+        for (auto* points : {&points_b, &points_a})
+            for (const IntVector& p : *points)
+                for (const BoundedInt& x : p)
+                    if (common.bit_length() > 1) common = gcd(common, x);
+        for (auto* points : {&points_a, &points_b})
+            for (IntVector& p : *points)
+                for (BoundedInt& x : p) x = divided_exactly(x, common);
+        return place_exactly(points_a, points_b, divided_exactly(whole, common));
+    }
+
+    // Corners times s. The lattice is divided by the powers of two in s, rounded up where there is
+    // room for whole coordinates.
+    bool place_exactly(const std::vector<IntVector>& points_a,
+                       const std::vector<IntVector>& points_b, const BoundedInt& s) {
         const int twos = s.trailing_zeros();
-        for (const int exponent : {(twos + 7) / 8 * 8, twos / 8 * 8}) {
-            const int shift = std::max(0, exponent - twos);
-            const auto points_a = fitting(images(a_, RelativePose()), s.shifted_left(shift), {});
-            const auto points_b = fitting(moved, BoundedInt(1).shifted_left(shift), common);
-            if (!points_a || !points_b) continue;
-            result_.scale =
-                ExactRational(s.shifted_left(shift).shifted_right(exponent).to_wide<16>());
-            intersect(Lattice{a_.brep.lattice().exponent - exponent}, *points_a, *points_b,
-                      Embedding::Assume);
+        const int unit = a_.brep.lattice().exponent;
+        for (const int exponent : {floor_to_unit(unit - twos), ceil_to_unit(unit - twos)}) {
+            const int finer = unit - exponent;
+            if (finer < 0) continue;
+            const int shift = std::max(0, finer - twos);
+            const auto a = coordinates_of(points_a, shift);
+            const auto b = coordinates_of(points_b, shift);
+            if (!a || !b) continue;
+            result_.scale = ExactRational(s.shifted_left(shift).shifted_right(finer).to_wide<16>());
+            intersect(Lattice{exponent}, *a, *b, Embedding::Assume);
             return true;
         }
-        return false;
-    }
-    static std::optional<std::vector<LatticePoint>> fitting(const std::vector<IntVector>& points,
-                                                            const BoundedInt& factor,
-                                                            const BoundedInt& divisor) {
-        std::vector<LatticePoint> out;
-        for (const IntVector& p : points) {
-            std::array<std::int64_t, 3> c{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const BoundedInt x =
-                    (divisor.is_zero() ? p[i] : divided_exactly(p[i], divisor)) * factor;
-                if (x.bit_length() > coordinate_bits) return std::nullopt;
-                c[i] = static_cast<std::int64_t>(x.to_wide<1>().limb(0));
-            }
-            out.push_back({c[0], c[1], c[2]});
-        }
-        return out;
+        // Bits behind the point: as many before it as import leaves.
+        int bits = 0;
+        for (const auto* points : {&points_a, &points_b})
+            for (const IntVector& p : *points)
+                for (const BoundedInt& x : p) bits = std::max(bits, x.bit_length());
+        const int exponent = ceil_to_unit(unit - twos + bits - (coordinate_bits - growth_bits));
+        const auto a = coordinates_of(points_a, unit - twos - exponent);
+        const auto b = coordinates_of(points_b, unit - twos - exponent);
+        if (!a || !b) return false;
+        result_.scale = ExactRational(s.shifted_right(twos).to_wide<16>());
+        intersect(Lattice{exponent}, *a, *b, Embedding::Assume);
+        return true;
     }
 
     void round() {
@@ -129,15 +185,15 @@ private:
         };
         const std::vector<ExactPlace> a = places(a_, RelativePose());
         const std::vector<ExactPlace> b = places(b_, to_a_);
-        double largest = 1;
+        double largest = 0;
         for (const auto* points : {&a, &b})
             for (const ExactPlace& p : *points)
                 for (const ExactRational& x : p.c)
                     largest = std::max(largest, std::abs(x.to_double()));
         const int bits = std::ilogb(largest) + 1;
-        const int finer =
-            static_cast<int>(std::floor((coordinate_bits - growth_bits - bits) / 8.0)) * 8;
-        const int exponent = a_.brep.lattice().exponent - finer;
+        const int unit = a_.brep.lattice().exponent;
+        const int exponent = ceil_to_unit(unit - (coordinate_bits - growth_bits - bits));
+        const int finer = unit - exponent;
         const auto rounded = [&](const std::vector<ExactPlace>& points) {
             std::vector<LatticePoint> out;
             for (const ExactPlace& p : points) {

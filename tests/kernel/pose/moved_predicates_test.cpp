@@ -8,12 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/pose.h>
 #include <trisect/kernel/pose/relative_pose.h>
 
+#include "support/fractions.h"
 #include "support/gmp_oracle.h"
 #include "support/lattice_arithmetic.h"
 #include "support/pose_oracle.h"
@@ -133,6 +135,74 @@ TEST(MovedPredicates, AgreeWithRationalsOnRandomInput) {
         const auto point = [&] { return random_point(random, s.bits, s.plane_points); };
         expect_same(s, random.plane(s.bits), {point(), point()}, {point(), point(), point()});
     }
+}
+
+// Corners with up to 73 bits behind the point, and points of planes through such.
+TEST(MovedPredicates, AgreeWithRationalsOnFractions) {
+    oracle::Source random(21);
+    for (int round = 0; round < 4000; ++round) {
+        const Scene s = random_scene(random, round);
+        const int behind = 1 + static_cast<int>(random.below(trisect::fraction_limit));
+        const auto plane = [&] { return random.plane(s.bits, random.coin() ? behind : 0); };
+        const auto point = [&]() -> Point {
+            if (!s.plane_points) return random.point(s.bits, random.coin() ? behind : 1);
+            for (;;) {
+                const Plane p = plane();
+                const Plane q = plane();
+                const Plane r = plane();
+                if (meet_in_a_point(p, q, r)) return {p, q, r};
+            }
+        };
+        expect_same(s, plane(), {point(), point()}, {point(), point(), point()});
+    }
+}
+
+// The same scene in units 2^bits times as large has the same signs, flush or not.
+TEST(MovedPredicates, AreThoseOfTheSameSceneWithFractions) {
+    oracle::Source random(22);
+    int on = 0;
+    for (int round = 0; round < 4000; ++round) {
+        // Quarter turns and translations bring corners of one into planes of the other.
+        const PoseKind kind = random.coin() ? PoseKind::QuarterTurns : PoseKind::Translation;
+        const Pose pose = random_pose(random, kind, 8);
+        const std::array<int, 2> bits{static_cast<int>(random.below(71)),
+                                      static_cast<int>(random.below(71))};
+        const PosedPair whole(Pose(), Lattice{}, pose, Lattice{});
+        const PosedPair fine(Pose(), Lattice{bits[0]}, pose, Lattice{bits[1]});
+        const auto corner = [&] { return random.point(3); };
+        const std::array<LatticePoint, 3> a{corner(), corner(), corner()};
+        const std::array<LatticePoint, 3> b{corner(), corner(), corner()};
+        if (are_collinear(a[0], a[1], a[2]) || b[0] == b[1]) continue;
+        const auto in_a = [&](const LatticePoint& p) -> Point {
+            return trisect::test::with_fractions(p, bits[0]);
+        };
+        const auto in_b = [&](const LatticePoint& p) -> Point {
+            return trisect::test::with_fractions(p, bits[1]);
+        };
+        const Plane plane = Plane::through(a[0], a[1], a[2]);
+        const Plane fine_plane =
+            Plane::through(in_a(a[0]).lattice(), in_a(a[1]).lattice(), in_a(a[2]).lattice());
+        const PulledPlane pulled(plane, whole.to_a);
+        const PulledPlane fine_pulled(fine_plane, fine.to_a);
+        const std::array<Point, 3> fine_b{in_b(b[0]), in_b(b[1]), in_b(b[2])};
+        const std::array<Point, 3> whole_b{b[0], b[1], b[2]};
+        const std::array<Point, 3> whole_a{a[0], a[1], a[2]};
+        const std::array<Point, 3> fine_a{in_a(a[0]), in_a(a[1]), in_a(a[2])};
+        EXPECT_EQ(fine_pulled.side_of(fine_b[0]), pulled.side_of(whole_b[0]));
+        on += pulled.side_of(whole_b[0]) == 0 ? 1 : 0;
+        EXPECT_EQ(fine_pulled.along(Direction(fine_b[0], fine_b[1])),
+                  pulled.along(Direction(whole_b[0], whole_b[1])));
+        const MovedPoint r(whole_b[0], whole.to_a);
+        const MovedPoint s(whole_b[1], whole.to_a);
+        const MovedPoint fine_r(fine_b[0], fine.to_a);
+        const MovedPoint fine_s(fine_b[1], fine.to_a);
+        EXPECT_EQ(orientation(fine_a[0], fine_a[1], fine_r, fine_s),
+                  orientation(whole_a[0], whole_a[1], r, s));
+        EXPECT_EQ(planar_orientation(fine_a[0], fine_a[1], fine_r, 1),
+                  planar_orientation(whole_a[0], whole_a[1], r, 1));
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(fine_r.is_at(fine_a[i]), r.is_at(whole_a[i]));
+    }
+    EXPECT_GT(on, 100);
 }
 
 // A point of B's lattice next to (or on) a plane of A: the plane's corners brought to B and
@@ -317,6 +387,72 @@ TEST(MovedPredicates, TheWidestNumbersFit) {
         EXPECT_LT(pulled.offset().bit_length(), s.pair.to_a.width() + 164);
     }
     EXPECT_GT(widest, 700);
+}
+
+// The same with fractions: planes and their points of all 126 bits, which fill the last tier.
+TEST(MovedPredicates, TheWidestNumbersOfFractionsFit) {
+    oracle::Source random(23);
+    int widest = 0;
+    // Corners that use both ends of the range of coordinates.
+    const auto corner = [&random]() -> LatticePoint {
+        const auto c = [&] {
+            const bool is_large = random.coin();
+            const double v = static_cast<double>(random.coordinate(53));
+            return trisect::Coordinate(is_large ? v : std::ldexp(v, -trisect::fraction_limit));
+        };
+        return {c(), c(), c()};
+    };
+    const auto plane = [&] {
+        for (;;) {
+            const LatticePoint a = corner();
+            const LatticePoint b = corner();
+            const LatticePoint c = corner();
+            if (!are_collinear(a, b, c)) return Plane::through(a, b, c);
+        }
+    };
+    const auto point = [&]() -> Point {
+        for (;;) {
+            const Plane p = plane();
+            const Plane q = plane();
+            const Plane r = plane();
+            if (meet_in_a_point(p, q, r)) return {p, q, r};
+        }
+    };
+    for (int round = 0; round < 200; ++round) {
+        const int spread = round % 2 == 0 ? 235 : 8;
+        const auto pose = [&] {
+            for (;;) {
+                std::array<double, 12> rows{};
+                for (double& v : rows)
+                    v = std::ldexp(oracle::real(random, 1),
+                                   static_cast<int>(random.below(static_cast<unsigned>(spread))));
+                try {
+                    return Pose::from_doubles(rows);
+                } catch (const trisect::UsageError&) {
+                }
+            }
+        };
+        Scene s{PosedPair(pose(), Lattice{}, pose(), Lattice{}), {}, {}, 53, true};
+        s.to_a = map_of(s.pair.to_a);
+        s.to_b = map_of(s.pair.to_b);
+        const std::array<Point, 2> pa{point(), point()};
+        const std::array<Point, 3> pb{point(), point(), point()};
+        expect_same(s, plane(), pa, pb);
+        const MovedPoint r(pb[0], s.pair.to_a);
+        const MovedPoint t(pb[1], s.pair.to_a);
+        for (const BoundedInt& v : r.exact().x) {
+            EXPECT_LT(v.bit_length(), s.pair.to_a.width() + 1046);
+            widest = std::max(widest, v.bit_length());
+        }
+        EXPECT_EQ(orientation(pa[0], pa[0], r, t), 0);
+        EXPECT_EQ(orientation(pa[0], pa[1], r, r), 0);
+        EXPECT_EQ(planar_orientation(pa[0], pa[0], r, 0), 0);
+        const PulledPlane pulled(plane(), s.pair.to_a);
+        for (const BoundedInt& v : pulled.normal())
+            EXPECT_LT(v.bit_length(), s.pair.to_a.width() + 330);
+        EXPECT_LT(pulled.offset().bit_length(), s.pair.to_a.width() + 385);
+    }
+    EXPECT_GT(widest, 1500);
 }
 
 }  // namespace
