@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include <trisect/kernel/lattice_point.h>
@@ -28,26 +27,23 @@ inline constexpr std::int64_t dyadic_scale = splitting_scale / 3;
 inline constexpr std::uint32_t usual_splitting_offset = 61;
 
 namespace cell_rounding {
-/// The largest double below usual_splitting_offset / splitting_scale.
-inline constexpr double below_offset = 61.0 / 192.0;
-static_assert(static_cast<std::int64_t>(below_offset * 0x1p54) * splitting_scale <
+/// The largest doubles below a splitting plane's distance from the lattice planes on both sides.
+inline constexpr double to_lower = usual_splitting_offset / 192.0;
+inline constexpr double to_upper = (splitting_scale - usual_splitting_offset) / 192.0;
+static_assert(static_cast<std::int64_t>(to_lower * 0x1p54) * splitting_scale <
               std::int64_t{usual_splitting_offset} << 54);
+static_assert(static_cast<std::int64_t>(to_upper * 0x1p53) * splitting_scale <
+              std::int64_t{splitting_scale - usual_splitting_offset} << 53);
 }  // namespace cell_rounding
-
-/// The position of a coordinate that has a fraction, see position_of().
-[[nodiscard]] inline std::int64_t position_of_fraction(double c) {
-    // c - floor is rounded where c lies in (-1/2, 0) only: to no less than a half.
-    const double floor = std::floor(c);
-    return static_cast<std::int64_t>(floor) + (c - floor > cell_rounding::below_offset ? 1 : 0);
-}
 
 /// The position of a coordinate among lattice planes: p where it lies between the splitting planes
 /// of usual offset above the lattice planes p - 1 and p. A whole number is its own position,
 /// whatever the offset.
-[[nodiscard]] inline std::int64_t position_of(Coordinate c) {
-    const std::int64_t whole = c.to_integer();  // rounded towards zero where there is a fraction
-    return static_cast<double>(whole) == c.to_double() ? whole
-                                                       : position_of_fraction(c.to_double());
+[[nodiscard]] constexpr std::int64_t position_of(Coordinate c) {
+    const std::int64_t whole = c.to_integer();                       // towards zero
+    const double rest = c.to_double() - static_cast<double>(whole);  // exact
+    return whole + (rest > cell_rounding::to_lower ? 1 : 0) -
+           (rest < -cell_rounding::to_upper ? 1 : 0);
 }
 /// Coordinates of position p lie above p - reach_below and below p + reach_above units.
 inline constexpr double reach_below = 131.0 / 192.0;

@@ -155,11 +155,13 @@ private:
 #endif
 };
 
-/// A point in a frame, as the box that holds it alone.
+/// A point in a frame, as the box that holds it alone. `Whole`: its coordinates are.
+template <bool Whole = false>
 [[nodiscard]] inline PackedBox packed_point(const Frame& frame, const LatticePoint& p) {
     PackedBox b;
     for (std::size_t k = 0; k < 3; ++k) {
-        b.lo[k] = frame.at(k, position_of(p[static_cast<int>(k)]));
+        const Coordinate c = p[static_cast<int>(k)];
+        b.lo[k] = frame.at(k, Whole ? c.to_integer() : position_of(c));
         b.minus_hi[k] = static_cast<std::int16_t>(-b.lo[k]);
     }
     return b;

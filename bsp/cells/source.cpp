@@ -24,6 +24,21 @@ std::uint64_t next_serial() {
     return ++serial;
 }
 
+// Positions are in the order of coordinates.
+Box box_of(std::span<const LatticePoint> points) {
+    Box box;
+    if (points.empty()) return box;
+    LatticePoint lo = points[0];
+    LatticePoint hi = points[0];
+    for (const LatticePoint& p : points) {
+        lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+        hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+    }
+    box.add(lo);
+    box.add(hi);
+    return box;
+}
+
 // Of coordinates times 2^shift, rounded outwards.
 Box box_on_lattice(const Box& box, int shift) {
     Box out;
@@ -58,14 +73,11 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threa
     std::vector<Box> boxes(parts.count());
     std::vector<int> bits(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Box box;
-        int most = 0;
-        for (const LatticePoint& p : points.subspan(begin, end - begin)) {
-            box.add(p);
-            if (!p.is_whole()) most = std::max(most, trisect::detail::fraction_bits(p));
-        }
-        boxes[part] = box;
-        bits[part] = most;
+        const auto some = points.subspan(begin, end - begin);
+        boxes[part] = box_of(some);
+        if (std::ranges::all_of(some, &LatticePoint::is_whole)) return;
+        for (const LatticePoint& p : some)
+            bits[part] = std::max(bits[part], trisect::detail::fraction_bits(p));
     });
     for (const Box& b : boxes) s->box_.add(b);
     s->fraction_bits_ = *std::ranges::max_element(bits);

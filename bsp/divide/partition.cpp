@@ -162,8 +162,9 @@ namespace {
 
 // What loops over all points or facets need is passed by value: as far as the compiler can prove,
 // boxes that are written may be anything that is read through a pointer.
+template <bool Whole>
 void pack_points(Frame frame, std::span<const LatticePoint> points, PackedBox* out) {
-    for (const LatticePoint& p : points) *out++ = packed_point(frame, p);
+    for (const LatticePoint& p : points) *out++ = packed_point<Whole>(frame, p);
 }
 
 void pack_facets(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t number,
@@ -185,7 +186,12 @@ void pack_all(const Source& source, const Frame& frame, StackArena& arena, std::
     auto* const packed = arena.take<PackedBox>(points.size());
     ParallelParts(points.size(), threads, least_part)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            pack_points(frame, points.subspan(begin, end - begin), packed + begin);
+            const auto some = points.subspan(begin, end - begin);
+            if (source.is_whole()) {
+                pack_points<true>(frame, some, packed + begin);
+            } else {
+                pack_points<false>(frame, some, packed + begin);
+            }
         });
     ParallelParts(triangles.size(), threads, least_part)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
