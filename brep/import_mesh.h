@@ -28,7 +28,8 @@ struct ImportOptions {
     NonplanarPolicy nonplanar = NonplanarPolicy::Triangulate;
     /// How far Refit may move a coordinate, in the user's units.
     double refit_move = 0;
-    /// Coordinates are rounded to whole numbers of its unit. Default: choose_lattice().
+    /// Coordinates are rounded to whole numbers of its unit. Default: the lattice of
+    /// choose_lattice(), which keeps every double where they span at most 126 bits.
     std::optional<Lattice> lattice = std::nullopt;
     /// Throw InvalidSolid when the boundary is not closed; otherwise the defects are reported.
     bool require_closed = true;
@@ -61,9 +62,14 @@ struct ImportedMesh {
     ImportReport report;
 };
 
-/// Rounds to the lattice, connects points of equal value, cuts polygons into triangles and checks
-/// that the boundary is closed. Connectivity is by value on the lattice: triangle soups are fine.
-/// Points of no triangle are left out; the others keep their order.
+/// Places coordinates on the lattice, connects points of equal value, cuts polygons into triangles
+/// and checks that the boundary is closed. Connectivity is by value on the lattice: triangle soups
+/// are fine. Points of no triangle are left out; the others keep their order.
+///
+/// Without a lattice in the options coordinates are as they are (minus zero becomes plus zero), and
+/// come out so, bit for bit. What does not fit into 126 bits is rounded, and rounded to whole
+/// coordinates are meshes whose boundary is closed only then, and those with faces that Refit makes
+/// planar. The report says so.
 ///
 /// Nothing else is checked (see validate) and nothing is repaired: an inside-out mesh stays so.
 /// Cost: O(n); 20 ns a triangle for meshes of triangles whose sides cancel by name, 100 ns for

@@ -28,10 +28,15 @@ namespace trisect::detail {
 [[nodiscard]] ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options,
                                            Fractions fractions = usual_fractions);
 
-/// trisect::import_mesh; `fractions` says what becomes of bits behind the point where the options
-/// name no lattice.
+/// The one of them that applies; `fractions` says what becomes of bits behind the point where the
+/// options name no lattice.
 [[nodiscard]] ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options,
                                        Fractions fractions);
+
+/// Keeps bits behind the point, unless the faces' boundaries cancel only on whole coordinates: then
+/// these are rounded as Fractions::Rounded says, and the report has it. Files whose points repeat
+/// with noise in the last bits are closed that way.
+[[nodiscard]] ImportedMesh import_lossless(const PolygonMesh& mesh, const ImportOptions& options);
 
 /// How many meshes of the calling thread went which way: tests hold this against what should be,
 /// because a fast path that is never taken changes nothing but the time.

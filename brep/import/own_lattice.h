@@ -13,7 +13,7 @@
 namespace trisect::detail {
 
 /// Whether an input that comes without a lattice keeps bits behind the point.
-inline constexpr bool keeps_fractions = false;
+inline constexpr bool keeps_fractions = true;
 inline constexpr Fractions usual_fractions = keeps_fractions ? Fractions::Kept : Fractions::Rounded;
 
 /// The points on `given`, rounded to whole coordinates; or on the lattice that choose_lattice()

@@ -19,6 +19,7 @@
 #include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/brep/validate/checked_mesh.h>
 #include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/error.h>
@@ -126,7 +127,7 @@ ValidationReport checked(const PolygonMesh& mesh, bool self_intersection) {
     ValidateOptions options;
     options.list_limit = 0;
     options.self_intersection = self_intersection;
-    return validate(mesh, options);
+    return detail::validate_as_written(mesh, options, detail::usual_fractions);
 }
 
 /// Nothing when the work would go beyond the limit of validation. Walls that collapsed are pairs

@@ -51,6 +51,11 @@ struct CheckedMesh {
     }
 };
 
+/// All checks, on the lattice of the options or else the coordinates as they are (Kept) or rounded.
+[[nodiscard]] ValidationReport validate_as_written(const PolygonMesh& mesh,
+                                                   const ValidateOptions& options,
+                                                   Fractions fractions);
+
 // One check for each kind of defect, each in a file of its name.
 // Also finds T-vertices and flipped faces.
 void check_open_edges(const CheckedMesh& m, ValidationReport& report);

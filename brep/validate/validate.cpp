@@ -64,13 +64,23 @@ ValidationReport validate_on_lattice(const PolygonMesh& mesh, const LatticeRepor
 
 }  // namespace
 
-ValidationReport validate(const PolygonMesh& mesh, const ValidateOptions& options) {
-    detail::check_stop(mesh.face_count());
-    detail::check_indices(mesh);
+ValidationReport detail::validate_as_written(const PolygonMesh& mesh,
+                                             const ValidateOptions& options, Fractions fractions) {
+    check_stop(mesh.face_count());
+    check_indices(mesh);
     LatticeReport lattice;
-    const auto points =
-        detail::points_on_lattice(mesh.points, options.lattice, detail::usual_fractions, lattice);
+    const auto points = points_on_lattice(mesh.points, options.lattice, fractions, lattice);
     return validate_on_lattice(mesh, lattice, points, options);
+}
+
+// As import does: what only rounding closes is rounded.
+ValidationReport validate(const PolygonMesh& mesh, const ValidateOptions& options) {
+    if (!detail::keeps_fractions || options.lattice)
+        return detail::validate_as_written(mesh, options, Fractions::Rounded);
+    ValidationReport kept = detail::validate_as_written(mesh, options, Fractions::Kept);
+    if (kept.count(DefectKind::OpenEdge) == 0) return kept;
+    ValidationReport rounded = detail::validate_as_written(mesh, options, Fractions::Rounded);
+    return rounded.count(DefectKind::OpenEdge) == 0 ? rounded : kept;
 }
 
 ValidationReport validate(const LatticeMesh& mesh, const ValidateOptions& options) {

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <trisect/brep/import/own_lattice.h>
+
 #include "process.h"
 #include "scratch.h"
 
@@ -79,6 +81,19 @@ TEST_F(InfoCommand, RoundingIsReported) {
     EXPECT_EQ(lattice["max_move"], 44);
     EXPECT_NE(result.err.find("rounded"), std::string::npos);
     EXPECT_EQ(trisect({"info", file, "--lattice", "8", "-q"}).err, "");
+}
+
+TEST_F(InfoCommand, BoundsAreTheNumbersOfTheFile) {
+    if (!trisect::detail::keeps_fractions) GTEST_SKIP() << "coordinates are rounded";
+    const std::string file = write("decimals.off",
+                                   "OFF\n4 4 0\n0.1 -0.3 1e-17\n1000.7 -0.3 1e-17\n0.1 0.7 1e-17\n"
+                                   "0.1 -0.3 5e-9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+    const Finished result = trisect({"info", file});
+    EXPECT_NE(result.out.find("bounds     (0.1, -0.3, 1e-17) to (1000.7, 0.7, 5e-09)\n"),
+              std::string::npos)
+        << result.out;
+    EXPECT_NE(result.out.find("lossless"), std::string::npos) << result.out;
+    EXPECT_EQ(result.err, "");
 }
 
 TEST_F(InfoCommand, HumanTextIsAligned) {

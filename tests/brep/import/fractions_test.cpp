@@ -113,6 +113,27 @@ TEST(ImportFractions, WhatSpansMoreIsRoundedAndReported) {
     EXPECT_TRUE(keep(m).report.lattice.lossless);
 }
 
+// A soup whose repeated points differ in their last bits bounds something once they are rounded.
+TEST(ImportFractions, WhatOnlyRoundingClosesIsRounded) {
+    const PolygonMesh sphere = make_icosphere(1, 2);
+    PolygonMesh m;
+    for (const std::uint32_t c : sphere.corners) m.points.push_back(sphere.points[c]);
+    for (std::uint32_t i = 0; i < m.points.size(); i += 3) m.add_triangle(i, i + 1, i + 2);
+    EXPECT_TRUE(detail::import_lossless(m, {}).report.lattice.lossless);
+    m.points[7][0] = std::nextafter(m.points[7][0], 2);
+    m.points[11] = {m.points[11][0], m.points[11][1] + 0x1p-60, m.points[11][2] - 0x1p-70};
+    EXPECT_FALSE(keep(m, {.require_closed = false}).report.closed);
+    const ImportedMesh imported = detail::import_lossless(m, {});
+    EXPECT_TRUE(imported.report.closed);
+    EXPECT_FALSE(imported.report.lattice.lossless);
+    EXPECT_EQ(imported.mesh.points, detail::import_mesh(m, {}, Fractions::Rounded).mesh.points);
+    m.points[5][0] += 1e-3;  // remains open
+    EXPECT_THROW((void)detail::import_lossless(m, {}), InvalidSolid);
+    const ImportedMesh open = detail::import_lossless(m, {.require_closed = false});
+    EXPECT_FALSE(open.report.closed);
+    EXPECT_TRUE(open.report.lattice.lossless);
+}
+
 TEST(ImportFractions, MinusZeroBecomesPlusZero) {
     const PolygonMesh m =
         test::make_mesh({{-0.0, 0, -0.0}, {0.1, -0.0, 0}, {0, 0.3, 0}, {0, 0, 1e-9}, {0, 0, -0.0}},
