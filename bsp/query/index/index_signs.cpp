@@ -14,7 +14,8 @@
 // normal n made of lattice points and the reference alone, of at most 2^126 for whole coordinates.
 // So the exact stage is one dot product: in 128 bits when p has few bits, which is the common case
 // for points that lie exactly on something, in 576 bits for what a HomogeneousPoint holds, in
-// rationals otherwise. Where corners have bits behind the point, n and x are those of a Plane.
+// rationals otherwise. Where corners have bits behind the point, n and x are those of a Plane; but
+// whether a double is on a triangle is decided in integers of a fixed width, too.
 
 #include <trisect/bsp/query/index/index_signs.h>
 
@@ -24,6 +25,7 @@
 #include <optional>
 
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/vector3.h>
@@ -217,15 +219,19 @@ Facing facing(const Triangle& t) {
     return {k, sign(n[k])};
 }
 
-// For a point in the plane of the triangle.
-bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
-    // Doubles reject most: a point outside the box of the triangle.
+bool is_outside_box(const IndexPoint& p, const Triangle& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<int>(i);
         const double lo = std::min({t.a[axis], t.b[axis], t.c[axis]}).to_double();
         const double hi = std::max({t.a[axis], t.b[axis], t.c[axis]}).to_double();
-        if (p[i] + p.error() < lo || p[i] - p.error() > hi) return false;
+        if (p[i] + p.error() < lo || p[i] - p.error() > hi) return true;
     }
+    return false;
+}
+
+// For a point in the plane of the triangle.
+bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
+    if (is_outside_box(p, t)) return false;  // most are
     const auto [k, turn] = facing(t);
     const auto is_left = [&, k = k, turn = turn](const LatticePoint& a, const LatticePoint& b) {
         return exact_turn(p, a, b, t.whole, k) * turn >= 0;
@@ -236,7 +242,6 @@ bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
 // Whether a point is on a triangle, in integers of two words where these are enough; nothing
 // otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
 std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const Vector3& normal) {
-    if (!t.whole) return std::nullopt;
     const auto& small = p.small();
     if (!small) return std::nullopt;
     const auto bits = static_cast<unsigned>(small->bits);
@@ -277,6 +282,51 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const V
     for (std::size_t i = 0; i < 3; ++i) {
         const Int128 turn = Int128{edge[i][j]} * way[i][l] - Int128{edge[i][l]} * way[i][j];
         if (n[k] < 0 ? turn > 0 : turn < 0) return false;
+    }
+    return true;
+}
+
+// The same for corners with bits behind the point. In their finest unit edges are below 2^127 and
+// the normal below 2^255; a way in the finest one of all is below 2^(55 + way_bits).
+std::optional<bool> is_on_fractions(const IndexPoint& p, const Triangle& t) {
+    constexpr int way_bits = 120;
+    if (!p.is_doubles() || !(largest_component(p.approximate()) < 0x1p54)) return std::nullopt;
+    if (is_outside_box(p, t)) return false;
+    const int bits = std::max({fraction_bits(t.a), fraction_bits(t.b), fraction_bits(t.c)});
+    int finest = bits;
+    for (const double x : p.approximate()) finest = std::max(finest, -dyadic(x).exponent);
+    if (finest > way_bits) return std::nullopt;
+    detail::counters_of_thread<PredicateCounters>.exact_wide += 4;
+    const std::array<const LatticePoint*, 3> corner{&t.a, &t.b, &t.c};
+    std::array<VectorOf<WideInt<2>>, 3> at;
+    std::array<VectorOf<WideInt<3>>, 3> way;  // to the point
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Dyadic d = dyadic(p[k]);
+        const WideInt<3> to = WideInt<3>(d.mantissa).shifted_left(d.exponent + finest);
+        for (std::size_t i = 0; i < 3; ++i) {
+            at[i][k] = scaled_integer(coordinate(*corner[i], k), bits);
+            way[i][k] = to - WideInt<3>(at[i][k]).shifted_left(finest - bits);
+        }
+    }
+    std::array<VectorOf<WideInt<2>>, 3> edge;
+    for (std::size_t i = 0; i < 3; ++i) edge[i] = minus(at[(i + 1) % 3], at[i]);
+    VectorOf<WideInt<4>> n;
+    WideInt<7> value;
+    std::size_t widest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t j = (k + 1) % 3;
+        const std::size_t l = (k + 2) % 3;
+        n[k] = multiply<4>(edge[0][j], edge[1][l]) - multiply<4>(edge[0][l], edge[1][j]);
+        value += multiply<7>(n[k], way[0][k]);
+        if (n[k].abs() > n[widest].abs()) widest = k;
+    }
+    if (!value.is_zero()) return false;
+    const std::size_t j = (widest + 1) % 3;
+    const std::size_t l = (widest + 2) % 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const WideInt<5> turn =
+            multiply<5>(edge[i][j], way[i][l]) - multiply<5>(edge[i][l], way[i][j]);
+        if (turn.sign() * n[widest].sign() < 0) return false;
     }
     return true;
 }
@@ -429,7 +479,7 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
             ++detail::counters_of_thread<PredicateCounters>.filtered;
             return false;
         }
-        if (const auto on = is_on_narrow(p, t, n)) return *on;
+        if (const auto on = t.whole ? is_on_narrow(p, t, n) : is_on_fractions(p, t)) return *on;
         return exact_side(p, t) == 0 && is_in_triangle(p, t);
     }
     if (p.side_of(polygons.support(id)) != 0) return false;

@@ -21,6 +21,7 @@
 #include "support/query_oracle.h"
 #include "support/random_result.h"
 
+namespace fractions_test {
 namespace {
 
 using trisect::BrepIndex;
@@ -244,12 +245,12 @@ TEST(QueryFractions, OfExactBoundaries) {
 
 // A star-shaped ball of random radii, its corners what sines and cosines make of them: near the
 // axes they have bits far below the unit, which is 2^-exponent of the largest radius.
-LatticeMesh star(std::uint32_t rings, std::uint32_t sides, int exponent, std::uint64_t seed) {
+LatticeMesh star(std::uint32_t rings, std::uint32_t around, int exponent, std::uint64_t seed) {
     reference::Random random(seed);
     LatticeMesh mesh;
     mesh.lattice.exponent = -exponent;
     const double pi = std::acos(-1.0);
-    const auto add = [&](double up, double around) {
+    const auto add = [&](double up, double turn) {
         const double r = 0.7 + 0.3 * static_cast<double>(random.next() >> 11) * 0x1p-53;
         const auto at = [&](double v) {
             // Bits below fraction_limit are cut off.
@@ -258,17 +259,17 @@ LatticeMesh star(std::uint32_t rings, std::uint32_t sides, int exponent, std::ui
             return Coordinate(std::fabs(scaled) < 0x1p-20 ? std::nearbyint(scaled / unit) * unit
                                                           : scaled);
         };
-        mesh.points.push_back({at(r * std::cos(up) * std::cos(around)),
-                               at(r * std::cos(up) * std::sin(around)), at(r * std::sin(up))});
+        mesh.points.push_back({at(r * std::cos(up) * std::cos(turn)),
+                               at(r * std::cos(up) * std::sin(turn)), at(r * std::sin(up))});
     };
     for (std::uint32_t i = 0; i < rings; ++i)
-        for (std::uint32_t j = 0; j < sides; ++j)
-            add(pi * (0.5 - (i + 1.0) / (rings + 1.0)), 2 * pi * j / sides);
-    const std::uint32_t top = rings * sides;
+        for (std::uint32_t j = 0; j < around; ++j)
+            add(pi * (0.5 - (i + 1.0) / (rings + 1.0)), 2 * pi * j / around);
+    const std::uint32_t top = rings * around;
     add(0.5 * pi, 0);
     add(-0.5 * pi, 0);
-    const auto corner = [&](std::uint32_t i, std::uint32_t j) { return i * sides + j % sides; };
-    for (std::uint32_t j = 0; j < sides; ++j) {
+    const auto corner = [&](std::uint32_t i, std::uint32_t j) { return i * around + j % around; };
+    for (std::uint32_t j = 0; j < around; ++j) {
         mesh.triangles.push_back({corner(0, j), corner(0, j + 1), top});
         mesh.triangles.push_back({corner(rings - 1, j + 1), corner(rings - 1, j), top + 1});
         for (std::uint32_t i = 1; i < rings; ++i) {
@@ -305,7 +306,9 @@ protected:
         Point3d p = make.random().chance(1, 2) ? make.any() : make.corner();
         if (make.random().chance(1, 2)) {
             const std::size_t k = make.random().below(3);
-            p[k] = std::nextafter(p[k], make.random().chance(1, 2) ? HUGE_VAL : -HUGE_VAL);
+            const double next =
+                std::nextafter(p[k], make.random().chance(1, 2) ? HUGE_VAL : -HUGE_VAL);
+            if (std::fabs(next) > 0x1p-1000) p[k] = next;  // else nothing of it in user's units
         }
         return p;
     }
@@ -467,3 +470,4 @@ TEST(QueryFractions, NextToACornerAtTheOrigin) {
 }
 
 }  // namespace
+}  // namespace fractions_test
