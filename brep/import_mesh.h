@@ -28,7 +28,7 @@ struct ImportOptions {
     NonplanarPolicy nonplanar = NonplanarPolicy::Triangulate;
     /// How far Refit may move a coordinate, in the user's units.
     double refit_move = 0;
-    /// Default: the coarsest lattice without loss that leaves room (choose_lattice).
+    /// Coordinates are rounded to whole numbers of its unit. Default: choose_lattice().
     std::optional<Lattice> lattice = std::nullopt;
     /// Throw InvalidSolid when the boundary is not closed; otherwise the defects are reported.
     bool require_closed = true;

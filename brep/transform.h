@@ -41,7 +41,8 @@ struct AffineMap {
 /// O(n). \throw UsageError for a singular map or one with entries that are not finite.
 [[nodiscard]] PolygonMesh transformed(const PolygonMesh& mesh, const AffineMap& map);
 
-/// Exact: the vector is in lattice units. \throw LimitError when a point leaves the lattice.
+/// Exact: the vector is in lattice units. \throw LimitError when a point leaves the lattice, or,
+/// with bits behind the point, when a coordinate would not be a double.
 [[nodiscard]] LatticeMesh translated(const LatticeMesh& mesh, const LatticePoint& by);
 /// Exact: counter-clockwise by quarter_turns · 90° about the coordinate axis 0, 1 or 2.
 [[nodiscard]] LatticeMesh rotated_by_quarter_turns(const LatticeMesh& mesh, int axis,
@@ -53,8 +54,10 @@ struct AffineMap {
 [[nodiscard]] LatticeMesh scaled_by_power_of_two(const LatticeMesh& mesh, int power);
 
 /// Any affine map; corners are rounded to the mesh's lattice and the report says how far they moved
-/// and how many triangles were turned over or became flat. Flat ones are left out, points that
-/// became equal are one: the boundary stays closed. The result may intersect itself.
+/// and how many triangles were turned over or became flat. Coordinates are whole if all of the mesh
+/// are, else the nearest doubles, with up to fraction_limit bits behind the point. Flat triangles
+/// are left out, points that became equal are one: the boundary stays closed. The result may
+/// intersect itself.
 /// \throw UsageError as above, LimitError when a point leaves the lattice.
 [[nodiscard]] LatticeMesh transformed(const LatticeMesh& mesh, const AffineMap& map,
                                       LatticeReport& report);

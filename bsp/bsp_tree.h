@@ -34,7 +34,7 @@ namespace trisect {
 /// The second one makes a point's class exact: a point of all closed half-spaces on the way to a
 /// leaf is in the closure of that leaf's cell, which is false for a cell that is empty.
 ///
-/// Regular value type; 120 bytes a node. Safe to read from many threads. Trees may be as deep as
+/// Regular value type; 240 bytes a node. Safe to read from many threads. Trees may be as deep as
 /// they have nodes (a convex solid's is), so nothing here or in the algorithms recurses.
 ///
 /// Source: Thibault and Naylor, Set operations on polyhedra using binary space partitioning trees

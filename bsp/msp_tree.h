@@ -110,7 +110,7 @@ struct MspStats {
 /// The tree can be walked: root(), node(ref), Node::plane, dimension, below, on, above; a leaf ref
 /// has its kind and entity.
 ///
-/// Regular value type; 16 bytes a node, 112 a plane. Safe to read from many threads. Nothing here
+/// Regular value type; 16 bytes a node, 232 a plane. Safe to read from many threads. Nothing here
 /// recurses, so trees may be as deep as they have nodes.
 ///
 /// Source: G. Vanecek, Brep-Index: a multidimensional space partitioning tree, International

@@ -18,8 +18,8 @@ namespace trisect {
 /// Quarter turns about coordinate axes, mirrors and translations by multiples of the lattice's unit
 /// are exact and keep the tree; the lattice becomes finer where that makes a translation exact.
 /// Another translation is rounded as a whole, so that the solid stays congruent: every vertex moves
-/// by less than half a unit. Under any other map vertices are rounded to a fine lattice one by one,
-/// once, from exact positions; planar faces of more than three corners fall apart into triangles,
+/// by less than half a unit. Under any other map, or where coordinates have fractions, vertices are
+/// rounded to the user's doubles one by one, once, from exact positions; planar faces of more than three corners fall apart into triangles,
 /// and where rounding made the boundary meet itself it is resolved by what comes next.
 ///
 /// `report` is overwritten. O(n). To ask how moving solids lie to each other use poses as they are

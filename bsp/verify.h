@@ -35,11 +35,11 @@
 // `lower` and three units of the lattice, or `piece_limit` is reached.
 //
 // Placement. All meshes are placed on one lattice, the finest that holds the largest coordinate:
-// its unit is 2^-45 to 2^-52 of that. Finer bits are rounded away, by at most half a unit. Verdict
-// and bounds are about the placed meshes; `moved` says how far each was rounded. A mesh whose
-// corners move by at most m keeps its winding number about every point farther than m from its
-// faces (nothing sweeps over the point while the corners move linearly), so a witness farther than
-// that from all faces is also one for the meshes as given: `Witness::holds_as_given`.
+// its unit is 2^-45 to 2^-52 of that. Bits that lattice points do not have are rounded away, and
+// verdict and bounds are about the placed meshes; `moved` says how far each was rounded. A mesh
+// whose corners move by at most m keeps its winding number about every point farther than m from
+// its faces (nothing sweeps over the point while the corners move linearly), so a witness farther
+// than that from all faces is also one for the meshes as given: `Witness::holds_as_given`.
 #pragma once
 
 #include <array>
@@ -100,7 +100,8 @@ struct Witness {
     std::vector<int> winding;  ///< of each operand about it, and last of RESULT
     bool in_exact = false;
     bool in_result = false;
-    /// Certified lower bounds of its distances, in the user's units; infinite for an empty set.
+    /// Certified lower bounds of its distances, in the user's units; infinite for an empty set. 0
+    /// where the point is nearer than some 2^-38 lattice units.
     double distance_to_exact = 0;
     double distance_to_result = 0;
     bool holds_as_given = false;  ///< see "Placement"

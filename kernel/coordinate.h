@@ -11,6 +11,8 @@
 #include <concepts>
 #include <cstdint>
 
+#include <trisect/kernel/contract.h>
+
 namespace trisect {
 
 /// Largest number of bits before the point: |coordinate| < 2^53.
@@ -24,10 +26,13 @@ inline constexpr int fraction_limit = 73;
 class Coordinate {
 public:
     constexpr Coordinate() = default;
-    /// \pre |value| < coordinate_limit
+    /// \pre |value| <= coordinate_limit, as bounds to compare with are
     template <std::signed_integral Integer>
     constexpr Coordinate(Integer value)  // NOLINT(google-explicit-constructor): a number
-        : value_(static_cast<double>(value)) {}
+        : value_(static_cast<double>(value)) {
+        const std::int64_t v = value;
+        TRISECT_EXPECTS(v <= coordinate_limit && v >= -coordinate_limit, "a coordinate too large");
+    }
     /// \pre a multiple of 2^-fraction_limit, |value| < coordinate_limit
     explicit constexpr Coordinate(double value) : value_(value + 0.0) {}  // -0 becomes +0
 

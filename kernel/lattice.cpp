@@ -144,6 +144,88 @@ RoundedBlock round_block(Coordinates points, double factor, LatticePoint* out) {
     return block;
 }
 
+// Doubles below this are multiples of 2^-fraction_limit when adding and subtracting it changes
+// nothing; all others are.
+constexpr double fraction_rounder = 0x1p-21;
+static_assert(fraction_limit == 21 + 52);
+
+// The nearest multiple of 2^-fraction_limit, ties to even.
+double rounded_fraction(double units) {
+    const double size = std::fabs(units);
+    if (!(size < fraction_rounder)) return units;
+    return std::copysign(size + fraction_rounder - fraction_rounder, units);
+}
+
+// Scales a multiple of four points. False when some coordinate is out of range, not a multiple of
+// 2^-fraction_limit, or underflows.
+TRISECT_WIDE_CLONES bool scale_fours(const std::array<double, 3>* points, std::size_t n,
+                                     double factor, LatticePoint* out) {
+    using Reals = double __attribute__((vector_size(32)));
+    using Integers = std::int64_t __attribute__((vector_size(32)));
+    const auto* from = reinterpret_cast<const std::byte*>(points);
+    auto* to = reinterpret_cast<std::byte*>(out);
+    Integers all_good = ~Integers{};
+    for (const auto* const end = from + n * sizeof(LatticePoint); from != end;
+         from += sizeof(Reals), to += sizeof(Reals)) {
+        Reals v;
+        std::memcpy(&v, from, sizeof(v));
+        const Reals units = v * factor + 0.0;  // no minus zero
+        const auto size = reinterpret_cast<Reals>(reinterpret_cast<Integers>(units) &
+                                                  static_cast<std::int64_t>(magnitude_bits));
+        const Reals rounded = size + fraction_rounder - fraction_rounder;
+        const Integers is_multiple = (size >= fraction_rounder) | (rounded == size);
+        const Integers has_underflowed = (size == 0.0) & (v != 0.0);
+        all_good &= (size < 0x1p53) & is_multiple & ~has_underflowed;
+        std::memcpy(to, &units, sizeof(units));
+    }
+    return (all_good[0] & all_good[1] & all_good[2] & all_good[3]) != 0;
+}
+
+// The same for up to block_size points.
+bool scale_block(Coordinates points, double factor, LatticePoint* out) {
+    if (points.size() % 4 == 0) return scale_fours(points.data(), points.size(), factor, out);
+    std::array<std::array<double, 3>, block_size> padded{};
+    std::array<LatticePoint, block_size> scaled;
+    std::ranges::copy(points, padded.begin());
+    const bool good =
+        scale_fours(padded.data(), (points.size() + 3) / 4 * 4, factor, scaled.data());
+    std::copy_n(scaled.begin(), points.size(), out);
+    return good;
+}
+
+// Whether all of n finite numbers, a multiple of four, are multiples of 2^-52 times this power of
+// two: those that are no smaller are.
+TRISECT_WIDE_CLONES bool are_multiples(const double* numbers, std::size_t n, double power) {
+    using Reals = double __attribute__((vector_size(32)));
+    using Integers = std::int64_t __attribute__((vector_size(32)));
+    Integers all_good = ~Integers{};
+    for (const double* const end = numbers + n; numbers != end; numbers += 4) {
+        Reals v;
+        std::memcpy(&v, numbers, sizeof(v));
+        const auto size = reinterpret_cast<Reals>(reinterpret_cast<Integers>(v) &
+                                                  static_cast<std::int64_t>(magnitude_bits));
+        all_good &= (size >= power) | (size + power - power == size);
+    }
+    return (all_good[0] & all_good[1] & all_good[2] & all_good[3]) != 0;
+}
+
+// Whether all coordinates are multiples of 2^limit.
+bool are_multiples(Coordinates points, int limit, std::uint32_t threads) {
+    if (limit <= -1074) return true;
+    const double power = power_of_two(limit + 52);
+    const detail::ParallelParts parts(points.size(), threads, least_part);
+    std::vector<char> good(parts.count(), 1);
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        const Coordinates some = points.subspan(begin, end - begin);
+        const std::size_t fours = some.size() / 4 * 4;
+        std::array<std::array<double, 3>, 4> rest{};
+        std::ranges::copy(some.subspan(fours), rest.begin());
+        good[part] = are_multiples(some.data()->data(), 3 * fours, power) &&
+                     are_multiples(rest.data()->data(), 12, power);
+    });
+    return std::ranges::all_of(good, [](char g) { return g != 0; });
+}
+
 // All bits of all coordinates in units of 2^limit, when these surely are integers below 2^51. Block
 // by block, since in meshes of measured coordinates the first one ends it.
 std::optional<std::uint64_t> common_bits(Coordinates points, int limit) {
@@ -199,6 +281,7 @@ std::string shortest_text(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
+template <Fractions fractions>
 class Rounding {
 public:
     explicit Rounding(Lattice lattice)
@@ -214,13 +297,20 @@ public:
 
     /// Rounds up to block_size points, of which the first one has this index.
     void round(Coordinates points, std::size_t index, LatticePoint* out) {
-        // Products with less may underflow, to an unnoticed zero.
-        const bool is_product_exact = factor_ >= 1;
-        if (is_product_exact && round_block(points, factor_, out).is_exact) return;
+        if (is_done_at_once(points, out)) return;
         for (const auto& p : points) *out++ = (*this)(p, index++);
     }
 
 private:
+    // Where nothing moves.
+    bool is_done_at_once(Coordinates points, LatticePoint* out) const {
+        if constexpr (fractions == Fractions::Kept)
+            return factor_ != 0 && scale_block(points, factor_, out);
+        // Products with less may underflow, to an unnoticed zero.
+        const bool is_product_exact = factor_ >= 1;
+        return is_product_exact && round_block(points, factor_, out).is_exact;
+    }
+
     LatticePoint operator()(const std::array<double, 3>& p, std::size_t index) {
         const std::array<double, 3> units{p[0] * factor_, p[1] * factor_, p[2] * factor_};
         const bool in_range = std::fabs(units[0]) < 0x1p51 && std::fabs(units[1]) < 0x1p51 &&
@@ -230,7 +320,8 @@ private:
         std::array<double, 3> c{};
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = units[k] + rounder - rounder;
+            c[k] = fractions == Fractions::Kept ? rounded_fraction(units[k])
+                                                : units[k] + rounder - rounder;
             changed += note_move(p[k], units[k], c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
@@ -259,7 +350,7 @@ private:
                                  shortest_text(p[k]) +
                                  " is not finite or outside the lattice of unit 2^" +
                                  std::to_string(lattice_.exponent));
-            c[k] = std::nearbyint(units);
+            c[k] = fractions == Fractions::Kept ? rounded_fraction(units) : std::nearbyint(units);
             changed += note_move(p[k], units, c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
@@ -291,6 +382,37 @@ void refuse_beyond_doubles(Coordinates points, std::span<const LatticePoint> rou
         }
 }
 
+template <Fractions fractions>
+std::vector<LatticePoint> rounded_points(Coordinates points, Lattice lattice, LatticeReport& report,
+                                         std::uint32_t threads) {
+    report.lattice = lattice;
+    std::vector<LatticePoint> out;
+    detail::resize_on_threads(out, points.size(), threads);
+    const detail::ParallelParts parts(points.size(), threads, least_part);
+    std::vector<Rounding<fractions>> roundings(parts.count(), Rounding<fractions>(lattice));
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Rounding<fractions> round(lattice);
+        for (std::size_t i = begin; i < end; i += block_size)
+            round.round(points.subspan(i, std::min(block_size, end - i)), i, &out[i]);
+        roundings[part] = round;
+    });
+    for (const auto& round : roundings) round.report_to(report);
+    return out;
+}
+
+// For coordinates below 2^top, not all zero.
+int exponent_without_room(Coordinates points, int top) {
+    const int finest = top - coordinate_bits;
+    int lowest = std::numeric_limits<int>::max();
+    for (const auto& p : points)
+        for (const double c : p)
+            if (c != 0 && std::isfinite(c)) lowest = std::min(lowest, lowest_bit(c));
+    const int coarsest = lowest + fraction_limit;
+    if (coarsest < finest) return finest;  // more than 126 bits
+    const int eights = floor_to_multiple_of_8(coarsest);
+    return eights >= finest ? eights : coarsest;
+}
+
 }  // namespace
 
 double Lattice::to_double(double lattice_units) const { return scaled(lattice_units, exponent); }
@@ -309,31 +431,28 @@ int span_bits(std::span<const Point3d> points) {
     return largest == 0 ? 0 : std::ilogb(largest) + 1 - lowest;
 }
 
-Lattice choose_lattice(std::span<const std::array<double, 3>> points, std::uint32_t threads) {
+Lattice choose_lattice(std::span<const std::array<double, 3>> points, std::uint32_t threads,
+                       Fractions fractions) {
     const double largest = largest_finite(points, threads);
     if (largest == 0) return {0};
     int top = 0;
     std::frexp(largest, &top);  // largest < 2^top
     const int finest_with_room = ceil_to_multiple_of_8(top - (coordinate_bits - growth_bits));
     int lowest = std::numeric_limits<int>::max();
-    if (reaches_below(points, finest_with_room, threads, lowest)) return {finest_with_room};
-    return {std::max(floor_to_multiple_of_8(lowest), finest_with_room)};
+    if (!reaches_below(points, finest_with_room, threads, lowest))
+        return {std::max(floor_to_multiple_of_8(lowest), finest_with_room)};
+    if (fractions == Fractions::Rounded ||
+        are_multiples(points, finest_with_room - fraction_limit, threads))
+        return {finest_with_room};
+    return {exponent_without_room(points, top)};
 }
 
 std::vector<LatticePoint> to_lattice(std::span<const std::array<double, 3>> points, Lattice lattice,
-                                     LatticeReport& report, std::uint32_t threads) {
-    report.lattice = lattice;
-    std::vector<LatticePoint> out;
-    detail::resize_on_threads(out, points.size(), threads);
-    const detail::ParallelParts parts(points.size(), threads, least_part);
-    std::vector<Rounding> roundings(parts.count(), Rounding(lattice));
-    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Rounding round(lattice);
-        for (std::size_t i = begin; i < end; i += block_size)
-            round.round(points.subspan(i, std::min(block_size, end - i)), i, &out[i]);
-        roundings[part] = round;
-    });
-    for (const Rounding& round : roundings) round.report_to(report);
+                                     LatticeReport& report, std::uint32_t threads,
+                                     Fractions fractions) {
+    if (fractions == Fractions::Kept)
+        return rounded_points<Fractions::Kept>(points, lattice, report, threads);
+    auto out = rounded_points<Fractions::Rounded>(points, lattice, report, threads);
     refuse_beyond_doubles(points, out, lattice);
     return out;
 }

@@ -23,7 +23,7 @@ namespace trisect {
 /// library makes (edge planes, splitting planes) stays within these bounds. The tier of width says
 /// how many digits predicates need (predicates.cpp); `is_narrow` marks the first one.
 ///
-/// Value type of 240 bytes; beside the exact coefficients it carries doubles for the filtered stage
+/// Value type of 232 bytes; beside the exact coefficients it carries doubles for the filtered stage
 /// of predicates.
 class Plane {
 public:
@@ -82,6 +82,7 @@ private:
     std::int16_t shift_ = 0;
     std::uint8_t tier_ = 0;
 };
+static_assert(sizeof(Plane) == 232);
 
 /// Whether a, b, c lie on one line (equal points included).
 [[nodiscard]] bool are_collinear(const LatticePoint& a, const LatticePoint& b,

@@ -21,10 +21,11 @@ struct PlanePoint {
 
 /// A point in lattice units, exact.
 ///
-/// Immutable value; copying shares the planes (72 bytes here, about 600 bytes shared by all copies
-/// of a plane point). A plane point whose coordinates happen to be integers within the lattice's
-/// range is turned into a lattice point, so `is_lattice` is a property of the point, not of its
-/// history. Safe to read from many threads.
+/// Immutable value; copying shares the planes (72 bytes here, about 1250 bytes shared by all copies
+/// of a plane point). A plane point with whole coordinates within the lattice's range is turned
+/// into a lattice point, so for these `is_lattice` is a property of the point, not of its history.
+/// One that falls on fractions stays a plane point; equality does not see the difference. Safe to
+/// read from many threads.
 class Point {
 public:
     Point() = default;

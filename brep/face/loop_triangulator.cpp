@@ -16,7 +16,7 @@
 // not simple, and the caller gets an error).
 //
 // Everything happens in the projection along an axis in which the loop's (Newell) normal is
-// largest, with 128-bit products of 54-bit differences: |turn| < 2^110.
+// largest, with exact turns (flat_corner.h).
 
 #include <trisect/brep/face/loop_triangulator.h>
 
@@ -24,10 +24,8 @@
 #include <string>
 
 #include <trisect/brep/face/convex_cut.h>
-#include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/dyadic.h>
-#include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>

@@ -63,6 +63,4 @@ bool is_flipped(std::span<const std::uint32_t> loop, const Before& before, const
     return had_area && dot <= 0;
 }
 
-[[nodiscard]] inline Point3d as_doubles(const LatticePoint& p) { return p.doubles(); }
-
 }  // namespace trisect::detail

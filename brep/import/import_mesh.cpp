@@ -25,6 +25,7 @@
 #include <trisect/brep/import/import_findings.h>
 #include <trisect/brep/import/import_triangles.h>
 #include <trisect/brep/import/line_balance.h>
+#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/import/refit_faces.h>
 #include <trisect/brep/import/volume_sign.h>
@@ -39,8 +40,8 @@ using detail::PreparedMesh;
 
 class Importer {
 public:
-    Importer(const PolygonMesh& mesh, const ImportOptions& options)
-        : input_(mesh), options_(options) {}
+    Importer(const PolygonMesh& mesh, const ImportOptions& options, Fractions fractions)
+        : input_(mesh), options_(options), fractions_(fractions) {}
 
     ImportedMesh run() {
         detail::check_stop(input_.face_count());
@@ -64,9 +65,9 @@ private:
     }
 
     void prepare() {
-        const Lattice lattice =
-            options_.lattice ? *options_.lattice : choose_lattice(input_.points, options_.threads);
-        lattice_points_ = to_lattice(input_.points, lattice, out_.report.lattice, options_.threads);
+        out_.report.lattice = {};
+        lattice_points_ = detail::points_on_lattice(input_.points, options_.lattice, fractions_,
+                                                    out_.report.lattice, options_.threads);
         weld_and_triangulate();
     }
 
@@ -89,7 +90,12 @@ private:
         if (options_.nonplanar == NonplanarPolicy::Refit) refit();
     }
 
+    // Faces are made planar on whole coordinates.
     void refit() {
+        if (fractions_ == Fractions::Kept) {
+            fractions_ = Fractions::Rounded;
+            prepare();
+        }
         const Lattice lattice = out_.report.lattice.lattice;
         const double units = std::floor(std::ldexp(options_.refit_move, -lattice.exponent));
         if (!(units >= 0)) throw UsageError("the move allowed to Refit must not be negative");
@@ -121,7 +127,7 @@ private:
     void count_flipped_faces() {
         const auto before = [this](std::uint32_t c) { return input_.points[c]; };
         const auto after = [this](std::uint32_t c) {
-            return detail::as_doubles(lattice_points_[c]);  // the unit does not matter
+            return lattice_points_[c].doubles();  // the unit does not matter
         };
         for (std::size_t f = 0; f < input_.face_count(); ++f)
             if (detail::is_flipped(input_.face(f), before, after))
@@ -201,6 +207,7 @@ private:
 
     const PolygonMesh& input_;
     const ImportOptions& options_;
+    Fractions fractions_;
     std::vector<LatticePoint> lattice_points_;
     PreparedMesh mesh_;
     ImportedMesh out_;
@@ -215,19 +222,25 @@ ImportCounters& import_counters() noexcept {
     return counters;
 }
 
-ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options) {
-    return Importer(mesh, options).run();
+ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options,
+                             Fractions fractions) {
+    return Importer(mesh, options, fractions).run();
+}
+
+ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options,
+                         Fractions fractions) {
+    if (auto imported = import_triangles(mesh, options, fractions)) {
+        ++import_counters().triangles;
+        return *std::move(imported);
+    }
+    ++import_counters().polygons;
+    return import_polygons(mesh, options, fractions);
 }
 
 }  // namespace detail
 
 ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options) {
-    if (auto imported = detail::import_triangles(mesh, options)) {
-        ++detail::import_counters().triangles;
-        return *std::move(imported);
-    }
-    ++detail::import_counters().polygons;
-    return detail::import_polygons(mesh, options);
+    return detail::import_mesh(mesh, options, detail::usual_fractions);
 }
 
 }  // namespace trisect

@@ -16,10 +16,12 @@
 //   positive. Else is_flipped decides. Exponents are kept in a range where nothing overflows and
 //   what underflows is far below m.
 // - Volume. Six times the volume is the sum of N (a_z + b_z + c_z - 3 o_z) over all triangles, by
-//   the divergence theorem for (0, 0, z), for any o. A term is below 6 D_x D_y D_z and has a
-//   relative error of a few u; adding n of them, in any order, costs n u of the sum of their sizes.
-//   A sum beyond n (n + 16) 2^-52 times that bound has the right sign. Else volume_sign decides,
-//   exactly.
+//   the divergence theorem for (0, 0, z), for any o. A term is below 6 D_x D_y D_z and has an
+//   error of less than 16 u of that; adding n of them, in any order, costs n u of the sum of their
+//   sizes. A sum beyond n (n + 16) 2^-52 times that bound has the right sign. Else volume_sign
+//   decides, exactly.
+//
+// Nothing underflows: coordinates are multiples of 2^-73 units, products of two of 2^-146.
 //
 // Several threads take parts of the points and of the triangles. Welding and matching sides are one
 // piece of work each, a fourth and a third of an import, and done at the same time: as long as no
@@ -119,15 +121,15 @@ Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
 
 class TriangleImporter {
 public:
-    TriangleImporter(const PolygonMesh& mesh, const ImportOptions& options, const Sharing& sharing)
-        : input_(mesh), options_(options), sharing_(sharing) {}
+    TriangleImporter(const PolygonMesh& mesh, const ImportOptions& options, Fractions fractions,
+                     const Sharing& sharing)
+        : input_(mesh), options_(options), fractions_(fractions), sharing_(sharing) {}
 
     std::optional<ImportedMesh> run() {
-        const Lattice lattice =
-            options_.lattice ? *options_.lattice : choose_lattice(input_.points, sharing_.threads);
-        out_.mesh.lattice = lattice;
         check_stop(input_.points.size());
-        points() = to_lattice(input_.points, lattice, out_.report.lattice, sharing_.threads);
+        points() = points_on_lattice(input_.points, options_.lattice, fractions_,
+                                     out_.report.lattice, sharing_.threads);
+        out_.mesh.lattice = out_.report.lattice.lattice;
         check_stop(input_.face_count());
         const SideBalance sides = connect();
         check_stop();
@@ -229,15 +231,15 @@ private:
         const double n = static_cast<double>(triangles().size());
         const double largest = std::max({d[0], d[1], d[2]});
         const double squares = largest * largest;
-        // A term is at most 6 d_x d_y d_z, and its ten roundings are less than 16 u of that; the
-        // sum of n terms adds n of its own to each.
+        // A term is at most 6 d_x d_y d_z, and its thirteen roundings are less than 16 u of that;
+        // the sum of n terms adds n of its own to each.
         sum_bound_ = n * (n + 16) * 0x1p-52 * 6 * d[0] * d[1] * d[2];
         degenerate_bound_ = 0x1p-49 * squares;
         flip_bound_ = 9 * (32 * largest + 32 + 0x1p-48 * squares);
         const bool in_range = std::abs(out_.mesh.lattice.exponent) <= 300;
         if (!in_range) flip_bound_ = HUGE_VAL;
         clear_ = out_.report.lattice.lossless ? degenerate_bound_ : flip_bound_;
-        clear_ = std::max(clear_, 0.5);  // a component of zero is never clear
+        clear_ = std::max(clear_, 0x1p-200);  // a component of zero is never clear
     }
 
     // For triangles whose normal is small or has a small z component.
@@ -259,7 +261,7 @@ private:
         return is_flipped(
             input_.face(f), [&](std::uint32_t c) { return input_.points[c]; },
             [&](std::uint32_t c) {
-                return as_doubles(out_.mesh.points[names_.empty() ? c : names_[c]]);
+                return out_.mesh.points[names_.empty() ? c : names_[c]].doubles();
             });
     }
 
@@ -306,6 +308,7 @@ private:
 
     const PolygonMesh& input_;
     const ImportOptions& options_;
+    Fractions fractions_;
     Sharing sharing_;
     ImportedMesh out_;
     std::vector<std::uint32_t> names_;  ///< of the input's points; empty: their indices
@@ -320,13 +323,13 @@ private:
 }  // namespace
 
 std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh, const ImportOptions& options,
-                                             std::size_t least_part) {
+                                             Fractions fractions, std::size_t least_part) {
     const bool small = std::max(mesh.points.size(), mesh.face_count()) < 2 * least_part;
     const std::uint32_t wanted = small ? 1 : options.threads;
     return on_threads(wanted, [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
         const Sharing sharing{threads, least_part};
         if (!is_triangle_mesh(mesh, sharing)) return std::nullopt;
-        return TriangleImporter(mesh, options, sharing).run();
+        return TriangleImporter(mesh, options, fractions, sharing).run();
     });
 }
 

@@ -9,6 +9,7 @@
 // primitive direction d (divided by the gcd, first nonzero component positive) and its lattice
 // points are p + t·d for integers t; the one with the smallest non-negative coordinate along the
 // axis where |d| is largest names it, and t is the position of every other point. |t·d| < 2^55.
+// Points with bits behind the point are counted on the lattice that is finer by all these bits.
 
 #include <trisect/brep/import/line_balance.h>
 
@@ -18,6 +19,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -145,8 +147,8 @@ std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
     return uncancelled<mpz_class>(edges, [&](std::uint32_t p) {
         VectorOf<mpz_class> x;
         for (std::size_t k = 0; k < 3; ++k) {
-            const mpf_class fine(coordinate(points[p], k).to_double(), 256);
-            mpz_set_f(x[k].get_mpz_t(), mpf_class(fine << fraction_limit).get_mpf_t());
+            const Dyadic d = dyadic(coordinate(points[p], k).to_double());
+            x[k] = mpz_class(d.mantissa) << static_cast<unsigned>(d.exponent + fraction_limit);
         }
         return x;
     });

@@ -111,7 +111,8 @@ Coordinate exact_sum(Coordinate a, Coordinate b) {
     const double rest =
         (a.to_double() - (sum - b.to_double())) + (b.to_double() - (sum - (sum - b.to_double())));
     if (rest != 0 || std::fabs(sum) >= static_cast<double>(coordinate_limit))
-        throw LimitError("a translation leaves the lattice");
+        throw LimitError(rest != 0 ? "a translated coordinate is not a double"
+                                   : "a translation leaves the lattice");
     return Coordinate(sum);
 }
 
@@ -129,6 +130,16 @@ std::int64_t round_to_lattice(const Sum& s, double& move) {
     return static_cast<std::int64_t>(r);
 }
 
+// The nearest double with no more than fraction_limit bits behind the point.
+double round_to_fraction(const Sum& s, double& move) {
+    if (!(std::fabs(s.head) < static_cast<double>(coordinate_limit)))
+        throw LimitError("a transformed coordinate leaves the lattice");
+    const double fine = std::ldexp(s.head + s.tail, fraction_limit);
+    const double r = std::ldexp(std::nearbyint(fine), -fraction_limit);
+    move = std::fabs((s.head - r) + s.tail);
+    return r;
+}
+
 using Normal = std::array<double, 3>;
 
 template <class P>
@@ -140,8 +151,6 @@ Normal normal_of(const P& a, const P& b, const P& c) {
     }
     return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
-
-Point3d to_doubles(const LatticePoint& p) { return p.doubles(); }
 
 // Renames welded points and leaves out triangles that became flat.
 void clean_up(LatticeMesh& m) {
@@ -286,13 +295,17 @@ LatticeMesh transformed(const LatticeMesh& mesh, const AffineMap& map, LatticeRe
     require_regular(map);
     LatticeMesh out = mesh;
     report.lattice = mesh.lattice;
+    const auto is_whole = [](const LatticePoint& p) { return p.is_whole(); };
+    const bool whole = std::ranges::all_of(mesh.points, is_whole);
     for (LatticePoint& p : out.points) {
-        std::array<std::int64_t, 3> c{};
+        std::array<Coordinate, 3> c{};
         double largest = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const double t = std::ldexp(map.rows[i][3], -mesh.lattice.exponent);
             double move = 0;
-            c[i] = round_to_lattice(dot(map.rows[i], to_doubles(p), t), move);
+            const Sum image = dot(map.rows[i], p.doubles(), t);
+            c[i] = whole ? Coordinate(round_to_lattice(image, move))
+                         : Coordinate(round_to_fraction(image, move));
             largest = std::max(largest, move);
         }
         p = {c[0], c[1], c[2]};
@@ -304,9 +317,9 @@ LatticeMesh transformed(const LatticeMesh& mesh, const AffineMap& map, LatticeRe
     for (const auto& t : mesh.triangles) {
         std::array<Point3d, 3> before{}, after{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const Point3d p = to_doubles(mesh.points[t[i]]);
+            const Point3d p = mesh.points[t[i]].doubles();
             for (std::size_t k = 0; k < 3; ++k) before[i][k] = dot(map.rows[k], p, 0).head;
-            after[i] = to_doubles(out.points[t[i]]);
+            after[i] = out.points[t[i]].doubles();
         }
         const Normal n = normal_of(before[0], before[1], before[2]);
         const Normal m = normal_of(after[0], after[1], after[2]);

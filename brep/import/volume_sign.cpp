@@ -40,13 +40,18 @@ int filtered_sign(std::span<const LatticePoint> points,
     return sum > bound ? 1 : (sum < -bound ? -1 : 0);
 }
 
-// In units of 2^(-3 fraction_limit): terms below 2^383.
+// In units of 2^(-3 fraction_limit): differences below 2^127, minors below 2^255, terms below
+// 2^382, so 2^32 triangles fit into 448 bits.
 int sign_of_fractions(std::span<const LatticePoint> points,
-                      std::span<const std::array<std::uint32_t, 3>> triangles) {
+                      std::span<const std::array<std::uint32_t, 3>> triangles,
+                      const LatticePoint& origin) {
     WideInt<7> sum;
+    const auto scaled = [](const LatticePoint& p, std::size_t k) {
+        return scaled_integer(coordinate(p, k), fraction_limit);
+    };
     for (const auto& t : triangles) {
         const auto fine = [&](std::size_t i, std::size_t k) {
-            return WideInt<2>(scaled_integer(coordinate(points[t[i]], k), fraction_limit));
+            return WideInt<2>(scaled(points[t[i]], k) - scaled(origin, k));
         };
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
@@ -67,7 +72,7 @@ int volume_sign(std::span<const LatticePoint> points,
     const LatticePoint origin = points[triangles[0][0]];
     if (const int s = filtered_sign(points, triangles, origin); s != 0) return s;
     const auto is_whole = [](const LatticePoint& p) { return p.is_whole(); };
-    if (!std::ranges::all_of(points, is_whole)) return sign_of_fractions(points, triangles);
+    if (!std::ranges::all_of(points, is_whole)) return sign_of_fractions(points, triangles, origin);
     WideInt<4> sum;
     for (const auto& t : triangles) {
         const auto a = difference(points[t[0]], origin);

@@ -102,7 +102,7 @@ private:
                    p.normal(1).bit_length() <= most.normal &&
                    p.normal(2).bit_length() <= most.normal;
         });
-        return fits && are_whole_ ? 1 : 2;
+        return fits && are_whole_ && brep_.lattice().exponent % 8 == 0 ? 1 : 2;
     }
     // Copies of a vertex are one.
     void number_vertices() {
@@ -174,8 +174,10 @@ public:
         text_.expect_line_end();
         expect("lattice");
         const std::int64_t exponent = text_.integer("the lattice's exponent");
-        if (exponent % 8 != 0 || exponent < -1200 || exponent > 1016)
+        const bool in_range = exponent >= -1200 && exponent <= 1016;
+        if (version_ == 1 && (!in_range || exponent % 8 != 0))
             text_.fail_word("the lattice's exponent", "is not a multiple of 8 from -1200 to 1016");
+        if (!in_range) text_.fail_word("the lattice's exponent", "is not from -1200 to 1016");
         text_.expect_line_end();
         read_planes();
         read_vertices();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lossless text format of boundaries.
-// It has integers only, so a boundary is read back bit for bit on every machine. Boundaries with
-// coordinates that have bits behind the point are of version 2: there a coordinate may be a decimal
-// number, the shortest one that is nearest to its double, and planes have up to 328 and 383 bits.
+// A boundary is read back bit for bit on every machine. Files of version 1 have integers only.
+// Boundaries with coordinates that have bits behind the point are of version 2: there a coordinate
+// may be a decimal number, the shortest one that is nearest to its double, and planes have up to
+// 328 and 383 bits instead of 109 and 162. The exponent of the lattice is from -1200 to 1016, and
+// in version 1 a multiple of 8.
 //
 //     trisect-exact 1
 //     lattice -32                      unit: coordinates are multiples of 2^-32
@@ -22,8 +24,8 @@
 // is its outer one, counter-clockwise seen from outside, the others are holes, clockwise (of two
 // corners: a slit). Points
 // where the solid touches itself are listed once. `#` begins a comment. Any program with integers
-// of 512 bits can check a file: every corner is on its face's plane, every edge is used equally
-// often both ways.
+// of 512 bits (in version 2: of any length) can check a file: every corner is on its face's plane,
+// every edge is used equally often both ways.
 #pragma once
 
 #include <filesystem>

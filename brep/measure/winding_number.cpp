@@ -25,15 +25,14 @@ using detail::to_integer;
 struct HomogeneousQuery {
     std::array<mpz_class, 3> x;
     mpz_class w;
-    std::array<std::int64_t, 3> below{}, above{};
+    std::array<Coordinate, 3> below, above;
 };
 
-/// Far away all integers are alike.
-std::int64_t clamped(const mpz_class& v) {
-    constexpr std::int64_t far = std::int64_t{1} << 60;
-    if (v > far) return far;
-    if (v < -far) return -far;
-    return v.get_si();
+/// Beyond all coordinates all integers are alike.
+Coordinate clamped(const mpz_class& v) {
+    if (v > coordinate_limit) return coordinate_limit;
+    if (v < -coordinate_limit) return -coordinate_limit;
+    return std::int64_t{v.get_si()};
 }
 
 HomogeneousQuery query_of(const ExactPoint& point, Lattice lattice) {

@@ -15,8 +15,8 @@
 
 #include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/flat_corner.h>
-#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -53,9 +53,15 @@ private:
         const auto flat = [this](std::uint32_t p) { return flat_corner(points_[p], 0, 1); };
         return detail::turn(flat(a), flat(b), flat(c));
     }
-    [[nodiscard]] Int128 squared_distance(std::uint32_t a, std::uint32_t b) const {
-        const auto d = difference(points_[b], points_[a]);
-        return Int128{d[0]} * d[0] + Int128{d[1]} * d[1];
+    // In units of 2^(-2 fraction_limit): differences are below 2^127.
+    [[nodiscard]] WideInt<4> squared_distance(std::uint32_t a, std::uint32_t b) const {
+        WideInt<4> sum;
+        for (int k = 0; k < 2; ++k) {
+            const WideInt<2> d(scaled_integer(points_[b][k], fraction_limit) -
+                               scaled_integer(points_[a][k], fraction_limit));
+            sum += multiply<4>(d, d);
+        }
+        return sum;
     }
     // Is corner c between a and b (which are collinear with it), ends included?
     [[nodiscard]] bool is_between(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {

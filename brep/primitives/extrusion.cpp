@@ -9,21 +9,26 @@
 #include <trisect/brep/primitives/cap.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
-#include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect {
 
 namespace {
 
-// Sign of the area, exact on the lattice: WideInt<4> holds any number of 110-bit products.
+// Sign of the area, exact: differences are below 2^127 in units of 2^-fraction_limit, and
+// WideInt<5> holds any number of products of two.
 int area_sign(std::span<const LatticePoint> points, std::span<const std::uint32_t> loop) {
-    WideInt<4> sum;
-    const LatticePoint& o = points[loop[0]];
+    WideInt<5> sum;
+    const auto from_first = [&](std::uint32_t p, int k) {
+        return WideInt<2>(detail::scaled_integer(points[p][k], fraction_limit) -
+                          detail::scaled_integer(points[loop[0]][k], fraction_limit));
+    };
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-        const auto a = detail::difference(points[loop[i]], o);
-        const auto b = detail::difference(points[loop[i + 1]], o);
-        sum += WideInt<4>(Int128{a[0]} * b[1] - Int128{a[1]} * b[0]);
+        const std::uint32_t a = loop[i];
+        const std::uint32_t b = loop[i + 1];
+        sum += multiply<5>(from_first(a, 0), from_first(b, 1)) -
+               multiply<5>(from_first(a, 1), from_first(b, 0));
     }
     return sum.sign();
 }
@@ -37,7 +42,8 @@ public:
         add_loop(outer);
         for (const Outline& h : holes) add_loop(h);
         LatticeReport report;
-        lattice_points_ = to_lattice(flat_, choose_lattice(flat_), report);
+        lattice_points_ = to_lattice(flat_, choose_lattice(flat_, 0, Fractions::Kept), report, 0,
+                                     Fractions::Kept);
         orient();
     }
 

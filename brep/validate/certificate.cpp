@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
+#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/number/gmp_conversion.h>
@@ -179,7 +180,7 @@ std::optional<Certificate> certified_manifold(const PolygonMesh& mesh) {
     if (!triangles) return std::nullopt;
     LatticeReport lattice;
     std::vector<LatticePoint> points =
-        to_lattice(mesh.points, choose_lattice(mesh.points), lattice);
+        detail::points_on_lattice(mesh.points, std::nullopt, detail::usual_fractions, lattice);
     if (!detail::weld_in_place(points, points.size()).empty()) return std::nullopt;
     const auto manifold = detail::ManifoldMesh::of(points, *triangles);
     if (!manifold) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/validate/checked_mesh.h>
 #include <trisect/kernel/stop_scope.h>
@@ -68,7 +69,7 @@ ValidationReport validate(const PolygonMesh& mesh, const ValidateOptions& option
     detail::check_indices(mesh);
     LatticeReport lattice;
     const auto points =
-        to_lattice(mesh.points, options.lattice.value_or(choose_lattice(mesh.points)), lattice);
+        detail::points_on_lattice(mesh.points, options.lattice, detail::usual_fractions, lattice);
     return validate_on_lattice(mesh, lattice, points, options);
 }
 

@@ -26,7 +26,7 @@ namespace trisect {
 class Brep;
 
 struct ValidateOptions {
-    /// Default: choose_lattice. The report has what rounding changed.
+    /// As in ImportOptions. The report has what rounding changed.
     std::optional<Lattice> lattice = std::nullopt;
     /// Defects listed of each kind; all are counted.
     std::size_t list_limit = 100;

@@ -333,7 +333,7 @@ void Gatherer::note_list(const AssembledLeaf& leaf, const PolygonList& polygons,
 
 // As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
 // for each of them. So they are prefetched well before.
-template <bool Shared>
+template <bool Shared, bool Whole>
 void mark_list(const ListPart& list, FacetMarks& marks) {
     constexpr std::size_t ahead = 16;
     const Box inside = list.leaf->cell.lattice_box();
@@ -346,9 +346,10 @@ void mark_list(const ListPart& list, FacetMarks& marks) {
             __builtin_prefetch(&mesh.points[mesh.triangles[facets[i + ahead]][0]]);
         const std::uint32_t f = facets[i];
         const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
-        const bool owned =
-            (int{p.x >= inside.lo[0]} & int{p.x <= inside.hi[0]} & int{p.y >= inside.lo[1]} &
-             int{p.y <= inside.hi[1]} & int{p.z >= inside.lo[2]} & int{p.z <= inside.hi[2]}) != 0;
+        const auto at = [&](int k) { return Whole ? p[k].to_integer() : position_of(p[k]); };
+        const bool owned = (int{at(0) >= inside.lo[0]} & int{at(0) <= inside.hi[0]} &
+                            int{at(1) >= inside.lo[1]} & int{at(1) <= inside.hi[1]} &
+                            int{at(2) >= inside.lo[2]} & int{at(2) <= inside.hi[2]}) != 0;
         if constexpr (Shared) {
             marks.add_present_shared(f, list.flipped, owned);
         } else {
@@ -367,10 +368,12 @@ void Gatherer::mark_lists() {
             FacetMarks& marks = out_.sources[list.table];
             if (list.contained) {
                 for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+            } else if (!marks.source()->is_whole()) {
+                mark_list<true, false>(list, marks);
             } else if (parts.count() == 1) {
-                mark_list<false>(list, marks);
+                mark_list<false, true>(list, marks);
             } else {
-                mark_list<true>(list, marks);
+                mark_list<true, true>(list, marks);
             }
         }
     });
@@ -581,7 +584,10 @@ void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRe
     }
 }
 
+// Not where vertices may have fractions: those of planes are found by whole numbers.
 void Gatherer::choose_axis_faces() {
+    const auto is_whole = [](const FacetMarks& m) { return m.source()->is_whole(); };
+    if (!std::ranges::all_of(out_.sources, is_whole)) return;
     std::vector<AxisFaces::Leaf> leaves;
     leaves.reserve(leaves_.size());
     for (const AssembledLeaf& leaf : leaves_) {

@@ -33,7 +33,7 @@ int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePo
 std::optional<AxisPlane> axis_plane(const PlaneName& name) {
     if (name.is_splitter()) return AxisPlane{name.facet, 1, name.position()};
     const Source& source = *name.source();
-    if (source.is_half_space()) return std::nullopt;
+    if (source.is_half_space() || !source.is_whole()) return std::nullopt;
     const LatticePoint& a = source.corner(name.facet, 0);
     const LatticePoint& b = source.corner(name.facet, 1);
     const LatticePoint& c = source.corner(name.facet, 2);
@@ -62,7 +62,7 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
 }
 
 bool AxisPolygon::read(const PolygonRef& polygon) {
-    if (polygon.source->is_half_space()) return false;
+    if (polygon.source->is_half_space() || !polygon.source->is_whole()) return false;
     const Corners corners{&polygon.source->corner(polygon.facet, 0),
                           &polygon.source->corner(polygon.facet, 1),
                           &polygon.source->corner(polygon.facet, 2)};

@@ -105,6 +105,14 @@ struct Box {
 [[nodiscard]] constexpr std::int64_t fine_position(Coordinate c) {
     return c.to_integer() * splitting_scale;
 }
+/// Below and above all coordinates of a lattice position: in 1/192 units, closed. `whole`: there
+/// are no fractions.
+[[nodiscard]] constexpr std::int64_t fine_lower(std::int64_t position, bool whole) {
+    return position * splitting_scale - (whole ? 0 : splitting_scale - usual_splitting_offset);
+}
+[[nodiscard]] constexpr std::int64_t fine_upper(std::int64_t position, bool whole) {
+    return position * splitting_scale + (whole ? 0 : std::int64_t{usual_splitting_offset});
+}
 /// The last lattice plane at or below a position.
 [[nodiscard]] constexpr std::int64_t lattice_below(std::int64_t position) {
     const std::int64_t q = position / splitting_scale;

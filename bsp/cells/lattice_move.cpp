@@ -11,12 +11,23 @@ namespace trisect::detail {
 
 namespace {
 
-// Bits of the offset of a plane through lattice points (plane.h).
-constexpr int offset_bits = 162;
+// Most bits of the offset of a plane through lattice points (plane.h).
+constexpr int offset_bits = 380;
 
 std::int64_t within(std::int64_t v, std::int64_t limit) {
     if (v >= limit || v <= -limit) throw LimitError("a moved solid leaves the lattice");
     return v;
+}
+
+// A sum of doubles that is one. A translation of 2^53 and more leaves no room for a fraction.
+Coordinate with_fraction(double c, std::int64_t by) {
+    const auto t = static_cast<double>(within(by, coordinate_limit));
+    const double sum = c + t;
+    if (sum - t != c || sum - c != t)
+        throw LimitError("a moved coordinate has more digits than a double");
+    if (!(std::fabs(sum) < static_cast<double>(coordinate_limit)))
+        throw LimitError("a moved solid leaves the lattice");
+    return Coordinate(sum);
 }
 
 }  // namespace
@@ -32,7 +43,10 @@ int LatticeMove::image_of_axis(int axis) const {
 
 LatticePoint LatticeMove::applied(const LatticePoint& p) const {
     const auto c = [&](std::size_t i) {
-        return within(sign[i] * p[from[i]].to_integer() + by[i], coordinate_limit);
+        const Coordinate from_here = p[from[i]];
+        if (from_here.is_whole())
+            return Coordinate(within(sign[i] * from_here.to_integer() + by[i], coordinate_limit));
+        return with_fraction(sign[i] * from_here.to_double(), by[i]);
     };
     return {c(0), c(1), c(2)};
 }

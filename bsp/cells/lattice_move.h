@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // LatticeMove: an exact map of a lattice onto itself.
-// Quarter turns, mirrors and a translation by integers.
+// Quarter turns, mirrors and a translation by whole units.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct LatticeMove {
         return sign[static_cast<std::size_t>(image_axis)] < 0;
     }
 
-    /// \throw LimitError beyond the range of the lattice.
+    /// \throw LimitError beyond the range of the lattice, or where the sum is no double.
     [[nodiscard]] LatticePoint applied(const LatticePoint& p) const;
     [[nodiscard]] Box applied(const Box& box) const;
     /// Of a splitter across an axis: its position across image_of_axis(axis).

@@ -42,6 +42,9 @@ struct CellTree {
     /// Then the assembly must find these lines before it joins the parts. Conservative; false for
     /// imported meshes, whose facets end at their edges.
     bool may_have_straight_crossings = false;
+    /// Whether all splitting planes have the usual offset (cell.h): only such a tree may meet
+    /// coordinates with fractions.
+    bool has_usual_offsets = true;
 };
 
 /// Facets of a mesh that bound a result as they are.
@@ -73,6 +76,7 @@ struct SolidState {
     Lattice lattice;
     SolidForm form;
     bool embedded = true;      ///< free of self-intersection, winding numbers 0 and 1 only
+    bool whole = true;         ///< corners of meshes have whole coordinates
     std::uint64_t source = 0;  ///< serial of the one source of an imported solid
     /// Whether the set contains what is far away: 0 or 1; -1 where that depends on the direction,
     /// or may, because half-spaces alone decide it.

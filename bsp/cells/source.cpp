@@ -11,6 +11,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/bounded_int.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
@@ -21,6 +22,22 @@ namespace {
 std::uint64_t next_serial() {
     static std::atomic<std::uint64_t> serial{0};
     return ++serial;
+}
+
+// Of coordinates times 2^shift, rounded outwards.
+Box box_on_lattice(const Box& box, int shift) {
+    Box out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (shift >= 0) {
+            out.lo[k] = box.lo[k] * (std::int64_t{1} << shift);
+            out.hi[k] = box.hi[k] * (std::int64_t{1} << shift);
+        } else {
+            const int by = std::min(-shift, 62);
+            out.lo[k] = box.lo[k] >> by;
+            out.hi[k] = -(-box.hi[k] >> by);
+        }
+    }
+    return out;
 }
 
 }  // namespace
@@ -39,19 +56,20 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threa
     const std::span<const LatticePoint> points = s->mesh_.points;
     const ParallelParts parts(points.size(), threads, std::size_t{1} << 16);
     std::vector<Box> boxes(parts.count());
-    std::vector<std::uint8_t> whole(parts.count());
+    std::vector<int> bits(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         Box box;
-        bool all = true;
+        int most = 0;
         for (const LatticePoint& p : points.subspan(begin, end - begin)) {
             box.add(p);
-            all = all && p.is_whole();
+            if (!p.is_whole()) most = std::max(most, trisect::detail::fraction_bits(p));
         }
         boxes[part] = box;
-        whole[part] = all ? 1 : 0;
+        bits[part] = most;
     });
     for (const Box& b : boxes) s->box_.add(b);
-    s->whole_ = std::ranges::all_of(whole, [](std::uint8_t all) { return all != 0; });
+    s->fraction_bits_ = *std::ranges::max_element(bits);
+    s->whole_ = s->fraction_bits_ == 0;
     return shared;
 }
 
@@ -130,35 +148,39 @@ std::shared_ptr<const Source> Source::moved(const LatticeMove& move) const {
     return out;
 }
 
-std::shared_ptr<const Source> Source::refined(int exponent) const {
+void Source::refuse_lattice(int exponent, const std::string& why) const {
+    throw LimitError("operands of units 2^" + std::to_string(mesh_.lattice.exponent) + " and 2^" +
+                     std::to_string(exponent) + " have no common lattice: " + why);
+}
+
+std::shared_ptr<const Source> Source::on_lattice(int exponent) const {
+    if (is_half_space()) return planes_on_lattice(exponent);
     const int shift = mesh_.lattice.exponent - exponent;
-    TRISECT_EXPECTS(shift >= 0, "a source can only move to a finer lattice");
-    if (is_half_space()) return refined_planes(exponent, shift);
-    LatticeMesh fine = mesh_;
-    fine.lattice.exponent = exponent;
-    for (LatticePoint& p : fine.points) {
-        for (const std::int64_t c : to_integers(p)) {
-            if (shift >= coordinate_bits || std::abs(c) >= (coordinate_limit >> shift))
-                throw LimitError(
-                    "operands of units 2^" + std::to_string(mesh_.lattice.exponent) + " and 2^" +
-                    std::to_string(exponent) +
-                    " have no common lattice: their sizes differ too much; coordinate " +
-                    std::to_string(c) + " of the coarser one would not fit");
-        }
-        const auto moved = [factor = std::ldexp(1, shift)](Coordinate c) {
-            return Coordinate(c.to_double() * factor);
+    if (fraction_bits_ - shift > fraction_limit)
+        refuse_lattice(exponent, "their sizes differ too much for the digits of the finer one");
+    const double factor = std::ldexp(1, shift);
+    LatticeMesh moved = mesh_;
+    moved.lattice.exponent = exponent;
+    for (LatticePoint& p : moved.points) {
+        const auto scaled = [&](Coordinate c) {
+            const double there = c.to_double() * factor;
+            if (std::fabs(there) >= static_cast<double>(coordinate_limit))
+                refuse_lattice(exponent, "their sizes differ too much; coordinate " +
+                                             std::to_string(c.to_double()) +
+                                             " of the coarser one would not fit");
+            return Coordinate(there);
         };
-        p = {moved(p.x), moved(p.y), moved(p.z)};
+        p = {scaled(p.x), scaled(p.y), scaled(p.z)};
     }
-    auto out = renamed_as_this(make(std::move(fine)));
+    auto out = renamed_as_this(make(std::move(moved)));
     const_cast<Source&>(*out).serial_ = serial_;
     return out;
 }
 
 // n · x + d with x = X 2^k: the normal or the offset takes up the power of two.
 std::shared_ptr<const Source> Source::half_space_on(int exponent) const {
-    constexpr int normal_bits = 109;  // see plane.h
-    constexpr int offset_bits = 162;
+    constexpr int normal_bits = 327;  // see plane.h
+    constexpr int offset_bits = 380;
     const Plane& p = planes_[0];
     const int power = exponent - mesh_.lattice.exponent;
     std::array<BoundedInt, 4> n{p.normal(0), p.normal(1), p.normal(2), p.offset()};
@@ -183,22 +205,26 @@ std::shared_ptr<const Source> Source::half_space_on(int exponent) const {
     return out;
 }
 
-std::shared_ptr<const Source> Source::refined_planes(int exponent, int shift) const {
-    if (shift > 48)
-        throw LimitError((facet_count() == 1 ? "a half-space of unit 2^" : "planes of unit 2^") +
-                         std::to_string(mesh_.lattice.exponent) +
-                         " cannot move to the lattice of unit 2^" + std::to_string(exponent));
-    std::vector<Plane> fine;
-    fine.reserve(planes_.size());
-    for (const Plane& p : planes_)
-        fine.emplace_back(p.normal(0), p.normal(1), p.normal(2), p.offset().shifted_left(shift));
+// n · x + d with x = X 2^k: the normal or the offset is multiplied.
+std::shared_ptr<const Source> Source::planes_on_lattice(int exponent) const {
+    const int shift = mesh_.lattice.exponent - exponent;
+    constexpr int most_bits = 327;  // of a normal, and less than of an offset
+    std::vector<Plane> moved;
+    moved.reserve(planes_.size());
+    for (const Plane& p : planes_) {
+        const auto times = [&](const Plane::Coefficient& c, int bits) {
+            if (bits == 0 || c.is_zero()) return c;
+            if (c.bit_length() + bits > most_bits || shift > coordinate_bits)
+                refuse_lattice(exponent, "a plane would have too long coefficients");
+            return c.shifted_left(bits);
+        };
+        const int to_normal = std::max(-shift, 0);
+        moved.emplace_back(times(p.normal(0), to_normal), times(p.normal(1), to_normal),
+                           times(p.normal(2), to_normal), times(p.offset(), std::max(shift, 0)));
+    }
     Box box = box_;
-    if (!is_unbounded())
-        for (std::size_t k = 0; k < 3; ++k) {
-            box.lo[k] *= std::int64_t{1} << shift;
-            box.hi[k] *= std::int64_t{1} << shift;
-        }
-    auto out = renamed_as_this(planes(std::move(fine), Lattice{exponent}, box));
+    if (!is_unbounded()) box = box_on_lattice(box_, shift);
+    auto out = renamed_as_this(planes(std::move(moved), Lattice{exponent}, box));
     const_cast<Source&>(*out).serial_ = serial_;
     return out;
 }

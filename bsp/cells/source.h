@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <trisect/brep/brep.h>
@@ -54,6 +55,8 @@ public:
     [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
     /// Whether all corners are whole, or all planes have the widths that such give them.
     [[nodiscard]] bool is_whole() const { return whole_; }
+    /// Of a mesh: the most bits behind the point that a coordinate has.
+    [[nodiscard]] int fraction_bits() const { return fraction_bits_; }
     /// Whether the box says nothing.
     [[nodiscard]] bool is_unbounded() const { return box_.hi[0] == coordinate_limit; }
     [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }
@@ -92,10 +95,10 @@ public:
     /// The same for a given support.
     [[nodiscard]] Plane edge_plane(std::uint32_t facet, int i, const Plane& support) const;
 
-    /// The same facets under the same serial on the lattice of exponent `exponent`, which must be
-    /// finer. Names keep their meaning. \throw LimitError when coordinates leave the lattice's
-    /// range.
-    [[nodiscard]] std::shared_ptr<const Source> refined(int exponent) const;
+    /// The same facets under the same serial on the lattice of exponent `exponent`. Names keep
+    /// their meaning. \throw LimitError when coordinates or coefficients leave the lattice's range,
+    /// on a finer one, or have too many bits behind the point, on a coarser one.
+    [[nodiscard]] std::shared_ptr<const Source> on_lattice(int exponent) const;
     /// A half-space under the same serial on a lattice of any exponent. \throw LimitError when its
     /// coefficients become too long.
     [[nodiscard]] std::shared_ptr<const Source> half_space_on(int exponent) const;
@@ -112,7 +115,8 @@ private:
     Source() = default;
     ~Source() = default;
     static std::shared_ptr<const Source> share(Source* source);
-    [[nodiscard]] std::shared_ptr<const Source> refined_planes(int exponent, int shift) const;
+    [[nodiscard]] std::shared_ptr<const Source> planes_on_lattice(int exponent) const;
+    [[noreturn]] void refuse_lattice(int exponent, const std::string& why) const;
     [[nodiscard]] int edge_axis(const Plane& support) const;
 
     [[nodiscard]] std::shared_ptr<const Source> renamed_as_this(
@@ -122,6 +126,7 @@ private:
     std::vector<Plane> planes_;
     Box box_;
     bool whole_ = true;
+    int fraction_bits_ = 0;
     std::uint64_t serial_ = 0;
     std::uint32_t operand_ = 0;
     std::shared_ptr<const std::vector<FaceSource>> names_;  // by face; null: its own

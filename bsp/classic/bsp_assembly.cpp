@@ -69,6 +69,8 @@ public:
             if (points_.empty() || !(*points_.back() == *point)) {
                 points_.push_back(point);
                 nearest_.push_back(point->nearest());
+            } else if (point->is_lattice()) {
+                points_.back() = point;  // at fractions others are named by planes
             }
             vertex_of_corner_[corner] = to_index(points_.size() - 1);
         }

@@ -99,8 +99,11 @@ private:
         const auto mix = [&h](std::uint64_t v) { h = (h ^ v) * 0x9e3779b97f4a7c15U + (h >> 29U); };
         mix(child_key(node.below));
         mix(child_key(node.above));
-        for (int i = 0; i < 3; ++i) mix(node.plane.normal(i).limb(0));
-        mix(node.plane.offset().limb(0));
+        // Coefficients of planes through fractions may be multiples of 2^64.
+        for (int limb = 0; limb < 2; ++limb) {
+            for (int i = 0; i < 3; ++i) mix(node.plane.normal(i).limb(limb));
+            mix(node.plane.offset().limb(limb));
+        }
         return static_cast<std::size_t>(h);
     }
     static std::uint64_t child_key(BspNodeId id) {

@@ -18,7 +18,8 @@ struct CellOperand {
     std::int32_t slot = -1;
     int winding = 0;  ///< at the cell's reference point
     bool embedded = false;
-    bool complemented = false;  ///< of the tree; of a list: read with the other orientation
+    bool has_fractions = false;  ///< of coordinates
+    bool complemented = false;   ///< of the tree; of a list: read with the other orientation
     bool is_list = false;
     bool unbounded = false;  ///< a list: of one half-space
     bool drawn_in = false;   ///< a list: some boxes reach beyond the frame

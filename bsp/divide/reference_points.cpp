@@ -20,7 +20,7 @@ namespace trisect::detail {
 
 bool lies_outside(const FinePoint& p, const Box& box) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (p.c[k] < box.lo[k] * splitting_scale || p.c[k] > box.hi[k] * splitting_scale)
+        if (p.c[k] < fine_lower(box.lo[k], false) || p.c[k] > fine_upper(box.hi[k], false))
             return true;
     return false;
 }
@@ -105,12 +105,13 @@ bool windings_at(const CellTask& task, const FinePoint& p, std::optional<int> ax
 }
 
 // The same for a point straight behind a splitting plane, on whose other side the reference lies.
-// What meets the way there reaches over to that side, unless the way passes a lattice position
-// behind the splitting plane.
+// What meets the way there reaches over to that side, unless the way passes a position where a
+// corner may be behind the splitting plane.
 bool pass_splitter(const CellTask& task, const SplittingPlane& splitter, const FinePoint& p,
                    const CellTask& other_side, CellTask& out) {
     const auto k = static_cast<std::size_t>(splitter.axis);
-    if (lattice_below(p.c[k]) != splitter.last_below() || p.c[k] % splitting_scale == 0)
+    if (lattice_below(p.c[k]) != splitter.last_below() || p.c[k] % splitting_scale == 0 ||
+        std::ranges::any_of(task.operands, &CellOperand::has_fractions))
         return windings_at(task, p, splitter.axis, out);
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& o = task.operands[i];

@@ -50,6 +50,7 @@ private:
 };
 
 bool Covering::run() {
+    if (std::ranges::any_of(task_.operands, &CellOperand::has_fractions)) return false;
     for (const CellOperand& o : task_.operands)
         if (const auto s = slab_of(o, task_)) slabs_.push_back(*s);
     if (slabs_.empty()) return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -77,7 +78,9 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options,
     detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
-    detail::EvaluateSettings settings{options, detail::SplittingOffset::of_thread()};
+    const bool whole = std::ranges::all_of(states, [](const auto& s) { return s->whole; });
+    detail::EvaluateSettings settings{
+        options, whole ? detail::SplittingOffset::of_thread() : detail::usual_splitting_offset};
     detail::LimitedEvaluation limited(settings);
     detail::EvaluateStats made;
     std::shared_ptr<SolidState> state;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moving to a finer lattice shifts integers and changes nothing. It needs room above the largest
-// coordinate. Where that is missing, because one operand is huge and another one fine, the common
-// lattice is as fine as the huge one allows and the fine one is rounded to it, corner by corner,
-// like an import: a boundary that was closed stays closed, but facets may turn over or cross, so
-// the result is resolved and not taken to be embedded.
+// Moving to another lattice multiplies coordinates by a power of two and changes nothing. A finer
+// one needs room above the largest coordinate, a coarser one bits behind the point. Where whole
+// coordinates have room on the finest lattice they stay whole; else the coarser operands stay as
+// they are, and the finer ones move. So a cut by a small tool costs what is near it.
+//
+// Where neither is possible, because one operand is huge and another one fine, the common lattice
+// is as fine as the huge one allows and the fine one is rounded to it, corner by corner, like an
+// import: a boundary that was closed stays closed, but facets may turn over or cross, so the result
+// is resolved and not taken to be embedded.
 
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 
@@ -19,6 +23,7 @@
 #include <utility>
 #include <variant>
 
+#include <trisect/brep/brep_builder.h>
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
@@ -26,6 +31,7 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/evaluate/half_space.h>
+#include <trisect/bsp/evaluate/named_boundary.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -36,8 +42,9 @@ namespace {
 
 std::string unit_text(int exponent) { return "2^" + std::to_string(exponent); }
 
-// Rebuilds one tree as a single unrefined leaf on a finer lattice. Splitting planes of the old tree
-// survive as edges of fragments only: on the finer lattice they would no longer be off the lattice.
+// Rebuilds one tree as a single unrefined leaf on a finer lattice, or the same. Splitting planes of
+// the old tree survive as edges of fragments only: on the finer lattice they would no longer be off
+// the lattice.
 // Space is smaller there. What half-spaces bound beyond its limits is cut off.
 class Refiner {
 public:
@@ -64,7 +71,7 @@ private:
     // Stays one, and so goes every way that whole meshes go.
     [[nodiscard]] CellRef refine_mesh(const CellRef& root) const {
         const CellNode& node = *root.node;
-        const auto source = node.polygons().whole_source()->refined(exponent_);
+        const auto source = node.polygons().whole_source()->on_lattice(exponent_);
         return {CellNode::leaf(PolygonList::all_facets(*source), shifted(node.reference()),
                                node.winding(), node.is_mixed()),
                 root.complemented};
@@ -151,7 +158,7 @@ private:
 
     const Source* renamed(const Source* s) {
         auto& r = sources_[s];
-        if (!r) r = s->refined(exponent_);
+        if (!r) r = s->on_lattice(exponent_);
         return r.get();
     }
 
@@ -243,7 +250,7 @@ std::int64_t largest_coordinate(const std::unordered_set<const Source*>& sources
     return largest + 4;
 }
 
-// The finest exponent, a multiple of 8, to which coordinates of this size can be moved.
+// The finest exponent, a multiple of 8 below, to which coordinates of this size can be moved.
 int finest_for(std::int64_t largest, int exponent) {
     int room = 0;
     while (room < coordinate_bits && largest < (coordinate_limit >> (room + 8))) room += 8;
@@ -308,6 +315,107 @@ std::shared_ptr<const SolidState> refined(const std::shared_ptr<const SolidState
                          {},
                          {},
                          state->tree().may_have_straight_crossings};
+    const auto sources = sources_of(*out);
+    out->whole = std::ranges::all_of(
+        sources, [](const Source* s) { return s->is_half_space() || s->is_whole(); });
+    return out;
+}
+
+// The plane of the points x 2^-bits.
+Plane scaled(const Plane& p, int bits) {
+    const auto n = [&](int i) { return p.normal(i).shifted_left(bits); };
+    return {n(0), n(1), n(2), p.offset()};
+}
+
+// The same boundary on a lattice of a unit 2^bits times as large.
+Brep on_coarser_lattice(const Brep& brep, int bits) {
+    BrepBuilder builder(Lattice{brep.lattice().exponent + bits});
+    const double factor = std::ldexp(1, -bits);
+    for (const VertexId v : brep.vertices()) {
+        const Point& p = brep.point(v);
+        if (p.is_lattice()) {
+            const auto c = [&](int k) { return Coordinate(p.lattice()[k].to_double() * factor); };
+            builder.add_vertex(LatticePoint{c(0), c(1), c(2)});
+        } else {
+            const auto& planes = p.plane_point()->planes;
+            builder.add_vertex(
+                Point(scaled(planes[0], bits), scaled(planes[1], bits), scaled(planes[2], bits)));
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> loops;
+    for (const FaceId f : brep.faces()) {
+        loops.clear();
+        for (const LoopId l : brep.loops(f)) {
+            auto& loop = loops.emplace_back();
+            for (const HalfedgeId h : brep.halfedges(l)) loop.push_back(brep.origin(h).index);
+        }
+        builder.add_face(scaled(brep.plane(f), bits), loops, brep.source(f));
+    }
+    return std::move(builder).build();
+}
+
+// A leaf of facets as they were imported.
+bool lists_whole_facets(const CellNode& node) {
+    if (!node.is_leaf() || node.deferred() != nullptr) return false;
+    const PolygonList& polygons = node.polygons();
+    return std::all_of(polygons.begin(), polygons.end(), [](const PolygonRef& r) {
+        return r.fragment == nullptr && !r.source->is_half_space();
+    });
+}
+
+CellRef coarser_leaf(const SolidState& state, int exponent) {
+    const CellRef& root = state.root();
+    std::unordered_map<const Source*, std::shared_ptr<const Source>> sources;
+    Box all;
+    for (const Source* s : sources_of(state)) {
+        const auto& made = sources[s] = s->on_lattice(exponent);
+        all.add(made->box());
+    }
+    const int far_out = (state.far_out == 1) != root.complemented ? 1 : 0;
+    const PolygonList& polygons = root.node->polygons();
+    if (const Source* whole = polygons.whole_source();
+        whole != nullptr && polygons.has_all_facets() && !polygons.flipped())
+        return {CellNode::leaf(PolygonList::all_facets(*sources.at(whole)), point_beyond(all),
+                               far_out, root.node->is_mixed()),
+                root.complemented};
+    std::vector<PolygonRef> refs(polygons.begin(), polygons.end());
+    for (PolygonRef& r : refs) r.source = sources.at(r.source).get();
+    return {CellNode::leaf(PolygonList(std::move(refs)), point_beyond(all), far_out,
+                           root.node->is_mixed()),
+            root.complemented};
+}
+
+// An import keeps its facets. Of a result the boundary is taken: splitting planes of its tree would
+// have no positions on the coarser lattice.
+std::shared_ptr<const SolidState> coarser(const std::shared_ptr<const SolidState>& state,
+                                          Lattice lattice) {
+    auto out = std::make_shared<SolidState>(*state);
+    if (lists_whole_facets(*state->root().node)) {
+        out->form = CellTree{coarser_leaf(*state, lattice.exponent),
+                             {},
+                             {},
+                             state->tree().may_have_straight_crossings};
+        out->whole = false;
+    } else {
+        const bool unbounded = state->far_out == 1;
+        auto bounded = std::make_shared<SolidState>(*state);
+        if (unbounded) {
+            CellRef& root = std::get<CellTree>(bounded->form).root;
+            root.complemented = !root.complemented;
+            bounded->far_out = 0;
+        }
+        const Brep brep = solid_of(std::move(bounded)).to_brep();
+        const Solid moved =
+            named_solid(on_coarser_lattice(brep, lattice.exponent - state->lattice.exponent));
+        *out = *state_of(moved);
+        out->source = state->source;
+        if (unbounded) {
+            CellRef& root = std::get<CellTree>(out->form).root;
+            root.complemented = !root.complemented;
+            out->far_out = 1;
+        }
+    }
+    out->lattice = lattice;
     return out;
 }
 
@@ -332,7 +440,90 @@ LatticeReport move_half_spaces(std::vector<std::shared_ptr<const SolidState>>& s
                      unit_text(common));
 }
 
+// A half-space has a place on every lattice.
+bool is_free(const SolidState& s) { return !s.lattice_matters || is_half_space(s); }
+
+// An operand that has a place on some lattices only.
+struct Placed {
+    int exponent = 0;
+    bool whole = true;
+    std::uint64_t size = 0;
+    const SolidState* state = nullptr;
+
+    [[nodiscard]] int finest() const {
+        return finest_for(largest_coordinate(sources_of(*state)), exponent);
+    }
+    /// Without loss; far beyond where planes end.
+    [[nodiscard]] int coarsest() const {
+        int bits = 0;
+        for (const Source* s : sources_of(*state)) {
+            // Sets of half-spaces may end where space does, and then stay as they are.
+            if (s->is_unbounded()) return exponent;
+            bits = std::max(bits, s->fraction_bits());
+        }
+        return exponent + fraction_limit - bits;
+    }
+};
+
+struct CommonLattice {
+    int exponent = 0;
+    bool rounds = false;
+};
+
+// Finer operands that are so much smaller move to the coarser lattice, even where both are whole.
+constexpr std::uint64_t much_smaller = 8;
+constexpr std::uint64_t large_operand = 4096;
+
+CommonLattice common_lattice(const std::vector<Placed>& placed) {
+    int finest = std::numeric_limits<int>::max();
+    int coarsest = std::numeric_limits<int>::min();
+    bool whole = true;
+    for (const Placed& p : placed) {
+        finest = std::min(finest, p.exponent);
+        coarsest = std::max(coarsest, p.exponent);
+        whole = whole && p.whole;
+    }
+    if (finest == coarsest) return {finest, false};
+    std::uint64_t moved = 0;
+    std::uint64_t fine = 0;
+    for (const Placed& p : placed) (p.exponent == finest ? fine : moved) += p.size;
+    const auto best_without_fractions = [&] {
+        int best = finest;
+        for (const Placed& p : placed)
+            if (p.exponent != finest) best = std::max(best, p.finest());
+        return best;
+    };
+    if (whole && (moved < large_operand || moved < much_smaller * fine) &&
+        best_without_fractions() == finest)
+        return {finest, false};
+    int most = coarsest;
+    for (const Placed& p : placed)
+        if (p.exponent < most) most = std::min(most, p.coarsest());
+    if (most == coarsest) return {coarsest, false};
+    const int least = best_without_fractions();
+    if (least > most) return {least, true};
+    const int usual = most - (most % 8 + 8) % 8;  // exponents are mostly multiples of 8
+    return {usual >= least ? usual : most, false};
+}
+
+// Splitting planes of other offsets might separate what coordinates with fractions do not.
+void require_usual_offsets(std::vector<std::shared_ptr<const SolidState>>& states) {
+    if (std::ranges::all_of(states, [](const auto& s) { return s->whole; })) return;
+    for (auto& s : states)
+        if (!s->tree().has_usual_offsets) s = refined(s, s->lattice);
+}
+
 }  // namespace
+
+std::shared_ptr<const SolidState> moved_to_lattice(const std::shared_ptr<const SolidState>& state,
+                                                   Lattice lattice) {
+    if (state->lattice == lattice) return state;
+    return lattice < state->lattice ? refined(state, lattice) : coarser(state, lattice);
+}
+
+std::shared_ptr<const SolidState> without_tree(const std::shared_ptr<const SolidState>& state) {
+    return state->root().node->is_leaf() ? state : refined(state, state->lattice);
+}
 
 LatticeReport move_to_common_lattice(std::vector<std::shared_ptr<const SolidState>>& states,
                                      EvaluateOptions::Lattices policy) {
@@ -340,35 +531,32 @@ LatticeReport move_to_common_lattice(std::vector<std::shared_ptr<const SolidStat
                             [](const auto& s) { return !s->lattice_matters || is_half_space(*s); }))
         return move_half_spaces(states);
     LatticeReport report;
-    int finest = std::numeric_limits<int>::max();
-    // A half-space has a place on every lattice.
-    const auto is_free = [](const SolidState& s) { return !s.lattice_matters || is_half_space(s); };
-    for (const auto& s : states) {
-        if (is_free(*s)) continue;
-        finest = std::min(finest, s->lattice.exponent);
-    }
-    if (finest == std::numeric_limits<int>::max()) return report;
-    report.lattice.exponent = finest;
-    int& common = report.lattice.exponent;
+    std::vector<Placed> placed;
     for (const auto& s : states)
-        if (!is_free(*s) && s->lattice.exponent != finest)
-            common = std::max(common,
-                              finest_for(largest_coordinate(sources_of(*s)), s->lattice.exponent));
-    if (common != finest && policy == EvaluateOptions::Lattices::Refuse) refuse(finest, common);
+        if (!is_free(*s))
+            placed.push_back({s->lattice.exponent, s->whole, s->root().node->size(), s.get()});
+    if (placed.empty()) return report;
+    const CommonLattice common = common_lattice(placed);
+    report.lattice.exponent = common.exponent;
+    const auto refuse_to_round = [&] {
+        refuse(std::ranges::min(placed, {}, &Placed::exponent).exponent, common.exponent);
+    };
+    if (common.rounds && policy == EvaluateOptions::Lattices::Refuse) refuse_to_round();
     for (auto& s : states) {
-        if (!s->lattice_matters || s->lattice.exponent == common) continue;
+        if (!s->lattice_matters || s->lattice.exponent == common.exponent) continue;
         if (is_half_space(*s)) {
             s = half_space_on(*s, report.lattice);
             continue;
         }
-        if (s->lattice.exponent > common) {
-            s = refined(s, report.lattice);
+        if (s->lattice.exponent > common.exponent || !common.rounds) {
+            s = moved_to_lattice(s, report.lattice);
             continue;
         }
         for (const Source* source : sources_of(*s))
-            if (source->is_half_space()) refuse(finest, common);
+            if (source->is_half_space()) refuse_to_round();
         s = rounded(s, report.lattice, report);
     }
+    require_usual_offsets(states);
     return report;
 }
 

@@ -52,8 +52,8 @@ FinePoint outer_reference(std::span<const std::shared_ptr<const SolidState>> sol
 
 bool passes_by(const Box& box, const FinePoint& a, const FinePoint& b) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::max(a.c[k], b.c[k]) < box.lo[k] * splitting_scale ||
-            std::min(a.c[k], b.c[k]) > box.hi[k] * splitting_scale)
+        if (std::max(a.c[k], b.c[k]) < fine_lower(box.lo[k], false) ||
+            std::min(a.c[k], b.c[k]) > fine_upper(box.hi[k], false))
             return true;
     return false;
 }
@@ -76,6 +76,7 @@ bool place_root(std::span<const std::shared_ptr<const SolidState>> solids, CellT
         o.slot = static_cast<std::int32_t>(i);
         o.winding = *w;
         o.embedded = solids[i]->embedded;
+        o.has_fractions = !solids[i]->whole;
         o.complemented = solids[i]->root().complemented;
         o.node = unfolded(solids[i]->root().node.get());
         ::new (&task.operands[i]) CellOperand(o);

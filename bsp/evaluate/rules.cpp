@@ -168,10 +168,15 @@ constexpr std::array all_rules{
 };
 
 std::shared_ptr<SolidState> state_of(SolidForm form, const Residual& formula,
-                                     const SolidStates& solids) {
+                                     const SolidStates& solids, const EvaluateSettings& options) {
     auto state = std::make_shared<SolidState>();
     if (!solids.empty()) state->lattice = solids[0]->lattice;
     state->form = std::move(form);
+    state->whole = std::ranges::all_of(solids, [](const auto& s) { return s->whole; });
+    if (auto* const tree = std::get_if<CellTree>(&state->form))
+        tree->has_usual_offsets =
+            options.splitting_offset == usual_splitting_offset &&
+            std::ranges::all_of(solids, [](const auto& s) { return s->tree().has_usual_offsets; });
     state->far_out = far_out_of(formula, solids);
     return state;
 }
@@ -217,14 +222,14 @@ std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule, const Residual:
     if (!rule.applies(formula, solids, options)) return nullptr;
     auto tree = std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
     auto form = rule.evaluate(formula, solids, options, stats, std::move(tree));
-    return form ? state_of(*std::move(form), *formula, solids) : nullptr;
+    return form ? state_of(*std::move(form), *formula, solids, options) : nullptr;
 }
 
 std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula, const SolidStates& solids,
                                           const EvaluateSettings& options, EvaluateStats& stats) {
     Evaluation evaluation = evaluate_formula(formula, solids, options);
     stats = evaluation.stats;
-    return state_of(std::move(evaluation.tree), *formula, solids);
+    return state_of(std::move(evaluation.tree), *formula, solids, options);
 }
 
 PolygonList arrange_deferred(const DeferredLeaf& leaf) {

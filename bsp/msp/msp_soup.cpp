@@ -18,6 +18,7 @@
 #include <trisect/bsp/msp/msp_soup.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -27,6 +28,7 @@
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/msp/msp_face_parts.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail::msp {
@@ -40,6 +42,31 @@ constexpr std::uint32_t unknown = ~std::uint32_t{0};
 bool are_parallel(const Plane& a, const Plane& b) {
     return sign_of_cross(a, b, 0) == 0 && sign_of_cross(a, b, 1) == 0 &&
            sign_of_cross(a, b, 2) == 0;
+}
+
+// The plane x_axis = position.
+Plane plane_at(int axis, Coordinate position) {
+    const int bits = fraction_bits(position);
+    std::array<Plane::Coefficient, 3> n{};
+    n[as_index(axis)] = Plane::Coefficient(1).shifted_left(bits);
+    return {n[0], n[1], n[2], -Plane::Coefficient(scaled_integer(position, bits))};
+}
+
+// Where a point is, if its coordinates are those of a lattice point. One that planes name is at
+// fractions only: Point finds whole coordinates itself.
+std::optional<LatticePoint> lattice_place(const Point& p) {
+    if (p.is_lattice()) return p.lattice();
+    const Point3d at = p.nearest();
+    std::array<Coordinate, 3> c;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!(std::fabs(at[k]) < static_cast<double>(coordinate_limit)) ||
+            dyadic(at[k]).exponent < -fraction_limit)
+            return std::nullopt;
+        c[k] = Coordinate(at[k]);
+    }
+    const LatticePoint place{c[0], c[1], c[2]};
+    if (!(p == Point(place))) return std::nullopt;
+    return place;
 }
 
 void require_handle(std::size_t handle) {
@@ -84,7 +111,7 @@ private:
         } while (count < 3 && h != brep_.outgoing(v));
         for (int axis = 0; count < 3 && axis < 3; ++axis) {
             const PlaneIndex p =
-                at.is_lattice() ? plane_of_coordinate(axis, at.lattice()[axis].to_integer())
+                at.is_lattice() ? plane_of_coordinate(axis, at.lattice()[axis])
                                 : geometry().add_plane(at.plane_point()->planes[as_index(axis)]);
             take(p);
         }
@@ -92,9 +119,9 @@ private:
         geometry().add_point(named, at);
     }
 
-    PlaneIndex plane_of_coordinate(int axis, std::int64_t position) {
-        const auto [at, is_new] = by_coordinate_[as_index(axis)].try_emplace(position, 0U);
-        if (is_new) at->second = geometry().add_plane(Plane::axis_aligned(axis, 1, position));
+    PlaneIndex plane_of_coordinate(int axis, Coordinate position) {
+        const auto [at, is_new] = by_coordinate_[as_index(axis)].try_emplace(position.bits(), 0U);
+        if (is_new) at->second = geometry().add_plane(plane_at(axis, position));
         return at->second;
     }
 
@@ -148,8 +175,8 @@ private:
         const Plane& support = brep_.plane(brep_.face(h));
         const Point& a = brep_.point(brep_.origin(h));
         const Point& b = brep_.point(brep_.target(h));
-        if (a.is_lattice() && b.is_lattice())
-            return Plane::along_axis(a.lattice(), b.lattice(), support.dominant_axis());
+        if (const auto from = lattice_place(a), to = lattice_place(b); from && to)
+            return Plane::along_axis(*from, *to, support.dominant_axis());
         for (const Point* end : {&a, &b}) {
             if (end->is_lattice()) continue;
             for (const Plane& p : end->plane_point()->planes)
@@ -250,7 +277,7 @@ private:
     const Brep& brep_;
     MspSoup soup_;
     std::vector<PlaneIndex> edge_planes_;  // of edges between coplanar faces, on demand
-    std::array<std::unordered_map<std::int64_t, PlaneIndex>, 3> by_coordinate_;
+    std::array<std::unordered_map<std::uint64_t, PlaneIndex>, 3> by_coordinate_;
 };
 
 }  // namespace

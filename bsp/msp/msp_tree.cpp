@@ -20,6 +20,7 @@
 #include <trisect/bsp/msp/msp_build.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect {
@@ -46,18 +47,18 @@ public:
     FreePoint(const Point3d& p, Lattice lattice) : p_(p), exponent_(lattice.exponent) {
         for (std::size_t k = 0; k < 3; ++k) {
             near_.c[k] = std::ldexp(p[k], -exponent_);
-            // Below the normal range scaling may round.
-            if (std::fabs(near_.c[k]) < 0x1p-1000 && p[k] != 0) near_.error = 0x1p-1000;
+            // Below the normal range scaling may round, and so may products with coefficients far
+            // above it.
+            if (std::fabs(near_.c[k]) < least_normal && p[k] != 0) near_.error = least_normal;
         }
     }
     [[nodiscard]] std::optional<LatticePoint> lattice_point() const {
         if (near_.error != 0) return std::nullopt;
         for (const double c : near_.c)
-            if (std::fabs(c) >= static_cast<double>(coordinate_limit) || c != std::rint(c))
+            if (!(std::fabs(c) < static_cast<double>(coordinate_limit)) ||
+                detail::dyadic(c).exponent < -fraction_limit)
                 return std::nullopt;
-        return LatticePoint{static_cast<std::int64_t>(near_.c[0]),
-                            static_cast<std::int64_t>(near_.c[1]),
-                            static_cast<std::int64_t>(near_.c[2])};
+        return LatticePoint{Coordinate(near_.c[0]), Coordinate(near_.c[1]), Coordinate(near_.c[2])};
     }
     [[nodiscard]] Side side(const Plane& plane) const {
         // Out of range a coordinate is infinite and the filter, comparing with NaN, does not
@@ -77,6 +78,8 @@ public:
     }
 
 private:
+    static constexpr double least_normal = 0x1p-500;
+
     Point3d p_;
     int exponent_;
     Approximation near_;

@@ -17,6 +17,7 @@
 #include <trisect/bsp/msp/msp_soup.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/as_index.h>
 
 namespace trisect {
 
@@ -222,10 +223,14 @@ public:
             z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
             return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
         };
+        // A solid within a unit needs finer ones.
+        const double extent = std::max({hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+        const int bits = 10 + std::max(0, -std::ilogb(extent));
         for (std::size_t i = 0; i < samples; ++i) {
             std::array<Plane, 3> name;
             for (std::size_t k = 0; k < 3; ++k)
-                name[k] = plane_near(static_cast<int>(k), lo[k] + (hi[k] - lo[k]) * fraction(), 10);
+                name[k] =
+                    plane_near(static_cast<int>(k), lo[k] + (hi[k] - lo[k]) * fraction(), bits);
             const Point p(name[0], name[1], name[2]);
             const auto winding = winding_number(p, name[0], name[1]);
             if (!winding) continue;
@@ -274,12 +279,14 @@ private:
 
     /// An axis-perpendicular plane, within 2^-bits (or less, far out) of a coordinate.
     static Plane plane_near(int axis, double coordinate, int bits) {
-        const int room = 61 - std::max(0, std::ilogb(std::fabs(coordinate) + 1));
+        const int room = 61 - std::ilogb(std::fabs(coordinate) + 0x1p-100);
         const int used = std::min(bits, room);
-        return Plane::axis_aligned(axis, std::int64_t{1} << used,
-                                   std::llrint(std::ldexp(coordinate, used)) | 1);
+        std::array<Plane::Coefficient, 3> n{};
+        n[detail::as_index(axis)] = Plane::Coefficient(1).shifted_left(used);
+        const std::int64_t position = std::llrint(std::ldexp(coordinate, used)) | 1;
+        return {n[0], n[1], n[2], -Plane::Coefficient(position)};
     }
-    static constexpr std::array<int, 4> precisions{10, 20, 40, 60};
+    static constexpr std::array<int, 6> precisions{10, 20, 40, 60, 80, 130};
 
     [[nodiscard]] std::optional<Point> point_between(const Fragment& f, const Corner& from,
                                                      const Corner& to) const {

@@ -310,7 +310,7 @@ std::vector<IndexCell> BrepIndex::cells(FaceId face) const {
         core().tree(),
         [&](const detail::DoubleBox& cell) {
             return std::any_of(polygons.begin(), polygons.end(), [&](PolygonId id) {
-                return cell.overlaps(detail::to_doubles(core().polygons().box(id)));
+                return cell.overlaps(core().polygons().bounds(id));
             });
         },
         [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {

@@ -18,8 +18,8 @@
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/named_boundary.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/solid/named_boundary.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/predicates.h>
 

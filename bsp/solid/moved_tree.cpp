@@ -159,8 +159,11 @@ std::shared_ptr<const SolidState> moved_state(const SolidState& state, const Lat
     auto out = std::make_shared<SolidState>(state);
     // The root first: it moves the sources that are named.
     CellRef root = mover.moved(state.root());
+    const bool turns_over = std::ranges::min(move.sign) < 0;
+    const bool has_usual_offsets =
+        root.node->is_leaf() || (state.tree().has_usual_offsets && !turns_over);
     out->form = CellTree{std::move(root), mover.moved(state.tree().incomplete), nullptr,
-                         state.tree().may_have_straight_crossings};
+                         state.tree().may_have_straight_crossings, has_usual_offsets};
     return out;
 }
 

@@ -71,6 +71,7 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     state->lattice = lattice;
     state->form = tree_of(CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false));
     state->embedded = embedded;
+    state->whole = source->is_whole();
     state->source = source->serial();
     return detail::solid_of(std::move(state));
 }

@@ -18,9 +18,9 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/named_boundary.h>
 #include <trisect/bsp/msp/msp_soup.h>
 #include <trisect/bsp/solid/inside_out.h>
-#include <trisect/bsp/solid/named_boundary.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -142,6 +142,7 @@ Solid solid_from(const SourcePtr& source, PolygonList polygons, const Box& box, 
         nullptr,
         true};
     state->embedded = embedded;
+    state->whole = source->is_half_space() || source->is_whole();
     state->source = source->serial();
     return detail::solid_of(std::move(state));
 }

@@ -3,8 +3,8 @@
 // Maps that take the lattice onto itself move the tree (moved_tree.h). A translation that does not
 // is rounded as a whole: to a finer lattice, as far as the solid leaves room for one.
 //
-// Other maps are applied to exact vertices, in fractions. The lattice is then chosen as an import
-// would for these points, and every coordinate is rounded to it once.
+// Other maps are applied to exact vertices, in fractions. Every coordinate is then rounded once, to
+// the nearest double of the user's, and the lattice is chosen as by an import of these.
 
 #include <trisect/bsp/solid_transform.h>
 
@@ -124,17 +124,30 @@ Lattice wanted_lattice(const SolidState& state, const Pose& pose) {
 // The same set on the wanted lattice, or one between, as fine as there is room.
 StatePtr refined_towards(const StatePtr& state, Lattice wanted) {
     for (Lattice l = wanted; l < state->lattice; l.exponent += 8) {
-        SolidState fine;  // an operand of this unit
-        fine.lattice = l;
-        fine.form = detail::state_of(Solid())->form;
-        std::vector<StatePtr> both{state, std::make_shared<const SolidState>(fine)};
         try {
-            (void)detail::move_to_common_lattice(both, EvaluateOptions::Lattices::Refuse);
-            return both[0];
+            return detail::moved_to_lattice(state, l);
         } catch (const LimitError&) {  // no room: a coarser one
         }
     }
     return state;
+}
+
+// Coordinates with fractions stay on their lattice. Nothing where a translation is not by whole
+// units, or a moved coordinate is no double.
+std::optional<StatePtr> moved_with_fractions(StatePtr state, LatticeMove move, const Pose& pose) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const mpq_class t = in_units(translation_of(pose, i), state->lattice);
+        if (t.get_den() != 1 || abs(t.get_num()) >= mpz_class(coordinate_limit))
+            return std::nullopt;
+        move.by[i] = t.get_num().get_si();
+    }
+    // Splitting planes that are turned over are not where coordinates with fractions need them.
+    if (std::ranges::min(move.sign) < 0) state = detail::without_tree(state);
+    try {
+        return detail::moved_state(*state, move);
+    } catch (const LimitError&) {
+        return std::nullopt;
+    }
 }
 
 StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport& report) {
@@ -187,8 +200,12 @@ private:
 
 using ExactPoints = std::vector<std::array<mpq_class, 3>>;
 
+double nearest_double(const mpq_class& v) {
+    return detail::to_rational(v.get_num(), v.get_den()).to_double();
+}
+
 Point3d to_doubles(const std::array<mpq_class, 3>& p) {
-    return {p[0].get_d(), p[1].get_d(), p[2].get_d()};
+    return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
 }
 
 double sign_between(const std::array<Point3d, 3>& a, const std::array<Point3d, 3>& b) {
@@ -205,24 +222,23 @@ double sign_between(const std::array<Point3d, 3>& a, const std::array<Point3d, 3
     return dot;
 }
 
-// Coordinates of lattice points, which doubles hold exactly.
+// The nearest doubles, and how far they are from the exact points.
 std::vector<Point3d> rounded_points(const ExactPoints& exact, LatticeReport& report) {
     std::vector<Point3d> points;
     points.reserve(exact.size());
-    for (const auto& p : exact) points.push_back(to_doubles(p));
-    report.lattice = choose_lattice(points);
-    for (std::size_t n = 0; n < exact.size(); ++n) {
-        mpq_class largest = 0;
+    mpq_class largest = 0;
+    for (const auto& p : exact) {
+        const Point3d& q = points.emplace_back(to_doubles(p));
+        mpq_class move = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const mpq_class v = in_units(exact[n][i], report.lattice);
-            const std::int64_t r = rounded(v);
-            largest = std::max(largest, mpq_class(abs(v - mpq_class(mpz_class(r)))));
-            points[n][i] = report.lattice.to_double(static_cast<double>(r));
+            if (!std::isfinite(q[i]))
+                throw LimitError("a transformed coordinate is beyond the largest double");
+            move = std::max(move, mpq_class(abs(p[i] - mpq_class(q[i]))));
         }
-        if (largest == 0) continue;
-        ++report.moved;
-        report.max_move = std::max(report.max_move, size_of(largest, report.lattice));
+        if (move != 0) ++report.moved;
+        largest = std::max(largest, move);
     }
+    report.max_move = nearest_double(largest);
     report.lossless = report.moved == 0;
     return points;
 }
@@ -273,6 +289,7 @@ StatePtr state_of(LatticeMesh mesh, std::uint32_t operand, std::vector<FaceSourc
          is_complement},
         {},
         nullptr};
+    state->whole = source->is_whole();
     state->source = operand != 0 ? operand : source->serial();
     state->far_out = is_complement ? 1 : 0;
     return state;
@@ -284,11 +301,15 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
     const ExactMesh mesh = solid.to_exact_mesh();
     if (state.far_out < 0 && exact_volume(mesh).sign() < 0)
         throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
-    ImportOptions options;
     const bool turn_over = pose.is_mirror() != is_complement;
-    const PolygonMesh moved = rounded_mesh(mesh, pose, turn_over, report);
-    options.lattice = report.lattice;
-    ImportedMesh imported = import_mesh(moved, options);
+    ImportedMesh imported = import_mesh(rounded_mesh(mesh, pose, turn_over, report));
+    const LatticeReport& import = imported.report.lattice;
+    report.lattice = import.lattice;
+    if (!import.lossless) {  // more than 126 bits
+        report.lossless = false;
+        report.moved = std::max(report.moved, import.moved);
+        report.max_move += import.max_move;
+    }
     if (imported.mesh.triangles.empty())
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
     auto [names, number] = numbered(mesh.source);
@@ -308,9 +329,14 @@ Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
     Solid out = solid;
     if (detail::state_of(solid)->lattice_matters && !(pose == Pose())) {
         const auto permutation = permutation_of(pose);
-        out =
-            detail::solid_of(permutation ? moved(detail::cut_state(solid), *permutation, pose, made)
-                                         : rounded(solid, pose, made));
+        const StatePtr state = detail::cut_state(solid);
+        std::optional<StatePtr> there;
+        if (permutation && !state->whole) {
+            there = moved_with_fractions(state, *permutation, pose);
+        } else if (permutation) {
+            there = moved(state, *permutation, pose, made);
+        }
+        out = detail::solid_of(there ? *there : rounded(solid, pose, made));
     }
     if (report != nullptr) *report = made;
     return out;

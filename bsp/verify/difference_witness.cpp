@@ -37,7 +37,8 @@ public:
         std::optional<Witness> best;
         for (unsigned shrink = 1; shrink <= 42; shrink += shrink < 6 ? 1 : 6) {
             const std::optional<Witness> found = examined(inside.near(radius_.vertex, shrink));
-            if (!found || reach(*found) <= within) continue;
+            // A point on no face is farther than 0 from all of them, whatever is certified.
+            if (!found || (within > 0 && reach(*found) <= within)) continue;
             if (!best || reach(*found) > reach(*best)) best = found;
             if (reach(*best) > wanted) break;
         }

@@ -149,7 +149,7 @@ private:
             return;
         }
         report_.verdict = Verdict::Undecided;
-        if (options_.within && !(report_.lower > within)) return;
+        if (within > 0 && !(report_.lower > within)) return;
         const detail::WitnessQuestion question{operation_, options_, lattice_, imports_,
                                                solids_,    *exact_,  *result_, report_.moved};
         report_.witness = detail::find_witness(question, radius);

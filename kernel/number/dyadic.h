@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <trisect/kernel/contract.h>
 #include <trisect/kernel/lattice_point.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -41,6 +42,7 @@ struct Dyadic {
 /// c 2^bits, exactly. \pre fraction_bits(c) <= bits <= fraction_limit.
 [[nodiscard]] constexpr Int128 scaled_integer(Coordinate c, int bits) {
     const Dyadic d = dyadic(c.to_double());
+    TRISECT_EXPECTS(d.exponent + bits >= 0, "a coordinate with more bits behind the point");
     return Int128{d.mantissa} * (Int128{1} << (d.exponent + bits));
 }
 

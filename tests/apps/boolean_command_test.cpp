@@ -126,8 +126,10 @@ TEST_F(BooleanCommand, RepairCertifiesWhatIsWritten) {
 }
 
 TEST_F(BooleanCommand, UndecidedIsNotCertified) {
+    // 2^-75: thirds of it have bits far below it.
     const std::string tetrahedron = write("t.obj",
-                                          "v 0 0 0\nv 7 0 0\nv 0 5 0\nv 0 0 3\n"
+                                          "v 0 0 0\nv 7 0 0\n"
+                                          "v 2.6469779601696886e-23 5 0\nv 0 0 3\n"
                                           "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
     const std::string block = box("d.obj", {-1, -1, 1}, {9, 9, 9});
     const json certificate = run("intersection", {tetrahedron, block})["certificate"];

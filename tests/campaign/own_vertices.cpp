@@ -40,6 +40,7 @@ struct FileReport {
     std::size_t vertices = 0;
     int span = 0;
     bool lossless = false;
+    bool is_whole = false;  ///< no coordinate has bits behind the point
     bool same_doubles = false;
     bool is_solid = false;
     std::array<std::size_t, 5> located{};  // by Location
@@ -88,6 +89,8 @@ FileReport report_on(const std::filesystem::path& path) {
     options.require_closed = false;
     const trisect::ImportedMesh imported = trisect::import_mesh(mesh, options);
     out.lossless = imported.report.lattice.lossless;
+    out.is_whole = std::ranges::all_of(imported.mesh.points,
+                                       [](const trisect::LatticePoint& p) { return p.is_whole(); });
     out.same_doubles = keeps_doubles(mesh, imported.mesh);
     if (imported.report.closed && !imported.report.inside_out)
         locate_vertices(mesh, imported.mesh, out);
@@ -114,7 +117,8 @@ std::vector<std::filesystem::path> files_of(const std::vector<std::string>& argu
 }
 
 struct Totals {
-    std::size_t files = 0, lossless = 0, same_doubles = 0, solids = 0, own_solids = 0;
+    std::size_t files = 0, lossless = 0, with_fractions = 0, same_doubles = 0, solids = 0,
+                own_solids = 0;
     std::size_t vertices = 0, on_vertex = 0, on_boundary = 0, lost = 0;
     std::map<int, std::size_t> spans;
 
@@ -122,6 +126,7 @@ struct Totals {
         ++files;
         ++spans[r.span];
         lossless += r.lossless ? 1U : 0U;
+        with_fractions += r.lossless && !r.is_whole ? 1U : 0U;
         same_doubles += r.same_doubles ? 1U : 0U;
         if (!r.is_solid) return;
         ++solids;
@@ -140,6 +145,7 @@ struct Totals {
         std::printf("\n| | |\n|---|---:|\n");
         std::printf("| files read | %zu |\n", files);
         std::printf("| coordinates kept by the lattice | %zu |\n", lossless);
+        std::printf("| of these, with bits behind the point | %zu |\n", with_fractions);
         std::printf("| imported and written: the same doubles | %zu |\n", same_doubles);
         for (const int bits : {45, 53, 64, 80, 126})
             std::printf("| coordinates span at most %d bits | %zu |\n", bits,

@@ -221,14 +221,15 @@ private:
     LatticePoint nudge() {  // one unit in a direction, or nothing
         return {between(-1, 1), between(-1, 1), between(-1, 1)};
     }
-    static trisect::Coordinate clamp(trisect::Coordinate v) {
-        constexpr std::int64_t most = trisect::coordinate_limit - 1;
-        return std::clamp(v.to_integer(), -most, most);
+    // Within the range of coordinates.
+    static LatticePoint sum(const LatticePoint& p, const LatticePoint& q) {
+        const auto clamped = [](std::int64_t v) {
+            constexpr std::int64_t most = trisect::coordinate_limit - 1;
+            return std::clamp(v, -most, most);
+        };
+        return {clamped(p.x + q.x), clamped(p.y + q.y), clamped(p.z + q.z)};
     }
-    static LatticePoint clamp(LatticePoint p) { return {clamp(p.x), clamp(p.y), clamp(p.z)}; }
-    LatticePoint maybe_nudged(LatticePoint p) {
-        return between(0, 1) == 0 ? p : clamp(p + nudge());
-    }
+    LatticePoint maybe_nudged(LatticePoint p) { return between(0, 1) == 0 ? p : sum(p, nudge()); }
 
     Input small_grid() {
         const int bits = between(1, 3);
@@ -267,7 +268,7 @@ private:
         for (auto& t : in.triangles) {
             const bool moved = between(0, 1) == 0;
             for (std::size_t i = 0; i < 3; ++i)
-                t[i] = maybe_nudged(clamp(moved ? base[i] + shift : base[i]));
+                t[i] = maybe_nudged(moved ? sum(base[i], shift) : base[i]);
             if (between(0, 1) == 0) std::swap(t[0], t[1]);
         }
         if (between(0, 1) == 0) in.triangles[2] = triangle(bits);
@@ -284,13 +285,12 @@ private:
             LatticePoint p = base[0];
             const std::int64_t i = between(-3, 3);
             const std::int64_t j = between(-3, 3);
-            p = p + LatticePoint{i * u.x, i * u.y, i * u.z};
-            return clamp(p + LatticePoint{j * v.x, j * v.y, j * v.z});
+            p = sum(p, {i * u.x, i * u.y, i * u.z});
+            return sum(p, {j * v.x, j * v.y, j * v.z});
         };
         Input in;
         for (auto& t : in.triangles)
-            for (auto& p : t)
-                p = between(0, 7) == 0 ? clamp(combination() + nudge()) : combination();
+            for (auto& p : t) p = between(0, 7) == 0 ? sum(combination(), nudge()) : combination();
         if (between(0, 1) == 0) in.triangles[1] = triangle(bits);
         if (between(0, 1) == 0) in.triangles[2] = triangle(bits);
         in.points = {combination(), maybe_nudged(combination())};

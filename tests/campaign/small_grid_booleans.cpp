@@ -17,7 +17,11 @@
 // mesh that cells give.
 //
 //     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]
-//                         [--only-pair I] [--only-formula I] [--only-chain I]
+//                         [--fractions 1] [--only-pair I] [--only-formula I] [--only-chain I]
+//
+// With --fractions 1 each operand is put on a lattice whose unit is 2^0, 2^2, 2^4, 2^8, 2^24, 2^56
+// or 2^70, so that its coordinates have so many bits behind the point: the same sets, on all kinds
+// of common lattices. The classic BSP tree is left out.
 //
 // Works in T processes; a crash of one is recorded with the case and the rest goes on. The last
 // options repeat one case of the seed, which is how a disagreement is looked into. Exits with 1 if
@@ -64,6 +68,7 @@ struct Options {
     std::uint64_t formulas = 30;
     std::uint64_t chains = 0;
     std::uint64_t threads = 1;
+    bool fractions = false;
     std::optional<std::uint64_t> only_pair;
     std::optional<std::uint64_t> only_formula;
     std::optional<std::uint64_t> only_chain;
@@ -95,6 +100,12 @@ struct Counters {
 struct Progress {
     std::atomic<std::uint64_t> next_case;
 };
+
+/// The bits behind the point of an operand.
+int fraction_bits(const Options& options, reference::Random& random) {
+    constexpr std::array<int, 7> bits{0, 2, 4, 8, 24, 56, 70};
+    return options.fractions ? bits[random.below(7)] : 0;
+}
 
 template <class T>
 T* shared(std::size_t count) {
@@ -153,8 +164,9 @@ std::size_t operation_count(const reference::Expression& expression) {
 /// Operands, expression, and how to evaluate it.
 class Case {
 public:
-    Case(Counters& counters, std::string name, reference::Random& random, std::size_t operands)
-        : counters_(counters), name_(std::move(name)) {
+    Case(const Options& options, Counters& counters, std::string name, reference::Random& random,
+         std::size_t operands)
+        : counters_(counters), name_(std::move(name)), fractions_(options.fractions) {
         embedded_ = random.chance(1, 2);
         operands_ = reference::random_family(random, operands, embedded_);
         if (!embedded_ && random.chance(1, 2))
@@ -164,9 +176,13 @@ public:
         options_.leaf_polygons = leaf_sizes[random.below(4)];
         offset_.emplace(wall_offsets[random.below(4)]);
         const bool assume = embedded_ && random.chance(1, 2);
+        // Half of the cases have one lattice.
+        const int common = fraction_bits(options, random);
+        const bool one_lattice = options.fractions && random.chance(1, 2);
         for (const auto& o : operands_)
-            solids_.push_back(engines::solid(
-                o, assume ? trisect::Embedding::Assume : trisect::Embedding::Resolve));
+            solids_.push_back(
+                engines::solid(o, assume ? trisect::Embedding::Assume : trisect::Embedding::Resolve,
+                               one_lattice ? common : fraction_bits(options, random)));
     }
 
     [[nodiscard]] std::size_t operand_count() const { return operands_.size(); }
@@ -194,7 +210,7 @@ public:
                 ++counters_.stepwise;
                 return check(result, wanted);
             });
-        if (embedded_)
+        if (embedded_ && !fractions_)
             guarded("classic BSP tree", expression, [&] {
                 const Timer timer(counters_.microseconds_classic);
                 ++counters_.classic;
@@ -275,6 +291,7 @@ private:
 
     Counters& counters_;
     std::string name_;
+    bool fractions_ = false;
     bool embedded_ = false;
     std::vector<reference::Operand> operands_;
     std::vector<trisect::Solid> solids_;
@@ -294,7 +311,7 @@ std::string case_name(const Options& options, const char* option, std::uint64_t 
 
 void run_pair(const Options& options, std::uint64_t index, Counters& counters) {
     reference::Random random = generator(options.seed, 0, index);
-    Case pair(counters, case_name(options, "--only-pair", index), random, 2);
+    Case pair(options, counters, case_name(options, "--only-pair", index), random, 2);
     for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor})
         pair.compare(reference::pair_expression(kind), false);
     ++counters.pairs;
@@ -302,7 +319,7 @@ void run_pair(const Options& options, std::uint64_t index, Counters& counters) {
 
 void run_formula(const Options& options, std::uint64_t index, Counters& counters) {
     reference::Random random = generator(options.seed, 1, index);
-    Case formula(counters, case_name(options, "--only-formula", index), random,
+    Case formula(options, counters, case_name(options, "--only-formula", index), random,
                  2 + random.below(5));
     const auto expression =
         reference::random_expression(random, formula.operand_count(), 5 + random.below(16));
@@ -312,7 +329,7 @@ void run_formula(const Options& options, std::uint64_t index, Counters& counters
 }
 
 /// Why the last result of a chain is wrong; empty when it is right.
-std::string chain_difference(reference::Random& random, Counters& counters) {
+std::string chain_difference(const Options& chains, reference::Random& random, Counters& counters) {
     constexpr std::array<std::uint32_t, 4> leaf_sizes{3, 8, 25, 100};
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_sizes[random.below(4)];
@@ -324,13 +341,15 @@ std::string chain_difference(reference::Random& random, Counters& counters) {
     };
     std::vector<reference::Operand> operands{operand()};
     auto expression = reference::Expression::leaf(0);
-    trisect::Solid result = engines::solid(operands[0], trisect::Embedding::Assume);
+    trisect::Solid result =
+        engines::solid(operands[0], trisect::Embedding::Assume, fraction_bits(chains, random));
     for (std::size_t steps = 2 + random.below(4); operands.size() <= steps;) {
         const Kind kind = random.chance(1, 3) ? Kind::Union : Kind::Difference;
         expression = reference::Expression::node(
             kind, {expression, reference::Expression::leaf(operands.size())});
         operands.push_back(operand());
-        const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume);
+        const trisect::Solid tool = engines::solid(operands.back(), trisect::Embedding::Assume,
+                                                   fraction_bits(chains, random));
         const Timer timer(counters.microseconds_ours);
         trisect::test::EvaluateStats stats;
         const auto step = engines::formula(reference::pair_expression(kind), {result, tool});
@@ -353,7 +372,7 @@ void run_chain(const Options& options, std::uint64_t index, Counters& counters) 
     reference::Random random = generator(options.seed, 2, index);
     std::string why;
     try {
-        why = chain_difference(random, counters);
+        why = chain_difference(options, random, counters);
     } catch (const std::exception& e) {
         why = std::string("exception: ") + e.what();
     }
@@ -465,6 +484,8 @@ std::optional<Options> parse(int argc, char** argv) {
             out.chains = value;
         else if (name == "--threads")
             out.threads = value;
+        else if (name == "--fractions")
+            out.fractions = value != 0;
         else if (name == "--only-pair")
             out.only_pair = value;
         else if (name == "--only-formula")
@@ -485,7 +506,7 @@ int main(int argc, char** argv) {
     if (!options) {
         std::fprintf(stderr,
                      "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]\n"
-                     "       [--only-pair I] [--only-formula I] [--only-chain I]\n",
+                     "       [--fractions 1] [--only-pair I] [--only-formula I] [--only-chain I]\n",
                      argv[0]);
         return 2;
     }

@@ -2,9 +2,11 @@
 
 #include "engines.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <variant>
 
 #include <trisect/bsp/assembly/assembly.h>
@@ -17,6 +19,8 @@
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
+
+#include "support/fractions.h"
 
 namespace engines {
 
@@ -47,19 +51,20 @@ reference::Integer integer(const trisect::WideInt<N>& v) {
     return r;
 }
 
-reference::Point3 rational_point(const trisect::Point& p) {
+reference::Point3 rational_point(const trisect::Point& p, trisect::Lattice lattice) {
     const trisect::HomogeneousPoint h = p.homogeneous();
     reference::Point3 out;
     for (std::size_t k = 0; k < 3; ++k) {
         out[k] = reference::Rational(integer(h.xyz[k]), integer(h.w));
         out[k].canonicalize();
+        out[k] <<= static_cast<unsigned long>(lattice.exponent);
     }
     return out;
 }
 
 }  // namespace
 
-trisect::LatticeMesh lattice_mesh(const reference::Operand& operand) {
+trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits) {
     trisect::LatticeMesh mesh;
     std::map<std::array<std::int64_t, 3>, std::uint32_t> index;
     for (const auto& t : operand) {
@@ -73,11 +78,11 @@ trisect::LatticeMesh lattice_mesh(const reference::Operand& operand) {
         }
         mesh.triangles.push_back(corners);
     }
-    return mesh;
+    return trisect::test::with_fractions(std::move(mesh), bits);
 }
 
-trisect::Solid solid(const reference::Operand& operand, trisect::Embedding embedding) {
-    return trisect::Solid::from_lattice_mesh(lattice_mesh(operand), embedding);
+trisect::Solid solid(const reference::Operand& operand, trisect::Embedding embedding, int bits) {
+    return trisect::Solid::from_lattice_mesh(lattice_mesh(operand, bits), embedding);
 }
 
 trisect::Expression formula(const reference::Expression& expression,
@@ -110,13 +115,15 @@ std::vector<reference::Polygon> polygons(const trisect::Brep& brep) {
     std::vector<reference::Polygon> out;
     for (const trisect::FaceId f : brep.faces()) {
         const trisect::Plane& p = brep.plane(f);
-        const auto coefficient = [&](int i) { return integer(trisect::WideInt<2>(p.normal(i))); };
+        const auto unit = static_cast<unsigned long>(brep.lattice().exponent);
         reference::Polygon polygon{
-            {coefficient(0), coefficient(1), coefficient(2), integer(p.offset())}, {}};
+            {integer(p.normal(0)), integer(p.normal(1)), integer(p.normal(2)),
+             reference::Integer(integer(p.offset()) << unit)},
+            {}};
         for (const trisect::LoopId l : brep.loops(f)) {
             auto& loop = polygon.loops.emplace_back();
             for (const trisect::HalfedgeId h : brep.halfedges(l))
-                loop.push_back(rational_point(brep.point(brep.origin(h))));
+                loop.push_back(rational_point(brep.point(brep.origin(h)), brep.lattice()));
         }
         out.push_back(std::move(polygon));
     }
@@ -131,7 +138,7 @@ std::string difference(const trisect::Brep& brep, const reference::CanonicalBoun
     std::set<reference::Point3> used;
     const auto real = reference::real_vertices(expected);
     for (const trisect::VertexId v : brep.vertices()) {
-        const reference::Point3 p = rational_point(brep.point(v));
+        const reference::Point3 p = rational_point(brep.point(v), brep.lattice());
         used.insert(p);
         if (!real.contains(p) && brep.copies(v).empty() && brep.outgoing_halfedges(v).size() == 2)
             return "a vertex at which no face turns";
@@ -205,12 +212,16 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
+    const auto same_lattice = [&](const auto& s) { return s->lattice == states[0]->lattice; };
+    if (!std::ranges::all_of(states, same_lattice)) return std::nullopt;
+    const bool whole = std::ranges::all_of(states, [](const auto& s) { return s->whole; });
     EvaluateStats stats;
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
                                     return are_two_large_meshes(formula, solids, with, 1);
                                 },
                                 &evaluate_without_tree};
-    const EvaluateSettings settings{options, SplittingOffset::of_thread()};
+    const EvaluateSettings settings{options,
+                                    whole ? SplittingOffset::of_thread() : usual_splitting_offset};
     const auto state = evaluate_by(undivided, t.formula, states, settings, stats);
     if (state == nullptr) return std::nullopt;
     const auto evaluated_by_cells = [&] {

@@ -15,12 +15,13 @@
 
 namespace engines {
 
-/// A lattice mesh with one point per distinct corner.
-trisect::LatticeMesh lattice_mesh(const reference::Operand& operand);
+/// A lattice mesh with one point per distinct corner; of unit 2^bits, where coordinates have so
+/// many bits behind the point.
+trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits = 0);
 
 /// The operand as a solid whose boundary may meet itself.
 trisect::Solid solid(const reference::Operand& operand,
-                     trisect::Embedding embedding = trisect::Embedding::Resolve);
+                     trisect::Embedding embedding = trisect::Embedding::Resolve, int bits = 0);
 
 /// A solid under a random map with integer coefficients: out of the grid of all others.
 reference::Operand mapped(const reference::Operand& operand, reference::Random& random);
@@ -29,7 +30,7 @@ reference::Operand mapped(const reference::Operand& operand, reference::Random& 
 trisect::Expression formula(const reference::Expression& expression,
                             const std::vector<trisect::Solid>& solids);
 
-/// Faces with exact rational corners.
+/// Faces with exact rational corners, in the user's units.
 std::vector<reference::Polygon> polygons(const trisect::Brep& brep);
 
 /// Why a B-rep is not what the canonical boundary says; empty when it is. Checks the set, and that

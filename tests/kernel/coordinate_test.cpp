@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/number/dyadic.h>
 
 namespace {
 
@@ -41,6 +43,23 @@ TEST(Coordinate, HoldsIntegersBelowTheLimit) {
             EXPECT_EQ(Coordinate(x).to_double(), static_cast<double>(x));
             EXPECT_EQ((-Coordinate(x)).to_integer(), -x);
         }
+}
+
+TEST(Coordinate, RefusesIntegersBeyondTheLimit) {
+    constexpr std::int64_t limit = trisect::coordinate_limit;
+    static_assert(Coordinate(limit).to_double() == 0x1p53);  // a bound to compare with
+    EXPECT_EQ(Coordinate(-limit).to_double(), -0x1p53);
+    for (const std::int64_t v : {limit + 1, -limit - 1, INT64_MAX, INT64_MIN})
+        EXPECT_THROW((void)Coordinate(v), trisect::Error);
+}
+
+TEST(Coordinate, IsAnIntegerOfSmallerUnits) {
+    using trisect::detail::scaled_integer;
+    EXPECT_EQ(scaled_integer(Coordinate(0.75), 2), 3);
+    EXPECT_EQ(scaled_integer(Coordinate(-0.75), 73), -(trisect::Int128{3} << 71));
+    EXPECT_EQ(scaled_integer(Coordinate(12), 0), 12);
+    EXPECT_EQ(scaled_integer(Coordinate(0), 0), 0);
+    EXPECT_THROW((void)scaled_integer(Coordinate(0.75), 1), trisect::Error);
 }
 
 TEST(Coordinate, IsTotallyOrdered) {

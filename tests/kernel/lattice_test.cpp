@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -18,6 +19,7 @@
 namespace {
 
 using trisect::choose_lattice;
+using trisect::Fractions;
 using trisect::Lattice;
 using trisect::LatticePoint;
 using trisect::LatticeReport;
@@ -294,6 +296,219 @@ TEST(Lattice, RoundTripIsExact) {
         const auto p = to_lattice(Coordinates{{user, 0, 0}}, lattice, report);
         EXPECT_EQ(p[0].x, c);
         EXPECT_TRUE(report.lossless);
+    }
+}
+
+// ---------------------------------------------------------------- fractions
+
+std::uint64_t bits(double v) { return std::bit_cast<std::uint64_t>(v + 0.0); }
+
+// The definition: the lattice of whole coordinates where it loses nothing or 73 bits behind the
+// point are enough, else the coarsest multiple of 8 that is fine enough, else any exponent.
+int expected_exponent_of_fractions(const Coordinates& points) {
+    const int whole = expected_exponent(points);
+    int lowest = std::numeric_limits<int>::max();
+    int top = std::numeric_limits<int>::min();
+    for (const auto& p : points)
+        for (const double c : p) {
+            if (c == 0) continue;
+            lowest = std::min(lowest, lowest_bit(c));
+            top = std::max(top, std::ilogb(c) + 1);
+        }
+    if (lowest >= whole - trisect::fraction_limit) return whole;
+    const auto fits = [&](int e) { return lowest >= e - 73 && top <= e + 53; };
+    for (int e = whole; e > whole - 32; e -= 8)
+        if (fits(e)) return e;
+    for (int e = whole; e > whole - 32; --e)
+        if (fits(e)) return e;
+    return top - 53;
+}
+
+Coordinates spread_points(oracle::Source& random, int bits) {
+    const int middle = static_cast<int>(random.between(-1100, 1023 - bits));
+    Coordinates points(static_cast<std::size_t>(random.between(1, 5)));
+    for (auto& p : points)
+        for (double& c : p) {
+            const int size = static_cast<int>(random.between(1, 53));
+            c = std::ldexp(static_cast<double>(random.coordinate(size)),
+                           middle + static_cast<int>(random.between(0, bits - size)));
+        }
+    return points;
+}
+
+TEST(LatticeFractions, WholeSetsStayAsTheyAre) {
+    oracle::Source random(11);
+    for (int round = 0; round < 20000; ++round) {
+        const Coordinates points = spread_points(random, 53);
+        const Lattice lattice = choose_lattice(points);
+        LatticeReport rounded;
+        const auto whole = to_lattice(points, lattice, rounded);
+        if (!rounded.lossless) continue;
+        ASSERT_EQ(choose_lattice(points, 0, Fractions::Kept), lattice);
+        LatticeReport kept;
+        ASSERT_EQ(to_lattice(points, lattice, kept, 0, Fractions::Kept), whole);
+        ASSERT_TRUE(kept.lossless);
+    }
+}
+
+TEST(LatticeFractions, SetsOf126BitsComeBackBitForBit) {
+    oracle::Source random(12);
+    std::array<int, 3> ways{};  // the unit of whole coordinates, a finer one, no multiple of 8
+    for (int round = 0; round < 40000; ++round) {
+        const Coordinates points = spread_points(random, 126);
+        if (trisect::span_bits(points) > 126) continue;
+        const Lattice lattice = choose_lattice(points, 0, Fractions::Kept);
+        ASSERT_EQ(lattice.exponent, expected_exponent_of_fractions(points));
+        ++ways[lattice == choose_lattice(points) ? 0U : (lattice.exponent % 8 == 0 ? 1U : 2U)];
+        LatticeReport report;
+        const auto found = to_lattice(points, lattice, report, 0, Fractions::Kept);
+        ASSERT_TRUE(report.lossless);
+        ASSERT_EQ(report.moved, 0U);
+        ASSERT_EQ(report.max_move, 0);
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (int k = 0; k < 3; ++k) {
+                const double c = points[i][static_cast<std::size_t>(k)];
+                const double units = found[i][k].to_double();
+                ASSERT_EQ(bits(lattice.to_double(units)), bits(c));
+                ASSERT_FALSE(std::signbit(units) && units == 0);
+                ASSERT_LT(std::fabs(units), 0x1p53);
+                ASSERT_EQ(std::fmod(units, 0x1p-73), 0);
+            }
+    }
+    for (const int n : ways) EXPECT_GT(n, 1000);
+}
+
+TEST(LatticeFractions, LongerSetsLoseWhatDoesNotFitAndSaySo) {
+    oracle::Source random(13);
+    int lossy = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const Coordinates points = spread_points(random, 180);
+        const Lattice lattice = choose_lattice(points, 0, Fractions::Kept);
+        ASSERT_EQ(lattice.exponent, expected_exponent_of_fractions(points));
+        LatticeReport report;
+        const auto found = to_lattice(points, lattice, report, 0, Fractions::Kept);
+        ASSERT_EQ(report.lossless, trisect::span_bits(points) <= 126);
+        lossy += report.lossless ? 0 : 1;
+        std::size_t moved = 0;
+        double largest_move = 0;
+        const mpq_class scale(mpz_class(1) << 1300U);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            bool any = false;
+            for (int k = 0; k < 3; ++k) {
+                const double c = points[i][static_cast<std::size_t>(k)];
+                // In units of 2^-73 of the lattice's.
+                mpq_class exact(c);
+                const int e = lattice.exponent - 73;
+                if (e < 0)
+                    exact <<= static_cast<unsigned long>(-e);
+                else
+                    exact >>= static_cast<unsigned long>(e);
+                mpq_class units(found[i][k].to_double());
+                units <<= 73U;
+                ASSERT_EQ(units.get_den(), 1);
+                const mpq_class distance = abs(units - exact);
+                ASSERT_LE(distance, mpq_class(1, 2));
+                if (distance == mpq_class(1, 2)) {
+                    ASSERT_EQ(mpz_class(units.get_num() % 2), 0);
+                }
+                if (distance == 0) continue;
+                any = true;
+                mpq_class move = distance;
+                if (e < 0)
+                    move >>= static_cast<unsigned long>(-e);
+                else
+                    move <<= static_cast<unsigned long>(e);
+                largest_move = std::max(largest_move, move.get_d());
+            }
+            moved += any ? 1 : 0;
+        }
+        ASSERT_EQ(report.moved, moved);
+        ASSERT_EQ(report.max_move, largest_move);
+    }
+    EXPECT_GT(lossy, 1000);
+}
+
+TEST(LatticeFractions, ExtremesOfDouble) {
+    const auto kept = [](const Coordinates& points) {
+        LatticeReport report;
+        const Lattice lattice = choose_lattice(points, 0, Fractions::Kept);
+        const auto found = to_lattice(points, lattice, report, 0, Fractions::Kept);
+        for (std::size_t i = 0; i < points.size() && report.lossless; ++i)
+            for (int k = 0; k < 3; ++k)
+                EXPECT_EQ(bits(lattice.to_double(found[i][k].to_double())),
+                          bits(points[i][static_cast<std::size_t>(k)]));
+        return report;
+    };
+    EXPECT_TRUE(kept({}).lossless);
+    EXPECT_TRUE(kept({{0, -0.0, 0}}).lossless);
+    EXPECT_TRUE(kept({{least, 0, -least}}).lossless);
+    EXPECT_TRUE(kept({{least, 0x1.fffffffffffffp-1022, -0x1p-1000}}).lossless);
+    EXPECT_TRUE(kept({{least, 0x1p-949, 0}}).lossless) << "126 bits";
+    EXPECT_FALSE(kept({{least, 0x1p-948, 0}}).lossless) << "127 bits";
+    EXPECT_TRUE(kept({{greatest, -greatest, 0}}).lossless) << "nothing is rounded up";
+    EXPECT_TRUE(kept({{greatest, 0x1p898, 0}}).lossless);
+    const LatticeReport wide = kept({{greatest, 0x1p897, 0}});
+    EXPECT_EQ(wide.moved, 1U);
+    EXPECT_EQ(wide.max_move, 0x1p897);
+    const LatticeReport decimals = kept({{1e308, 1, 0}});
+    EXPECT_EQ(decimals.moved, 1U);
+    EXPECT_EQ(decimals.max_move, 1);
+    EXPECT_EQ(kept({{greatest, least, 1}}).moved, 1U);
+    EXPECT_TRUE(kept({{0.1, 1e-10, 1000.7}}).lossless);
+    for (const double bad :
+         {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(kept({{0.1, 1e-10, bad}}), trisect::LimitError);
+}
+
+// Points are scaled many at once where that changes nothing.
+TEST(LatticeFractions, OneOddCoordinateAmongMany) {
+    oracle::Source random(14);
+    const std::array<double, 6> odd{0x1p-74, -0x1.8p-73, 0x1p-1074, 0x1.0000000000001p-22, -0.0, 7};
+    for (int round = 0; round < 3000; ++round) {
+        const Lattice lattice{static_cast<int>(random.between(-9, 9))};
+        Coordinates points(static_cast<std::size_t>(random.between(1, 600)));
+        for (auto& p : points)
+            for (double& c : p)
+                c = std::ldexp(static_cast<double>(random.coordinate(53)),
+                               lattice.exponent - static_cast<int>(random.between(0, 73)));
+        const auto last = static_cast<std::int64_t>(points.size()) - 1;
+        const auto at = static_cast<std::size_t>(random.between(0, last));
+        const double c = odd[static_cast<std::size_t>(random.between(0, 5))];
+        points[at][static_cast<std::size_t>(random.between(0, 2))] =
+            c == 0x1p-1074 ? c : std::ldexp(c, lattice.exponent);
+        const bool moves = c != 7 && c != 0;
+        for (const std::uint32_t threads : {1U, 4U}) {
+            LatticeReport report;
+            const auto out = to_lattice(points, lattice, report, threads, Fractions::Kept);
+            EXPECT_EQ(report.moved, moves ? 1U : 0U) << c;
+            for (std::size_t i = 0; i < points.size(); ++i)
+                for (int k = 0; k < 3; ++k) {
+                    const double units =
+                        std::ldexp(points[i][static_cast<std::size_t>(k)], -lattice.exponent);
+                    const double expected = std::ldexp(std::nearbyint(std::ldexp(units, 73)), -73);
+                    ASSERT_EQ(bits(out[i][k].to_double()), bits(expected));
+                }
+        }
+    }
+}
+
+TEST(LatticeFractions, AnyNumberOfThreads) {
+    oracle::Source random(15);
+    Coordinates points(100000);
+    for (auto& p : points)
+        for (double& c : p) c = static_cast<double>(random.coordinate(53)) * 0x1p-60;
+    for (const double odd : {0x1p-20, 0x1p-120, 0x1p-150}) {
+        points[99999][2] = odd;
+        const Lattice expected = choose_lattice(points, 1, Fractions::Kept);
+        LatticeReport report;
+        const auto one = to_lattice(points, expected, report, 1, Fractions::Kept);
+        EXPECT_EQ(report.lossless, odd != 0x1p-150);
+        for (const std::uint32_t threads : {2U, 5U}) {
+            EXPECT_EQ(choose_lattice(points, threads, Fractions::Kept), expected);
+            LatticeReport again;
+            EXPECT_EQ(to_lattice(points, expected, again, threads, Fractions::Kept), one);
+            EXPECT_EQ(again.moved, report.moved);
+        }
     }
 }
 

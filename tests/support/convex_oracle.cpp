@@ -183,7 +183,7 @@ Scene::Scene(const ConvexPolytope& a, const Pose& pose_a, const ConvexPolytope& 
                 r[i] = trisect::detail::to_gmp(pose.translation(i));
                 for (int k = 0; k < 3; ++k)
                     r[i] += trisect::detail::to_gmp(pose.matrix(i, static_cast<std::size_t>(k))) *
-                            unit * static_cast<long>(v[k].to_integer());
+                            unit * mpq_class(v[k].to_double());
                 r[i] /= s;
                 f[i] = r[i].get_d();
             }

@@ -8,9 +8,6 @@
 #include <utility>
 
 #include "reference/vector.h"
-#include "support/lattice_arithmetic.h"
-
-#include <trisect/kernel/number/vector3.h>
 
 namespace brute {
 
@@ -161,8 +158,7 @@ Boundary Boundary::of_mesh(const trisect::LatticeMesh& mesh, std::uint32_t opera
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         std::vector<Point3> corners;
         for (const std::uint32_t v : mesh.triangles[i]) {
-            const trisect::LatticePoint& p = mesh.points[v];
-            corners.push_back(reference::to_point(trisect::detail::to_integers(p)));
+            corners.push_back(point(mesh.points[v].doubles()));
         }
         b.add(std::move(corners), {operand, mesh.face_of(i)});
     }

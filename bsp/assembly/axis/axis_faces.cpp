@@ -41,7 +41,7 @@ namespace trisect::detail {
 namespace {
 
 bool is_across_an_axis(const PolygonRef& r) {
-    if (r.source->is_half_space()) return false;
+    if (r.source->is_half_space() || !r.source->is_whole()) return false;
     const LatticePoint& a = r.source->corner(r.facet, 0);
     const LatticePoint& b = r.source->corner(r.facet, 1);
     const LatticePoint& c = r.source->corner(r.facet, 2);

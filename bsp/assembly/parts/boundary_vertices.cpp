@@ -12,9 +12,8 @@ namespace trisect::detail {
 namespace {
 
 std::uint64_t hash_of(const LatticePoint& p) {
-    return mix64(static_cast<std::uint64_t>(p.x.to_integer()) * 0x9e3779b97f4a7c15ULL ^
-                 mix64(static_cast<std::uint64_t>(p.y.to_integer()) * 0xc2b2ae3d27d4eb4fULL ^
-                       static_cast<std::uint64_t>(p.z.to_integer())));
+    return mix64(p.x.bits() * 0x9e3779b97f4a7c15ULL ^
+                 mix64(p.y.bits() * 0xc2b2ae3d27d4eb4fULL ^ p.z.bits()));
 }
 
 }  // namespace

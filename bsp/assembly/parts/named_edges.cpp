@@ -74,7 +74,9 @@ private:
     std::size_t count_ = 0;
 };
 
+// False where that takes more than whole coordinates.
 bool are_coplanar(const NamedEdge& e, const NamedEdge& f) {
+    if (!e.source->is_whole() || !f.source->is_whole()) return false;
     ++detail::counters_of_thread<PredicateCounters>.exact_short;
     return exact_orientation(e.end(0), e.end(1), f.end(0), f.end(1)) == 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bounds. A corner coordinate is below 2^53 and so is exact as a double; the segment's position p
+// Bounds. A corner coordinate is a double; the segment's position p
 // has an error of at most e = 2^-53 |p|. A difference d = c - p errs by at most 2^-53 |d| + e, and
 // e <= at_error_. A determinant m = a b - c d of differences errs, to first order, by
 //   3 · 2^-53 (|a b| + |c d|) + e (|a| + |b| + |c| + |d|);
@@ -61,8 +61,9 @@ bool AxisTrace::decide(const PolygonRef& polygon) {
     const auto [lo, hi] = std::minmax({height[0], height[1], height[2]});
     const std::int64_t low = std::min(from_.c[axis_], to_.c[axis_]);
     const std::int64_t high = std::max(from_.c[axis_], to_.c[axis_]);
-    if (hi * splitting_scale < low || lo * splitting_scale > high) return true;
-    if (lo * splitting_scale <= low || hi * splitting_scale >= high) return false;
+    const bool whole = polygon.source->is_whole();
+    if (fine_upper(hi, whole) < low || fine_lower(lo, whole) > high) return true;
+    if (fine_lower(lo, whole) <= low || fine_upper(hi, whole) >= high) return false;
     // The support's normal along the axis has the sign of the determinants. Going up through a
     // facet that faces up is leaving.
     const bool leaving = (positive != 0) == (to_.c[axis_] > from_.c[axis_]);

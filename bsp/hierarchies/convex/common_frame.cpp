@@ -4,8 +4,8 @@
 // that way. Distances have no such way: they want both bodies in one Euclidean space, and under a
 // pose that is no rotation not even the lattice of one of them is that. So both are put into a
 // space that is the world without A's translation, times the common denominator of the poses:
-// integers again, nothing is rounded. Filters decide nearly everything, so that the length of these
-// integers matters little.
+// integers again, times a power of two where coordinates have fractions; nothing is rounded.
+// Filters decide nearly everything, so that the length of these integers matters little.
 //
 // Doubles. Entries of a pose are known within 2^-50 of themselves (Pose::approximate). A
 // coordinate of M x takes three products and two sums, 3.0 · 2^-53 of the sum of magnitudes, with
@@ -114,8 +114,18 @@ void CommonFrame::normalise(double reach_a, double reach_b, double extra) {
     b_.error = std::ldexp(1.001 * (0x1p-49 * size_b + extra), -exponent) + 0x1p-1000;
 }
 
-const CommonFrame::Exact& CommonFrame::exact() const {
-    if (exact_) return *exact_;
+const CommonFrame::Exact& CommonFrame::exact(bool whole) const {
+    std::unique_ptr<Exact>& known = exact_[whole ? 0 : 1];
+    if (known) return *known;
+    known = made_exact();
+    if (!whole) {
+        known->bits = fraction_limit;
+        known->scale = known->scale * (mpz_class(1) << static_cast<mp_bitcnt_t>(fraction_limit));
+    }
+    return *known;
+}
+
+std::unique_ptr<CommonFrame::Exact> CommonFrame::made_exact() const {
     auto e = std::make_unique<Exact>();
     if (in_world_) {
         const mpz_class s_a = to_gmp(pose_a_.denominator());
@@ -145,8 +155,7 @@ const CommonFrame::Exact& CommonFrame::exact() const {
         }
         e->scale = to_mpz(r.denominator());
     }
-    exact_ = std::move(e);
-    return *exact_;
+    return e;
 }
 
 }  // namespace trisect::hierarchies

@@ -60,9 +60,10 @@ public:
         return body == Body::A ? a_.mirror : b_.mirror;
     }
 
-    /// Integers, for algorithms: bsp/hierarchies/convex/exact_frame.h.
+    /// Integers, for algorithms: bsp/hierarchies/convex/exact_frame.h. Of whole coordinates, or of
+    /// all; both are in the same space up to their scale.
     struct Exact;
-    [[nodiscard]] const Exact& exact() const;
+    [[nodiscard]] const Exact& exact(bool whole) const;
 
 private:
     struct Map {
@@ -81,7 +82,9 @@ private:
     Lattice lattice_a_;
     Lattice lattice_b_;
     bool in_world_ = true;
-    mutable std::unique_ptr<Exact> exact_;
+    [[nodiscard]] std::unique_ptr<Exact> made_exact() const;
+
+    mutable std::array<std::unique_ptr<Exact>, 2> exact_;  // of whole coordinates, of all
 };
 
 }  // namespace trisect::hierarchies

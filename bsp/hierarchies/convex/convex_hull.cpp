@@ -336,6 +336,10 @@ ConvexPolytope convex_hull(std::span<const LatticePoint> given, Lattice lattice)
 }
 
 ConvexPolytope enclosing_hull(std::span<const Point> points, Lattice lattice) {
+    // Among corners with fractions, boxes of a unit may be larger than all of the hull.
+    const bool whole = std::ranges::all_of(
+        points, [](const Point& p) { return !p.is_lattice() || p.lattice().is_whole(); });
+    const int bits = whole ? 0 : fraction_limit;
     std::vector<LatticePoint> corners;
     for (const Point& p : points) {
         if (p.is_lattice()) {
@@ -343,15 +347,17 @@ ConvexPolytope enclosing_hull(std::span<const Point> points, Lattice lattice) {
             continue;
         }
         const Approximation& x = p.approximation();
-        std::array<std::array<std::int64_t, 2>, 3> range{};
+        std::array<std::array<Coordinate, 2>, 3> range{};
         for (std::size_t k = 0; k < 3; ++k) {
-            // Coordinates are below 2^53, so both ends are integers that doubles hold. Their
-            // rounding is paid for by the next double outwards.
-            const double lo = std::floor(std::nextafter(x.c[k] - x.error, -HUGE_VAL));
-            const double hi = std::ceil(std::nextafter(x.c[k] + x.error, HUGE_VAL));
+            // Multiples of 2^-bits around it. Coordinates are below 2^53, so both ends are such
+            // that doubles hold. Their rounding is paid for by the next double outwards.
+            const double below = std::nextafter(x.c[k] - x.error, -HUGE_VAL);
+            const double above = std::nextafter(x.c[k] + x.error, HUGE_VAL);
+            const double lo = std::ldexp(std::floor(std::ldexp(below, bits)), -bits);
+            const double hi = std::ldexp(std::ceil(std::ldexp(above, bits)), -bits);
             if (!(lo > -0x1p53 && hi < 0x1p53))
                 throw LimitError("the corners of an enclosing hull leave the lattice's range");
-            range[k] = {static_cast<std::int64_t>(lo), static_cast<std::int64_t>(hi)};
+            range[k] = {Coordinate(lo), Coordinate(hi)};
         }
         for (unsigned i = 0; i < 8; ++i)
             corners.push_back({range[0][i & 1U], range[1][i >> 1U & 1U], range[2][i >> 2U & 1U]});

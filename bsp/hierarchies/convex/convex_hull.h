@@ -21,8 +21,8 @@ namespace trisect::hierarchies {
 
 /// A hull of lattice points that contains all the points. Exact where they are lattice points; any
 /// other point stands for the corners of the smallest cube of lattice units that certainly contains
-/// it, so the hull reaches at most a few units farther. \throw LimitError when such a corner leaves
-/// the lattice's range.
+/// it, so the hull reaches at most a few units farther; among lattice points with fractions, of the
+/// smallest box of doubles. \throw LimitError when such a corner leaves the lattice's range.
 [[nodiscard]] ConvexPolytope enclosing_hull(std::span<const Point> points, Lattice lattice);
 
 }  // namespace trisect::hierarchies

@@ -16,6 +16,8 @@
 #include <trisect/bsp/bsp_build.h>
 #include <trisect/bsp/bsp_tree.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::hierarchies {
@@ -42,14 +44,17 @@ std::vector<std::uint64_t> cells_below(const InterferenceModelData& m) {
     const BspTree tree = build_bsp(polygons);
     for (std::size_t i = 0; i < m.triangles.size(); ++i) {
         const ModelTriangle& t = m.triangles[i];
+        using trisect::detail::fraction_bits;
+        const int bits = std::max({fraction_bits(corner(t, 0)), fraction_bits(corner(t, 1)),
+                                   fraction_bits(corner(t, 2))});
         HomogeneousPoint middle;
         for (std::size_t k = 0; k < 3; ++k) {
             middle.xyz[k] = 0;
             for (std::size_t j = 0; j < 3; ++j)
-                middle.xyz[k] +=
-                    HomogeneousPoint::Coordinate(corner(t, j)[static_cast<int>(k)].to_integer());
+                middle.xyz[k] += HomogeneousPoint::Coordinate(trisect::detail::scaled_integer(
+                    trisect::detail::coordinate(corner(t, j), k), bits));
         }
-        middle.w = 3;
+        middle.w = HomogeneousPoint::Weight(3).shifted_left(bits);
         const Plane& own = m.brep.plane(t.face);
         BspTree::NodeId at = tree.root();
         while (!at.is_leaf()) {

@@ -60,7 +60,7 @@ ConvexPolytope::ConvexPolytope(Lattice lattice, int dimension,
     }
     make_edges();
     make_spokes();
-    note_largest();
+    note_sizes();
 }
 
 ConvexPolytope::ConvexPolytope(Lattice lattice, std::span<const LatticePoint> ends)
@@ -74,7 +74,7 @@ ConvexPolytope::ConvexPolytope(Lattice lattice, std::span<const LatticePoint> en
         edges_.back().vertex = {0, 1};
     }
     make_spokes();
-    note_largest();
+    note_sizes();
 }
 
 void ConvexPolytope::make_edges() {
@@ -122,9 +122,11 @@ void ConvexPolytope::make_spokes() {
     }
 }
 
-void ConvexPolytope::note_largest() {
-    for (const LatticePoint& p : vertices_)
+void ConvexPolytope::note_sizes() {
+    for (const LatticePoint& p : vertices_) {
         for (int k = 0; k < 3; ++k) largest_ = std::max(largest_, std::fabs(p[k].to_double()));
+        whole_ = whole_ && p.is_whole();
+    }
 }
 
 std::size_t ConvexPolytope::bytes() const {

@@ -102,6 +102,8 @@ public:
     }
     /// The largest magnitude of a coordinate.
     [[nodiscard]] double largest() const { return largest_; }
+    /// Whether all coordinates are whole.
+    [[nodiscard]] bool is_whole() const { return whole_; }
     [[nodiscard]] std::size_t bytes() const;
 
     /// Whether a point is in the closed set, for dimensions 2 and 3; exact. O(faces).
@@ -110,11 +112,12 @@ public:
 private:
     void make_edges();
     void make_spokes();
-    void note_largest();
+    void note_sizes();
 
     Lattice lattice_;
     int dimension_ = -1;
     double largest_ = 0;
+    bool whole_ = true;
     std::vector<LatticePoint> vertices_;
     std::vector<Edge> edges_;
     std::vector<Plane> planes_;

@@ -71,7 +71,7 @@ struct FeatureWalk::Integers {
     const FeatureWalk* walk;
     static Number one() { return 1; }
     VectorOf<Number> operator()(const Place& p) const {
-        return walk->frame_->exact().place(p.body, walk->polytope(p.body).vertices()[p.vertex]);
+        return walk->exact_frame().place(p.body, walk->polytope(p.body).vertices()[p.vertex]);
     }
 };
 
@@ -528,7 +528,7 @@ ExactRational FeatureWalk::squared_distance() const {
     const auto f = squared(state_, Integers{this});
     mpq_class v(f.numerator, f.denominator);
     v.canonicalize();
-    const mpq_class& scale = frame_->exact().scale;
+    const mpq_class& scale = exact_frame().scale;
     return trisect::detail::from_gmp(v / (scale * scale));
 }
 

@@ -118,6 +118,9 @@ private:
     template <class At>
     [[nodiscard]] auto squared(const State& s, const At& at) const;
 
+    [[nodiscard]] const CommonFrame::Exact& exact_frame() const {
+        return frame_->exact(a_->is_whole() && b_->is_whole());
+    }
     void push(Part x, Part y, int sense = 0, bool crossing = false);
     void closest_points(const Part& x, const Part& y);
     void of_vertices(const Place& p, const Place& q);

@@ -23,6 +23,7 @@
 #include <trisect/bsp/hierarchies/convex/convex_parts.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
@@ -46,7 +47,12 @@ bool HullTree::Node::is_real(const PolytopeFeature& f) const {
 class HullTree::Builder {
 public:
     Builder(HullTree& tree, const InterferenceModelData& m, const HullTreeOptions& options)
-        : tree_(tree), m_(m), options_(options) {}
+        : tree_(tree),
+          m_(m),
+          options_(options),
+          is_whole_(std::ranges::all_of(m.brep.points(), [](const Point& p) {
+              return !p.is_lattice() || p.lattice().is_whole();
+          })) {}
 
     void run(const std::vector<ConvexPart>& parts) {
         std::vector<Item> items;
@@ -56,6 +62,8 @@ public:
     }
 
 private:
+    using Area = WideInt<5>;
+
     struct Item {
         std::vector<std::uint32_t> triangles;
         std::array<double, 3> middle{};
@@ -169,18 +177,42 @@ private:
         return enclosing_hull(points, m_.brep.lattice());
     }
 
-    // Twice the area of a loop seen along an axis.
+    // Twice the area of a loop seen along an axis, in units of the lattice or, where coordinates
+    // have fractions, of 2^(-2 fraction_limit) of them.
     template <class Corner>
-    static WideInt<3> area(std::size_t count, int axis, const Corner& corner) {
+    [[nodiscard]] Area area(std::size_t count, int axis, const Corner& corner) const {
         const auto j = static_cast<std::size_t>((axis + 1) % 3);
         const auto k = static_cast<std::size_t>((axis + 2) % 3);
-        WideInt<3> sum = 0;
+        return is_whole_ ? area_of_whole(count, j, k, corner)
+                         : area_of_fractions(count, j, k, corner);
+    }
+    template <class Corner>
+    static Area area_of_whole(std::size_t count, std::size_t j, std::size_t k,
+                              const Corner& corner) {
+        Area sum = 0;
         const LatticePoint o = corner(0);
         for (std::size_t i = 1; i + 1 < count; ++i) {
             const auto a = detail::difference(corner(i), o);
             const auto b = detail::difference(corner(i + 1), o);
-            sum += WideInt<3>(Int128{a[j]} * b[k] - Int128{a[k]} * b[j]);
+            sum += Area(Int128{a[j]} * b[k] - Int128{a[k]} * b[j]);
         }
+        return sum;
+    }
+    // Differences have 127 bits.
+    template <class Corner>
+    static Area area_of_fractions(std::size_t count, std::size_t j, std::size_t k,
+                                  const Corner& corner) {
+        Area sum = 0;
+        const LatticePoint o = corner(0);
+        const auto way = [&](std::size_t i, std::size_t axis) {
+            const auto fine = [axis](const LatticePoint& p) {
+                return WideInt<2>(
+                    detail::scaled_integer(detail::coordinate(p, axis), fraction_limit));
+            };
+            return fine(corner(i)) - fine(o);
+        };
+        for (std::size_t i = 1; i + 1 < count; ++i)
+            sum += multiply<5>(way(i, j), way(i + 1, k)) - multiply<5>(way(i, k), way(i + 1, j));
         return sum;
     }
 
@@ -191,7 +223,7 @@ private:
         std::map<LatticePoint, std::uint32_t> name;
         for (std::uint32_t v = 0; v < n.hull.vertices().size(); ++v)
             name.emplace(n.hull.vertices()[v], v);
-        std::vector<WideInt<3>> filled(n.hull.face_count());
+        std::vector<Area> filled(n.hull.face_count());
         const auto corner = [&](const ModelTriangle& t, std::size_t i) {
             return m_.brep.point(t.vertex[i]).lattice();
         };
@@ -255,6 +287,7 @@ private:
     HullTree& tree_;
     const InterferenceModelData& m_;
     HullTreeOptions options_;
+    bool is_whole_;
 };
 
 HullTree::HullTree(const InterferenceModel& model, const HullTreeOptions& options) {

@@ -63,7 +63,7 @@ protected:
             corners[c] = placement().to_a(p);
         }
         // A unit more, so that the rounded centre is within.
-        body_ = PointHull(corners, placement().to_a.error_below(far, 0) + 1);
+        body_ = PointHull(corners, placement().to_a.error_below(far, 0) + obstacles_.unit());
         triangles_moved_ = false;
         ++counters.updates;
     }
@@ -136,9 +136,10 @@ private:
                 centre[k] += p[k] / 8;
                 far = std::max(far, std::abs(p[k]));
             }
-        const bool is_near = far < 0x1p60 && obstacles_.contains(rounded(centre));
+        const bool is_near =
+            far < 0x1p60 * obstacles_.unit() && obstacles_.contains(obstacles_.place(centre));
         if (is_near) {
-            at_ = obstacles_.mesh().locate(rounded(centre), at_, counters.volume_tests);
+            at_ = obstacles_.mesh().locate(obstacles_.place(centre), at_, counters.volume_tests);
             (void)is_first(tetrahedron_stamps_[at_]);
             open_.push_back(at_);
             return;

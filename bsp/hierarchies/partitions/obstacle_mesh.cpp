@@ -54,12 +54,13 @@ private:
     Vector3 size_{};
 };
 
-std::array<Vector3, 4> corners_of(const DelaunayMesh& mesh, std::uint32_t t) {
-    std::array<Vector3, 4> r{};
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            r[i][k] = static_cast<double>(mesh.point(mesh.tetrahedra()[t].corner[i])[k]);
-    return r;
+/// 1 where all coordinates are whole, or may be.
+double unit_of(const detail::InterferenceModelData& model) {
+    const bool whole = std::ranges::all_of(model.brep.points(), [](const Point& p) {
+        return !p.is_lattice() || p.lattice().is_whole();
+    });
+    if (whole || !(model.largest > 0)) return 1;
+    return std::ldexp(1.0, std::ilogb(model.largest) - (coordinate_bits - 1));
 }
 
 /// Faces of a positive tetrahedron, its inside on the positive side.
@@ -68,8 +69,17 @@ constexpr std::array<std::array<std::size_t, 3>, 4> faces{
 
 }  // namespace
 
-IntegerPoint rounded(const Vector3& p) {
-    return {std::llround(p[0]), std::llround(p[1]), std::llround(p[2])};
+IntegerPoint ObstacleMesh::place(const Vector3& p) const {
+    return {std::llround(p[0] / unit_), std::llround(p[1] / unit_), std::llround(p[2] / unit_)};
+}
+
+std::array<Vector3, 4> ObstacleMesh::corners_of(std::uint32_t tetrahedron) const {
+    std::array<Vector3, 4> r{};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            r[i][k] = unit_ * static_cast<double>(
+                                  mesh_.point(mesh_.tetrahedra()[tetrahedron].corner[i])[k]);
+    return r;
 }
 
 PointHull::PointHull(std::span<const Vector3> points, double e) : count(points.size()), error(e) {
@@ -86,9 +96,9 @@ PointHull::PointHull(std::span<const Vector3> points, double e) : count(points.s
     }
 }
 
-ObstacleMesh::ObstacleMesh(const detail::InterferenceModelData& model) {
+ObstacleMesh::ObstacleMesh(const detail::InterferenceModelData& model) : unit_(unit_of(model)) {
     std::vector<IntegerPoint> points;
-    for (const Vector3& p : model.positions) points.push_back(rounded(p));
+    for (const Vector3& p : model.positions) points.push_back(place(p));
     while (true) {
         mesh_ = DelaunayMesh(points);
         make_boxes();
@@ -103,7 +113,7 @@ void ObstacleMesh::make_boxes() {
     boxes_.clear();
     outermost_.clear();
     for (std::uint32_t t = 0; t < mesh_.tetrahedra().size(); ++t) {
-        const auto c = corners_of(mesh_, t);
+        const auto c = corners_of(t);
         // The points of the cube may have one bit more than a double.
         boxes_.push_back(PointHull(c, 0).box);
         const auto& n = mesh_.tetrahedra()[t].neighbour;
@@ -119,7 +129,7 @@ bool ObstacleMesh::contains(const IntegerPoint& p) const {
 
 bool ObstacleMesh::may_meet(std::uint32_t tetrahedron, const PointHull& hull) const {
     if (!boxes_[tetrahedron].meets(hull.box)) return false;
-    const auto corner = corners_of(mesh_, tetrahedron);
+    const auto corner = corners_of(tetrahedron);
     double far = 0;
     for (const Vector3& c : corner)
         for (const double v : c) far = std::max(far, std::abs(v));
@@ -146,9 +156,14 @@ bool ObstacleMesh::may_meet(std::uint32_t tetrahedron, const PointHull& hull) co
 }
 
 bool ObstacleMesh::make_lists(const detail::InterferenceModelData& model) {
-    // A vertex that is not a lattice point has been moved by rounding; a triangle grown by a unit
-    // contains it.
-    const double error = model.all_lattice ? 0 : model.position_error + 1;
+    // A vertex that is not at a place of the mesh has been moved by rounding; a triangle grown by a
+    // unit contains it.
+    const bool is_exact =
+        model.all_lattice && std::ranges::all_of(model.positions, [&](const auto& p) {
+            return std::ranges::all_of(
+                p, [&](double c) { return std::nearbyint(c / unit_) == c / unit_; });
+        });
+    const double error = is_exact ? 0 : model.position_error + unit_;
     const std::size_t most = most_entries * model.triangles.size();
     std::vector<std::vector<std::uint32_t>> lists(mesh_.tetrahedra().size());
     std::vector<std::uint32_t> mark(lists.size(), DelaunayMesh::none);
@@ -161,7 +176,7 @@ bool ObstacleMesh::make_lists(const detail::InterferenceModelData& model) {
         const std::array<Vector3, 3> corners{model.position(v[0]), model.position(v[1]),
                                              model.position(v[2])};
         const PointHull triangle(corners, error);
-        start = mesh_.locate(rounded(corners[0]), start, steps);
+        start = mesh_.locate(place(corners[0]), start, steps);
         open.assign(1, start);
         mark[start] = i;
         while (!open.empty()) {

@@ -48,7 +48,12 @@ public:
     [[nodiscard]] const Box& box(std::uint32_t tetrahedron) const { return boxes_[tetrahedron]; }
     /// The twelve at the surface of the cube.
     [[nodiscard]] std::span<const std::uint32_t> outermost() const { return outermost_; }
-    /// Whether a point is in the cube.
+    /// The mesh's points are in these units of A's lattice, a power of two. 1 where coordinates are
+    /// whole; else such that doubles are whole, where the largest one allows that.
+    [[nodiscard]] double unit() const { return unit_; }
+    /// The nearest place. \pre magnitudes below 2^62 units.
+    [[nodiscard]] IntegerPoint place(const std::array<double, 3>& p) const;
+    /// Whether a place is in the cube.
     [[nodiscard]] bool contains(const IntegerPoint& p) const;
     /// False only when they are certainly apart.
     [[nodiscard]] bool may_meet(std::uint32_t tetrahedron, const PointHull& hull) const;
@@ -64,14 +69,14 @@ private:
     [[nodiscard]] bool make_lists(const detail::InterferenceModelData& model);
     void make_boxes();
 
+    [[nodiscard]] std::array<std::array<double, 3>, 4> corners_of(std::uint32_t tetrahedron) const;
+
+    double unit_ = 1;
     DelaunayMesh mesh_;
     std::vector<Box> boxes_;
     std::vector<std::uint32_t> first_;
     std::vector<std::uint32_t> entries_;
     std::vector<std::uint32_t> outermost_;
 };
-
-/// The nearest integers. \pre magnitudes below 2^62.
-[[nodiscard]] IntegerPoint rounded(const std::array<double, 3>& p);
 
 }  // namespace trisect::hierarchies

@@ -29,13 +29,49 @@ struct Piece {
     std::uint32_t triangle = 0;
 };
 
-struct Position {
-    std::size_t axis = 0;
-    std::int64_t twice = 0;  // odd
-    [[nodiscard]] double at() const { return 0.5 * static_cast<double>(twice); }
-};
+/// Where splitting planes may be: at odd multiples of half a unit where all coordinates are whole,
+/// else at thirds of 2^-bits of a unit, where no double is.
+class Positions {
+public:
+    explicit Positions(const detail::InterferenceModelData& model)
+        : whole_(std::ranges::all_of(model.brep.points(),
+                                     [](const Point& p) { return p.lattice().is_whole(); })),
+          // Numbers of units have 61 bits.
+          bits_(model.largest > 0 ? 60 - std::ilogb(model.largest) : 0) {}
 
-std::optional<Position> best_position(const std::vector<Piece>& pieces) {
+    struct Position {
+        std::size_t axis = 0;
+        Plane plane;
+        double low = 0;  ///< doubles at or around it
+        double high = 0;
+    };
+    /// The one above a coordinate of the model.
+    [[nodiscard]] Position above(std::size_t axis, double coordinate) const {
+        const auto i = static_cast<int>(axis);
+        if (whole_) {
+            const std::int64_t twice = 2 * static_cast<std::int64_t>(std::floor(coordinate)) + 1;
+            const double at = 0.5 * static_cast<double>(twice);
+            return {axis, Plane::axis_aligned(i, 2, twice), at, at};
+        }
+        const auto below = static_cast<std::int64_t>(std::floor(std::ldexp(coordinate, bits_)));
+        std::array<Plane::Coefficient, 3> n{};
+        n[axis] = Plane::Coefficient(3).shifted_left(bits_);
+        const Plane::Coefficient position(Int128{3} * below + 1);
+        // Both roundings are within a place of it.
+        const double at = std::ldexp(static_cast<double>(below) + 1.0 / 3, -bits_);
+        const double low = std::nextafter(std::nextafter(at, -HUGE_VAL), -HUGE_VAL);
+        const double high = std::nextafter(std::nextafter(at, HUGE_VAL), HUGE_VAL);
+        return {axis, Plane(n[0], n[1], n[2], -position), low, high};
+    }
+
+private:
+    bool whole_;
+    int bits_;
+};
+using Position = Positions::Position;
+
+std::optional<Position> best_position(const std::vector<Piece>& pieces,
+                                      const Positions& positions) {
     const std::size_t n = pieces.size();
     std::optional<Position> best;
     // The longer of both lists, at most.
@@ -46,12 +82,12 @@ std::optional<Position> best_position(const std::vector<Piece>& pieces) {
             centres[i] = 0.5 * (pieces[i].box.lo[axis] + pieces[i].box.hi[axis]);
         const auto middle = centres.begin() + static_cast<std::ptrdiff_t>(n / 2);
         std::nth_element(centres.begin(), middle, centres.end());
-        const Position splitter{axis, 2 * static_cast<std::int64_t>(std::floor(*middle)) + 1};
+        const Position splitter = positions.above(axis, *middle);
         std::size_t below = 0;
         std::size_t above = 0;
         for (const Piece& p : pieces) {
-            below += p.box.lo[axis] < splitter.at() ? 1 : 0;
-            above += p.box.hi[axis] > splitter.at() ? 1 : 0;
+            below += p.box.lo[axis] < splitter.high ? 1 : 0;
+            above += p.box.hi[axis] > splitter.low ? 1 : 0;
         }
         const std::size_t longer = std::max(below, above);
         if (longer >= least) continue;
@@ -80,7 +116,7 @@ std::vector<Piece> pieces_of(const detail::InterferenceModelData& model) {
 
 class Divider {
 public:
-    explicit Divider(std::size_t most) : most_(most) {}
+    Divider(const Positions& positions, std::size_t most) : positions_(positions), most_(most) {}
 
     SplitCells run(std::vector<Piece> pieces) {
         open_.push_back({std::move(pieces), {}, nullptr, 0});
@@ -108,10 +144,9 @@ private:
 
     bool divide(Task& task) {
         if (task.pieces.size() <= most_) return false;
-        const auto position = best_position(task.pieces);
+        const auto position = best_position(task.pieces, positions_);
         if (!position) return false;
-        const Plane splitter =
-            Plane::axis_aligned(static_cast<int>(position->axis), 2, position->twice);
+        const Plane& splitter = position->plane;
         Task below{
             {}, task.splitters, &SplitCells::SplittingPlane::below, result_.splitters.size()};
         Task above{
@@ -127,9 +162,9 @@ private:
                 continue;
             }
             below.pieces.push_back({std::move(low), p.box, p.triangle});
-            below.pieces.back().box.hi[position->axis] = position->at();
+            below.pieces.back().box.hi[position->axis] = position->high;
             above.pieces.push_back({std::move(high), p.box, p.triangle});
-            above.pieces.back().box.lo[position->axis] = position->at();
+            above.pieces.back().box.lo[position->axis] = position->low;
         }
         // Boxes of parts are larger than the parts.
         if (std::max(below.pieces.size(), above.pieces.size()) >= task.pieces.size() ||
@@ -176,6 +211,7 @@ private:
         }
     }
 
+    Positions positions_;
     std::size_t most_;
     std::vector<Task> open_;
     SplitCells result_;
@@ -184,7 +220,7 @@ private:
 }  // namespace
 
 SplitCells SplitCells::over(const detail::InterferenceModelData& model, std::size_t most) {
-    return Divider(most).run(pieces_of(model));
+    return Divider(Positions(model), most).run(pieces_of(model));
 }
 
 }  // namespace trisect::hierarchies

@@ -16,7 +16,8 @@
 namespace trisect::hierarchies {
 
 /// A tree of splitting planes over a boundary. A splitting plane is at an odd multiple of half a
-/// lattice unit, so no vertex and no polygon lies on it. There is area of the boundary on both
+/// lattice unit or, where coordinates have fractions, at a third of a fraction, so no vertex and no
+/// polygon lies on it. There is area of the boundary on both
 /// sides of every splitting plane; so every cell holds a part of it, and face planes alone
 /// distinguish inside from outside within a cell.
 ///

@@ -29,12 +29,6 @@ namespace {
 // Contacts are compared pair by pair for common planes.
 constexpr std::size_t many_contacts = 200;
 
-// Without a call, which std::floor is on the oldest processors of the family.
-std::int64_t floor_of(double v) {
-    const auto whole = static_cast<std::int64_t>(v);
-    return whole - (static_cast<double>(whole) > v ? 1 : 0);
-}
-
 // The axis along which two points are farthest apart.
 std::size_t longest_axis(const Approximation& a, const Approximation& b) {
     std::size_t axis = 0;
@@ -181,14 +175,8 @@ int FilteredCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
 // Where two lines meet, for lines that are nearly parallel.
 Approximation FilteredCutting::exact_point(const std::array<FilteredLine, 2>& lines) const {
     const PolygonRef& ref = (*facets_)[item_].ref;
-    Approximation at = approximate(ref.source->support(ref.facet), plane_of(lines[0]).plane(),
-                                   plane_of(lines[1]).plane());
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto origin = static_cast<double>(facets_->origin()[k]);
-        at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
-        at.c[k] -= origin;
-    }
-    return at;
+    return facets_->from_lattice(approximate(
+        ref.source->support(ref.facet), plane_of(lines[0]).plane(), plane_of(lines[1]).plane()));
 }
 
 // -1 below the contact's support, 0 on it, 1 above.
@@ -431,14 +419,16 @@ bool FilteredCutting::clip_at(std::size_t axis, bool high) {
         return vertices_[static_cast<std::size_t>(from.vertices[i])].at;
     };
     const auto error = [&](const Approximation& a) {
-        return a.error + 0x1p-51 * (std::fabs(a.c[axis]) + std::fabs(splitter));
+        return a.error + 0x1p-51 * (std::fabs(a.c[axis]) + std::fabs(splitter)) +
+               facets_->splitter_error();
     };
     Signs signs;
     bool below = false;
     bool above = false;
     for (std::size_t i = 0; i < from.size; ++i) {
         int s = 0;
-        if (from.vertices[i] < (*facets_)[item_].size && point(i).error == 0) {
+        if (facets_->is_whole() && from.vertices[i] < (*facets_)[item_].size &&
+            point(i).error == 0) {
             // A lattice position, and the last one below the splitting plane is exact too.
             const double c = point(i).c[axis];
             s = (high ? c > facets_->inner_hi()[axis] : c >= facets_->inner_lo()[axis]) ? 1 : -1;
@@ -800,17 +790,12 @@ PolygonRef FilteredCutting::fragment(const FilteredPart& part) {
             hi[k] = std::max(hi[k], a.c[k] + a.error);
         }
     }
-    Box box;
     double extent = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        box.lo[k] = facets_->origin()[k] + floor_of(lo[k]);
-        box.hi[k] = facets_->origin()[k] - floor_of(-hi[k]);
-        extent = std::max(extent, hi[k] - lo[k]);
-    }
+    for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, hi[k] - lo[k]);
     for (std::size_t i = 0; i < part.size; ++i) corners_[i] = in_lattice(part.vertices[i], extent);
     PolygonRef out = (*facets_)[item_].ref;
     out.fragment = Fragment::make(std::span(edges_).first(part.size),
-                                  std::span(corners_).first(part.size), box);
+                                  std::span(corners_).first(part.size), facets_->positions(lo, hi));
     return out;
 }
 

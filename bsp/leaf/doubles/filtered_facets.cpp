@@ -6,6 +6,14 @@
 // the permanent for the farthest point that the leaf has. A point that is off by e changes the
 // value by at most e times the sum of the normal's components, whose magnitudes the minors'
 // permanents bound.
+//
+// Origins. Corners are differences of coordinates from the leaf's origin, and have to be exact.
+// Whole coordinates near each other have exact differences whatever the origin. With fractions it
+// is chosen axis by axis: with L the extent of all corners and m the least magnitude of one, it is
+// a corner's coordinate where L <= m, else 0. In the first case all coordinates have one sign and
+// none is more than twice another: a difference of such doubles is exact (Sterbenz). In the second
+// nothing is subtracted, and coordinates are below 2 L: the errors are still those of the leaf's
+// size.
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 
@@ -33,39 +41,59 @@ void look_ahead(std::span<const PolygonRef> polygons) {
         __builtin_prefetch(&mesh.points[v]);
 }
 
-// How many polygons a leaf has, if all can be held in doubles; prefetches their triangles.
-std::optional<std::size_t> filtered_polygons(const LeafProblem& leaf) {
+struct Polygons {
     std::size_t count = 0;
+    bool whole = true;
+};
+
+// The polygons of a leaf, if all can be held in doubles; prefetches their triangles.
+std::optional<Polygons> filtered_polygons(const LeafProblem& leaf) {
+    Polygons found;
     for (const LeafOperand& o : leaf.operands) {
         if (!o.embedded) return std::nullopt;
-        count += o.polygons.size();
+        found.count += o.polygons.size();
         for (const PolygonRef& r : o.polygons) {
             if (r.source->is_half_space()) return std::nullopt;
             if (r.fragment != nullptr && r.fragment->edges().size() > FilteredFacet::max_outline)
                 return std::nullopt;
+            found.whole = found.whole && r.source->is_whole();
             __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
         }
     }
-    return count;
+    return found;
+}
+
+// The same without a call, which std::floor is on the oldest processors of the family.
+std::int64_t floor_of(double v) {
+    const auto whole = static_cast<std::int64_t>(v);
+    return whole - (static_cast<double>(whole) > v ? 1 : 0);
 }
 
 }  // namespace
 
-void FilteredFacets::set_origin(const LatticePoint& origin) {
+void FilteredFacets::set_origin(const Vector3& origin) {
+    origin_ = origin;
+    for (std::size_t k = 0; k < 3; ++k) whole_origin_[k] = floor_of(origin[k]);
+    if (whole_) {
+        set_bounds();
+    } else {
+        set_bounds_with_fractions();
+    }
+}
+
+void FilteredFacets::set_bounds() {
     const Cell& cell = problem_->cell;
-    origin_ = to_integers(origin);
-    corner_origin_ = origin.doubles();
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto from_origin = [&](std::int64_t fine) {
-            return rounded_position(fine - origin_[k] * splitting_scale);
+            return rounded_position(fine - whole_origin_[k] * splitting_scale);
         };
         splitter_lo_[k] = from_origin(cell.lo[k]);
         splitter_hi_[k] = from_origin(cell.hi[k]);
         reference_.c[k] = from_origin(problem_->reference.c[k]);
         reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * last_place);
         const auto inner = [&](std::int64_t c) {
-            return std::clamp(static_cast<double>(c - origin_[k]), -exact_limit, exact_limit);
+            return std::clamp(static_cast<double>(c - whole_origin_[k]), -exact_limit, exact_limit);
         };
         inner_lo_[k] = inner(lattice_below(cell.lo[k]) + 1);
         inner_hi_[k] = inner(lattice_below(cell.hi[k]));
@@ -74,23 +102,92 @@ void FilteredFacets::set_origin(const LatticePoint& origin) {
     }
 }
 
+// A position from the whole origin is rounded once, by 2^-53 of itself, and once more with the rest
+// of the origin, which is below 1: what comes out is off by less than 2^-52 of itself and 2^-52.
+void FilteredFacets::set_bounds_with_fractions() {
+    const Cell& cell = problem_->cell;
+    reference_.error = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double rest = origin_[k] - static_cast<double>(whole_origin_[k]);
+        const auto from_origin = [&](std::int64_t fine) {
+            return rounded_position(fine - whole_origin_[k] * splitting_scale) - rest;
+        };
+        const auto error = [&](double at) { return std::fabs(at) * last_place + splitter_error(); };
+        splitter_lo_[k] = from_origin(cell.lo[k]);
+        splitter_hi_[k] = from_origin(cell.hi[k]);
+        reference_.c[k] = from_origin(problem_->reference.c[k]);
+        reference_.error = std::max(reference_.error, 2 * error(reference_.c[k]));
+        inner_lo_[k] = splitter_lo_[k] + 2 * error(splitter_lo_[k]);
+        inner_hi_[k] = splitter_hi_[k] - 2 * error(splitter_hi_[k]);
+        outer_lo_[k] = splitter_lo_[k] - 1;
+        outer_hi_[k] = splitter_hi_[k] + 1;
+    }
+}
+
+Vector3 FilteredFacets::origin_of_fractions() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vector3 low{infinity, infinity, infinity};
+    Vector3 high{-infinity, -infinity, -infinity};
+    Vector3 least{infinity, infinity, infinity};
+    for (const LeafOperand& o : problem_->operands)
+        for (const PolygonRef& r : o.polygons)
+            for (int i = 0; i < 3; ++i) {
+                const Vector3 c = r.source->corner(r.facet, i).doubles();
+                for (std::size_t k = 0; k < 3; ++k) {
+                    low[k] = std::min(low[k], c[k]);
+                    high[k] = std::max(high[k], c[k]);
+                    least[k] = std::min(least[k], std::fabs(c[k]));
+                }
+            }
+    Vector3 origin{};
+    // A rounded extent that is no larger is enough: then no coordinate is more than twice another.
+    for (std::size_t k = 0; k < 3; ++k)
+        if (low[k] * high[k] > 0 && std::max(std::fabs(low[k]), std::fabs(high[k])) <= 2 * least[k])
+            origin[k] = low[k];
+    return origin;
+}
+
+Box FilteredFacets::positions(const Vector3& lo, const Vector3& hi) const {
+    Box box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (whole_) {
+            box.lo[k] = whole_origin_[k] + floor_of(lo[k]);
+            box.hi[k] = whole_origin_[k] - floor_of(-hi[k]);
+            continue;
+        }
+        const auto slack = [&](double v) {
+            return 0x1p-51 * (std::fabs(v) + std::fabs(origin_[k]));
+        };
+        box.lo[k] = floor_of(origin_[k] + lo[k] - slack(lo[k]));
+        box.hi[k] = -floor_of(-(origin_[k] + hi[k] + slack(hi[k])));
+    }
+    return box;
+}
+
 bool FilteredFacets::list(const LeafProblem& leaf) {
     problem_ = &leaf;
     facets_.clear();
     outlines_.clear();
     fragments_ = 0;
     surfaces_.clear();
-    const std::optional<std::size_t> count = filtered_polygons(leaf);
-    if (!count) return false;
-    facets_.reserve(*count);
+    const std::optional<Polygons> polygons = filtered_polygons(leaf);
+    if (!polygons) return false;
+    facets_.reserve(polygons->count);
+    whole_ = polygons->whole;
     const auto first = std::ranges::find_if(
         leaf.operands, [](const LeafOperand& o) { return !o.polygons.empty(); });
     reaches_.assign(leaf.operands.size(), {});
     if (first == leaf.operands.end()) return true;
-    set_origin(first->polygons[0].source->corner(first->polygons[0].facet, 0));
+    const PolygonRef& any = first->polygons[0];
+    set_origin(whole_ ? any.source->corner(any.facet, 0).doubles() : origin_of_fractions());
     // Over all points compared with a plane.
     Vector3 low = reference_.c;
     Vector3 high = reference_.c;
+    if (!whole_)
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], 0.0);  // the origin, which else is a corner
+            high[k] = std::max(high[k], 0.0);
+        }
     bool small = true;
     const Vector3 inner_lo = inner_lo_;
     const Vector3 inner_hi = inner_hi_;
@@ -130,7 +227,8 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
             }
             f.contained = contained;
             if (f.is_whole()) continue;
-            if (!contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
+            if (!whole_) f.contained = leaf.cell.contains(f.ref.fragment->box());
+            if (!f.contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
             // Planes are evaluated at points relative to their first corner. What doubles hold of a
             // fragment's facet need not be near the fragment.
             for (std::size_t k = 0; k < 3; ++k) {
@@ -143,7 +241,7 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
     }
     for (std::size_t k = 0; k < 3; ++k) {
         small = small && low[k] > -exact_limit && high[k] < exact_limit;
-        extent_[k] = high[k] - low[k] + 1;
+        extent_[k] = whole_ ? high[k] - low[k] + 1 : (high[k] - low[k]) * slightly_more;
     }
     return small;
 }
@@ -159,7 +257,7 @@ void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, Leaf
     const LatticeMesh& mesh = ref.source->mesh();
     f.vertices = mesh.triangles[ref.facet];
     for (std::size_t i = 0; i < 3; ++i) {
-        f.corners[i] = minus(mesh.points[f.vertices[i]].doubles(), corner_origin_);
+        f.corners[i] = minus(mesh.points[f.vertices[i]].doubles(), origin_);
     }
     if (!f.is_whole()) {
         add_box(f);
@@ -176,9 +274,23 @@ void FilteredFacets::add_box(FilteredFacet& f) {
     ++fragments_;
     f.size = static_cast<std::uint8_t>(fragment.edges().size());
     f.splitters = splitters_of(fragment);
-    for (std::size_t k = 0; k < 3; ++k) {
-        f.lo[k] = static_cast<double>(fragment.box().lo[k] - origin_[k]);
-        f.hi[k] = static_cast<double>(fragment.box().hi[k] - origin_[k]);
+    if (whole_) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            f.lo[k] = static_cast<double>(fragment.box().lo[k] - whole_origin_[k]);
+            f.hi[k] = static_cast<double>(fragment.box().hi[k] - whole_origin_[k]);
+        }
+        return;
+    }
+    // The box counts units, which may be much.
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    f.lo = {infinity, infinity, infinity};
+    f.hi = {-infinity, -infinity, -infinity};
+    for (const Approximation& v : fragment.vertices()) {
+        const Approximation a = from_lattice(v);
+        for (std::size_t k = 0; k < 3; ++k) {
+            f.lo[k] = std::min(f.lo[k], a.c[k] - bound_slack * a.error);
+            f.hi[k] = std::max(f.hi[k], a.c[k] + bound_slack * a.error);
+        }
     }
 }
 
@@ -203,7 +315,7 @@ void FilteredFacets::add_outline(FilteredFacet& f) {
         } else {
             double largest = 0;
             for (std::size_t k = 0; k < 3; ++k) {
-                a.c[k] -= static_cast<double>(origin_[k]);
+                a.c[k] -= origin_[k];
                 largest = std::max(largest, std::fabs(a.c[k]));
             }
             a.error = bound_slack * a.error + 0x1p-51 * largest;

@@ -43,8 +43,9 @@ struct FilteredPlane {
 };
 
 /// A facet of an embedded operand, whole or a fragment of it. Its corners are lattice points, taken
-/// from an origin of the leaf, so that doubles hold them exactly and constructed points have the
-/// errors of the leaf's size and not of its place. Those of a fragment's outline are constructed.
+/// from an origin of the leaf from which doubles hold them exactly and by which constructed points
+/// have the errors of the leaf's size and not of its place. Those of a fragment's outline are
+/// constructed.
 struct FilteredFacet {
     /// Fragments with more corners are left to the exact path.
     static constexpr std::size_t max_outline = 20;
@@ -140,6 +141,8 @@ public:
     [[nodiscard]] const Approximation* outline(const FilteredFacet& f) const {
         return &outlines_[f.outline];
     }
+    /// Whether all sources have whole coordinates; then so are the corners.
+    [[nodiscard]] bool is_whole() const { return whole_; }
     /// How many fragments are listed.
     [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
     [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
@@ -151,38 +154,50 @@ public:
         Vector3 hi{-infinity, -infinity, -infinity};
     };
     [[nodiscard]] const Reach& reach(std::size_t operand) const { return reaches_[operand]; }
-    /// Whether a lattice point lies in the cell.
+    /// Whether a corner surely lies in the cell; of whole coordinates, whether it does.
     [[nodiscard]] bool in_cell(const Vector3& p) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (p[k] < inner_lo_[k] || p[k] > inner_hi_[k]) return false;
         return true;
     }
     /// The lattice positions next to the cell's bounding planes, inside of them; exact as far as
-    /// corners go.
+    /// corners go. Where there are fractions, the bounding planes drawn in by what they may be off.
     [[nodiscard]] const Vector3& inner_lo() const { return inner_lo_; }
     [[nodiscard]] const Vector3& inner_hi() const { return inner_hi_; }
-    /// The splitting planes themselves, rounded.
+    /// The splitting planes themselves, rounded: off by up to last_place of their size and
+    /// splitter_error().
     [[nodiscard]] const Vector3& splitter_lo() const { return splitter_lo_; }
     [[nodiscard]] const Vector3& splitter_hi() const { return splitter_hi_; }
+    [[nodiscard]] double splitter_error() const { return whole_ ? 0 : 0x1p-52; }
     [[nodiscard]] const Approximation& reference() const { return reference_; }
     /// How far apart whole facets' corners, the origin and the reference point are along each axis,
-    /// and at least 1.
+    /// and at least 1 where coordinates are whole.
     [[nodiscard]] const Vector3& extent() const { return extent_; }
-    /// From where coordinates of this leaf count, in lattice units.
-    [[nodiscard]] const std::array<std::int64_t, 3>& origin() const { return origin_; }
-
     /// A point of the leaf in the lattice's coordinates.
     [[nodiscard]] Approximation in_lattice(Approximation at) const {
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto origin = static_cast<double>(origin_[k]);
+            const double origin = origin_[k];
             at.c[k] += origin;
             at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin));
         }
         return at;
     }
+    /// The same the other way.
+    [[nodiscard]] Approximation from_lattice(Approximation at) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            at.error += 0x1p-51 * (std::fabs(at.c[k]) + std::fabs(origin_[k]));
+            at.c[k] -= origin_[k];
+        }
+        return at;
+    }
+    /// The positions that a box of the leaf meets, rounded outwards.
+    [[nodiscard]] Box positions(const Vector3& lo, const Vector3& hi) const;
 
 private:
-    void set_origin(const LatticePoint& origin);
+    void set_origin(const Vector3& origin);
+    void set_bounds();
+    void set_bounds_with_fractions();
+    [[nodiscard]] Vector3 origin_of_fractions() const;
     void add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,
              LeafIndex surface);
     void add_box(FilteredFacet& f);
@@ -197,8 +212,9 @@ private:
     std::vector<Reach> reaches_;           // by operand
     std::size_t fragments_ = 0;
     StampMap surfaces_;
-    std::array<std::int64_t, 3> origin_{};
-    Vector3 corner_origin_{};  // the same
+    bool whole_ = true;
+    Vector3 origin_{};                            // from where coordinates of this leaf count
+    std::array<std::int64_t, 3> whole_origin_{};  // rounded down
     Approximation reference_;
     Vector3 inner_lo_{};
     Vector3 inner_hi_{};
@@ -211,7 +227,7 @@ private:
 };
 
 /// Sign of the determinant of (a - d, b - d, c - d), exact; nothing when corners are so far apart
-/// that 128 bits do not hold it.
+/// that 128 bits do not hold it. \pre whole coordinates
 [[nodiscard]] std::optional<int> exact_orientation(const Vector3& a, const Vector3& b,
                                                    const Vector3& c, const Vector3& d);
 

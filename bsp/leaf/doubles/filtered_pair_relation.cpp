@@ -215,7 +215,7 @@ int side_of_edge(const FilteredFacet& a, std::size_t edge_a, bool up, const Appr
                  const FilteredFacets& facets, const FilteredFacet& b, std::size_t edge_b) {
     const int mesh_a = a.mesh_edge(edge_a);
     const int mesh_b = b.mesh_edge(edge_b);
-    if (mesh_a >= 0 && mesh_b >= 0) {
+    if (facets.is_whole() && mesh_a >= 0 && mesh_b >= 0) {
         const auto end = [](const FilteredFacet& f, int i) -> const Vector3& {
             return f.corners[static_cast<std::size_t>(i % 3)];
         };
@@ -239,7 +239,8 @@ bool is_outside_cell(const FilteredFacets& facets, const Approximation& a, const
     for (std::size_t k = 0; k < 3; ++k) {
         const double low = facets.splitter_lo()[k];
         const double high = facets.splitter_hi()[k];
-        const double slack = 2 * (a.error + b.error) + 0x1p-50 * (std::fabs(low) + std::fabs(high));
+        const double slack = 2 * (a.error + b.error + facets.splitter_error()) +
+                             0x1p-50 * (std::fabs(low) + std::fabs(high));
         if (std::max(a.c[k], b.c[k]) + slack < low || std::min(a.c[k], b.c[k]) - slack > high)
             return true;
     }

@@ -29,8 +29,11 @@ bool runs_through(const Cell& cell, const LatticePoint& a, const LatticePoint& b
         const auto scale = static_cast<double>(splitting_scale);
         const double p = a[k].to_double();
         const double d = b[k].to_double() - p;
-        const double lo = static_cast<double>(cell.lo[i]) / scale - p;
-        const double hi = static_cast<double>(cell.hi[i]) / scale - p;
+        const double low = static_cast<double>(cell.lo[i]) / scale;
+        const double high = static_cast<double>(cell.hi[i]) / scale;
+        const double margin = 0x1p-50 * (std::fabs(low) + std::fabs(high) + std::fabs(p));
+        const double lo = low - p + margin;
+        const double hi = high - p - margin;
         if (d == 0) {
             if (lo >= 0 || hi <= 0) return false;
             continue;
@@ -176,7 +179,7 @@ void LeafAnchors::join(LeafIndex a, LeafIndex b) {
 
 bool LeafAnchors::trace_to(const Vertex& v, std::vector<int>& w) {
     const LeafItem& item = work_->item(v.item);
-    if (is_facet(item)) {
+    if (is_facet(item) && item.ref.source->is_whole()) {
         const LatticePoint& c = item.ref.source->corner(item.ref.facet, v.corner);
         const TraceTarget target(
             FinePoint{{fine_position(c.x), fine_position(c.y), fine_position(c.z)}});

@@ -48,7 +48,9 @@ PrismFacets::Upright PrismFacets::upright_edge(const PrismSideFace& side_face,
 
 // Two of its corners have two coordinates in common, or all three have one.
 bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
-    if (polygon.fragment != nullptr || polygon.source->is_half_space()) return false;
+    if (polygon.fragment != nullptr || polygon.source->is_half_space() ||
+        !polygon.source->is_whole())
+        return false;
     std::array<int, 3> equal{};  // by axis: sides along which it does not change
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& a = polygon.source->corner(polygon.facet, i);
@@ -86,7 +88,7 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
     caps_.clear();
     for (std::size_t o = 0; o < problem.operands.size(); ++o)
         for (const PolygonRef& ref : problem.operands[o].polygons) {
-            if (ref.fragment != nullptr || ref.source->is_half_space() ||
+            if (ref.fragment != nullptr || ref.source->is_half_space() || !ref.source->is_whole() ||
                 !add(ref, static_cast<LeafIndex>(o), problem.operands[o].flipped) ||
                 !problem.cell.contains(ref.box()))
                 return false;

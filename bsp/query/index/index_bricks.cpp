@@ -80,14 +80,14 @@ void IndexBrickBuilder::gather_other(BlockItem& item, Coefficients& plane, const
         item.hi.fill(0x1p40);
         return;
     }
-    const Box box = polygons_.box(item.id);
+    const DoubleBox box = polygons_.bounds(item.id);
     const Plane support = polygons_.support(item.id);
     double offset = support.approx_offset();
     double terms = std::fabs(offset);
     Vector n{};
     for (std::size_t k = 0; k < 3; ++k) {
-        item.lo[k] = (static_cast<double>(box.lo[k]) - block.origin[k]) * scale[k];
-        item.hi[k] = (static_cast<double>(box.hi[k]) - block.origin[k]) * scale[k];
+        item.lo[k] = (box.lo[k] - block.origin[k]) * scale[k];
+        item.hi[k] = (box.hi[k] - block.origin[k]) * scale[k];
         n[k] = support.approx_normal(static_cast<int>(k)) * block.size[k];
         const double t = support.approx_normal(static_cast<int>(k)) * block.origin[k];
         offset += t;

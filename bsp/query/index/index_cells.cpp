@@ -7,15 +7,6 @@
 
 namespace trisect::detail {
 
-DoubleBox to_doubles(const Box& box) {
-    DoubleBox b;
-    for (std::size_t k = 0; k < 3; ++k) {
-        b.lo[k] = static_cast<double>(box.lo[k]);
-        b.hi[k] = static_cast<double>(box.hi[k]);
-    }
-    return b;
-}
-
 DoubleBox hull(const Point& a, const Point& b) {
     DoubleBox box;
     const Approximation& p = a.approximation();

@@ -6,23 +6,12 @@
 #include <array>
 #include <vector>
 
+#include <trisect/bsp/query/index/double_box.h>
 #include <trisect/bsp/query/index/index_core.h>
 
 namespace trisect::detail {
 
-/// A closed box of doubles; its ends may be infinite.
-struct DoubleBox {
-    std::array<double, 3> lo{};
-    std::array<double, 3> hi{};
-    [[nodiscard]] bool overlaps(const DoubleBox& b) const {
-        for (std::size_t k = 0; k < 3; ++k)
-            if (lo[k] > b.hi[k] || hi[k] < b.lo[k]) return false;
-        return true;
-    }
-};
-
-/// Contain a box of lattice points, and a segment.
-[[nodiscard]] DoubleBox to_doubles(const Box& box);
+/// Contains a segment.
 [[nodiscard]] DoubleBox hull(const Point& a, const Point& b);
 /// Everything.
 [[nodiscard]] DoubleBox root_cell();

@@ -22,11 +22,11 @@ BlockItem IndexGridLists::item(Id id) const {
     out.id = id;
     out.is_triangle = polygons_.is_triangle(id);
     if (!out.is_triangle) {
-        const Box box = polygons_.box(id);
+        const DoubleBox box = polygons_.bounds(id);
         const bool everywhere = polygons_.is_unbounded(id);
         for (std::size_t k = 0; k < 3; ++k) {
-            out.lo[k] = (static_cast<double>(box.lo[k]) - block_.origin[k]) * scale_[k];
-            out.hi[k] = (static_cast<double>(box.hi[k]) - block_.origin[k]) * scale_[k];
+            out.lo[k] = (box.lo[k] - block_.origin[k]) * scale_[k];
+            out.hi[k] = (box.hi[k] - block_.origin[k]) * scale_[k];
             if (!everywhere) continue;
             out.lo[k] = -0x1p40;
             out.hi[k] = 0x1p40;

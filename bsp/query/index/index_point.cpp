@@ -20,6 +20,8 @@ namespace {
 // 2^54 · 2^320 leaves it in the first two tiers.
 constexpr int homogeneous_bits = 320;
 constexpr double homogeneous_limit = 0x1p54;
+// Of coordinates that are not 0 and without error.
+constexpr double least = 0x1p-500;
 
 // Bits behind the point of the finest coordinate.
 int fraction_bits(const std::array<double, 3>& c) {
@@ -45,11 +47,20 @@ void IndexPoint::set_huge() {
     fits_ = false;
 }
 
+// Of rationals.
+bool IndexPoint::is_tiny() const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::fabs(c_[k]) < least && (*rational_)[k].sign() != 0) return true;
+    return false;
+}
+
 IndexPoint::IndexPoint(const Point& p) : c_(p.approximation().c), error_(p.approximation().error) {
     if (p.is_lattice()) {
         error_ = 0;
         return;
     }
+    for (const double x : c_)
+        if (x != 0 && std::fabs(x) < least) error_ = std::max(error_, least);
     homogeneous_ = p.homogeneous();
 }
 
@@ -72,11 +83,12 @@ IndexPoint::IndexPoint(Rational p) : fits_(false) {
     for (const double x : c_)
         if (!(x < 0x1p600 && x > -0x1p600)) error_ = HUGE_VAL;
     for (double& x : c_) x = std::clamp(x, -0x1p600, 0x1p600);
-    if (error_ == 0) {
-        fits_ = true;  // doubles after all
-        return;
-    }
     rational_ = std::move(p);
+    if (is_tiny()) {
+        error_ = std::max(error_, least);
+    } else if (error_ == 0) {
+        fits_ = true;  // doubles after all
+    }
 }
 
 IndexPoint IndexPoint::from_user_slowly(const Vector& p, Lattice lattice) {

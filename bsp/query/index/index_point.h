@@ -24,7 +24,7 @@ public:
     using Vector = std::array<double, 3>;
     using Rational = std::array<ExactRational, 3>;
 
-    /// Doubles in lattice units, exact as given. \pre finite.
+    /// Doubles in lattice units, exact as given. \pre finite; 0 or at least 2^-500.
     explicit IndexPoint(const Vector& p) : c_(p) {
         for (const double x : p)
             if (!(x < 0x1p600 && x > -0x1p600)) set_huge();
@@ -38,9 +38,10 @@ public:
         Vector c{};
         return to_lattice(p, lattice, c) ? IndexPoint(c) : from_user_slowly(p, lattice);
     }
-    /// Doubles in lattice units where these are exact; else false.
+    /// Doubles in lattice units where these are exact and neither huge nor tiny; else false.
     [[nodiscard]] static bool to_lattice(const Vector& p, Lattice lattice, Vector& c) {
-        // Multiplying by a power of two is exact within the range of normal doubles.
+        // Multiplying by a power of two is exact within the range of normal doubles. Values at
+        // planes, and of normals of corners with bits behind the point, must be in that range, too.
         if (lattice.exponent <= -900 || lattice.exponent >= 900) return false;
         const double scale =
             std::bit_cast<double>(static_cast<std::uint64_t>(1023 - lattice.exponent) << 52U);
@@ -48,14 +49,15 @@ public:
         for (std::size_t k = 0; k < 3; ++k) {
             c[k] = p[k] * scale;
             const double m = c[k] < 0 ? -c[k] : c[k];
-            exact = exact && (m < 0x1p600) && (m > 0x1p-900 || p[k] == 0);
+            exact = exact && (m < 0x1p600) && (m > 0x1p-500 || p[k] == 0);
         }
         return exact;
     }
 
     [[nodiscard]] double operator[](std::size_t k) const { return c_[k]; }
     [[nodiscard]] const Vector& approximate() const { return c_; }
-    /// Every exact coordinate is within this of its approximation; often 0.
+    /// Every exact coordinate is within this of its approximation; often 0. Where a coordinate is
+    /// nearer to 0 than 2^-500 it is at least that, so that bounds pay for what underflows.
     [[nodiscard]] double error() const { return error_; }
     [[nodiscard]] bool is_doubles() const { return error_ == 0; }
     [[nodiscard]] Approximation approximation() const { return {c_, error_}; }
@@ -87,6 +89,7 @@ private:
     [[nodiscard]] static IndexPoint from_user_slowly(const Vector& p, Lattice lattice);
     [[nodiscard]] int compare_slowly(std::size_t k, double position) const;
     void set_huge();
+    [[nodiscard]] bool is_tiny() const;
     void find_small() const;
 
     Vector c_{};

@@ -59,7 +59,8 @@ std::vector<Plane> edges_in_order(const Plane& support, const std::vector<Plane>
 
 }  // namespace
 
-IndexPolygons::IndexPolygons(const Source& source) : only_(&source), size_(source.facet_count()) {
+IndexPolygons::IndexPolygons(const Source& source)
+    : only_(&source), whole_(source.is_whole()), size_(source.facet_count()) {
     TRISECT_EXPECTS(!source.is_half_space(), "a half-space has no facets to number");
 }
 
@@ -98,6 +99,10 @@ IndexPolygons::Id IndexPolygons::add_convex(const PolygonRef& ref, bool flipped,
 
 void IndexPolygons::note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete) {
     Facet& f = facet_at(slot_of(ref.source), ref.facet, ref.flipped != turned);
+    whole_ = whole_ && ref.source->is_whole();
+    if (ref.fragment != nullptr)
+        for (const EdgeName& e : ref.fragment->edges())
+            if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
     if (incomplete || ref.touched || ref.fragment != nullptr) {
         f.cut = true;
     } else if (ref.source->is_half_space() ||
@@ -181,6 +186,20 @@ std::vector<Point> IndexPolygons::corners(Id id) const {
     const Plane plane = support(id);
     for (std::size_t i = 0; i < planes.size(); ++i)
         out.emplace_back(plane, planes[i == 0 ? planes.size() - 1 : i - 1], planes[i]);
+    return out;
+}
+
+// Boxes of whole coordinates end at lattice planes.
+DoubleBox IndexPolygons::bounds(const Box& box) const {
+    constexpr double rounding = 0x1p-40;  // of the two reaches and of small sums
+    DoubleBox out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out.lo[k] = static_cast<double>(box.lo[k]);
+        out.hi[k] = static_cast<double>(box.hi[k]);
+        if (whole_) continue;
+        out.lo[k] -= reach_below + rounding;
+        out.hi[k] += reach_above + rounding;
+    }
     return out;
 }
 

@@ -4,6 +4,7 @@
 // Planes, corners and names of the polygons are here.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/query/index/double_box.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
 
@@ -22,7 +24,7 @@ namespace trisect::detail {
 ///
 /// The number of a facet of a mesh that nothing has happened to is its own: then there is no table
 /// at all. Otherwise a polygon takes 16 bytes, and what is not a whole triangle the planes of its
-/// edges (112 bytes each).
+/// edges (240 bytes each).
 ///
 /// Invariant: every polygon is closed, convex and has area; together they are the boundary, each
 /// point of it in the interior of one polygon except where polygons end. The sources must outlive
@@ -50,6 +52,8 @@ public:
     void finish();
 
     [[nodiscard]] std::uint32_t size() const { return size_; }
+    /// Whether all sources are whole, those of edges included.
+    [[nodiscard]] bool is_whole() const { return whole_; }
     /// No table: polygon i is facet i of the one source.
     [[nodiscard]] const Source* only_source() const { return only_; }
 
@@ -90,10 +94,12 @@ public:
     }
     /// Counter-clockwise seen from above the source's support. \pre not unbounded.
     [[nodiscard]] std::vector<Point> corners(Id id) const;
-    /// Contains the polygon, in lattice units.
-    [[nodiscard]] Box box(Id id) const {
-        return is_triangle(id) ? source(id).facet_box(facet(id)) : boxes_[records_[id].box];
+    /// Contains the polygon, in lattice units; of triangles, no more.
+    [[nodiscard]] DoubleBox bounds(Id id) const {
+        return is_triangle(id) ? triangle_bounds(id) : bounds(boxes_[records_[id].box]);
     }
+    /// What lies at these positions.
+    [[nodiscard]] DoubleBox bounds(const Box& box) const;
 
     [[nodiscard]] FacetName name(Id id) const { return {source(id).serial(), facet(id)}; }
     [[nodiscard]] FaceSource face_source(Id id) const;
@@ -118,6 +124,7 @@ private:
         bool cut = false;    // or touched or incomplete: not the same in all cells
     };
 
+    [[nodiscard]] DoubleBox triangle_bounds(Id id) const;
     std::uint32_t slot_of(const Source* source);
     [[nodiscard]] Facet& facet_at(std::uint32_t slot, std::uint32_t facet, bool flipped);
     Id add_clipped(const PolygonRef& ref, bool flipped, std::uint32_t slot, const Cell& cell);
@@ -125,6 +132,7 @@ private:
                   std::span<const Plane> edges, const Box& box);
 
     const Source* only_ = nullptr;
+    bool whole_ = true;
     std::uint32_t size_ = 0;
     std::vector<const Source*> sources_;
     std::vector<Record> records_;
@@ -134,5 +142,19 @@ private:
     std::unordered_map<const Source*, std::uint32_t> slots_;
     std::uint32_t last_slot_ = 0;
 };
+
+inline DoubleBox IndexPolygons::triangle_bounds(Id id) const {
+    const Source& s = source(id);
+    const std::uint32_t f = facet(id);
+    const auto a = s.corner(f, 0).doubles();
+    const auto b = s.corner(f, 1).doubles();
+    const auto c = s.corner(f, 2).doubles();
+    DoubleBox out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out.lo[k] = std::min(std::min(a[k], b[k]), c[k]);
+        out.hi[k] = std::max(std::max(a[k], b[k]), c[k]);
+    }
+    return out;
+}
 
 }  // namespace trisect::detail

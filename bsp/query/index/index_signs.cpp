@@ -11,9 +11,10 @@
 // 6 L^2 of it.
 //
 // When doubles cannot decide, every one of these determinants is linear in p: n · (p - x) with a
-// normal n made of lattice points and the reference alone, of at most 2^126. So the exact stage is
-// one dot product: in 128 bits when p has few bits, which is the common case for points that lie
-// exactly on something, in 576 bits for what a HomogeneousPoint holds, in rationals otherwise.
+// normal n made of lattice points and the reference alone, of at most 2^126 for whole coordinates.
+// So the exact stage is one dot product: in 128 bits when p has few bits, which is the common case
+// for points that lie exactly on something, in 576 bits for what a HomogeneousPoint holds, in
+// rationals otherwise. Where corners have bits behind the point, n and x are those of a Plane.
 
 #include <trisect/bsp/query/index/index_signs.h>
 
@@ -78,6 +79,14 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, std::int
     return sum.sign();
 }
 
+// The corners of a source's facet, and whether all of that source are whole.
+struct Triangle {
+    const LatticePoint& a;
+    const LatticePoint& b;
+    const LatticePoint& c;
+    bool whole = true;
+};
+
 Fine fine_coordinates(const LatticePoint& p) {
     return {fine_position(p.x), fine_position(p.y), fine_position(p.z)};
 }
@@ -89,20 +98,25 @@ Normal exact_cross(const Fine& u, const Fine& v) {
     return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-Normal triangle_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
-    return exact_cross(minus(to_integers(b), to_integers(a)),
-                       minus(to_integers(c), to_integers(a)));
+Normal whole_normal(const Triangle& t) {
+    return exact_cross(minus(to_integers(t.b), to_integers(t.a)),
+                       minus(to_integers(t.c), to_integers(t.a)));
 }
 
-int exact_side(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
-               const LatticePoint& c) {
-    return sign_linear(p, triangle_normal(a, b, c), to_integers(a), 1);
+int exact_side(const IndexPoint& p, const Triangle& t) {
+    if (!t.whole) return p.side_of(Plane::through(t.a, t.b, t.c));
+    return sign_linear(p, whole_normal(t), to_integers(t.a), 1);
 }
 
 // Component k of (a - p) × (b - p): which way p, a, b turn seen along axis k.
-int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b, std::size_t k) {
+int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b, bool whole,
+               std::size_t k) {
     const std::size_t j = (k + 1) % 3;
     const std::size_t l = (k + 2) % 3;
+    if (!whole) {
+        if (coordinate(a, j) == coordinate(b, j) && coordinate(a, l) == coordinate(b, l)) return 0;
+        return -p.side_of(Plane::along_axis(a, b, static_cast<int>(k)));
+    }
     const Fine e = minus(to_integers(b), to_integers(a));
     Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
     n[l] = e[j];
@@ -110,22 +124,71 @@ int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b
     return sign_linear(p, n, to_integers(a), 1);
 }
 
-// det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
-int exact_passing_side(const IndexPoint& p, const FinePoint& r, const LatticePoint& a,
-                       const LatticePoint& b) {
+IndexPoint::Rational exact_point(const LatticePoint& p) {
+    return {ExactRational::from_double(p.x.to_double()),
+            ExactRational::from_double(p.y.to_double()),
+            ExactRational::from_double(p.z.to_double())};
+}
+
+// det(r - p, a - p, b - p) of corners with bits behind the point: below 0 for p above the plane
+// through r, a and b.
+int side_of_fractions(const IndexPoint& p, const Reference& r, const LatticePoint& a,
+                      const LatticePoint& b) {
+    if (r.error == 0) {
+        const LatticePoint known{Coordinate(r.c[0]), Coordinate(r.c[1]), Coordinate(r.c[2])};
+        return are_collinear(known, a, b) ? 0 : -p.side_of(Plane::through(known, a, b));
+    }
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
+    IndexPoint::Rational from;
+    for (std::size_t k = 0; k < 3; ++k)
+        from[k] = ExactRational(r.fine.c[k]) / ExactRational(splitting_scale);
+    const auto n = cross(minus(exact_point(a), from), minus(exact_point(b), from));
+    return dot(n, minus(from, p.rational())).sign();
+}
+
+int side_of_whole(const IndexPoint& p, const FinePoint& r, const LatticePoint& a,
+                  const LatticePoint& b) {
     Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
-    if (const int s = sign_linear(p, n, r.c, splitting_scale); s != 0) return s;
+    return sign_linear(p, n, r.c, splitting_scale);
+}
+
+// det(r - p, a - p, b - p) for the moved reference: never 0 where a, b and p are not on one line.
+int exact_passing_side(const IndexPoint& p, const Reference& r, const LatticePoint& a,
+                       const LatticePoint& b, bool whole) {
+    if (const int s = whole ? side_of_whole(p, r.fine, a, b) : side_of_fractions(p, r, a, b);
+        s != 0)
+        return s;
     ++detail::counters_of_thread<PredicateCounters>.symbolic;
     for (std::size_t k = 0; k < 3; ++k)
-        if (const int s = exact_turn(p, a, b, k); s != 0) return s;
+        if (const int s = exact_turn(p, a, b, whole, k); s != 0) return s;
     return 0;
 }
 
-int exact_reference_side(const FinePoint& r, const LatticePoint& a, const LatticePoint& b,
-                         const LatticePoint& c) {
-    const Normal n = triangle_normal(a, b, c);
-    const Fine d = minus(r.c, fine_coordinates(a));
+// 384 + 8 bits, and 328 + 61.
+WideInt<7> exact_value(const FinePoint& r, const Plane& plane) {
+    WideInt<7> sum = multiply<7>(plane.offset(), WideInt<1>(splitting_scale));
+    for (int k = 0; k < 3; ++k)
+        sum += multiply<7>(plane.normal(k), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
+    return sum;
+}
+
+int first_sign(const Plane& plane) {
+    for (int k = 0; k < 3; ++k)
+        if (plane.normal(k) != 0) return plane.normal(k) > 0 ? 1 : -1;
+    return 0;
+}
+
+int exact_reference_side(const FinePoint& r, const Plane& plane) {
+    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
+    const int s = exact_value(r, plane).sign();
+    return s != 0 ? s : first_sign(plane);
+}
+
+int exact_reference_side(const FinePoint& r, const Triangle& t) {
+    if (!t.whole) return exact_reference_side(r, Plane::through(t.a, t.b, t.c));
+    const Normal n = whole_normal(t);
+    const Fine d = minus(r.c, fine_coordinates(t.a));
     ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
     WideInt<4> sum;  // 109 + 63 + 2 bits
     for (std::size_t k = 0; k < 3; ++k) sum += multiply<4>(WideInt<2>(n[k]), WideInt<1>(d[k]));
@@ -135,33 +198,49 @@ int exact_reference_side(const FinePoint& r, const LatticePoint& a, const Lattic
     return 0;
 }
 
-// For a point in the plane of the triangle.
-bool is_in_triangle(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
-                    const LatticePoint& c) {
-    const Normal n = triangle_normal(a, b, c);
+// The axis in which a triangle's normal is largest, and the normal's sign there.
+struct Facing {
+    std::size_t axis = 0;
+    int turn = 0;
+};
+
+Facing facing(const Triangle& t) {
+    if (!t.whole) {
+        const Plane plane = Plane::through(t.a, t.b, t.c);
+        const int axis = plane.dominant_axis();
+        return {static_cast<std::size_t>(axis), plane.normal(axis).sign()};
+    }
+    const Normal n = whole_normal(t);
     std::size_t k = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (bit_length(n[i]) > bit_length(n[k])) k = i;
-    const int turn = sign(n[k]);
+    return {k, sign(n[k])};
+}
+
+// For a point in the plane of the triangle.
+bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
     // Doubles reject most: a point outside the box of the triangle.
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<int>(i);
-        const double lo = std::min({a[axis], b[axis], c[axis]}).to_double();
-        const double hi = std::max({a[axis], b[axis], c[axis]}).to_double();
+        const double lo = std::min({t.a[axis], t.b[axis], t.c[axis]}).to_double();
+        const double hi = std::max({t.a[axis], t.b[axis], t.c[axis]}).to_double();
         if (p[i] + p.error() < lo || p[i] - p.error() > hi) return false;
     }
-    return exact_turn(p, a, b, k) * turn >= 0 && exact_turn(p, b, c, k) * turn >= 0 &&
-           exact_turn(p, c, a, k) * turn >= 0;
+    const auto [k, turn] = facing(t);
+    const auto is_left = [&, k = k, turn = turn](const LatticePoint& a, const LatticePoint& b) {
+        return exact_turn(p, a, b, t.whole, k) * turn >= 0;
+    };
+    return is_left(t.a, t.b) && is_left(t.b, t.c) && is_left(t.c, t.a);
 }
 
 // Whether a point is on a triangle, in integers of two words where these are enough; nothing
 // otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
-std::optional<bool> is_on_narrow(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b,
-                                 const LatticePoint& c, const Vector3& normal) {
+std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const Vector3& normal) {
+    if (!t.whole) return std::nullopt;
     const auto& small = p.small();
     if (!small) return std::nullopt;
     const auto bits = static_cast<unsigned>(small->bits);
-    const std::array<const LatticePoint*, 3> corner{&a, &b, &c};
+    const std::array<const LatticePoint*, 3> corner{&t.a, &t.b, &t.c};
     std::array<Fine, 3> edge;
     std::array<Fine, 3> way;  // to the point, in its finest bits
     double longest_edge = 0;
@@ -209,28 +288,12 @@ int filtered_sign(const Reference& r, const Plane& plane) {
     return s ? sign_of(*s) : 0;
 }
 
-// 384 + 8 bits, and 328 + 61.
-WideInt<7> exact_value(const FinePoint& r, const Plane& plane) {
-    WideInt<7> sum = multiply<7>(plane.offset(), WideInt<1>(splitting_scale));
-    for (int k = 0; k < 3; ++k)
-        sum += multiply<7>(plane.normal(k), WideInt<1>(r.c[static_cast<std::size_t>(k)]));
-    return sum;
-}
-
-int first_sign(const Plane& plane) {
-    for (int k = 0; k < 3; ++k)
-        if (plane.normal(k) != 0) return plane.normal(k) > 0 ? 1 : -1;
-    return 0;
-}
-
 int reference_side(const Reference& r, const Plane& plane) {
     if (const int s = filtered_sign(r, plane); s != 0) {
         ++detail::counters_of_thread<PredicateCounters>.filtered;
         return s;
     }
-    ++detail::counters_of_thread<PredicateCounters>.exact_wide;
-    const int s = exact_value(r.fine, plane).sign();
-    return s != 0 ? s : first_sign(plane);
+    return exact_reference_side(r.fine, plane);
 }
 
 // On which side of an edge the segment meets the support: with values s and e of the planes of
@@ -273,13 +336,10 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
     return p_side < 0 ? Passing::Entering : Passing::Leaving;
 }
 
-}  // namespace
-
-Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
-                const IndexPoint& p, const Reference& r) {
-    const Vector3 fa = a.doubles();
-    const Vector3 fb = b.doubles();
-    const Vector3 fc = c.doubles();
+Passing passing_triangle(const Triangle& t, const IndexPoint& p, const Reference& r) {
+    const Vector3 fa = t.a.doubles();
+    const Vector3 fb = t.b.doubles();
+    const Vector3 fc = t.c.doubles();
     const Vector3 u = minus(fb, fa);
     const Vector3 v = minus(fc, fa);
     const Vector3 n = cross(u, v);
@@ -296,8 +356,8 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
     } else if (at_p < -p_bound) {
         p_side = -1;
     } else {
-        p_side = exact_side(p, a, b, c);
-        if (p_side == 0) return is_in_triangle(p, a, b, c) ? Passing::On : Passing::None;
+        p_side = exact_side(p, t);
+        if (p_side == 0) return is_in_triangle(p, t) ? Passing::On : Passing::None;
     }
     const Vector3 q = minus(r.c, fa);
     const double at_r = dot(n, q);
@@ -309,7 +369,7 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
     } else if (at_r < -r_bound) {
         r_side = -1;
     } else {
-        r_side = exact_reference_side(r.fine, a, b, c);
+        r_side = exact_reference_side(r.fine, t);
     }
     counters.filtered += 2;
     if (r_side == p_side) return Passing::None;
@@ -323,41 +383,43 @@ Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint
     const double bound = m * m * (difference_determinant_rounding * m + 18 * (p.error() + r.error));
     const std::array<double, 3> e{dot(d, cross(pa, pb)), dot(d, cross(pb, pc)),
                                   dot(d, cross(pc, pa))};
-    const std::array<const LatticePoint*, 4> corner{&a, &b, &c, &a};
+    const std::array<const LatticePoint*, 4> corner{&t.a, &t.b, &t.c, &t.a};
     counters.filtered += 3;
     // All three have the sign of their sum d · N, which is that of s(r) - s(p).
     for (std::size_t i = 0; i < 3; ++i) {
         if (e[i] * r_side > bound) continue;
         if (e[i] * r_side < -bound) return Passing::None;
-        if (exact_passing_side(p, r.fine, *corner[i], *corner[i + 1]) != r_side)
+        if (exact_passing_side(p, r, *corner[i], *corner[i + 1], t.whole) != r_side)
             return Passing::None;
     }
     return p_side < 0 ? Passing::Entering : Passing::Leaving;
 }
 
+Triangle triangle(const IndexPolygons& polygons, IndexPolygons::Id id) {
+    const Source& s = polygons.source(id);
+    const std::uint32_t f = polygons.facet(id);
+    return {s.corner(f, 0), s.corner(f, 1), s.corner(f, 2), s.is_whole()};
+}
+
+}  // namespace
+
 Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p,
                 const Reference& r) {
     if (!polygons.is_triangle(id)) return passing_convex(polygons, id, p, r);
-    const Source& s = polygons.source(id);
-    const std::uint32_t f = polygons.facet(id);
-    return passing(s.corner(f, 0), s.corner(f, 1), s.corner(f, 2), p, r);
+    return passing_triangle(triangle(polygons, id), p, r);
 }
 
 bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p) {
     if (polygons.is_triangle(id)) {
-        const Source& s = polygons.source(id);
-        const std::uint32_t f = polygons.facet(id);
-        const LatticePoint& a = s.corner(f, 0);
-        const LatticePoint& b = s.corner(f, 1);
-        const LatticePoint& c = s.corner(f, 2);
-        const Vector3 fa = a.doubles();
-        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == b.doubles() ||
-                               p.approximate() == c.doubles())) {
+        const Triangle t = triangle(polygons, id);
+        const Vector3 fa = t.a.doubles();
+        if (p.is_doubles() && (p.approximate() == fa || p.approximate() == t.b.doubles() ||
+                               p.approximate() == t.c.doubles())) {
             ++detail::counters_of_thread<PredicateCounters>.symbolic;
             return true;
         }
-        const Vector3 u = minus(b.doubles(), fa);
-        const Vector3 v = minus(c.doubles(), fa);
+        const Vector3 u = minus(t.b.doubles(), fa);
+        const Vector3 v = minus(t.c.doubles(), fa);
         const Vector3 w = minus(p.approximate(), fa);
         const double edge = std::max(largest_component(u), largest_component(v));
         const double bound =
@@ -367,8 +429,8 @@ bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint
             ++detail::counters_of_thread<PredicateCounters>.filtered;
             return false;
         }
-        if (const auto on = is_on_narrow(p, a, b, c, n)) return *on;
-        return exact_side(p, a, b, c) == 0 && is_in_triangle(p, a, b, c);
+        if (const auto on = is_on_narrow(p, t, n)) return *on;
+        return exact_side(p, t) == 0 && is_in_triangle(p, t);
     }
     if (p.side_of(polygons.support(id)) != 0) return false;
     for (const Plane& edge : polygons.edges(id))

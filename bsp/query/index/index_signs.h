@@ -44,10 +44,6 @@ enum class Passing : std::int8_t {
 [[nodiscard]] Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id,
                               const IndexPoint& point, const Reference& reference);
 
-/// The same for a triangle.
-[[nodiscard]] Passing passing(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c,
-                              const IndexPoint& point, const Reference& reference);
-
 /// Whether a point lies on a closed polygon.
 [[nodiscard]] bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id,
                          const IndexPoint& point);

@@ -25,6 +25,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/query/index/double_box.h>
 #include <trisect/bsp/query/index/index_bricks.h>
 #include <trisect/bsp/query/index/index_grid_lists.h>
 #include <trisect/bsp/query/index/index_signs.h>
@@ -185,7 +186,7 @@ private:
     void add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell, std::uint32_t node,
                        int depth);
     void make_leaf(std::uint32_t node, const FinePoint& reference, std::int32_t winding);
-    [[nodiscard]] Place place_of(const Cell& cell, const Box& polygons) const;
+    [[nodiscard]] static Place place_of(const Cell& cell, const DoubleBox& polygons);
     [[nodiscard]] std::optional<IndexGrid> grid_over(const Place& place, int attempt) const;
     [[nodiscard]] bool make_grid(IndexGrid grid, const Place& place, std::uint32_t node,
                                  const FinePoint& reference, std::int32_t winding);
@@ -301,7 +302,7 @@ void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, con
     const std::int32_t winding = turned ? 1 - inside : inside;
     t_.depth_ = std::max(t_.depth_, static_cast<std::size_t>(depth));
     if (ids_.size() >= grid_polygons && !bounds.is_empty()) {
-        const Place place = place_of(cell, bounds);
+        const Place place = place_of(cell, polygons_.bounds(bounds));
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const auto grid = grid_over(place, attempt);
             if (grid && make_grid(*grid, place, node, reference, winding)) return;
@@ -330,14 +331,14 @@ void IndexTreeBuilder::make_leaf(std::uint32_t node, const FinePoint& reference,
 }
 
 // Where a grid is wanted: around the polygons, in the cell.
-IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const Box& polygons) const {
+IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const DoubleBox& polygons) {
     Place p;
     p.whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
         const double lo = rounded_position(cell.lo[k]);
         const double hi = rounded_position(cell.hi[k]);
-        const auto first = static_cast<double>(polygons.lo[k]);
-        const auto last = static_cast<double>(polygons.hi[k]);
+        const double first = polygons.lo[k];
+        const double last = polygons.hi[k];
         const double around = room + std::floor(relative_room * (last - first));
         p.whole = p.whole && lo < first - around && last + around < hi;
         p.least[k] = first;
@@ -417,20 +418,14 @@ bool IndexTreeBuilder::trace(const FinePoint& from, const FinePoint& to,
                              std::int32_t& winding) const {
     const IndexPoint point(to);
     const Reference reference(from);
-    Vector lo{};
-    Vector hi{};
+    DoubleBox way;
     for (std::size_t k = 0; k < 3; ++k) {
         const double slack = 0x1p-50 * (std::fabs(point[k]) + std::fabs(reference.c[k]));
-        lo[k] = std::min(point[k], reference.c[k]) - slack;
-        hi[k] = std::max(point[k], reference.c[k]) + slack;
+        way.lo[k] = std::min(point[k], reference.c[k]) - slack;
+        way.hi[k] = std::max(point[k], reference.c[k]) + slack;
     }
     for (const Id id : ids_) {
-        const Box box = polygons_.box(id);
-        bool meets = true;
-        for (std::size_t k = 0; k < 3; ++k)
-            meets = meets && static_cast<double>(box.lo[k]) <= hi[k] &&
-                    static_cast<double>(box.hi[k]) >= lo[k];
-        if (!meets && !polygons_.is_unbounded(id)) continue;
+        if (!polygons_.bounds(id).overlaps(way) && !polygons_.is_unbounded(id)) continue;
         const Passing p = passing(polygons_, id, point, reference);
         if (p == Passing::On) return false;
         winding += polygons_.is_flipped(id) ? -static_cast<int>(p) : static_cast<int>(p);

@@ -65,11 +65,9 @@ bool plane_meets(const Plane& plane, const IndexPoint& lo, const IndexPoint& hi)
 bool meets(const IndexPolygons& polygons, PolygonId id, const IndexPoint& lo,
            const IndexPoint& hi) {
     if (polygons.is_unbounded(id)) return plane_meets(polygons.support(id), lo, hi);
-    const Box box = polygons.box(id);
+    const DoubleBox box = polygons.bounds(id);
     for (std::size_t k = 0; k < 3; ++k)
-        if (lo.compare(k, static_cast<double>(box.hi[k])) > 0 ||
-            hi.compare(k, static_cast<double>(box.lo[k])) < 0)
-            return false;
+        if (lo.compare(k, box.hi[k]) > 0 || hi.compare(k, box.lo[k]) < 0) return false;
     std::vector<Exact> corners;
     for (const Point& c : polygons.corners(id)) {
         if (is_in_box(c, lo, hi)) return true;

@@ -69,11 +69,14 @@ void RayParameter::approximate_value() {
     }
     const double at_error = 0x1p-50 * at_terms;
     const double slope_error = 0x1p-50 * slope_terms;
+    // With scaled coefficients tiny terms may have lost digits, or all of them.
+    const bool is_tiny = plane_.tier() > 1 &&
+                         (slope_terms < 0x1p-900 || (at_terms < 0x1p-900 && origin_ != Point3d{}));
     const double safe = std::fabs(slope) - slope_error;
     value_ = -at / slope;
     error_ = ((at_error + std::fabs(value_) * slope_error) / safe) * detail::bound_slack +
              std::fabs(value_) * detail::last_place;
-    if (!(safe > 0.75 * std::fabs(slope)) || !(error_ < HUGE_VAL) ||
+    if (!(safe > 0.75 * std::fabs(slope)) || !(error_ < HUGE_VAL) || is_tiny ||
         !(scale > 0x1p-900 && scale < 0x1p900)) {
         const ExactRational t = exact();
         value_ = t.to_double();
@@ -330,6 +333,7 @@ IndexLine::IndexLine(const Ray& ray, Lattice lattice)
             std::ldexp(direction_[k], lattice.exponent) != ray.direction[k])
             direction_error_ = HUGE_VAL;
     }
+    find_moderate();
 }
 
 IndexLine::IndexLine(const Segment& segment, Lattice lattice)
@@ -351,11 +355,13 @@ IndexLine::IndexLine(const Segment& segment, Lattice lattice)
                 std::max(direction_error_, std::fabs(direction_[k]) * unit_roundoff + 0x1p-1000);
         }
     }
+    find_moderate();
 }
 
-bool IndexLine::is_moderate() const {
+void IndexLine::find_moderate() {
     const double d = largest_component(direction_);
-    return direction_error_ < HUGE_VAL && origin_.error() < HUGE_VAL && d > 0x1p-300 && d < 0x1p300;
+    moderate_ =
+        direction_error_ < HUGE_VAL && origin_.error() < HUGE_VAL && d > 0x1p-300 && d < 0x1p300;
 }
 
 const IndexPoint::Rational& IndexLine::exact_direction() const {
@@ -386,6 +392,8 @@ IndexPoint IndexLine::at(const ExactRational& t) const {
 }
 
 LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
+    // Products with differences of fractions may underflow.
+    if (!polygons.is_whole() && !line.is_moderate()) return meet_exactly(polygons, id, line);
     LineContact contact;
     int known = 0;
     if (polygons.is_triangle(id)) {

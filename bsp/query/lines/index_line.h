@@ -27,7 +27,7 @@ public:
     /// Exactly 0.
     [[nodiscard]] bool is_parallel(std::size_t axis) const { return parallel_[axis]; }
     /// Whether doubles locate the line: errors are finite, and nothing is near overflow.
-    [[nodiscard]] bool is_moderate() const;
+    [[nodiscard]] bool is_moderate() const { return moderate_; }
     /// 1 for segments, infinite for rays.
     [[nodiscard]] double limit() const { return limit_; }
     [[nodiscard]] bool is_segment() const { return segment_.has_value(); }
@@ -41,6 +41,8 @@ public:
     [[nodiscard]] IndexPoint at(const ExactRational& t) const;
 
 private:
+    void find_moderate();
+
     Lattice lattice_;
     std::optional<Segment> segment_;
     Ray ray_;
@@ -49,6 +51,7 @@ private:
     double direction_error_ = 0;
     std::array<bool, 3> parallel_{};
     double limit_ = 0;
+    bool moderate_ = false;
     mutable std::optional<IndexPoint::Rational> exact_direction_;
 };
 

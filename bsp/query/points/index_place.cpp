@@ -77,6 +77,15 @@ private:
     Vector3 both_{};
 };
 
+// Whether a point is a corner, which it can be under a name of planes, too.
+bool is_at(const IndexPoint& point, const LatticePoint& corner) {
+    if (point.approximate() != corner.doubles()) return false;
+    if (point.is_doubles()) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (point.rational()[k] != ExactRational::from_double(point[k])) return false;
+    return true;
+}
+
 }  // namespace
 
 Location location_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
@@ -110,15 +119,13 @@ Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
 
 Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on, const IndexPoint& point) {
     Place place = place_on(polygons, on);
-    if (place.location != Location::OnVertex || !point.is_doubles()) return place;
+    if (place.location != Location::OnVertex) return place;
     for (const PolygonId id : on) {
         const Source& s = polygons.source(id);
         if (s.is_half_space()) continue;
         for (int i = 0; i < 3; ++i) {
             const LatticePoint& c = s.corner(polygons.facet(id), i);
-            if (c.x.to_double() != point[0] || c.y.to_double() != point[1] ||
-                c.z.to_double() != point[2])
-                continue;
+            if (!is_at(point, c)) continue;
             const CornerSource name{s.operand(), s.corner_index(polygons.facet(id), i)};
             if (!place.corner.is_valid() || name < place.corner) place.corner = name;
         }

@@ -85,10 +85,11 @@ void expect_same(const ImportedMesh& a, const ImportedMesh& b) {
 }
 
 /// Compares both ways and says whether the short one was taken.
-bool compare(const PolygonMesh& mesh, const ImportOptions& options = {}) {
-    const Outcome expected = outcome([&] { return import_polygons(mesh, options); });
+bool compare(const PolygonMesh& mesh, const ImportOptions& options = {},
+             Fractions fractions = detail::usual_fractions) {
+    const Outcome expected = outcome([&] { return import_polygons(mesh, options, fractions); });
     const auto before = import_counters().triangles;
-    const Outcome found = outcome([&] { return import_mesh(mesh, options); });
+    const Outcome found = outcome([&] { return detail::import_mesh(mesh, options, fractions); });
     EXPECT_EQ(found.error, expected.error);
     expect_same(found.imported, expected.imported);
     const bool short_way = import_counters().triangles != before;
@@ -99,8 +100,9 @@ bool compare(const PolygonMesh& mesh, const ImportOptions& options = {}) {
         ImportOptions on_two_threads = options;
         on_two_threads.threads = 2;
         const Outcome in_parts = outcome([&] {
-            auto imported = import_triangles(mesh, on_two_threads, 1);
-            return imported ? *std::move(imported) : import_polygons(mesh, on_two_threads);
+            auto imported = import_triangles(mesh, on_two_threads, fractions, 1);
+            return imported ? *std::move(imported)
+                            : import_polygons(mesh, on_two_threads, fractions);
         });
         EXPECT_EQ(in_parts.error, expected.error);
         expect_same(in_parts.imported, expected.imported);
@@ -261,6 +263,33 @@ TEST(ImportPaths, RoundedCoordinatesFlipAndFlattenTheSameFaces) {
     EXPECT_GT(quick, rounds / 2);
 }
 
+// Slivers and triangles without area far from the origin and near it; the point that no triangle
+// has makes the unit large.
+TEST(ImportPaths, CoordinatesWithFractionsAgree) {
+    Random random(9);
+    int quick = 0;
+    std::size_t degenerate = 0;
+    constexpr int rounds = 4000;
+    for (int round = 0; round < rounds; ++round) {
+        PolygonMesh m = one_in(random, 2) ? round_mesh(random) : tetrahedra(random, 4, 3);
+        Point3d factor{};
+        for (double& k : factor) k = std::ldexp(1.0, -static_cast<int>(below(random, 70)));
+        const double away = std::ldexp(1.0, static_cast<int>(below(random, 20)) - 20);
+        move_points(random, m, factor, {away, -away / 3, 0});
+        for (std::uint64_t i = below(random, 3); i > 0; --i) spoil(random, m);
+        m.points.push_back({1, 0, 0});
+        ImportOptions options = random_options(random);
+        options.lattice.reset();
+        quick += compare(m, options, Fractions::Kept) ? 1 : 0;
+        options.require_closed = false;
+        options.nonplanar = NonplanarPolicy::Triangulate;
+        degenerate +=
+            detail::import_mesh(m, options, Fractions::Kept).report.degenerate_faces_dropped;
+    }
+    EXPECT_GT(quick, rounds / 4);
+    EXPECT_GT(degenerate, 1000U);
+}
+
 TEST(ImportPaths, ExtremeExponentsAgree) {
     Random random(4);
     for (int round = 0; round < 2000; ++round) {
@@ -271,6 +300,7 @@ TEST(ImportPaths, ExtremeExponentsAgree) {
         ImportOptions options;
         if (one_in(random, 2)) options.lattice = Lattice{(e / 8 - 3) * 8};
         compare(m, options);
+        compare(m, options, Fractions::Kept);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
@@ -134,6 +135,24 @@ TEST(ExactBoundary, FractionsBeyondTheBounds) {
                  "e:5:7: '1e-30', read as a coordinate, has more than 73 bits behind the point");
     expect_error(start + "p 0.5 9007199254740992 0\n",
                  "e:5:7: '9007199254740992', read as a coordinate, is not below 2^53");
+}
+
+TEST(ExactBoundary, UnitsThatAreNoMultipleOf8AreOfVersion2) {
+    trisect::LatticeMesh mesh{.lattice = {-3},
+                              .points = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 8}},
+                              .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                              .face_of_triangle = {}};
+    for (const int exponent : {-3, -1147, 971, -8}) {
+        mesh.lattice.exponent = exponent;
+        const Brep brep = trisect::brep_from_lattice_mesh(mesh);
+        const std::string text = exact_text(brep);
+        EXPECT_EQ(text.rfind(exponent % 8 == 0 ? "trisect-exact 1\n" : "trisect-exact 2\n", 0), 0U);
+        const Brep again = read_exact(text, "text");
+        expect_same(brep, again);
+        EXPECT_EQ(exact_text(again), text);
+    }
+    expect_error("trisect-exact 2\nlattice -1201\n",
+                 "e:2:9: '-1201', read as the lattice's exponent, is not from -1200 to 1016");
 }
 
 TEST(ExactBoundary, ATetrahedronByHand) {

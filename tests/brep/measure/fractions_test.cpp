@@ -51,6 +51,19 @@ TEST(Fractions, KeepVolumesAreasAndCentroids) {
     }
 }
 
+// The integers around far points are beyond all coordinates.
+TEST(Fractions, FarPointsAreOutside) {
+    const LatticeMesh mesh = uneven_sphere(9);
+    for (const double far : {1e10, 0x1p53, 1e30, 1e300})
+        for (const double sign : {1.0, -1.0})
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                trisect::ExactPoint p;
+                p[axis] = trisect::ExactRational::from_double(sign * far);
+                EXPECT_EQ(winding_number(mesh, p), 0);
+                EXPECT_EQ(winding_number(with_fractions(mesh, 24), p), 0);
+            }
+}
+
 TEST(Fractions, KeepWindingNumbers) {
     std::mt19937_64 random(5);
     const LatticeMesh mesh = uneven_sphere(9);

@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/import/import_triangles.h>
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
@@ -124,6 +127,22 @@ TEST(Primitives, ExtrusionWithRoundHolesOfEitherOrientation) {
     const auto r = validate(make_extrusion(ring, holes, 0, 4));
     EXPECT_TRUE(r.is_solid()) << r.to_string();
     EXPECT_EQ(r.count(DefectKind::SelfIntersection), 0U);
+}
+
+// Orders of magnitude below the plate's last bits.
+TEST(Primitives, ExtrusionWithATinyHole) {
+    const Outline plate{{-1, -1}, {1.1, -1}, {1.1, 1.3}, {-1, 1.3}};
+    const std::vector<Outline> hole{{{1e-20, 0}, {-1e-20, 1e-20}, {-1e-20, -1e-20}}};
+    const ImportedMesh m =
+        detail::import_mesh(make_extrusion(plate, hole, 0, 1), {}, Fractions::Kept);
+    EXPECT_TRUE(m.report.lattice.lossless);
+    EXPECT_EQ(m.report.degenerate_faces_dropped, 0U);
+    EXPECT_EQ(m.report.nonplanar_faces, 0U);
+    EXPECT_TRUE(validate(m.mesh).empty()) << validate(m.mesh).to_string();
+    const auto exact = [](double v) { return ExactRational::from_double(v); };
+    const ExactRational square = (exact(1.1) + exact(1)) * (exact(1.3) + exact(1));
+    const ExactRational triangle = exact(2e-20) * exact(1e-20);
+    EXPECT_EQ(exact_volume(m.mesh), square - triangle);
 }
 
 TEST(Primitives, ExtrusionRefusesHolesOutside) {

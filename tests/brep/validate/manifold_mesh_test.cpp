@@ -4,6 +4,7 @@
 
 #include <trisect/brep/validate/manifold_mesh.h>
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <trisect/brep/certificate.h>
+#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/embedding.h>
@@ -79,6 +81,28 @@ TEST(ManifoldMesh, CertificateIsThatOfValidation) {
     }
     EXPECT_GT(certified, rounds / 10);
     EXPECT_LT(certified, rounds * 9 / 10);
+}
+
+// Coordinates of any doubles that span at most 126 bits.
+TEST(ManifoldMesh, WideCoordinatesAreDecided) {
+    if (!trisect::detail::keeps_fractions) GTEST_SKIP() << "coordinates are rounded";
+    std::mt19937 random(20261125);
+    std::uniform_real_distribution<double> noise(0.95, 1.05);
+    for (const double nearest : {1.0, 1e-9, 1e-17}) {
+        PolygonMesh mesh = trisect::make_icosphere(1, 3);
+        for (trisect::Point3d& p : mesh.points)
+            for (double& c : p) c *= noise(random) * (std::fabs(c) < 0.1 ? nearest : 1);
+        const trisect::Certificate quick = trisect::certify(mesh);
+        EXPECT_TRUE(quick.self_intersecting_pairs);
+        EXPECT_TRUE(nearest < 1 || quick.holds());
+        mesh.points.push_back(mesh.points.front());  // leaves it to validation
+        EXPECT_EQ(facts(trisect::certify(mesh)), facts(quick));
+        mesh.points.pop_back();
+        mesh.points[7] = {-mesh.points[7][0] / 3, -mesh.points[7][1] / 3, -mesh.points[7][2] * 9};
+        const trisect::Certificate crossed = trisect::certify(mesh);
+        EXPECT_GT(crossed.self_intersecting_pairs.value_or(0), 0U);
+        EXPECT_FALSE(crossed.holds());
+    }
 }
 
 TEST(SheetGrid, LeavesMostOfASphereOut) {

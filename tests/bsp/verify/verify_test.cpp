@@ -222,14 +222,14 @@ TEST_F(VerifyBoxes, NothingButOnePieceAllowed) {
 }
 
 TEST(Verify, CoordinatesThatFitNoCommonLattice) {
-    // 1e-30 and 1 are 100 bits apart: the result is placed, and says how far it moved.
+    // 1e-60 and 1 are 200 bits apart: the result is placed, and says how far it moved.
     const std::vector<PolygonMesh> operands{make_box({0, 0, 0}, {1, 1, 1}),
                                             make_box({0.5, 0, 0}, {2, 1, 1})};
-    const PolygonMesh result = make_box({0.5, 1e-30, 0}, {1, 1, 1});
+    const PolygonMesh result = make_box({0.5, 1e-60, 0}, {1, 1, 1});
     const VerifyReport report = verify(BooleanOperation::Intersection, operands, result);
     EXPECT_EQ(report.verdict, Verdict::Equal);
     EXPECT_EQ(report.moved[0], 0);
-    EXPECT_EQ(report.moved[2], 1e-30);
+    EXPECT_EQ(report.moved[2], 1e-60);
 }
 
 // Random solids on a small grid, results with a few corners moved: bounds against samples.
