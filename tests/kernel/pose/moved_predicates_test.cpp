@@ -164,12 +164,12 @@ TEST(MovedPredicates, AreThoseOfTheSameSceneWithFractions) {
     for (int round = 0; round < 4000; ++round) {
         // Quarter turns and translations bring corners of one into planes of the other.
         const PoseKind kind = random.coin() ? PoseKind::QuarterTurns : PoseKind::Translation;
-        const Pose pose = random_pose(random, kind, 8);
+        const Pose pose = random_pose(random, kind, 2);
         const std::array<int, 2> bits{static_cast<int>(random.below(71)),
                                       static_cast<int>(random.below(71))};
         const PosedPair whole(Pose(), Lattice{}, pose, Lattice{});
         const PosedPair fine(Pose(), Lattice{bits[0]}, pose, Lattice{bits[1]});
-        const auto corner = [&] { return random.point(3); };
+        const auto corner = [&] { return random.point(2); };
         const std::array<LatticePoint, 3> a{corner(), corner(), corner()};
         const std::array<LatticePoint, 3> b{corner(), corner(), corner()};
         if (are_collinear(a[0], a[1], a[2]) || b[0] == b[1]) continue;
@@ -202,7 +202,7 @@ TEST(MovedPredicates, AreThoseOfTheSameSceneWithFractions) {
                   planar_orientation(whole_a[0], whole_a[1], r, 1));
         for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(fine_r.is_at(fine_a[i]), r.is_at(whole_a[i]));
     }
-    EXPECT_GT(on, 100);
+    EXPECT_GT(on, 60);
 }
 
 // A point of B's lattice next to (or on) a plane of A: the plane's corners brought to B and
