@@ -46,7 +46,7 @@ static_assert(static_cast<std::int64_t>(to_upper * 0x1p53) * splitting_scale <
            (rest < -cell_rounding::to_upper ? 1 : 0);
 }
 /// Coordinates of position p lie above p - reach_below and below p + reach_above units.
-inline constexpr double reach_below = 131.0 / 192.0;
+inline constexpr double reach_below = 132.0 / 192.0;
 inline constexpr double reach_above = 62.0 / 192.0;
 
 /// Closed box of positions; empty when lo > hi. Of points with whole coordinates, their box in
