@@ -314,13 +314,21 @@ HomogeneousPoint homogeneous(const LatticePoint& p) {
 
 Approximation approximate(const LatticePoint& p) { return {p.doubles(), 0.0}; }
 
+namespace {
+
+// Errors that are no smaller cover what underflows in filtered_side(), where planes through
+// coordinates with fractions have components down to 2^-219 and points coordinates down to 2^-988.
+double certain_error(double error) { return error == 0 ? 0 : std::max(error, 0x1p-700); }
+
+}  // namespace
+
 Approximation approximate(const HomogeneousPoint& p) {
     Approximation a;
     a.c = nearest_doubles(p);
     double largest = 0;
     for (double c : a.c) largest = std::max(largest, std::fabs(c));
-    a.error =
-        largest * detail::unit_roundoff;  // half a unit in the last place of the largest coordinate
+    // Half a unit in the last place of the largest coordinate.
+    a.error = certain_error(largest * detail::unit_roundoff);
     return a;
 }
 
@@ -334,7 +342,10 @@ Approximation approximate(const Plane& p, const Plane& q, const Plane& r) {
             a.error = std::max(a.error, x->error[i]);
             largest = std::max(largest, std::fabs(a.c[i]));
         }
-        if (a.error <= 0x1p-40 * largest) return a;
+        if (a.error <= 0x1p-40 * largest) {
+            a.error = certain_error(a.error);
+            return a;
+        }
     }
     const auto exact = intersect(p, q, r);
     TRISECT_EXPECTS(exact.has_value(), "approximating a point of planes that do not meet in one");

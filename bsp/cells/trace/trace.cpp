@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Widths of the exact stage. Reference points have 62 bits over 2^8; targets have xyz < 2^1056 and
-// w < 2^1000; planes have n < 2^109, d < 2^163. Then
-//   r = n·R + 2^8 d            < 2^175
-//   g = n·G + w d              < 2^1168
-//   crossing X = R g - G r     < 2^1233    W = 2^8 g - w r < 2^1178
-//   n·X + d W                  < 2^1345                               -> 22 limbs.
+// Widths of the exact stage. Reference points have 62 bits over 2^8. Targets have xyz < 2^1056 and
+// w < 2^1000, planes n < 2^109 and d < 2^163; with fractions 2^3040, 2^2984, 2^328 and 2^381. Then
+//   r = n·R + 2^8 d            < 2^175   or 2^392
+//   g = n·G + w d              < 2^1168  or 2^3370
+//   crossing X = R g - G r     < 2^1233  or 2^3434    W = 2^8 g - w r < 2^1178 or 2^3380
+//   n·X + d W                  < 2^1345  or 2^3765                            -> 22 or 59 limbs.
 
 #include <trisect/bsp/cells/trace/trace.h>
 
