@@ -35,8 +35,9 @@
 // `lower` and three units of the lattice, or `piece_limit` is reached.
 //
 // Placement. All meshes are placed on one lattice, the finest that holds the largest coordinate:
-// its unit is 2^-45 to 2^-52 of that. Bits that lattice points do not have are rounded away, and
-// verdict and bounds are about the placed meshes; `moved` says how far each was rounded. A mesh
+// its unit is 2^-45 to 2^-52 of that. Coordinates keep 73 bits behind the point. A mesh with more
+// is rounded, as are all on a lattice that the caller gives; verdict and bounds are about the
+// placed meshes, and `moved` says how far each was rounded. A mesh
 // whose corners move by at most m keeps its winding number about every point farther than m from
 // its faces (nothing sweeps over the point while the corners move linearly), so a witness farther
 // than that from all faces is also one for the meshes as given: `Witness::holds_as_given`.

@@ -584,10 +584,7 @@ void Gatherer::add_corners_near(std::span<const PointId> points, const PolygonRe
     }
 }
 
-// Not where vertices may have fractions: those of planes are found by whole numbers.
 void Gatherer::choose_axis_faces() {
-    const auto is_whole = [](const FacetMarks& m) { return m.source()->is_whole(); };
-    if (!std::ranges::all_of(out_.sources, is_whole)) return;
     std::vector<AxisFaces::Leaf> leaves;
     leaves.reserve(leaves_.size());
     for (const AssembledLeaf& leaf : leaves_) {

@@ -10,6 +10,7 @@
 #include <trisect/bsp/verify.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include <trisect/bsp/verify/difference_radius.h>
 #include <trisect/bsp/verify/difference_witness.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/infinity.h>
 
 namespace trisect {
@@ -30,8 +32,7 @@ using detail::GridTriangle;
 using detail::GridTriangles;
 using detail::infinity;
 
-/// The finest that holds the largest coordinate: without loss wherever some lattice is, and cuts
-/// through its points come close to every edge.
+/// The finest that holds the largest coordinate: cuts through its points come close to every edge.
 Lattice common_lattice(std::span<const PolygonMesh> operands, const PolygonMesh& result) {
     std::vector<Point3d> all;
     for (const PolygonMesh& m : operands) all.insert(all.end(), m.points.begin(), m.points.end());
@@ -46,11 +47,31 @@ Lattice common_lattice(std::span<const PolygonMesh> operands, const PolygonMesh&
     return {exponent};
 }
 
-ImportedMesh placed(const PolygonMesh& mesh, Lattice lattice) {
+// Rounded to whole coordinates.
+ImportedMesh rounded(const PolygonMesh& mesh, Lattice lattice) {
     ImportOptions options;
     options.lattice = lattice;
     options.require_closed = false;
     return import_mesh(mesh, options);
+}
+
+// With all digits of its own lattice where this one holds them behind the point.
+ImportedMesh placed(const PolygonMesh& mesh, Lattice lattice) {
+    ImportOptions options;
+    options.require_closed = false;
+    ImportedMesh out = import_mesh(mesh, options);
+    const double factor = std::ldexp(1.0, out.mesh.lattice.exponent - lattice.exponent);
+    for (LatticePoint& p : out.mesh.points) {
+        const std::array<double, 3> c{p.x.to_double() * factor, p.y.to_double() * factor,
+                                      p.z.to_double() * factor};
+        for (const double v : c)
+            if (std::fabs(v) >= static_cast<double>(coordinate_limit) ||
+                (v != 0 && detail::dyadic(v).exponent < -fraction_limit))
+                return rounded(mesh, lattice);
+        p = {Coordinate(c[0]), Coordinate(c[1]), Coordinate(c[2])};
+    }
+    out.mesh.lattice = lattice;
+    return out;
 }
 
 GridTriangles grid_triangles_of(const LatticeMesh& mesh) {
@@ -108,7 +129,7 @@ public:
 
 private:
     void place(const PolygonMesh& mesh) {
-        imports_.push_back(placed(mesh, lattice_));
+        imports_.push_back(options_.lattice ? rounded(mesh, lattice_) : placed(mesh, lattice_));
         report_.moved.push_back(imports_.back().report.lattice.max_move);
     }
     void place_operand(const PolygonMesh& mesh) {

@@ -281,7 +281,7 @@ TEST_F(BooleanCommand, LatticesThatDoNotFitAreRoundedWithAReport) {
               "OFF\n4 4 0\n0 0 0\n17592186044416 0 0\n0 17592186044416 0\n0 0 17592186044416\n"
               "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
     const std::string fine = write("fine.off",
-                                   "OFF\n4 4 0\n-1 -1 -1\n3.0000152587890625 -1 -1\n-1 3 -1\n"
+                                   "OFF\n4 4 0\n-1 -1 -1\n3 7.888609052210118e-31 -1\n-1 3 -1\n"
                                    "-1 -1 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
     const Finished result = trisect({"intersection", huge, fine, "-o", path("o.off"), "--json"});
     EXPECT_EQ(result.code, 0) << result.err;
@@ -289,7 +289,7 @@ TEST_F(BooleanCommand, LatticesThatDoNotFitAreRoundedWithAReport) {
     const json lattice = result.json()["output"]["lattice"];
     EXPECT_EQ(lattice["lossless"], false);
     EXPECT_EQ(lattice["moved"], 1);
-    EXPECT_EQ(lattice["max_move"], 0x1p-16);
+    EXPECT_EQ(lattice["max_move"], 0x1p-100);
     const Finished refused =
         trisect({"union", huge, fine, "-o", path("o.off"), "--mixed-lattices", "refuse", "--json"});
     EXPECT_EQ(refused.code, 5);

@@ -99,24 +99,40 @@ Solid large_cube(int exponent, int k) {
     return Solid::from_lattice_mesh(std::move(mesh));
 }
 
-TEST(LatticeMix, WhatDoesNotFitIsRoundedAndReported) {
+TEST(LatticeMix, WhatHasNoRoomOnTheFinerLatticeGetsFractions) {
     // Edge 2^44 and unit 2^0: no room for the unit 2^-16.
     const Solid wide = large_cube(0, 44);
     const Solid fine = box_on(-16, {-65536, -65536, -65536}, {3 * 65536 + 1, 65536, 131072 - 1});
-    trisect::test::EvaluateStats stats;
-    const Solid both = evaluate(wide & fine, {}, &stats);
-    EXPECT_EQ(both.lattice(), Lattice{-8});
-    EXPECT_EQ(stats.lattice.lattice, Lattice{-8});
-    EXPECT_FALSE(stats.lattice.lossless);
-    EXPECT_EQ(stats.lattice.moved, 6U);  // the corners of two faces, two of them in both
-    EXPECT_EQ(stats.lattice.max_move, 0x1p-16);
-    EXPECT_EQ(stats.lattice.flipped_faces, 0U);
-    EXPECT_EQ(trisect::exact_volume(both.to_brep()).to_string(), "6");  // 3 x 1 x 2
     trisect::EvaluateOptions refuse;
     refuse.lattices = trisect::EvaluateOptions::Lattices::Refuse;
-    EXPECT_THROW((void)evaluate(wide & fine, refuse), trisect::LimitError);
-    (void)evaluate(wide & box_on(-8, {0, 0, 0}, {256, 256, 256}), refuse, &stats);
+    trisect::test::EvaluateStats stats;
+    const Solid both = evaluate(wide & fine, refuse, &stats);
+    EXPECT_EQ(both.lattice(), Lattice{0});
+    EXPECT_EQ(stats.lattice.lattice, Lattice{0});
     EXPECT_TRUE(stats.lattice.lossless);
+    // (3 + 2^-16) (2 - 2^-16)
+    EXPECT_EQ(trisect::exact_volume(both.to_brep()).to_string(), "25769738239/4294967296");
+}
+
+TEST(LatticeMix, WhatDoesNotFitIsRoundedAndReported) {
+    // Edge 2^52 and unit 2^24: no room for multiples of 2^-56.
+    const Solid wide = large_cube(24, 28);
+    const std::int64_t one = std::int64_t{1} << 40;
+    const auto fine_box = [&](std::int64_t more) {
+        trisect::LatticeMesh mesh = engines::lattice_mesh(reference::box({0, 0, 0}, {1, 1, 1}));
+        mesh.lattice = Lattice{-56};
+        for (trisect::LatticePoint& p : mesh.points)
+            p = {p.x.to_integer() * (one + more), p.y.to_integer() * one, p.z.to_integer() * one};
+        return Solid::from_lattice_mesh(std::move(mesh));
+    };
+    trisect::test::EvaluateStats stats;
+    const Solid both = evaluate(wide & fine_box(0), {}, &stats);
+    EXPECT_TRUE(stats.lattice.lossless);  // 2^-16, of few bits
+    EXPECT_EQ(trisect::exact_volume(both.to_brep()), trisect::ExactRational(1).scaled(-48));
+    const Solid whole = large_cube(72, 8);
+    trisect::EvaluateOptions refuse;
+    refuse.lattices = trisect::EvaluateOptions::Lattices::Refuse;
+    EXPECT_THROW((void)evaluate(whole & fine_box(1), refuse), trisect::LimitError);
 }
 
 TEST(LatticeMix, ResultsAreRoundedByTheirBoundary) {
@@ -145,12 +161,12 @@ TEST(LatticeMix, HalfSpacesHaveAPlaceOnEveryLattice) {
     // In the user's units.
     EXPECT_EQ(volume(Solid::half_space({0, 2, 0, -1}) & box_on(-8, {0, 0, 0}, {256, 256, 256})),
               "1/2");
-    EXPECT_THROW((void)evaluate(Solid::half_space({1, 0, 0, -0x1p-300}) & large_cube(0, 44)),
+    EXPECT_THROW((void)evaluate(Solid::half_space({1, 0, 0, -0x1p-500}) & large_cube(0, 44)),
                  trisect::LimitError);
 }
 
 TEST(LatticeMix, WhatWouldVanishIsRefused) {
-    const Solid wide = large_cube(16, 50);
+    const Solid wide = large_cube(116, 50);
     const Solid fine = box_on(-8, {0, 0, 0}, {1, 1, 1});
     EXPECT_THROW((void)evaluate(wide - fine), trisect::LimitError);
     // Alone each of them is fine.

@@ -3,6 +3,7 @@
 #include "engines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -19,8 +20,6 @@
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
-
-#include "support/fractions.h"
 
 namespace engines {
 
@@ -78,7 +77,12 @@ trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits) {
         }
         mesh.triangles.push_back(corners);
     }
-    return trisect::test::with_fractions(std::move(mesh), bits);
+    const auto scaled = [bits](trisect::Coordinate c) {
+        return trisect::Coordinate(std::ldexp(c.to_double(), -bits));
+    };
+    for (trisect::LatticePoint& p : mesh.points) p = {scaled(p.x), scaled(p.y), scaled(p.z)};
+    mesh.lattice.exponent = bits;
+    return mesh;
 }
 
 trisect::Solid solid(const reference::Operand& operand, trisect::Embedding embedding, int bits) {

@@ -405,7 +405,10 @@ namespace {
 
 // Where a point is, if it is on the lattice. What names it need not say so.
 std::optional<LatticePoint> lattice_place(const Workbench& bench, PointId p) {
-    if (bench.is_lattice(p)) return bench.lattice(p);
+    if (bench.is_lattice(p)) {
+        const LatticePoint at = bench.lattice(p);
+        return at.is_whole() ? std::optional(at) : std::nullopt;
+    }
     const Approximation& a = bench.approximation(p);
     std::array<std::int64_t, 3> near{};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -488,18 +488,21 @@ TEST(WeldInPlace, NumbersLikeWeldPointsForEveryHint) {
     }
 }
 
-/// Points that differ and have one hash: z undoes what x and y did.
+/// Points that differ and have one hash, each twice: the bits of z undo what x did. Most bits are no
+/// coordinate; those points are left out.
 std::vector<LatticePoint> colliding_points(std::size_t n) {
     // The inverse of the factor of z modulo 2^64, by Newton's iteration.
     constexpr std::uint64_t factor = 0x165667b19e3779f9U;
     std::uint64_t inverse = factor;
     for (int i = 0; i < 6; ++i) inverse *= 2 - factor * inverse;
     std::vector<LatticePoint> points;
-    for (std::size_t i = 0; i < n; ++i) {
-        auto h = static_cast<std::uint64_t>(i / 2) * 0x9e3779b97f4a7c15U;
+    for (std::int64_t x = 0; points.size() < n; ++x) {
+        auto h = std::rotl(Coordinate(x).bits(), 32) * 0x9e3779b97f4a7c15U;
         h = std::rotl(std::rotl(h, 29), 31);
-        points.push_back({static_cast<std::int64_t>(i / 2), 0,
-                          static_cast<std::int64_t>((h ^ 12345U) * inverse)});
+        const auto z = std::bit_cast<double>(std::rotr((h ^ 12345U) * inverse, 32));
+        // Then all bits are above the last that a coordinate may have.
+        if (!(std::fabs(z) < 0x1p53 && std::fabs(z) >= 0x1p-21)) continue;
+        for (int twice = 0; twice < 2; ++twice) points.push_back({x, 0, Coordinate(z)});
     }
     return points;
 }

@@ -77,8 +77,9 @@ TEST(Transform, ExactTransformsOfALatticeMesh) {
 
 TEST(Transform, WhatWouldLeaveTheLatticeIsAnError) {
     const auto m = import_mesh(cuboid({1, 2, 3}, {4, 6, 8})).mesh;
-    EXPECT_THROW(static_cast<void>(translated(m, {0, 2 * coordinate_limit, 0})), LimitError);
-    EXPECT_THROW(static_cast<void>(translated(m, {0, 0, -2 * coordinate_limit})), LimitError);
+    EXPECT_THROW(static_cast<void>(translated(m, {0, coordinate_limit - 1, 0})), LimitError);
+    EXPECT_THROW(static_cast<void>(translated(mirrored(m, 2), {0, 0, 1 - coordinate_limit})),
+                 LimitError);
     LatticeReport report;
     EXPECT_THROW(static_cast<void>(transformed(m, AffineMap::scaling({1, 0x1p60, 1}), report)),
                  LimitError);

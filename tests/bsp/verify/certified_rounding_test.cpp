@@ -174,7 +174,7 @@ private:
 };
 
 TEST(CertifiedRounding, BallsOfFewUnitsTakeASecondRound) {
-    const BallsFarAway balls(0x1p-19, 1);
+    const BallsFarAway balls(0x1p-27, 1);
     const CertifiedRounding r = certified_rounding(balls.brep());
     EXPECT_EQ(r.outcome, Outcome::Repaired);
     EXPECT_GE(r.rounds, 2U);

@@ -60,8 +60,8 @@ TEST(MovingFractions, FirstContactsAreThoseOfWholeSolids) {
             ++events[event == ContactEvent::Touch ? 0 : 1];
         }
     }
-    EXPECT_GT(events[0], 20);
-    EXPECT_GT(events[1], 15);
+    EXPECT_GT(events[0], 10);
+    EXPECT_GT(events[1], 10);
 }
 
 TEST(MovingFractions, EnclosedMotionsEndWhereThoseOfWholeSolidsDo) {
