@@ -68,6 +68,14 @@ struct Box {
             hi[k] = std::max(hi[k], at);
         }
     }
+    /// \pre p.is_whole()
+    void add_whole(const LatticePoint& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t at = p[static_cast<int>(k)].to_integer();
+            lo[k] = std::min(lo[k], at);
+            hi[k] = std::max(hi[k], at);
+        }
+    }
     void add(const Box& b) {
         for (std::size_t k = 0; k < 3; ++k) {
             lo[k] = std::min(lo[k], b.lo[k]);

@@ -24,19 +24,32 @@ std::uint64_t next_serial() {
     return ++serial;
 }
 
-// Positions are in the order of coordinates.
-Box box_of(std::span<const LatticePoint> points) {
+struct Extent {
     Box box;
-    if (points.empty()) return box;
-    LatticePoint lo = points[0];
-    LatticePoint hi = points[0];
+    bool whole = true;
+};
+
+// Positions are in the order of coordinates. Doubles below 2^52 are whole where adding it and
+// subtracting it again changes nothing, all others are.
+Extent extent_of(std::span<const LatticePoint> points) {
+    Extent out;
+    if (points.empty()) return out;
+    std::array<double, 3> lo = points[0].doubles();
+    std::array<double, 3> hi = lo;
+    bool whole = true;
     for (const LatticePoint& p : points) {
-        lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-        hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+        const std::array<double, 3> c = p.doubles();
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = c[k] < lo[k] ? c[k] : lo[k];
+            hi[k] = c[k] > hi[k] ? c[k] : hi[k];
+            const double size = std::fabs(c[k]);
+            whole &= (size + 0x1p52 - 0x1p52 == size) | (size >= 0x1p52);
+        }
     }
-    box.add(lo);
-    box.add(hi);
-    return box;
+    out.box.add(LatticePoint{Coordinate(lo[0]), Coordinate(lo[1]), Coordinate(lo[2])});
+    out.box.add(LatticePoint{Coordinate(hi[0]), Coordinate(hi[1]), Coordinate(hi[2])});
+    out.whole = whole;
+    return out;
 }
 
 // Of coordinates times 2^shift, rounded outwards.
@@ -74,8 +87,9 @@ std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threa
     std::vector<int> bits(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         const auto some = points.subspan(begin, end - begin);
-        boxes[part] = box_of(some);
-        if (std::ranges::all_of(some, &LatticePoint::is_whole)) return;
+        const Extent extent = extent_of(some);
+        boxes[part] = extent.box;
+        if (extent.whole) return;
         for (const LatticePoint& p : some)
             bits[part] = std::max(bits[part], trisect::detail::fraction_bits(p));
     });

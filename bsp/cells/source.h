@@ -80,7 +80,11 @@ public:
     [[nodiscard]] Box facet_box(std::uint32_t facet) const {
         if (is_half_space()) return box_;
         Box b;
-        for (int i = 0; i < 3; ++i) b.add(corner(facet, i));
+        if (whole_) {
+            for (int i = 0; i < 3; ++i) b.add_whole(corner(facet, i));
+        } else {
+            for (int i = 0; i < 3; ++i) b.add(corner(facet, i));
+        }
         return b;
     }
     /// Contains all facets; of a mesh, the box of its points.

@@ -111,8 +111,13 @@ void Halving::list_all_facets() {
     const LatticeMesh& mesh = source_.mesh();
     const auto mark = arena_.mark();
     auto* points = arena_.take<PackedBox>(mesh.points.size());
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        points[i] = packed_point(frame_, mesh.points[i]);
+    if (source_.is_whole()) {
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            points[i] = packed_point<true>(frame_, mesh.points[i]);
+    } else {
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            points[i] = packed_point<false>(frame_, mesh.points[i]);
+    }
     for (std::size_t f = 0; f < root_.contained.size(); ++f) {
         const auto& t = mesh.triangles[f];
         root_.contained[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
