@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <sstream>
 
 #include <trisect/brep/interop/cgal.h>
@@ -30,14 +29,10 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace pmp = CGAL::Polygon_mesh_processing;
 
-// Moved, turned, and rounded to a grid of 2^-20, so that both sides get the same numbers.
+// Moved and turned: both sides get the same doubles.
 PolygonMesh placed(const PolygonMesh& mesh, const trisect::Point3d& by, double degrees) {
-    PolygonMesh out = trisect::transformed(
-        mesh,
-        trisect::compose(AffineMap::translation(by), AffineMap::rotation({3, 1, 2}, degrees)));
-    for (auto& p : out.points)
-        for (double& c : p) c = std::ldexp(std::round(std::ldexp(c, 20)), -20);
-    return out;
+    return trisect::transformed(mesh, trisect::compose(AffineMap::translation(by),
+                                                       AffineMap::rotation({3, 1, 2}, degrees)));
 }
 
 trisect::ExactRational exact(const Kernel::FT& value) {
