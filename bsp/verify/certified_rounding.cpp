@@ -45,17 +45,17 @@ using Outcome = CertifiedRounding::Outcome;
 // Faces are divided at one place in each pass.
 constexpr std::size_t max_passes = 16;
 
-// The finest unit, 2^(8 k), of which no coordinate has so many that an import would not leave it
-// room to grow; rounding may take the largest coordinate up to the next power of two.
-std::optional<int> exponent_for(const PolygonMesh& mesh) {
+// Twice the distance of doubles at the largest coordinate; rounding may take that up to the next
+// power of two, which is 2^52 units. Floats are so much farther apart that a finer unit only takes
+// rounds: 2^45 units.
+std::optional<int> exponent_for(const PolygonMesh& mesh, Precision precision) {
     double largest = 0;
     for (const Point3d& p : mesh.points)
         for (const double c : p) largest = std::max(largest, std::abs(c));
     if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
     const int bits = std::ilogb(largest * (1 + 0x1p-30)) + 1;
-    // Rounded up to a multiple of 8, also below 0.
-    const int least = bits - (coordinate_bits - growth_bits);
-    return least > 0 ? (least + 7) / 8 * 8 : -(-least / 8 * 8);
+    return bits -
+           (precision == Precision::Float ? coordinate_bits - growth_bits : coordinate_bits - 1);
 }
 
 double snapped(double value, double unit) { return std::nearbyint(value / unit) * unit; }
@@ -78,7 +78,7 @@ public:
     CertifiedRounding run() {
         result_.mesh = to_polygon_mesh(brep_);
         if (take(brep_, Outcome::Plain)) return std::move(result_);
-        const std::optional<int> exponent = exponent_for(result_.mesh);
+        const std::optional<int> exponent = exponent_for(result_.mesh, options_.precision);
         if (!exponent) return std::move(result_);
         lattice_.exponent = *exponent;
         result_.unit = std::ldexp(1.0, lattice_.exponent);

@@ -103,8 +103,12 @@ TEST(AssemblyWork, FewLeavesAreReadWherePlanesHaveFacetsThatPassThrough) {
     EvaluateOptions options;
     options.leaf_polygons = 6;
     const Solid grid = evaluate(Expression::any_of(boxes), options);
-    const Solid tool = Solid::from_mesh(trisect::transformed(
-        trisect::make_icosphere(0.25, 1), trisect::AffineMap::translation({7.03, 7.01, 7.02})));
+    trisect::SolidOptions whole;
+    whole.import.lattice = trisect::Lattice{-40};
+    const Solid tool =
+        Solid::from_mesh(trisect::transformed(trisect::make_icosphere(0.25, 1),
+                                              trisect::AffineMap::translation({7.03, 7.01, 7.02})),
+                         whole);
     const AssemblyStats stats = stats_of(evaluate(grid - tool, options));
     EXPECT_EQ(stats.axis_facets, 0U);
     EXPECT_GT(stats.axis_leaves, 0U);

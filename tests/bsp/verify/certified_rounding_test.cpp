@@ -129,9 +129,8 @@ TEST(CertifiedRounding, OfRandomResultsOnASmallGrid) {
     RecordProperty("repaired", outcomes[2]);
 }
 
-// A hollow ball, less or more another one, 2^20 from the origin along two axes; along the third one
-// coordinates are so small that only a grid is certified, of which the balls are some hundred
-// units.
+// A hollow ball, less or more another one, 2^20 from the origin along two axes. Doubles there are
+// so far apart that the balls are some hundred of them wide.
 class BallsFarAway {
 public:
     BallsFarAway(double size, unsigned subdivisions)
@@ -174,7 +173,7 @@ private:
 };
 
 TEST(CertifiedRounding, BallsOfFewUnitsTakeASecondRound) {
-    const BallsFarAway balls(0x1p-27, 1);
+    const BallsFarAway balls(0x1p-24, 1);
     const CertifiedRounding r = certified_rounding(balls.brep());
     EXPECT_EQ(r.outcome, Outcome::Repaired);
     EXPECT_GE(r.rounds, 2U);
@@ -190,7 +189,7 @@ TEST(CertifiedRounding, BallsOfFewUnitsTakeASecondRound) {
 TEST(CertifiedRounding, WhatFailsStaysWithinItsRadius) {
     RoundingOptions two;
     two.max_rounds = 2;
-    const BallsFarAway balls(0x1p-18, 2);
+    const BallsFarAway balls(0x1p-25, 2);
     const CertifiedRounding r = certified_rounding(balls.brep(), two);
     EXPECT_EQ(r.outcome, Outcome::Failed);
     EXPECT_EQ(r.rounds, 2U);
