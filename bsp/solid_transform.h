@@ -19,8 +19,9 @@ namespace trisect {
 /// are exact and keep the tree; the lattice becomes finer where that makes a translation exact.
 /// Another translation is rounded as a whole, so that the solid stays congruent: every vertex moves
 /// by less than half a unit. Under any other map, or where coordinates have fractions, vertices are
-/// rounded to the user's doubles one by one, once, from exact positions; planar faces of more than three corners fall apart into triangles,
-/// and where rounding made the boundary meet itself it is resolved by what comes next.
+/// rounded to the user's doubles one by one, once, from exact positions; planar faces of more than
+/// three corners fall apart into triangles, and where rounding made the boundary meet itself it is
+/// resolved by what comes next.
 ///
 /// `report` is overwritten. O(n). To ask how moving solids lie to each other use poses as they are
 /// (bsp/interference): nothing is rounded there.

@@ -281,7 +281,7 @@ std::string shortest_text(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-template <Fractions fractions>
+template <Fractions Kind>
 class Rounding {
 public:
     explicit Rounding(Lattice lattice)
@@ -304,7 +304,7 @@ public:
 private:
     // Where nothing moves.
     bool is_done_at_once(Coordinates points, LatticePoint* out) const {
-        if constexpr (fractions == Fractions::Kept)
+        if constexpr (Kind == Fractions::Kept)
             return factor_ != 0 && scale_block(points, factor_, out);
         // Products with less may underflow, to an unnoticed zero.
         const bool is_product_exact = factor_ >= 1;
@@ -320,7 +320,7 @@ private:
         std::array<double, 3> c{};
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = fractions == Fractions::Kept ? rounded_fraction(units[k])
+            c[k] = Kind == Fractions::Kept ? rounded_fraction(units[k])
                                                 : units[k] + rounder - rounder;
             changed += note_move(p[k], units[k], c[k]);
         }
@@ -350,7 +350,7 @@ private:
                                  shortest_text(p[k]) +
                                  " is not finite or outside the lattice of unit 2^" +
                                  std::to_string(lattice_.exponent));
-            c[k] = fractions == Fractions::Kept ? rounded_fraction(units) : std::nearbyint(units);
+            c[k] = Kind == Fractions::Kept ? rounded_fraction(units) : std::nearbyint(units);
             changed += note_move(p[k], units, c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
@@ -382,16 +382,16 @@ void refuse_beyond_doubles(Coordinates points, std::span<const LatticePoint> rou
         }
 }
 
-template <Fractions fractions>
+template <Fractions Kind>
 std::vector<LatticePoint> rounded_points(Coordinates points, Lattice lattice, LatticeReport& report,
                                          std::uint32_t threads) {
     report.lattice = lattice;
     std::vector<LatticePoint> out;
     detail::resize_on_threads(out, points.size(), threads);
     const detail::ParallelParts parts(points.size(), threads, least_part);
-    std::vector<Rounding<fractions>> roundings(parts.count(), Rounding<fractions>(lattice));
+    std::vector<Rounding<Kind>> roundings(parts.count(), Rounding<Kind>(lattice));
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Rounding<fractions> round(lattice);
+        Rounding<Kind> round(lattice);
         for (std::size_t i = begin; i < end; i += block_size)
             round.round(points.subspan(i, std::min(block_size, end - i)), i, &out[i]);
         roundings[part] = round;

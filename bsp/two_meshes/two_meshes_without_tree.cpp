@@ -222,7 +222,8 @@ bool PairFinder::compare(const CellTask& task) {
     FinePoint near;
     const PolygonRef& any = polygons_.front();
     const LatticePoint& corner = any.source->corner(any.facet, 0);
-    for (std::size_t k = 0; k < 3; ++k) near.c[k] = position_of(corner[static_cast<int>(k)]) * splitting_scale;
+    for (std::size_t k = 0; k < 3; ++k)
+        near.c[k] = position_of(corner[static_cast<int>(k)]) * splitting_scale;
     ++stats_.mixed_leaves;
     ++stats_.filtered_leaves;
     const LeafProblem problem{task.cell, near, operands, nullptr, &search_.options};

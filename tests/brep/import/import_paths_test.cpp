@@ -488,8 +488,8 @@ TEST(WeldInPlace, NumbersLikeWeldPointsForEveryHint) {
     }
 }
 
-/// Points that differ and have one hash, each twice: the bits of z undo what x did. Most bits are no
-/// coordinate; those points are left out.
+/// Points that differ and have one hash, each twice: the bits of z undo what x did. Most bits are
+/// no coordinate; those points are left out.
 std::vector<LatticePoint> colliding_points(std::size_t n) {
     // The inverse of the factor of z modulo 2^64, by Newton's iteration.
     constexpr std::uint64_t factor = 0x165667b19e3779f9U;

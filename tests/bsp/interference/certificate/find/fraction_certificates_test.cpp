@@ -44,8 +44,7 @@ TEST(FractionCertificates, OfRelationsAndDistances) {
         EXPECT_EQ(refusals::reason(check(found, a.brep(), p.pose_a, b.brep(), p.pose_b)), "")
             << "seed " << seed;
         const auto distance = certify_distance(a, p.pose_a, b, p.pose_b);
-        EXPECT_EQ(distance.is_complete,
-                  certify_distance(p.a, p.pose_a, p.b, p.pose_b).is_complete)
+        EXPECT_EQ(distance.is_complete, certify_distance(p.a, p.pose_a, p.b, p.pose_b).is_complete)
             << "seed " << seed;
         EXPECT_EQ(refusals::reason(check(distance, a.brep(), p.pose_a, b.brep(), p.pose_b)), "")
             << "seed " << seed;
