@@ -320,8 +320,8 @@ private:
         std::array<double, 3> c{};
         double changed = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = Kind == Fractions::Kept ? rounded_fraction(units[k])
-                                                : units[k] + rounder - rounder;
+            c[k] =
+                Kind == Fractions::Kept ? rounded_fraction(units[k]) : units[k] + rounder - rounder;
             changed += note_move(p[k], units[k], c[k]);
         }
         moved_ += changed != 0 ? 1 : 0;
