@@ -457,8 +457,9 @@ struct Placed {
     [[nodiscard]] int coarsest() const {
         int bits = 0;
         for (const Source* s : sources_of(*state)) {
-            // Sets of half-spaces may end where space does, and then stay as they are.
-            if (s->is_unbounded()) return exponent;
+            // Sets of half-spaces may end where space does, and then stay as they are. What
+            // half-spaces cut off a bounded set moves with its boundary.
+            if (s->is_unbounded() && state->far_out < 0) return exponent;
             bits = std::max(bits, s->fraction_bits());
         }
         return exponent + fraction_limit - bits;

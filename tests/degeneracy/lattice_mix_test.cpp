@@ -165,6 +165,25 @@ TEST(LatticeMix, HalfSpacesHaveAPlaceOnEveryLattice) {
                  trisect::LimitError);
 }
 
+// A mesh cut by a half-space, beside one so large that it has no room on the finer lattice.
+TEST(LatticeMix, WhatAHalfSpaceCutOffMeetsLargerSolids) {
+    const Solid part = evaluate(box_on(-16, {-65536, -65536, -65536}, {65537, 65536, 65536}) &
+                                Solid::half_space({1, 1, 1, 0}));
+    const Solid wide = large_cube(0, 44);
+    trisect::EvaluateOptions refuse;
+    refuse.lattices = trisect::EvaluateOptions::Lattices::Refuse;
+    const auto volume_of = [&](const Expression& formula) {
+        const Solid result = evaluate(formula, refuse);
+        EXPECT_EQ(result.lattice(), Lattice{0});
+        return trisect::exact_volume(result.to_brep());
+    };
+    const auto whole = trisect::exact_volume(wide.to_brep());
+    for (const Solid& set : {part, evaluate(~part)})
+        EXPECT_EQ(volume_of(wide & set) + volume_of(wide - set), whole);
+    EXPECT_EQ(volume_of(wide | part),
+              whole + trisect::exact_volume(part.to_brep()) - volume_of(wide & part));
+}
+
 TEST(LatticeMix, WhatWouldVanishIsRefused) {
     const Solid wide = large_cube(116, 50);
     const Solid fine = box_on(-8, {0, 0, 0}, {1, 1, 1});
