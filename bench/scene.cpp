@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include <trisect/brep/io/read_mesh.h>
@@ -329,6 +330,26 @@ Scene scene_of(const std::string& name) {
     unknown(name);
 }
 
+constexpr std::string_view decimal_prefix = "decimal:";
+
+/// A tenth of a mesh, with coordinates of six digits behind the point: the doubles of a text.
+PolygonMesh in_decimals(PolygonMesh mesh) {
+    for (Point3d& p : mesh.points)
+        for (double& c : p) c = std::round(c * 1e5) / 1e6;
+    return mesh;
+}
+
+Scene in_decimals(Scene scene) {
+    for (PolygonMesh& m : scene.operands) m = in_decimals(std::move(m));
+    if (scene.step)
+        scene.step = [step = std::move(scene.step)](std::size_t i) {
+            Step s = step(i);
+            s.tool = in_decimals(std::move(s.tool));
+            return s;
+        };
+    return scene;
+}
+
 }  // namespace
 
 const char* name_of(Operation operation) {
@@ -349,8 +370,10 @@ std::optional<Operation> operation_of(const std::string& name) {
 }
 
 Scene make_scene(const std::string& name) {
-    Scene s = scene_of(name);
+    const bool is_decimal = name.starts_with(decimal_prefix);
+    Scene s = scene_of(is_decimal ? name.substr(decimal_prefix.size()) : name);
     s.name = name;
+    if (is_decimal) return in_decimals(std::move(s));
     if (!s.is_chain()) shapes::put_on_one_lattice(s.operands);
     return s;
 }

@@ -42,7 +42,9 @@ struct Scene {
     [[nodiscard]] bool is_chain() const { return steps != 0; }
 };
 
-/// The scenes by name, WHAT:SIZE. All operands of a scene lie on one lattice.
+/// The scenes by name, WHAT:SIZE. All operands of a scene lie on one lattice, unless `decimal:` is
+/// before the name: then the scene is a tenth in size and its coordinates have six digits behind
+/// the point.
 ///
 ///     a:bunny a:armadillo a:cow     100k triangles against themselves, turned by 37 degrees about
 ///                                   (1,2,3) and moved by a tenth of the box (TRISECT_MODELS)
