@@ -237,25 +237,21 @@ ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options,
     return import_polygons(mesh, options, fractions);
 }
 
-ImportedMesh import_lossless(const PolygonMesh& mesh, const ImportOptions& options) {
+}  // namespace detail
+
+// What only rounding closes is rounded: files whose points repeat with noise in the last bits.
+ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options) {
     ImportOptions open = options;
     open.require_closed = false;
-    ImportedMesh kept = import_mesh(mesh, open, Fractions::Kept);
+    ImportedMesh kept = detail::import_mesh(mesh, open, Fractions::Kept);
     if (kept.report.closed) return kept;
     const auto is_whole = [](const LatticePoint& p) { return p.is_whole(); };
     if (!options.lattice && !std::ranges::all_of(kept.mesh.points, is_whole)) {
-        ImportedMesh rounded = import_mesh(mesh, open, Fractions::Rounded);
+        ImportedMesh rounded = detail::import_mesh(mesh, open, Fractions::Rounded);
         if (rounded.report.closed) return rounded;
     }
     if (options.require_closed) throw InvalidSolid(std::move(kept.report.defects));
     return kept;
-}
-
-}  // namespace detail
-
-ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options) {
-    if (detail::keeps_fractions) return detail::import_lossless(mesh, options);
-    return detail::import_mesh(mesh, options, Fractions::Rounded);
 }
 
 }  // namespace trisect

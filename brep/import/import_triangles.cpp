@@ -40,6 +40,7 @@
 #include <vector>
 
 #include <trisect/brep/import/import_findings.h>
+#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import/side_balance.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/import/weld_points.h>

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <trisect/brep/import/own_lattice.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 
@@ -20,23 +19,18 @@ namespace trisect::detail {
 /// \throw LimitError as import_mesh.
 [[nodiscard]] std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh,
                                                            const ImportOptions& options,
-                                                           Fractions fractions = usual_fractions,
+                                                           Fractions fractions = Fractions::Kept,
                                                            std::size_t least_part = 16384);
 
 /// The general path: for every mesh.
 /// \throw as import_mesh.
 [[nodiscard]] ImportedMesh import_polygons(const PolygonMesh& mesh, const ImportOptions& options,
-                                           Fractions fractions = usual_fractions);
+                                           Fractions fractions = Fractions::Kept);
 
 /// The one of them that applies; `fractions` says what becomes of bits behind the point where the
 /// options name no lattice.
 [[nodiscard]] ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options,
                                        Fractions fractions);
-
-/// Keeps bits behind the point, unless the faces' boundaries cancel only on whole coordinates: then
-/// these are rounded as Fractions::Rounded says, and the report has it. Files whose points repeat
-/// with noise in the last bits are closed that way.
-[[nodiscard]] ImportedMesh import_lossless(const PolygonMesh& mesh, const ImportOptions& options);
 
 /// How many meshes of the calling thread went which way: tests hold this against what should be,
 /// because a fast path that is never taken changes nothing but the time.

@@ -12,10 +12,6 @@
 
 namespace trisect::detail {
 
-/// Whether an input that comes without a lattice keeps bits behind the point.
-inline constexpr bool keeps_fractions = true;
-inline constexpr Fractions usual_fractions = keeps_fractions ? Fractions::Kept : Fractions::Rounded;
-
 /// The points on `given`, rounded to whole coordinates; or on the lattice that choose_lattice()
 /// chooses for them. \throw as to_lattice
 [[nodiscard]] inline std::vector<LatticePoint> points_on_lattice(

@@ -127,7 +127,7 @@ ValidationReport checked(const PolygonMesh& mesh, bool self_intersection) {
     ValidateOptions options;
     options.list_limit = 0;
     options.self_intersection = self_intersection;
-    return detail::validate_as_written(mesh, options, detail::usual_fractions);
+    return detail::validate_as_written(mesh, options, Fractions::Kept);
 }
 
 /// Nothing when the work would go beyond the limit of validation. Walls that collapsed are pairs
@@ -181,7 +181,7 @@ std::optional<Certificate> certified_manifold(const PolygonMesh& mesh) {
     if (!triangles) return std::nullopt;
     LatticeReport lattice;
     std::vector<LatticePoint> points =
-        detail::points_on_lattice(mesh.points, std::nullopt, detail::usual_fractions, lattice);
+        detail::points_on_lattice(mesh.points, std::nullopt, Fractions::Kept, lattice);
     if (!detail::weld_in_place(points, points.size()).empty()) return std::nullopt;
     const auto manifold = detail::ManifoldMesh::of(points, *triangles);
     if (!manifold) return std::nullopt;

@@ -75,8 +75,7 @@ ValidationReport detail::validate_as_written(const PolygonMesh& mesh,
 
 // As import does: what only rounding closes is rounded.
 ValidationReport validate(const PolygonMesh& mesh, const ValidateOptions& options) {
-    if (!detail::keeps_fractions || options.lattice)
-        return detail::validate_as_written(mesh, options, Fractions::Rounded);
+    if (options.lattice) return detail::validate_as_written(mesh, options, Fractions::Rounded);
     ValidationReport kept = detail::validate_as_written(mesh, options, Fractions::Kept);
     if (kept.count(DefectKind::OpenEdge) == 0) return kept;
     ValidationReport rounded = detail::validate_as_written(mesh, options, Fractions::Rounded);

@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include <trisect/brep/import/own_lattice.h>
-
 #include "process.h"
 #include "scratch.h"
 
@@ -84,7 +82,6 @@ TEST_F(InfoCommand, RoundingIsReported) {
 }
 
 TEST_F(InfoCommand, BoundsAreTheNumbersOfTheFile) {
-    if (!trisect::detail::keeps_fractions) GTEST_SKIP() << "coordinates are rounded";
     const std::string file = write("decimals.off",
                                    "OFF\n4 4 0\n0.1 -0.3 1e-17\n1000.7 -0.3 1e-17\n0.1 0.7 1e-17\n"
                                    "0.1 -0.3 5e-9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");

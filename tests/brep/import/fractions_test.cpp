@@ -119,17 +119,17 @@ TEST(ImportFractions, WhatOnlyRoundingClosesIsRounded) {
     PolygonMesh m;
     for (const std::uint32_t c : sphere.corners) m.points.push_back(sphere.points[c]);
     for (std::uint32_t i = 0; i < m.points.size(); i += 3) m.add_triangle(i, i + 1, i + 2);
-    EXPECT_TRUE(detail::import_lossless(m, {}).report.lattice.lossless);
+    EXPECT_TRUE(import_mesh(m, {}).report.lattice.lossless);
     m.points[7][0] = std::nextafter(m.points[7][0], 2);
     m.points[11] = {m.points[11][0], m.points[11][1] + 0x1p-60, m.points[11][2] - 0x1p-70};
     EXPECT_FALSE(keep(m, {.require_closed = false}).report.closed);
-    const ImportedMesh imported = detail::import_lossless(m, {});
+    const ImportedMesh imported = import_mesh(m, {});
     EXPECT_TRUE(imported.report.closed);
     EXPECT_FALSE(imported.report.lattice.lossless);
     EXPECT_EQ(imported.mesh.points, detail::import_mesh(m, {}, Fractions::Rounded).mesh.points);
     m.points[5][0] += 1e-3;  // remains open
-    EXPECT_THROW((void)detail::import_lossless(m, {}), InvalidSolid);
-    const ImportedMesh open = detail::import_lossless(m, {.require_closed = false});
+    EXPECT_THROW((void)import_mesh(m, {}), InvalidSolid);
+    const ImportedMesh open = import_mesh(m, {.require_closed = false});
     EXPECT_FALSE(open.report.closed);
     EXPECT_TRUE(open.report.lattice.lossless);
 }

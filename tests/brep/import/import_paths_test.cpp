@@ -86,7 +86,7 @@ void expect_same(const ImportedMesh& a, const ImportedMesh& b) {
 
 /// Compares both ways and says whether the short one was taken.
 bool compare(const PolygonMesh& mesh, const ImportOptions& options = {},
-             Fractions fractions = detail::usual_fractions) {
+             Fractions fractions = Fractions::Kept) {
     const Outcome expected = outcome([&] { return import_polygons(mesh, options, fractions); });
     const auto before = import_counters().triangles;
     const Outcome found = outcome([&] { return detail::import_mesh(mesh, options, fractions); });
