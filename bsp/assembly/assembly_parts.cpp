@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <variant>
@@ -69,7 +70,6 @@ public:
           out_(out),
           by_planes_(by_planes),
           threads_(threads),
-          axis_faces_(out),
           splitter_(out.bench, out.facets) {}
 
     void run() {
@@ -123,7 +123,7 @@ private:
     std::size_t last_table_ = 0;
     // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
     std::vector<BoundaryEdge> edges_;
-    AxisFaces axis_faces_;
+    std::unique_ptr<AxisFaces> axis_faces_;
     std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
     std::vector<PointId> same_;
     std::vector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
@@ -168,6 +168,7 @@ void Gatherer::gather(const PrismOutlines& prisms) {
 
 void Gatherer::finish() {
     const std::size_t traced = edges_.size();
+    axis_faces_ = AxisFaces::of(out_);
     if (by_planes_ && traced == 0) choose_axis_faces();
     for (AssembledLeaf& leaf : leaves_) {
         if (out_.stats.traced_facets == out_.facets.size()) break;
@@ -181,11 +182,11 @@ void Gatherer::finish() {
     check_stop(edges_.size());
     conform_edges(traced, of_leaves);
     out_.representatives = std::move(same_);
-    out_.are_joined = axis_faces_.takes_all();
+    out_.are_joined = axis_faces_->takes_all();
     out_.stats.leaves = leaves_.size();
-    out_.stats.axis_facets = axis_faces_.taken_count();
-    out_.stats.axis_leaves = axis_faces_.read_count();
-    out_.stats.parts += axis_faces_.part_count();
+    out_.stats.axis_facets = axis_faces_->taken_count();
+    out_.stats.axis_leaves = axis_faces_->read_count();
+    out_.stats.parts += axis_faces_->part_count();
     out_.stats.worked_facets = out_.facets.size();
     out_.stats.edges = out_.edges.size();
 }
@@ -446,7 +447,7 @@ bool Gatherer::needs_parts(const AssembledLeaf& leaf, const OccupancyGrid& occup
         const FacetMarks& marks = out_.sources[out_.table_of(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
         return marks.takes_part(r.facet, flipped) &&
-               !axis_faces_.takes(marks.number_of_worked(r.facet, flipped));
+               !axis_faces_->takes(marks.number_of_worked(r.facet, flipped));
     });
 }
 
@@ -461,7 +462,7 @@ void Gatherer::make_parts(AssembledLeaf& leaf) {
         const auto make = [&](std::uint32_t f) {
             if (!marks.takes_part(f, flipped) || marks.is_traced(f)) return;
             const std::int32_t number = marks.number_of_worked(f, flipped);
-            if (!axis_faces_.takes(number))
+            if (!axis_faces_->takes(number))
                 make_part({source, nullptr, f, polygons.flipped(), false}, leaf, number);
         };
         if (polygons.has_all_facets()) {
@@ -484,7 +485,7 @@ void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
         const bool flipped = r.flipped != leaf.complemented;
         if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
-        if (axis_faces_.takes(facet)) continue;
+        if (axis_faces_->takes(facet)) continue;
         // What cancels within a group is not known afterwards.
         if (r.fragment == nullptr || out_.may_have_straight_crossings ||
             !ends_at_splitters(*r.fragment, leaf.cell)) {
@@ -593,7 +594,7 @@ void Gatherer::choose_axis_faces() {
         leaves.push_back(
             {p != nullptr ? &p->facets : &leaf.node->polygons(), leaf.cell, leaf.complemented, p});
     }
-    axis_faces_.choose(leaves);
+    axis_faces_->choose(leaves);
 }
 
 void Gatherer::make_axis_faces() {
@@ -601,13 +602,13 @@ void Gatherer::make_axis_faces() {
         return std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
     };
     for (std::size_t i = 0; i < leaves_.size(); ++i)
-        if (axis_faces_.is_across_axes(i)) axis_faces_.note_vertices(edges_of(leaves_[i]));
-    axis_faces_.make_edges(edges_);
+        if (axis_faces_->is_across_axes(i)) axis_faces_->note_vertices(edges_of(leaves_[i]));
+    axis_faces_->make_edges(edges_);
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
         leaves_[i].first_inside = inside_.size();
-        if (axis_faces_.is_across_axes(i) && leaves_[i].node->is_mixed())
+        if (axis_faces_->is_across_axes(i) && leaves_[i].node->is_mixed())
             for (const BoundaryEdge& e : edges_of(leaves_[i]))
-                axis_faces_.add_vertices_in(e, inside_);
+                axis_faces_->add_vertices_in(e, inside_);
         leaves_[i].end_inside = inside_.size();
     }
 }
@@ -620,7 +621,7 @@ void Gatherer::merge_equal_points() {
     Workbench& bench = out_.bench;
     same_.resize(bench.point_count());
     std::iota(same_.begin(), same_.end(), 0);
-    if (axis_faces_.takes_all()) return;
+    if (axis_faces_->takes_all()) return;
     const auto better = [&](PointId a, PointId b) {
         return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
     };
@@ -677,7 +678,7 @@ bool Gatherer::is_same(PointId value, PointId name) {
 // Edges of traced facets, which come first, and of axis-perpendicular planes, which come last, have
 // all their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
-    if (axis_faces_.takes_all()) {
+    if (axis_faces_->takes_all()) {
         out_.edges = std::move(edges_);
         return;
     }

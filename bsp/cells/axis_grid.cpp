@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Positions are below 2^61 in 1/192 units, centres below 2^62 in 1/384. An edge's step has 54 bits
-// in lattice units, a centre seen from its end 63: their products fit into 128.
+// A step of an edge has one bit more than a place, and a centre seen from an edge's end one more
+// than a sum of positions: their products fit into AxisNumbers' Product.
 
 #include <trisect/bsp/cells/axis_grid.h>
 
@@ -13,19 +13,23 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::int64_t centre_scale = 2 * splitting_scale;  // of lattice units
+// Of places.
+template <class Number>
+constexpr std::int64_t centre_scale = 2 * AxisNumbers<Number>::scale;
 
 }  // namespace
 
-void AxisUnits::finish(std::size_t axis, const Cell& cell) {
+template <class Number>
+void AxisUnits<Number>::finish(std::size_t axis, const Cell& cell) {
     const auto splitter = [&](std::int64_t at) {
-        return Position{at, PlaneName::splitter(static_cast<int>(axis), at), 1};
+        return Position{AxisNumbers<Number>::from_fine(at),
+                        PlaneName::splitter(static_cast<int>(axis), at), 1};
     };
-    std::erase_if(positions_, [&](const Position& p) {
-        return p.at <= cell.lo[axis] || p.at >= cell.hi[axis];
-    });
-    positions_.push_back(splitter(cell.lo[axis]));
-    positions_.push_back(splitter(cell.hi[axis]));
+    const Position low = splitter(cell.lo[axis]);
+    const Position high = splitter(cell.hi[axis]);
+    std::erase_if(positions_, [&](const Position& p) { return p.at <= low.at || p.at >= high.at; });
+    positions_.push_back(low);
+    positions_.push_back(high);
     const auto same = [](const Position& a, const Position& b) { return a.at == b.at; };
     std::stable_sort(positions_.begin(), positions_.end(),
                      [](const Position& a, const Position& b) { return a.at < b.at; });
@@ -35,32 +39,36 @@ void AxisUnits::finish(std::size_t axis, const Cell& cell) {
         centres_.push_back(positions_[i].at + positions_[i + 1].at);
 }
 
-std::size_t AxisUnits::plane_at(std::int64_t position) const {
-    const auto at =
-        std::lower_bound(positions_.begin(), positions_.end(), position,
-                         [](const Position& p, std::int64_t value) { return p.at < value; });
+template <class Number>
+std::size_t AxisUnits<Number>::plane_at(Number position) const {
+    const auto at = std::lower_bound(positions_.begin(), positions_.end(), position,
+                                     [](const Position& p, Number value) { return p.at < value; });
     return static_cast<std::size_t>(at - positions_.begin());
 }
 
-std::size_t AxisUnits::first_from(std::int64_t position) const {
+template <class Number>
+std::size_t AxisUnits<Number>::first_from(Number position) const {
     return static_cast<std::size_t>(
         std::lower_bound(centres_.begin(), centres_.end(), 2 * position) - centres_.begin());
 }
 
-std::size_t AxisUnits::unit_of(std::int64_t position) const {
+template <class Number>
+std::size_t AxisUnits<Number>::unit_of(Number position) const {
     const std::size_t p = plane_at(position);
     return positions_[p].at == position ? p : p - 1;
 }
 
-std::uint64_t AxisUnits::units_at(std::int64_t position) const {
+template <class Number>
+std::uint64_t AxisUnits<Number>::units_at(Number position) const {
     const std::size_t p = plane_at(position);
     if (p == positions_.size() || (p == 0 && positions_[p].at != position)) return 0;
     const std::size_t end = positions_[p].at == position ? std::min(p + 1, count()) : p;
     return unit_bits(p == 0 ? 0 : p - 1, end);
 }
 
-AxisGrid::Reach AxisGrid::reach(const AxisPolygon& polygon, Frame frame) const {
-    const auto first = [&](std::size_t axis, std::int64_t position) {
+template <class Number>
+auto AxisGrid<Number>::reach(const Polygon& polygon, UnitFrame frame) const -> Reach {
+    const auto first = [&](std::size_t axis, Number position) {
         return units_[axis].first_from(position);
     };
     return {first(frame.row_axis, polygon.lo[frame.row_axis]),
@@ -88,39 +96,22 @@ std::uint64_t units_left(std::size_t begin, std::size_t end, bool leads_left, Is
     return leads_left ? unit_bits(low, end) : unit_bits(begin, low);
 }
 
-// Which side of an edge a point is on that is given in 1/scale lattice units.
-struct EdgeSide {
-    Int128 step_u;
-    Int128 step_v;
-    Int128 from_u;
-    Int128 from_v;
-    EdgeSide(const SlantedEdge& e, std::int64_t scale)
-        : step_u(e.to[0] - e.from[0]),
-          step_v(e.to[1] - e.from[1]),
-          from_u(Int128{e.from[0]} * scale),
-          from_v(Int128{e.from[1]} * scale) {}
-    [[nodiscard]] int turn(std::int64_t u, std::int64_t v) const {
-        const Int128 s = step_u * (v - from_v);
-        const Int128 t = step_v * (u - from_u);
-        return s > t ? 1 : (s < t ? -1 : 0);
-    }
-    [[nodiscard]] bool leads_left(bool along_u) const { return along_u ? step_v < 0 : step_u > 0; }
-};
-
 }  // namespace
 
-std::uint64_t AxisGrid::scan(const AxisPolygon& polygon, Frame frame, std::size_t row) const {
-    const AxisUnits& units = units_[frame.bit_axis];
-    const std::int64_t at = units_[frame.row_axis].centre(row);
+template <class Number>
+std::uint64_t AxisGrid<Number>::scan(const Polygon& polygon, UnitFrame frame,
+                                     std::size_t row) const {
+    const AxisUnits<Number>& units = units_[frame.bit_axis];
+    const Number at = units_[frame.row_axis].centre(row);
     if (at < 2 * polygon.lo[frame.row_axis] || at >= 2 * polygon.hi[frame.row_axis]) return 0;
     const std::size_t begin = units.first_from(polygon.lo[frame.bit_axis]);
     const std::size_t end = units.first_from(polygon.hi[frame.bit_axis]);
     const bool along_u = frame.bit_axis == (polygon.plane.axis + 1) % 3;
     std::uint64_t bits = unit_bits(begin, end);
-    for (const SlantedEdge& e : polygon.slanted_edges()) {
-        const EdgeSide side(e, centre_scale);
+    for (const SlantedEdge<Number>& e : polygon.slanted_edges()) {
+        const AxisEdgeSide<Number> side(e, centre_scale<Number>);
         bits &= units_left(begin, end, side.leads_left(along_u), [&](std::size_t bit) {
-            const std::int64_t c = units.centre(bit);
+            const Number c = units.centre(bit);
             const int turn = side.turn(along_u ? c : at, along_u ? at : c);
             return turn != 0 ? turn > 0 : side.step_v < 0;
         });
@@ -129,11 +120,13 @@ std::uint64_t AxisGrid::scan(const AxisPolygon& polygon, Frame frame, std::size_
 }
 
 // A line that separates two convex polygons runs along an edge of one of them.
-std::uint64_t AxisGrid::overlapped(const AxisPolygon& polygon, Frame frame, std::size_t row) const {
-    const AxisUnits& units = units_[frame.bit_axis];
-    const AxisUnits& rows = units_[frame.row_axis];
-    const std::int64_t low = rows.plane(row).at;
-    const std::int64_t high = rows.plane(row + 1).at;
+template <class Number>
+std::uint64_t AxisGrid<Number>::overlapped(const Polygon& polygon, UnitFrame frame,
+                                           std::size_t row) const {
+    const AxisUnits<Number>& units = units_[frame.bit_axis];
+    const AxisUnits<Number>& rows = units_[frame.row_axis];
+    const Number low = rows.plane(row).at;
+    const Number high = rows.plane(row + 1).at;
     if (polygon.lo[frame.row_axis] >= high || polygon.hi[frame.row_axis] <= low) return 0;
     const std::size_t begin =
         units.unit_of(std::max(polygon.lo[frame.bit_axis], units.plane(0).at));
@@ -141,12 +134,12 @@ std::uint64_t AxisGrid::overlapped(const AxisPolygon& polygon, Frame frame, std:
         units.plane_at(std::min(polygon.hi[frame.bit_axis], units.plane(units.count()).at));
     const bool along_u = frame.bit_axis == (polygon.plane.axis + 1) % 3;
     std::uint64_t bits = unit_bits(begin, end);
-    for (const SlantedEdge& e : polygon.slanted_edges()) {
-        const EdgeSide side(e, splitting_scale);
+    for (const SlantedEdge<Number>& e : polygon.slanted_edges()) {
+        const AxisEdgeSide<Number> side(e, AxisNumbers<Number>::scale);
         bits &= units_left(begin, end, side.leads_left(along_u), [&](std::size_t bit) {
             // The corner of the unit that is farthest to the left.
-            const std::int64_t first = units.plane(bit).at;
-            const std::int64_t last = units.plane(bit + 1).at;
+            const Number first = units.plane(bit).at;
+            const Number last = units.plane(bit + 1).at;
             const bool is_low_u = side.step_v > 0;
             const bool is_low_v = side.step_u <= 0;
             return along_u ? side.turn(is_low_u ? first : last, is_low_v ? low : high) > 0
@@ -155,5 +148,10 @@ std::uint64_t AxisGrid::overlapped(const AxisPolygon& polygon, Frame frame, std:
     }
     return bits;
 }
+
+template class AxisUnits<std::int64_t>;
+template class AxisUnits<Int128>;
+template class AxisGrid<std::int64_t>;
+template class AxisGrid<Int128>;
 
 }  // namespace trisect::detail

@@ -30,18 +30,27 @@ int sign_of_normal(const LatticePoint& a, const LatticePoint& b, const LatticePo
 
 }  // namespace
 
-std::optional<AxisPlane> axis_plane(const PlaneName& name) {
-    if (name.is_splitter()) return AxisPlane{name.facet, 1, name.position()};
+std::optional<AxisSupport> axis_support(const Source& source, std::uint32_t facet) {
+    if (source.is_half_space()) return std::nullopt;
+    const LatticePoint& a = source.corner(facet, 0);
+    const LatticePoint& b = source.corner(facet, 1);
+    const LatticePoint& c = source.corner(facet, 2);
+    const std::size_t axis = axis_of(a, b, c);
+    if (axis == 3) return std::nullopt;
+    return AxisSupport{axis, sign_of_normal(a, b, c, axis), coordinate(a, axis)};
+}
+
+template <class Number>
+std::optional<AxisPlane<Number>> axis_plane(const PlaneName& name) {
+    using Numbers = AxisNumbers<Number>;
+    if (name.is_splitter())
+        return AxisPlane<Number>{name.facet, 1, Numbers::from_fine(name.position())};
     const Source& source = *name.source();
-    if (source.is_half_space() || !source.is_whole()) return std::nullopt;
-    const LatticePoint& a = source.corner(name.facet, 0);
-    const LatticePoint& b = source.corner(name.facet, 1);
-    const LatticePoint& c = source.corner(name.facet, 2);
-    std::size_t across = axis_of(a, b, c);
+    if (!Numbers::takes(source)) return std::nullopt;
     if (!name.is_edge()) {
-        if (across == 3) return std::nullopt;
-        return AxisPlane{across, sign_of_normal(a, b, c, across),
-                         fine_position(coordinate(a, across))};
+        const auto support = axis_support(source, name.facet);
+        if (!support) return std::nullopt;
+        return AxisPlane<Number>{support->axis, support->sign, axis_position<Number>(support->at)};
     }
     // Through an edge and along the axis that the support lies across, or nearly so.
     const auto i = static_cast<int>(name.kind);
@@ -54,15 +63,17 @@ std::optional<AxisPlane> axis_plane(const PlaneName& name) {
             coordinate(from, (k + 2) % 3) == coordinate(to, (k + 2) % 3))
             along = k;
     if (along == 3) return std::nullopt;
+    std::size_t across = axis_of(from, to, third);
     if (across == 3) across = static_cast<std::size_t>(source.support(name.facet).dominant_axis());
     const std::size_t axis = 3 - along - across;
     // The facet lies below its edge planes.
     const int sign = coordinate(third, axis) < coordinate(from, axis) ? 1 : -1;
-    return AxisPlane{axis, sign, fine_position(coordinate(from, axis))};
+    return AxisPlane<Number>{axis, sign, axis_position<Number>(coordinate(from, axis))};
 }
 
-bool AxisPolygon::read(const PolygonRef& polygon) {
-    if (polygon.source->is_half_space() || !polygon.source->is_whole()) return false;
+template <class Number>
+bool AxisPolygon<Number>::read(const PolygonRef& polygon) {
+    if (!AxisNumbers<Number>::takes(*polygon.source)) return false;
     const Corners corners{&polygon.source->corner(polygon.facet, 0),
                           &polygon.source->corner(polygon.facet, 1),
                           &polygon.source->corner(polygon.facet, 2)};
@@ -70,7 +81,7 @@ bool AxisPolygon::read(const PolygonRef& polygon) {
     if (plane.axis == 3) return false;
     ref = polygon;
     plane.sign = sign_of_normal(*corners[0], *corners[1], *corners[2], plane.axis);
-    plane.position = fine_position(coordinate(*corners[0], plane.axis));
+    plane.position = axis_position<Number>(coordinate(*corners[0], plane.axis));
     slanted_count = 0;
     if (polygon.fragment != nullptr) return read_fragment(corners);
     read_facet(corners);
@@ -78,58 +89,65 @@ bool AxisPolygon::read(const PolygonRef& polygon) {
 }
 
 // A separating line of two convex polygons runs along an edge of one of them.
-bool AxisPolygon::meets(const Cell& cell) const {
+template <class Number>
+bool AxisPolygon<Number>::meets(const AxisBox<Number>& cell) const {
+    using Numbers = AxisNumbers<Number>;
     const std::size_t u = (plane.axis + 1) % 3;
     const std::size_t v = (plane.axis + 2) % 3;
     if (plane.position <= cell.lo[plane.axis] || plane.position >= cell.hi[plane.axis])
         return false;
     for (const std::size_t k : {u, v})
         if (lo[k] >= cell.hi[k] || hi[k] <= cell.lo[k]) return false;
-    return std::ranges::all_of(slanted_edges(), [&](const SlantedEdge& e) {
-        const Int128 step_u = e.to[0] - e.from[0];
-        const Int128 step_v = e.to[1] - e.from[1];
+    return std::ranges::all_of(slanted_edges(), [&](const SlantedEdge<Number>& e) {
+        const Number step_u = e.to[0] - e.from[0];
+        const Number step_v = e.to[1] - e.from[1];
         // The corner of the cell that is farthest to the left.
-        const std::int64_t at_u = step_v > 0 ? cell.lo[u] : cell.hi[u];
-        const std::int64_t at_v = step_u > 0 ? cell.hi[v] : cell.lo[v];
-        return step_u * (at_v - e.from[1] * splitting_scale) >
-               step_v * (at_u - e.from[0] * splitting_scale);
+        const Number at_u = step_v > 0 ? cell.lo[u] : cell.hi[u];
+        const Number at_v = step_u > 0 ? cell.hi[v] : cell.lo[v];
+        return Numbers::multiply(step_u, at_v - e.from[1] * Numbers::scale) >
+               Numbers::multiply(step_v, at_u - e.from[0] * Numbers::scale);
     });
 }
 
-void AxisPolygon::read_facet(const Corners& corners) {
+template <class Number>
+void AxisPolygon<Number>::read_facet(const Corners& corners) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax(
             {coordinate(*corners[0], k), coordinate(*corners[1], k), coordinate(*corners[2], k)});
-        lo[k] = fine_position(low);
-        hi[k] = fine_position(high);
+        lo[k] = axis_position<Number>(low);
+        hi[k] = axis_position<Number>(high);
     }
     for (std::size_t i = 0; i < 3; ++i) add_slanted(*corners[i], *corners[i == 2 ? 0 : i + 1]);
 }
 
-void AxisPolygon::add_slanted(const LatticePoint& from, const LatticePoint& to) {
+template <class Number>
+void AxisPolygon<Number>::add_slanted(const LatticePoint& from, const LatticePoint& to) {
     const std::size_t u = (plane.axis + 1) % 3;
     const std::size_t v = (plane.axis + 2) % 3;
     if (coordinate(from, u) == coordinate(to, u) || coordinate(from, v) == coordinate(to, v))
         return;
-    SlantedEdge& e = slanted[slanted_count++];
+    SlantedEdge<Number>& e = slanted[slanted_count++];
     const auto at = [&](const LatticePoint& p) {
-        return std::array{coordinate(p, u).to_integer(), coordinate(p, v).to_integer()};
+        return std::array{AxisNumbers<Number>::place(coordinate(p, u)),
+                          AxisNumbers<Number>::place(coordinate(p, v))};
     };
     e = {at(from), at(to)};
     if (plane.sign < 0) std::swap(e.from, e.to);
 }
 
-bool AxisPolygon::read_fragment(const Corners& corners) {
+template <class Number>
+bool AxisPolygon<Number>::read_fragment(const Corners& corners) {
     const Box& box = ref.fragment->box();
+    using Numbers = AxisNumbers<Number>;
     for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = box.lo[k] * splitting_scale;
-        hi[k] = box.hi[k] * splitting_scale;
+        lo[k] = Numbers::from_fine(fine_lower(box.lo[k], Numbers::whole));
+        hi[k] = Numbers::from_fine(fine_upper(box.hi[k], Numbers::whole));
     }
     lo[plane.axis] = hi[plane.axis] = plane.position;
     for (const EdgeName& e : ref.fragment->edges()) {
-        if (const auto across = axis_plane(e.plane)) {
+        if (const auto across = axis_plane<Number>(e.plane)) {
             const bool is_low = e.above == (across->sign > 0);
-            std::int64_t& bound = is_low ? lo[across->axis] : hi[across->axis];
+            Number& bound = is_low ? lo[across->axis] : hi[across->axis];
             bound = is_low ? std::max(bound, across->position) : std::min(bound, across->position);
         } else if (e.plane.is_edge() && e.plane.source() == ref.source &&
                    e.plane.facet == ref.facet && !e.above) {
@@ -141,5 +159,17 @@ bool AxisPolygon::read_fragment(const Corners& corners) {
     }
     return true;
 }
+
+// A facet of whole coordinates may have been cut by one with fractions.
+bool is_axis_polygon(const PolygonRef& polygon) {
+    if (AxisPolygon<std::int64_t>().read(polygon)) return true;
+    return !(polygon.fragment == nullptr && polygon.source->is_whole()) &&
+           AxisPolygon<Int128>().read(polygon);
+}
+
+template std::optional<AxisPlane<std::int64_t>> axis_plane(const PlaneName& name);
+template std::optional<AxisPlane<Int128>> axis_plane(const PlaneName& name);
+template struct AxisPolygon<std::int64_t>;
+template struct AxisPolygon<Int128>;
 
 }  // namespace trisect::detail

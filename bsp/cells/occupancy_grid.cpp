@@ -40,7 +40,7 @@ std::vector<OccupancyGrid::Layer> OccupancyGrid::layers(std::size_t axis) const 
 std::size_t OccupancyGrid::bytes() const {
     std::size_t out =
         units.size() * sizeof(std::uint64_t) + parts.size() * sizeof(Part) + facets.bytes();
-    for (const auto& p : planes) out += p.size() * sizeof(std::int64_t);
+    for (const auto& p : planes) out += p.size() * sizeof(Int128);
     return out;
 }
 

@@ -23,12 +23,12 @@ struct OccupancyGrid {
         std::uint8_t corners =
             0;  ///< those of the facet's corners that have such a part, a bit each
     };
-    /// One layer of units: a word for each row (AxisGrid::frame).
+    /// One layer of units: a word for each row (UnitFrame).
     using Layer = UnitRows;
 
-    /// Positions of the planes of each axis, bounding planes of the cell first and last; in 1/192
-    /// lattice units.
-    std::array<std::vector<std::int64_t>, 3> planes;
+    /// Positions of the planes of each axis, bounding planes of the cell first and last; as those
+    /// of coordinates with fractions.
+    std::array<std::vector<Int128>, 3> planes;
     /// Bits of all units: layer by layer across z, row by row along y, a bit for each along x.
     std::vector<std::uint64_t> units;
     /// Whole facets, each once for each facing; `touched` are those that are cut.

@@ -3,6 +3,7 @@
 #include <trisect/bsp/cells/source.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -174,6 +175,15 @@ std::shared_ptr<const Source> Source::moved(const LatticeMove& move) const {
     return out;
 }
 
+int Source::last_bit() const {
+    if (!whole_) return -fraction_bits_;
+    std::uint64_t bits = 0;
+    for (const LatticePoint& p : mesh_.points)
+        for (const Coordinate c : {p.x, p.y, p.z})
+            bits |= static_cast<std::uint64_t>(c.to_integer());
+    return std::countr_zero(bits);
+}
+
 void Source::refuse_lattice(int exponent, const std::string& why) const {
     throw LimitError("operands of units 2^" + std::to_string(mesh_.lattice.exponent) + " and 2^" +
                      std::to_string(exponent) + " have no common lattice: " + why);
@@ -182,7 +192,7 @@ void Source::refuse_lattice(int exponent, const std::string& why) const {
 std::shared_ptr<const Source> Source::on_lattice(int exponent) const {
     if (is_half_space()) return planes_on_lattice(exponent);
     const int shift = mesh_.lattice.exponent - exponent;
-    if (fraction_bits_ - shift > fraction_limit)
+    if (fraction_bits_ - shift > fraction_limit && -last_bit() - shift > fraction_limit)
         refuse_lattice(exponent, "their sizes differ too much for the digits of the finer one");
     const double factor = std::ldexp(1, shift);
     LatticeMesh moved = mesh_;

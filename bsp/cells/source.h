@@ -57,6 +57,9 @@ public:
     [[nodiscard]] bool is_whole() const { return whole_; }
     /// Of a mesh: the most bits behind the point that a coordinate has.
     [[nodiscard]] int fraction_bits() const { return fraction_bits_; }
+    /// The largest e for which all coordinates are multiples of 2^e: -fraction_bits() where that is
+    /// not 0. Takes a look at all of them. \pre a mesh, not all 0.
+    [[nodiscard]] int last_bit() const;
     /// Whether the box says nothing.
     [[nodiscard]] bool is_unbounded() const { return box_.hi[0] == coordinate_limit; }
     [[nodiscard]] Lattice lattice() const { return mesh_.lattice; }

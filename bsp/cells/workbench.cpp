@@ -186,9 +186,11 @@ bool is_sharp(const Approximation& a) {
 
 // Doubles without an error are the coordinates.
 bool is_lattice_point(const Approximation& a) {
+    constexpr double finest = 0x1p73;
+    static_assert(fraction_limit == 73);
     return a.error == 0 && std::ranges::all_of(a.c, [](double c) {
                return std::fabs(c) <= static_cast<double>(coordinate_limit) &&
-                      std::nearbyint(c) == c;
+                      std::nearbyint(c * finest) == c * finest;
            });
 }
 

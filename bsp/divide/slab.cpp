@@ -133,7 +133,7 @@ void Covering::drop(const Slab& slab, const CellOperand& o) {
     any_ = true;
     for (const PackedBox& e : o.list()) {
         const PolygonRef r = o.polygon(e.id);
-        AxisPolygon p;
+        AxisPolygon<std::int64_t> p;
         if (p.read(r) && p.plane.axis == slab.axis && !task_.cell.contains(r.box()) &&
             (p.plane.position == slab.lo || p.plane.position == slab.hi))
             incomplete_.push_back({r.source->serial(), r.facet});
@@ -145,14 +145,15 @@ void Covering::drop(const Slab& slab, const CellOperand& o) {
 std::optional<Slab> slab_of(const CellOperand& operand, const CellTask& task) {
     if (!operand.embedded || !operand.is_list || operand.count > most_polygons) return std::nullopt;
     const Cell& cell = task.cell;
+    const auto box = AxisBox<std::int64_t>::of(cell);
     std::vector<std::int64_t> positions;
     Slab slab{operand.slot, 3, 0, 0};
     for (const PackedBox& e : operand.list()) {
-        AxisPolygon p;
+        AxisPolygon<std::int64_t> p;
         if (!p.read(operand.polygon(e.id))) return std::nullopt;
         // Of a slanted fragment only a box is known that may be too large.
         if (p.ref.fragment != nullptr && p.slanted_count != 0) return std::nullopt;
-        if (!p.meets(cell)) continue;
+        if (!p.meets(box)) continue;
         if (slab.axis != 3 && slab.axis != p.plane.axis) return std::nullopt;
         slab.axis = p.plane.axis;
         positions.push_back(p.plane.position);

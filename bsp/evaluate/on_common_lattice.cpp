@@ -250,10 +250,13 @@ std::int64_t largest_coordinate(const std::unordered_set<const Source*>& sources
     return largest + 4;
 }
 
-// The finest exponent, a multiple of 8 below, to which coordinates of this size can be moved.
-int finest_for(std::int64_t largest, int exponent) {
+// Exponents of lattices are mostly multiples of 8.
+constexpr int usual_step = 8;
+
+// The finest exponent, multiples of a step below, to which coordinates of this size can be moved.
+int finest_for(std::int64_t largest, int exponent, int step) {
     int room = 0;
-    while (room < coordinate_bits && largest < (coordinate_limit >> (room + 8))) room += 8;
+    while (room < coordinate_bits && largest < (coordinate_limit >> (room + step))) room += step;
     return exponent - room;
 }
 
@@ -450,19 +453,21 @@ struct Placed {
     std::uint64_t size = 0;
     const SolidState* state = nullptr;
 
-    [[nodiscard]] int finest() const {
-        return finest_for(largest_coordinate(sources_of(*state)), exponent);
+    [[nodiscard]] int finest(int step) const {
+        return finest_for(largest_coordinate(sources_of(*state)), exponent, step);
     }
-    /// Without loss; far beyond where planes end.
-    [[nodiscard]] int coarsest() const {
-        int bits = 0;
+    /// Without loss; far beyond where planes end. Fractions say so at once, zeros at the ends of
+    /// whole coordinates only when all of them are looked at.
+    [[nodiscard]] int coarsest(bool with_zeros) const {
+        int last = with_zeros ? coordinate_bits : 0;
         for (const Source* s : sources_of(*state)) {
             // Sets of half-spaces may end where space does, and then stay as they are. What
             // half-spaces cut off a bounded set moves with its boundary.
             if (s->is_unbounded() && state->far_out < 0) return exponent;
-            bits = std::max(bits, s->fraction_bits());
+            const bool looks = with_zeros && !s->is_half_space();
+            last = std::min(last, looks ? s->last_bit() : -s->fraction_bits());
         }
-        return exponent + fraction_limit - bits;
+        return exponent + fraction_limit + last;
     }
 };
 
@@ -488,22 +493,29 @@ CommonLattice common_lattice(const std::vector<Placed>& placed) {
     std::uint64_t moved = 0;
     std::uint64_t fine = 0;
     for (const Placed& p : placed) (p.exponent == finest ? fine : moved) += p.size;
-    const auto best_without_fractions = [&] {
+    const auto best_without_fractions = [&](int step) {
         int best = finest;
         for (const Placed& p : placed)
-            if (p.exponent != finest) best = std::max(best, p.finest());
+            if (p.exponent != finest) best = std::max(best, p.finest(step));
         return best;
     };
     if (whole && (moved < large_operand || moved < much_smaller * fine) &&
-        best_without_fractions() == finest)
+        best_without_fractions(usual_step) == finest)
         return {finest, false};
-    int most = coarsest;
-    for (const Placed& p : placed)
-        if (p.exponent < most) most = std::min(most, p.coarsest());
+    const auto coarsest_for_all = [&](bool with_zeros) {
+        int most = coarsest;
+        for (const Placed& p : placed)
+            if (p.exponent < most) most = std::min(most, p.coarsest(with_zeros));
+        return most;
+    };
+    if (coarsest_for_all(false) == coarsest) return {coarsest, false};
+    const int most = coarsest_for_all(true);
     if (most == coarsest) return {coarsest, false};
-    const int least = best_without_fractions();
-    if (least > most) return {least, true};
-    const int usual = most - (most % 8 + 8) % 8;  // exponents are mostly multiples of 8
+    const int least = best_without_fractions(usual_step);
+    if (least > most)
+        return best_without_fractions(1) <= most ? CommonLattice{most, false}
+                                                 : CommonLattice{least, true};
+    const int usual = most - (most % usual_step + usual_step) % usual_step;
     return {usual >= least ? usual : most, false};
 }
 

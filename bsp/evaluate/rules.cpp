@@ -76,7 +76,7 @@ bool ends_pass(const CellOperand& o, const Test& test) {
 }
 
 bool may_be_across_axes(const CellView& view) {
-    const auto is_across = [](const PolygonRef& r) { return AxisPolygon().read(r); };
+    const auto is_across = [](const PolygonRef& r) { return is_axis_polygon(r); };
     return view.is_small() || std::ranges::all_of(view.task.operands, [&](const CellOperand& o) {
                return ends_pass(o, is_across);
            });

@@ -6,11 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/assembly/axis/axis_outline.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/support/as_index.h>
@@ -31,10 +30,16 @@ public:
         const OccupancyGrid* occupancy = nullptr;
     };
 
-    explicit AxisFaces(BoundaryParts& parts) : parts_(parts) {}
+    /// For all sources of the parts. They must be listed, and outlive it.
+    [[nodiscard]] static std::unique_ptr<AxisFaces> of(BoundaryParts& parts);
+
+    AxisFaces() = default;
+    AxisFaces(const AxisFaces&) = delete;
+    AxisFaces& operator=(const AxisFaces&) = delete;
+    virtual ~AxisFaces() = default;
 
     /// \pre the facets of the parts are numbered, and none of them has edges.
-    void choose(std::span<const Leaf> leaves);
+    virtual void choose(std::span<const Leaf> leaves) = 0;
     /// Whether make_edges() makes the edges of a facet: nothing else may.
     [[nodiscard]] bool takes(std::int32_t facet) const {
         return !taken_.empty() && taken_[as_index(facet)];
@@ -55,160 +60,20 @@ public:
 
     /// The edges that an axis-perpendicular leaf has of facets that are not taken: vertices of
     /// theirs may lie in the edges to be made.
-    void note_vertices(std::span<const BoundaryEdge> edges);
+    virtual void note_vertices(std::span<const BoundaryEdge> edges) = 0;
     /// Appends the edges of all faces of the planes taken, named after the first facet of each
     /// plane and facing, with all vertices that lie inside them.
-    void make_edges(std::vector<BoundaryEdge>& edges);
+    virtual void make_edges(std::vector<BoundaryEdge>& edges) = 0;
     /// Appends all vertices known to make_edges() that may lie inside an edge noted before.
-    void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out);
+    virtual void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) = 0;
 
-private:
-    // A vertex on a line.
-    struct Stop {
-        std::uint32_t place = 0;  // its rank along the line
-        PointId point = -1;       // once it was requested
-    };
-    // The stops of one line, or of an interval with its ends.
-    struct Stops {
-        std::uint32_t first = 0;
-        std::uint32_t end = 0;
-    };
-    /// A plane. By facing of its faces, down and up: the first facet.
-    struct FacePlane {
-        AxisPlane plane;
-        PlaneName name;
-        std::array<std::int32_t, 2> first{-1, -1};
-        bool is_general = false;   // not taken
-        bool has_passing = false;  // a facet passes through
-        std::size_t parts = 0;
-        PlaneId id = -1;  // once it was requested
-        std::uint32_t rank = 0;
-        AxisOutline outline;
-        std::vector<Stops> stops;  // of each interval
-    };
-    // Stretches on a line, of one plane and facing.
-    struct LineRun {
-        FacePlane* face_plane = nullptr;
-        AxisOutline::Run run;
-        [[nodiscard]] std::span<const AxisInterval> intervals() const {
-            return face_plane->outline.intervals().subspan(run.first, run.end - run.first);
-        }
-    };
-    struct Facet {
-        std::int32_t face_plane = -1;
-        bool normal_is_up = false;
-        bool is_blocked = false;   // reaches into a cell with polygons of other kinds
-        bool is_cut = false;       // surely: not all of it bounds the result with one facing
-        std::uint8_t corners = 0;  // that its parts have, a bit each
-        double area = 0;           // of its parts, twice; off by `slack` at most
-        double slack = 0;
-    };
-    struct PolygonName {
-        const Source* source = nullptr;
-        std::uint32_t facet = 0;
-    };
-    struct CornerName {
-        const Source* source = nullptr;
-        std::uint32_t facet = 0;
-        int corner = 0;
-    };
-    // Places by their ranks among the coordinates of each axis.
-    using Ranks = std::array<std::uint32_t, 3>;
-    // A line by the ranks along the two axes after its own.
-    using LineKey = std::uint64_t;
-    static LineKey line_at(std::size_t along, const Ranks& r) {
-        return (LineKey{r[(along + 1) % 3]} << 32) | r[(along + 2) % 3];
-    }
-    // A vertex at which no outline need turn.
-    struct Other {
-        LineKey line = 0;
-        std::uint32_t place = 0;
-        friend auto operator<=>(const Other&, const Other&) = default;
-    };
-
-    static Key128 key_of(const AxisPlane& plane) {
-        return {plane.axis, static_cast<std::uint64_t>(plane.position)};
-    }
-    [[nodiscard]] const FacetMarks& marks_of(const Source* source);
-    [[nodiscard]] FacePlane& face_plane_at(const AxisPlane& plane, const PlaneName& name);
-    void list_open_planes();
-    void read_leaf(const Leaf& leaf);
-    void block_leaf(const Leaf& leaf);
-    void read_facet(const PolygonRef& facet, std::int32_t number, const OccupancyGrid::Part& part,
-                    const Cell& cell);
-    void read_units(const OccupancyGrid& occupancy, bool complemented);
-    void pass(const PolygonRef& facet);
-    [[nodiscard]] FacePlane& face_plane_of(const PolygonRef& polygon, std::int32_t number);
-    [[nodiscard]] bool count_part(FacePlane& face_plane, std::int32_t number);
-    void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell);
-    void add_area(const PolygonRef& part, Facet& facet, const AxisPlane& plane) const;
-    void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const;
-    void judge();
-    [[nodiscard]] bool has_changed(std::int32_t number) const;
-
-    void place_others();
-    void list_corners();
-    void rank_coordinates();
-    void rank_places(FacePlane& face_plane);
-    void name_corners();
-    void add_other(const Ranks& at);
-    void make_stops();
-    void add_line(FacePlane& face_plane, const AxisInterval& interval);
-    [[nodiscard]] std::size_t count_edges() const;
-    void make_edges_of(FacePlane& face_plane, bool faces_up, std::vector<BoundaryEdge>& edges);
-    [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
-    [[nodiscard]] std::uint32_t rank(std::size_t axis, std::int64_t at) const;
-    [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
-    [[nodiscard]] PointId point_at(const Ranks& ranks);
-    [[nodiscard]] PointId make_point(const Ranks& ranks);
-    [[nodiscard]] static std::size_t along_of(const FacePlane& face_plane,
-                                              const AxisInterval& interval) {
-        return (face_plane.plane.axis + 2 - interval.axis) % 3;
-    }
-    [[nodiscard]] static std::size_t across_of(const FacePlane& face_plane,
-                                               const AxisInterval& interval) {
-        return (face_plane.plane.axis + 1 + interval.axis) % 3;
-    }
-    [[nodiscard]] static Ranks line_of(const FacePlane& face_plane, const AxisInterval& interval);
-    [[nodiscard]] std::span<const Other> others_on(std::size_t along, const Ranks& line) const;
-    [[nodiscard]] FacePlane& face_plane_at_rank(std::size_t axis, std::uint32_t rank);
-    static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
-
-    BoundaryParts& parts_;
-    const Source* last_source_ = nullptr;
-    std::size_t last_table_ = 0;
-    std::optional<AxisPlane> last_passed_;
-    FlatMap open_planes_;
-    std::size_t open_count_ = 0;
+protected:
     std::size_t read_count_ = 0;
     std::vector<bool> across_;  // by leaf
-    std::vector<Facet> facets_;
-    std::vector<FacePlane> face_planes_;
-    FlatMap face_plane_ids_;
     std::vector<bool> taken_;
     std::size_t taken_count_ = 0;
     std::size_t part_count_ = 0;
     bool takes_all_ = false;
-    bool keeps_lines_ = false;  // for add_vertices_in()
-    // Corners that are vertices of parts of facets taken, then those of facets that pass through,
-    // in axis-perpendicular leaves.
-    std::vector<CornerName> corners_;
-    std::vector<PolygonName> passing_;  // until their corners are listed
-    std::size_t first_passing_ = 0;     // of corners_, once they are there too
-    // Vertices of facets that are not taken, where they are on the lattice, and their places.
-    std::vector<PointId> others_;
-    std::vector<LatticePoint> places_;
-    std::vector<AxisSide> sides_;
-
-    std::array<std::vector<std::int64_t>, 3> coordinates_;    // sorted
-    std::array<std::vector<std::int32_t>, 3> face_plane_of_;  // by rank
-    std::array<std::vector<Other>, 3> other_stops_;           // sorted
-    std::vector<Stop> stops_;                                 // line by line
-    std::vector<Stops> all_lines_;     // where queries are possible, and their keys
-    std::array<FlatMap, 3> lines_;     // by axis
-    std::vector<std::uint32_t> line_;  // the places on the line in the making
-    FlatMap corner_ids_;
-    FlatMap point_ids_;
 };
 
 }  // namespace trisect::detail

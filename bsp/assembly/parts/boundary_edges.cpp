@@ -342,12 +342,11 @@ void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdg
     for (std::size_t i = 0; i < edges.size();) {
         const std::int32_t number = edges[i].facet;
         const BoundaryFacet& f = parts.facets[as_index(number)];
-        const auto plane = axis_plane(parts.bench.name(f.support));
+        const auto plane = axis_support(*f.source, f.facet);
         std::int32_t first = number;
         if (plane && !f.unchanged) {
             const bool faces_up = (plane->sign > 0) != f.flipped;
-            const Key128 key{2 * plane->axis + (faces_up ? 1 : 0),
-                             static_cast<std::uint64_t>(plane->position)};
+            const Key128 key{2 * plane->axis + (faces_up ? 1 : 0), plane->at.bits()};
             first = first_of_plane.insert(key, number).first;
         }
         joined = joined || first != number;

@@ -25,18 +25,19 @@ struct OwnEdges {
     EdgeName slanted;
 };
 
-OwnEdges own_edges(const AxisPolygon& p) {
+template <class Number>
+OwnEdges own_edges(const AxisPolygon<Number>& p) {
     OwnEdges out;
     const std::size_t k = p.plane.axis;
     const auto add = [&](const EdgeName& e) {
-        const auto across = axis_plane(e.plane);
+        const auto across = axis_plane<Number>(e.plane);
         if (!across) {
             out.slanted = e;
             return;
         }
         const std::size_t i = across->axis == (k + 1) % 3 ? 0 : 1;
         const std::size_t side = e.above == (across->sign > 0) ? at_low : at_high;
-        const std::int64_t bound = side == at_low ? p.lo[across->axis] : p.hi[across->axis];
+        const Number bound = side == at_low ? p.lo[across->axis] : p.hi[across->axis];
         if (across->position == bound) out.along[i][side] = e;
     };
     if (p.ref.fragment != nullptr) {
@@ -47,13 +48,16 @@ OwnEdges own_edges(const AxisPolygon& p) {
     return out;
 }
 
-// Of the rectangle, in 1/192 lattice units.
+// Of the rectangle, as positions.
+template <class Number>
 struct RectangleCorner {
-    std::array<std::int64_t, 2> at{};
+    std::array<Number, 2> at{};
     EdgeName edge;  // that begins here
 };
-using RectangleCorners = std::array<RectangleCorner, 4>;
-using RectangleSides = std::array<std::array<AxisRectangle::Side, 2>, 2>;
+template <class Number>
+using RectangleCorners = std::array<RectangleCorner<Number>, 4>;
+template <class Number>
+using RectangleSides = decltype(AxisRectangle<Number>::sides);
 
 struct Outline {
     std::array<EdgeName, 5> edges;
@@ -67,8 +71,10 @@ struct Outline {
 
 // The sides of what a rectangle has of the polygon's box, with the polygon's own names where it
 // ends there; nothing when that has no area.
-std::optional<RectangleSides> common_sides(const AxisPolygon& polygon, const OwnEdges& own,
-                                           RectangleSides sides) {
+template <class Number>
+std::optional<RectangleSides<Number>> common_sides(const AxisPolygon<Number>& polygon,
+                                                   const OwnEdges& own,
+                                                   RectangleSides<Number> sides) {
     for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t axis = (polygon.plane.axis + 1 + i) % 3;
         const auto& [own_low, own_high] = own.along[i];
@@ -82,9 +88,10 @@ std::optional<RectangleSides> common_sides(const AxisPolygon& polygon, const Own
 }
 
 // Counter-clockwise seen from above the support, whose normal points up or down the axis.
-RectangleCorners corners_of(const RectangleSides& sides, bool up) {
+template <class Number>
+RectangleCorners<Number> corners_of(const RectangleSides<Number>& sides, bool up) {
     const auto corner = [&](std::size_t i, std::size_t j, std::size_t axis, std::size_t side) {
-        return RectangleCorner{{sides[0][i].at, sides[1][j].at}, sides[axis][side].edge};
+        return RectangleCorner<Number>{{sides[0][i].at, sides[1][j].at}, sides[axis][side].edge};
     };
     if (up)
         return {corner(at_low, at_low, 1, at_low), corner(at_high, at_low, 0, at_high),
@@ -93,36 +100,54 @@ RectangleCorners corners_of(const RectangleSides& sides, bool up) {
             corner(at_high, at_high, 0, at_high), corner(at_high, at_low, 1, at_low)};
 }
 
-// A coordinate of a place that is given in 1/192 units.
-void set(Approximation& a, std::size_t axis, std::int64_t at) {
-    a.c[axis] = static_cast<double>(at) / static_cast<double>(splitting_scale);
-    if (at % splitting_scale != 0) a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));
+// A coordinate, from its position.
+template <class Number>
+void set(Approximation& a, std::size_t axis, Number at) {
+    a.c[axis] = rounded_axis_position(at);
+    if (!AxisNumbers<Number>::is_place(at))
+        a.error = std::max(a.error, last_place * std::fabs(a.c[axis]));
+}
+
+// How far from its beginning a line is at a position of one axis, along the other; off by less than
+// 2^-51 of itself.
+double shift_along(const SlantedEdge<std::int64_t>& line, std::int64_t at, std::size_t fixed) {
+    constexpr std::int64_t scale = AxisNumbers<std::int64_t>::scale;
+    const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
+    const Int128 way = at - Int128{line.from[fixed]} * scale;
+    return static_cast<double>(way * step(1 - fixed)) / static_cast<double>(step(fixed) * scale);
+}
+
+double shift_along(const SlantedEdge<Int128>& line, Int128 at, std::size_t fixed) {
+    using Numbers = AxisNumbers<Int128>;
+    const auto step = [&](std::size_t i) { return line.to[i] - line.from[i]; };
+    const Int128 way = at - line.from[fixed] * Numbers::scale;
+    const double product = Numbers::multiply(way, step(1 - fixed)).to_double();
+    return product / static_cast<double>(step(fixed) * Numbers::scale) * 0x1p-70;
 }
 
 // Doubles of places in the plane of a polygon.
+template <class Number>
 class PlaneVertices {
 public:
-    explicit PlaneVertices(const AxisPlane& plane) : plane_(plane) {}
+    explicit PlaneVertices(const AxisPlane<Number>& plane) : plane_(plane) {}
 
-    [[nodiscard]] Approximation at(const RectangleCorner& c) const {
+    [[nodiscard]] Approximation at(const RectangleCorner<Number>& c) const {
         Approximation a;
         set(a, plane_.axis, plane_.position);
         for (std::size_t i = 0; i < 2; ++i) set(a, axis(i), c.at[i]);
         return a;
     }
     // Where a line crosses the side from one corner to the next.
-    [[nodiscard]] Approximation crossing(const SlantedEdge& line, const RectangleCorner& a,
-                                         const RectangleCorner& b) const {
+    [[nodiscard]] Approximation crossing(const SlantedEdge<Number>& line,
+                                         const RectangleCorner<Number>& a,
+                                         const RectangleCorner<Number>& b) const {
         const std::size_t fixed = a.at[0] == b.at[0] ? 0 : 1;
         const std::size_t free = 1 - fixed;
         Approximation x;
         set(x, plane_.axis, plane_.position);
         set(x, axis(fixed), a.at[fixed]);
-        const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
-        const Int128 way = a.at[fixed] - Int128{line.from[fixed]} * splitting_scale;
-        const double shift = static_cast<double>(way * step(free)) /
-                             static_cast<double>(step(fixed) * splitting_scale);
-        const auto from = static_cast<double>(line.from[free]);
+        const double from = AxisNumbers<Number>::to_double(line.from[free]);
+        const double shift = shift_along(line, a.at[fixed], fixed);
         x.c[axis(free)] = from + shift;
         x.error = std::max(x.error, 0x1p-51 * (std::fabs(from) + 2 * std::fabs(shift)));
         return x;
@@ -130,25 +155,29 @@ public:
 
 private:
     [[nodiscard]] std::size_t axis(std::size_t i) const { return (plane_.axis + 1 + i) % 3; }
-    const AxisPlane& plane_;
+    const AxisPlane<Number>& plane_;
 };
 
 // 1 on the polygon's side of its slanted edge, 0 on it.
-int side_of_line(const SlantedEdge& line, const RectangleCorner& c) {
-    const auto step = [&](std::size_t i) { return Int128{line.to[i] - line.from[i]}; };
-    const Int128 turn = step(0) * (c.at[1] - Int128{line.from[1]} * splitting_scale) -
-                        step(1) * (c.at[0] - Int128{line.from[0]} * splitting_scale);
-    return turn > 0 ? 1 : (turn < 0 ? -1 : 0);
+template <class Number>
+int side_of_line(const SlantedEdge<Number>& line, const RectangleCorner<Number>& c) {
+    using Numbers = AxisNumbers<Number>;
+    const auto step = [&](std::size_t i) { return line.to[i] - line.from[i]; };
+    const auto way = [&](std::size_t i) { return c.at[i] - line.from[i] * Numbers::scale; };
+    const auto left = Numbers::multiply(step(0), way(1));
+    const auto right = Numbers::multiply(step(1), way(0));
+    return left > right ? 1 : (left < right ? -1 : 0);
 }
 
 // What a slanted edge leaves of a rectangle.
-Outline cut(const RectangleCorners& corners, const SlantedEdge& line, const EdgeName& slanted,
-            const PlaneVertices& vertices) {
+template <class Number>
+Outline cut(const RectangleCorners<Number>& corners, const SlantedEdge<Number>& line,
+            const EdgeName& slanted, const PlaneVertices<Number>& vertices) {
     std::array<int, 4> sides{};
     for (std::size_t i = 0; i < 4; ++i) sides[i] = side_of_line(line, corners[i]);
     Outline out;
     for (std::size_t i = 0; i < 4; ++i) {
-        const RectangleCorner& here = corners[i];
+        const RectangleCorner<Number>& here = corners[i];
         const int s = sides[i];
         const int t = sides[(i + 1) % 4];
         if (s > 0) out.add(vertices.at(here), here.edge);
@@ -181,16 +210,17 @@ Box box_of(std::span<const Approximation> vertices) {
 
 }  // namespace
 
-std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon& polygon,
-                                            const AxisRectangle& rectangle) {
+template <class Number>
+std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon<Number>& polygon,
+                                            const AxisRectangle<Number>& rectangle) {
     const OwnEdges own = own_edges(polygon);
     const auto sides = common_sides(polygon, own, rectangle.sides);
     if (!sides) return std::nullopt;
-    const RectangleCorners corners = corners_of(*sides, polygon.plane.sign > 0);
-    const PlaneVertices vertices(polygon.plane);
+    const RectangleCorners<Number> corners = corners_of<Number>(*sides, polygon.plane.sign > 0);
+    const PlaneVertices<Number> vertices(polygon.plane);
     Outline outline;
     if (polygon.slanted_count == 0) {
-        for (const RectangleCorner& c : corners) outline.add(vertices.at(c), c.edge);
+        for (const RectangleCorner<Number>& c : corners) outline.add(vertices.at(c), c.edge);
     } else {
         outline = cut(corners, polygon.slanted[0], own.slanted, vertices);
         if (outline.size < 3) return std::nullopt;
@@ -200,5 +230,10 @@ std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon& polygon,
     ref.fragment = Fragment::make(std::span(outline.edges).first(outline.size), made, box_of(made));
     return ref;
 }
+
+template std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon<std::int64_t>& polygon,
+                                                     const AxisRectangle<std::int64_t>& rectangle);
+template std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon<Int128>& polygon,
+                                                     const AxisRectangle<Int128>& rectangle);
 
 }  // namespace trisect::detail

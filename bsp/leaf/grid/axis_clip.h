@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 
 #include <trisect/bsp/cells/axis_polygon.h>
@@ -13,9 +12,10 @@ namespace trisect::detail {
 
 /// An axis-perpendicular rectangle: for each of the two others, cyclically after it, its lower and
 /// its higher side with the plane that ends it there.
+template <class Number>
 struct AxisRectangle {
     struct Side {
-        std::int64_t at = 0;  ///< in 1/192 lattice units
+        Number at = 0;  ///< a position
         EdgeName edge;
     };
     std::array<std::array<Side, 2>, 2> sides;
@@ -23,7 +23,8 @@ struct AxisRectangle {
 
 /// A new fragment; nothing when no area is left. Edges of the polygon keep their names. Integers
 /// decide everything. \pre the polygon has one slanted edge at most.
-[[nodiscard]] std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon& polygon,
-                                                          const AxisRectangle& rectangle);
+template <class Number>
+[[nodiscard]] std::optional<PolygonRef> clip_to_rectangle(const AxisPolygon<Number>& polygon,
+                                                          const AxisRectangle<Number>& rectangle);
 
 }  // namespace trisect::detail

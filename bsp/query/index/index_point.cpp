@@ -21,10 +21,10 @@ namespace {
 constexpr int homogeneous_bits = 320;
 constexpr double homogeneous_limit = 0x1p54;
 // Of coordinates that are not 0 and without error.
-constexpr double least = 0x1p-500;
+constexpr double tiny = 0x1p-500;
 
 // Bits behind the point of the finest coordinate.
-int fraction_bits(const std::array<double, 3>& c) {
+int most_fraction_bits(const std::array<double, 3>& c) {
     int bits = 0;
     for (const double v : c) bits = std::max(bits, -dyadic(v).exponent);
     return bits;
@@ -50,7 +50,7 @@ void IndexPoint::set_huge() {
 // Of rationals.
 bool IndexPoint::is_tiny() const {
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::fabs(c_[k]) < least && (*rational_)[k].sign() != 0) return true;
+        if (std::fabs(c_[k]) < tiny && (*rational_)[k].sign() != 0) return true;
     return false;
 }
 
@@ -60,7 +60,7 @@ IndexPoint::IndexPoint(const Point& p) : c_(p.approximation().c), error_(p.appro
         return;
     }
     for (const double x : c_)
-        if (x != 0 && std::fabs(x) < least) error_ = std::max(error_, least);
+        if (x != 0 && std::fabs(x) < tiny) error_ = std::max(error_, tiny);
     homogeneous_ = p.homogeneous();
 }
 
@@ -85,7 +85,7 @@ IndexPoint::IndexPoint(Rational p) : fits_(false) {
     for (double& x : c_) x = std::clamp(x, -0x1p600, 0x1p600);
     rational_ = std::move(p);
     if (is_tiny()) {
-        error_ = std::max(error_, least);
+        error_ = std::max(error_, tiny);
     } else if (error_ == 0) {
         fits_ = true;  // doubles after all
     }
@@ -139,7 +139,7 @@ void IndexPoint::find_small() const {
 const HomogeneousPoint* IndexPoint::homogeneous() const {
     if (homogeneous_) return &*homogeneous_;
     if (!fits_) return nullptr;
-    const int bits = fraction_bits(c_);
+    const int bits = most_fraction_bits(c_);
     if (bits > homogeneous_bits || largest_component(c_) >= homogeneous_limit) return nullptr;
     std::array<HomogeneousPoint::Coordinate, 3> xyz;
     for (std::size_t k = 0; k < 3; ++k) {
