@@ -179,7 +179,6 @@ TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
         std::vector<Expression> boxes;
         trisect::SolidOptions options;
         options.embedding = embedding;
-        options.import.lattice = trisect::Lattice{-40};  // prisms need whole coordinates
         for (int i = 0; i < count; ++i)
             boxes.emplace_back(Solid::from_mesh(
                 trisect::transformed(trisect::make_box({-8, -3, 0}, {8, 3, 5}),
