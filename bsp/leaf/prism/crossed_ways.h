@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ways out of a figure of prisms, which side faces cross.
+// Crossings of side faces with a ray in the figure's plane.
 //
-// A way leads from a point along the first of the two coordinates, upwards. An end of a side face
-// at the same second coordinate counts as below the way.
+// The ray, a way out of the figure, leads from a point along the first of the two coordinates,
+// upwards. An end of a side face at the same second coordinate counts as below it.
 #pragma once
 
 #include <array>
