@@ -162,7 +162,7 @@ TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
 }
 
 // What is asked of a result that has not been cut, and what is made of it.
-TEST(Prisms, StepsAfterOutlines) {
+void expect_steps_after_outlines(int bits) {
     trisect::EvaluateOptions options;
     options.leaf_polygons = 0;
     const Operand plate = reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
@@ -173,9 +173,7 @@ TEST(Prisms, StepsAfterOutlines) {
         const Operand first = reference::prism(star(random, 6), 4, 9);
         const Operand second = reference::prism(star(random, 5), 0, 4);
         const std::vector<Operand> operands{plate, first, second};
-        std::vector<trisect::Solid> solids;
-        for (const auto& o : operands)
-            solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+        const std::vector<trisect::Solid> solids = solids_of(operands, {bits, bits, bits});
         const trisect::Solid engraved = trisect::evaluate(solids[0] - solids[1], options);
         outlined += trisect::detail::state_of(engraved)->lazy_tree() != nullptr ? 1 : 0;
         EXPECT_FALSE(engraved.is_empty());
@@ -190,8 +188,10 @@ TEST(Prisms, StepsAfterOutlines) {
         EXPECT_TRUE(trisect::evaluate((both - solids[2]) - engraved).is_empty());
         EXPECT_EQ(engines::open_edge(engines::boundary_mesh(both)), "");
     }
-    EXPECT_GT(outlined, 10U);
+    EXPECT_GT(outlined, 10U) << bits;
 }
+
+TEST(Prisms, StepsAfterOutlines) { expect_steps_after_outlines(0); }
 
 // A plate, prisms side by side within it that are flush with its sides, go through it or end in the
 // middle, one with a hole, and some that cross what they like.
@@ -403,6 +403,10 @@ TEST(PrismsWithFractions, OutlinesOfPlatesWithPockets) {
         }
         EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7) << form;
     }
+}
+
+TEST(PrismsWithFractions, StepsAfterOutlines) {
+    for (const int bits : {3, 65}) expect_steps_after_outlines(bits);
 }
 
 TEST(PrismsWithFractions, FormulasOverSeveral) {
