@@ -26,7 +26,35 @@ struct FlatCorner {
     return {p[u], p[v]};
 }
 
-/// The same where some coordinate has bits behind the point.
+/// Twice the area of a triangle, positive when it runs counter-clockwise. \pre coordinates are
+/// whole. Below 2^108: the sides of a box are below 2^54, and no triangle in it has more than half
+/// of its area.
+[[nodiscard]] inline Int128 turn_of_integers(const FlatCorner& a, const FlatCorner& b,
+                                             const FlatCorner& c) {
+    return Int128{difference(b.u, a.u)} * difference(c.v, a.v) -
+           Int128{difference(b.v, a.v)} * difference(c.u, a.u);
+}
+
+/// The same for any coordinates, in units of 2^-(2 fraction_limit). Below 2^254, since sides of a
+/// box are below 2^127 then.
+[[nodiscard]] WideInt<4> turn_of_fractions(const FlatCorner& a, const FlatCorner& b,
+                                           const FlatCorner& c);
+
+/// The same in doubles, in lattice units. An error of 0 is that of a value of 0.
+struct RoundedTurn {
+    double value = 0;
+    double error = 0;
+};
+
+/// Differences round once. They are 0, or too large for products to underflow.
+[[nodiscard]] inline RoundedTurn rounded_turn(const FlatCorner& a, const FlatCorner& b,
+                                              const FlatCorner& c) {
+    const double left = (b.u.to_double() - a.u.to_double()) * (c.v.to_double() - a.v.to_double());
+    const double right = (b.v.to_double() - a.v.to_double()) * (c.u.to_double() - a.u.to_double());
+    return {left - right, minor_rounding * (std::fabs(left) + std::fabs(right))};
+}
+
+/// The sign of the turn where some coordinate has bits behind the point.
 [[nodiscard]] int exact_turn_of_fractions(const FlatCorner& a, const FlatCorner& b,
                                           const FlatCorner& c);
 
@@ -40,13 +68,16 @@ struct FlatCorner {
     return left > right ? 1 : (left < right ? -1 : 0);
 }
 
-/// 1 for a left turn, -1 for a right turn, 0 on a line. Doubles first: differences round once.
+/// The sign of a turn that is known in doubles.
+[[nodiscard]] inline int sign_of_turn(const RoundedTurn& rounded, const FlatCorner& a,
+                                      const FlatCorner& b, const FlatCorner& c) {
+    const int sign = certain_sign(rounded.value, rounded.error);
+    return sign != 0 || rounded.error == 0 ? sign : exact_turn(a, b, c);
+}
+
+/// 1 for a left turn, -1 for a right turn, 0 on a line. Doubles first.
 [[nodiscard]] inline int turn(const FlatCorner& a, const FlatCorner& b, const FlatCorner& c) {
-    const double left = (b.u.to_double() - a.u.to_double()) * (c.v.to_double() - a.v.to_double());
-    const double right = (b.v.to_double() - a.v.to_double()) * (c.u.to_double() - a.u.to_double());
-    const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
-    const int sign = certain_sign(left - right, bound);
-    return sign != 0 ? sign : exact_turn(a, b, c);
+    return sign_of_turn(rounded_turn(a, b, c), a, b, c);
 }
 
 }  // namespace trisect::detail

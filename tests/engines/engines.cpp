@@ -64,6 +64,9 @@ reference::Point3 rational_point(const trisect::Point& p, trisect::Lattice latti
 }  // namespace
 
 trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits) {
+    const auto scaled = [bits](std::int64_t v) {
+        return trisect::Coordinate(std::ldexp(static_cast<double>(v), -bits));
+    };
     trisect::LatticeMesh mesh;
     std::map<std::array<std::int64_t, 3>, std::uint32_t> index;
     for (const auto& t : operand) {
@@ -72,15 +75,11 @@ trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits) {
             const std::array<std::int64_t, 3> p{t[i][0], t[i][1], t[i][2]};
             const auto [at, inserted] =
                 index.insert({p, static_cast<std::uint32_t>(mesh.points.size())});
-            if (inserted) mesh.points.push_back({p[0], p[1], p[2]});
+            if (inserted) mesh.points.push_back({scaled(p[0]), scaled(p[1]), scaled(p[2])});
             corners[i] = at->second;
         }
         mesh.triangles.push_back(corners);
     }
-    const auto scaled = [bits](trisect::Coordinate c) {
-        return trisect::Coordinate(std::ldexp(c.to_double(), -bits));
-    };
-    for (trisect::LatticePoint& p : mesh.points) p = {scaled(p.x), scaled(p.y), scaled(p.z)};
     mesh.lattice.exponent = bits;
     return mesh;
 }

@@ -16,7 +16,7 @@
 namespace engines {
 
 /// A lattice mesh with one point per distinct corner; of unit 2^bits, where coordinates have so
-/// many bits behind the point.
+/// many bits behind the point. \pre coordinates are doubles.
 trisect::LatticeMesh lattice_mesh(const reference::Operand& operand, int bits = 0);
 
 /// The operand as a solid whose boundary may meet itself.

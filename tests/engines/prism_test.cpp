@@ -13,6 +13,7 @@
 
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
@@ -64,10 +65,22 @@ Operand random_prism(reference::Random& random) {
     return reference::prism(star(random, 3 + random.below(4)), heights[low], heights[high]);
 }
 
+// Bits behind the point, by operand; none where the list ends.
+using Bits = std::vector<int>;
+using States = std::vector<std::shared_ptr<const trisect::detail::SolidState>>;
+
+std::vector<trisect::Solid> solids_of(const std::vector<Operand>& operands, const Bits& bits) {
+    std::vector<trisect::Solid> out;
+    for (std::size_t i = 0; i < operands.size(); ++i)
+        out.push_back(
+            engines::solid(operands[i], trisect::Embedding::Assume, i < bits.size() ? bits[i] : 0));
+    return out;
+}
+
 void expect_agreement(const std::vector<Operand>& operands, const reference::Expression& expression,
-                      const trisect::EvaluateOptions& options, Leaves& leaves) {
-    std::vector<trisect::Solid> solids;
-    for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+                      const trisect::EvaluateOptions& options, Leaves& leaves,
+                      const Bits& bits = {}) {
+    const std::vector<trisect::Solid> solids = solids_of(operands, bits);
     trisect::test::EvaluateStats stats;
     const trisect::Solid result = evaluate(engines::formula(expression, solids), options, &stats);
     leaves.prisms += stats.prism_leaves;
@@ -78,16 +91,25 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
               "");
 }
 
-double volume_of(const trisect::PolygonMesh& mesh) {
-    double six_fold = 0;
+struct Volume {
+    double value = 0;
+    double terms = 0;  // the sum of their magnitudes
+};
+
+Volume volume_of(const trisect::PolygonMesh& mesh) {
+    Volume out;
     for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3) {
         const auto& a = mesh.points[mesh.corners[i]];
         const auto& b = mesh.points[mesh.corners[i + 1]];
         const auto& c = mesh.points[mesh.corners[i + 2]];
-        six_fold += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                    a[2] * (b[0] * c[1] - b[1] * c[0]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double left = a[k] * b[(k + 1) % 3] * c[(k + 2) % 3] / 6;
+            const double right = a[k] * b[(k + 2) % 3] * c[(k + 1) % 3] / 6;
+            out.value += left - right;
+            out.terms += std::fabs(left) + std::fabs(right);
+        }
     }
-    return six_fold / 6;
+    return out;
 }
 
 const trisect::detail::FormulaRule by_outlines{&trisect::detail::are_large_prisms,
@@ -95,13 +117,14 @@ const trisect::detail::FormulaRule by_outlines{&trisect::detail::are_large_prism
 
 // The same for outlines, as large results have them, before anything is cut.
 void expect_same_outlines(const std::vector<Operand>& operands,
-                          const reference::Expression& expression, Leaves& leaves) {
-    std::vector<trisect::Solid> solids;
-    for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
-    const auto formula = trisect::detail::translate(engines::formula(expression, solids));
-    std::vector<std::shared_ptr<const trisect::detail::SolidState>> states;
+                          const reference::Expression& expression, Leaves& leaves,
+                          const Bits& bits = {}) {
+    const auto formula =
+        trisect::detail::translate(engines::formula(expression, solids_of(operands, bits)));
+    States states;
     for (const trisect::Solid& s : formula.slots) states.push_back(trisect::detail::state_of(s));
     trisect::detail::EvaluateSettings options;
+    (void)trisect::detail::move_to_common_lattice(states, trisect::EvaluateOptions{}.lattices);
     options.leaf_polygons = 0;
     trisect::detail::EvaluateStats stats;
     ++leaves.mixed;
@@ -114,9 +137,11 @@ void expect_same_outlines(const std::vector<Operand>& operands,
     const trisect::Solid result = trisect::detail::solid_of(outlined);
     EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
     EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*outlined, {}), expected), "");
-    const double volume =
+    const Volume volume =
         volume_of(trisect::detail::assemble_mesh(*trisect::detail::cut_state(result)));
-    EXPECT_NEAR(volume_of(engines::boundary_mesh(result)), volume, 1e-9 * std::fabs(volume));
+    // Corners that are rounded move what may be no thicker than that.
+    EXPECT_NEAR(volume_of(engines::boundary_mesh(result)).value, volume.value,
+                1e-9 * std::fabs(volume.value) + 0x1p-50 * volume.terms);
 }
 
 TEST(Prisms, PairsAlongEveryAxis) {
@@ -148,7 +173,7 @@ TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
 }
 
 // What is asked of a result that has not been cut, and what is made of it.
-TEST(Prisms, StepsAfterOutlines) {
+void expect_steps_after_outlines(int bits) {
     trisect::EvaluateOptions options;
     options.leaf_polygons = 0;
     const Operand plate = reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
@@ -159,9 +184,7 @@ TEST(Prisms, StepsAfterOutlines) {
         const Operand first = reference::prism(star(random, 6), 4, 9);
         const Operand second = reference::prism(star(random, 5), 0, 4);
         const std::vector<Operand> operands{plate, first, second};
-        std::vector<trisect::Solid> solids;
-        for (const auto& o : operands)
-            solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+        const std::vector<trisect::Solid> solids = solids_of(operands, {bits, bits, bits});
         const trisect::Solid engraved = trisect::evaluate(solids[0] - solids[1], options);
         outlined += trisect::detail::state_of(engraved)->lazy_tree() != nullptr ? 1 : 0;
         EXPECT_FALSE(engraved.is_empty());
@@ -176,36 +199,42 @@ TEST(Prisms, StepsAfterOutlines) {
         EXPECT_TRUE(trisect::evaluate((both - solids[2]) - engraved).is_empty());
         EXPECT_EQ(engines::open_edge(engines::boundary_mesh(both)), "");
     }
-    EXPECT_GT(outlined, 10U);
+    EXPECT_GT(outlined, 10U) << bits;
 }
+
+TEST(Prisms, StepsAfterOutlines) { expect_steps_after_outlines(0); }
 
 // A plate, prisms side by side within it that are flush with its sides, go through it or end in the
 // middle, one with a hole, and some that cross what they like.
+std::vector<Operand> plate_with_pockets(reference::Random& random) {
+    const Operand plate = reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
+    const auto height = [&] {
+        const std::array<std::int64_t, 5> heights{-2, 0, 4, 9, 12};
+        const std::size_t low = random.below(4);
+        return std::array{heights[low], heights[low + 1 + random.below(4 - low)]};
+    };
+    Operand pockets;
+    for (std::int64_t i = 0; i < 2; ++i) {
+        const auto [low, high] = height();
+        const Operand one = reference::prism(star(random, 3 + random.below(4)), low, high);
+        pockets = reference::concatenated(pockets, reference::translated(one, {112 * i, 0, 0}));
+    }
+    std::vector<Operand> operands{plate, pockets};
+    for (std::uint64_t i = random.below(4); i > 0; --i) {
+        const auto [low, high] = height();
+        const reference::LatticePoint by{random.between(-60, 160), random.between(-40, 40), 0};
+        operands.push_back(reference::translated(
+            reference::prism(star(random, 3 + random.below(4)), low, high), by));
+    }
+    return operands;
+}
+
 TEST(Prisms, OutlinesOfPlatesWithPockets) {
     Leaves leaves;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         reference::Random random(seed + 460000);
-        const Operand plate =
-            reference::prism({{-70, -71}, {190, -80}, {200, 75}, {-61, 90}}, 0, 9);
-        const auto height = [&] {
-            const std::array<std::int64_t, 5> heights{-2, 0, 4, 9, 12};
-            const std::size_t low = random.below(4);
-            return std::array{heights[low], heights[low + 1 + random.below(4 - low)]};
-        };
-        Operand pockets;
-        for (std::int64_t i = 0; i < 2; ++i) {
-            const auto [low, high] = height();
-            const Operand one = reference::prism(star(random, 3 + random.below(4)), low, high);
-            pockets = reference::concatenated(pockets, reference::translated(one, {112 * i, 0, 0}));
-        }
-        std::vector<Operand> operands{plate, pockets};
-        for (std::uint64_t i = random.below(4); i > 0; --i) {
-            const auto [low, high] = height();
-            const reference::LatticePoint by{random.between(-60, 160), random.between(-40, 40), 0};
-            operands.push_back(reference::translated(
-                reference::prism(star(random, 3 + random.below(4)), low, high), by));
-        }
+        std::vector<Operand> operands = plate_with_pockets(random);
         if (seed % 3 == 0) std::swap(operands[0], operands.back());
         auto expression = reference::random_expression(random, operands.size(), operands.size());
         if (operands.size() == 2)
@@ -268,6 +297,178 @@ TEST(Prisms, WallsThroughOnePointAndWallsThatTouch) {
     }
     EXPECT_GT(leaves.prisms, 10U);
 }
+
+// --- Coordinates with many digits.
+
+// What becomes of small whole coordinates. The engine in rationals has integers in units in which
+// the coordinates of the cell tree have so many bits behind the point.
+struct Form {
+    std::vector<Operand> operands;
+    Bits bits;
+};
+
+// The same solids on coarser lattices: on one, or on one for each.
+Form on_coarser_lattices(std::vector<Operand> operands, std::uint64_t seed) {
+    constexpr std::array<int, 5> several{0, 2, 40, 61, 65};
+    const int one = 1 + static_cast<int>(seed * 29 % 65);
+    Form out{std::move(operands), {}};
+    for (std::size_t i = 0; i < out.operands.size(); ++i)
+        out.bits.push_back(seed % 2 == 0 ? one : several[(seed + 2 * i) % several.size()]);
+    return out;
+}
+
+// Tenths, which are multiples of 2^-56.
+Form in_decimals(std::vector<Operand> operands, std::uint64_t) {
+    constexpr int bits = 56;
+    for (Operand& o : operands)
+        for (auto& t : o)
+            for (auto& corner : t)
+                for (std::int64_t& c : corner)
+                    c = static_cast<std::int64_t>(std::ldexp(static_cast<double>(c) / 10, bits));
+    Form out{std::move(operands), {}};
+    out.bits.assign(out.operands.size(), bits);
+    return out;
+}
+
+// Corners are on the grid, or one double beside it along an axis or two; heights as well. Different
+// operands do not agree about it. Below 2^52 units of the coarsest lattice there are no fractions.
+Form one_double_off(std::vector<Operand> operands, std::uint64_t seed) {
+    constexpr std::array<int, 4> lattices{0, 52, 61, 70};
+    const int bits = lattices[seed % lattices.size()];
+    const double unit = bits == 0 ? 0x1p44 : 0x1p52;
+    const auto displaced = [&](std::int64_t c, std::uint64_t salt) {
+        const double at = static_cast<double>(c) * unit;
+        reference::Random random(salt);
+        const std::int64_t way = random.between(-1, 1);
+        if (way == 0) return static_cast<std::int64_t>(at);
+        const double next = std::nextafter(at, way > 0 ? 0x1p80 : -0x1p80);
+        const bool is_integer = next == std::floor(next) && c != 0;
+        return is_integer ? static_cast<std::int64_t>(next) : static_cast<std::int64_t>(at) + way;
+    };
+    for (std::size_t i = 0; i < operands.size(); ++i)
+        for (auto& t : operands[i])
+            for (auto& p : t) {
+                const std::uint64_t key = 1000 * seed + i;
+                const auto corner = static_cast<std::uint64_t>(512 * (p[0] + 256) + p[1] + 256);
+                const auto height = static_cast<std::uint64_t>(p[2] + 256);
+                p = {displaced(p[0], key + (corner << 24)),
+                     displaced(p[1], key + (corner << 24) + 500),
+                     displaced(p[2], key + (height << 48) + 700)};
+            }
+    Form out{std::move(operands), {}};
+    out.bits.assign(out.operands.size(), bits);
+    return out;
+}
+
+constexpr std::array forms{&on_coarser_lattices, &in_decimals, &one_double_off};
+
+Form form_of(std::size_t form, const std::vector<Operand>& operands, std::uint64_t seed) {
+    Form out = forms[form](operands, seed);
+    for (Operand& o : out.operands) o = reference::axes_rotated(std::move(o), seed % 3);
+    return out;
+}
+
+TEST(PrismsWithFractions, PairsAlongEveryAxis) {
+    for (std::size_t form = 0; form < forms.size(); ++form) {
+        Leaves leaves;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            SCOPED_TRACE(std::to_string(form) + " seed " + std::to_string(seed));
+            reference::Random random(seed + 480000);
+            const auto [operands, bits] =
+                form_of(form, {random_prism(random), random_prism(random)}, seed);
+            for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor})
+                expect_agreement(operands, reference::pair_expression(kind), {}, leaves, bits);
+        }
+        EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5) << form;
+    }
+}
+
+// A prism and the same one again with other last digits: side faces that nearly coincide cross at
+// the smallest of angles, or have a corner in common, or end on each other.
+TEST(PrismsWithFractions, CopiesOneDoubleApart) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 485000);
+        const Operand one = random_prism(random);
+        const auto [operands, bits] = form_of(2, {one, one, random_prism(random)}, seed);
+        expect_agreement(operands, reference::random_expression(random, 3, 3), {}, leaves, bits);
+        expect_same_outlines(operands, reference::random_expression(random, 3, 2), leaves, bits);
+    }
+    EXPECT_GT(leaves.prisms, 20U);
+}
+
+TEST(PrismsWithFractions, OutlinesOfPlatesWithPockets) {
+    for (std::size_t form = 0; form < forms.size(); ++form) {
+        Leaves leaves;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            SCOPED_TRACE(std::to_string(form) + " seed " + std::to_string(seed));
+            reference::Random random(seed + 490000);
+            const auto [operands, bits] = form_of(form, plate_with_pockets(random), seed);
+            auto expression =
+                reference::random_expression(random, operands.size(), operands.size());
+            if (operands.size() == 2)
+                expression =
+                    reference::pair_expression(seed % 2 == 0 ? Kind::Difference : Kind::Union);
+            expect_same_outlines(operands, expression, leaves, bits);
+        }
+        EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7) << form;
+    }
+}
+
+TEST(PrismsWithFractions, StepsAfterOutlines) {
+    for (const int bits : {3, 65}) expect_steps_after_outlines(bits);
+}
+
+TEST(PrismsWithFractions, FormulasOverSeveral) {
+    for (std::size_t form = 0; form < forms.size(); ++form) {
+        Leaves leaves;
+        for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+            SCOPED_TRACE(std::to_string(form) + " seed " + std::to_string(seed));
+            reference::Random random(seed + 495000);
+            std::vector<Operand> grid;
+            for (std::size_t i = 0; i < 3 + seed % 3; ++i) grid.push_back(random_prism(random));
+            const auto [operands, bits] = form_of(form, grid, seed);
+            const auto expression =
+                reference::random_expression(random, operands.size(), operands.size() + seed % 4);
+            trisect::EvaluateOptions options;
+            if (seed % 4 == 0) options.leaf_polygons = 6;
+            expect_agreement(operands, expression, options, leaves, bits);
+        }
+        EXPECT_GT(leaves.prisms, 20U) << form;
+    }
+}
+
+// Side faces in one plane, some of which overlap; three that have a line in common, or miss it by a
+// digit; and some that end on others.
+TEST(PrismsWithFractions, WallsInOnePlaneThroughOneLineAndWallsThatTouch) {
+    const Operand a = reference::prism({{-10, -1}, {10, -1}, {10, 1}, {-10, 1}}, 0, 4);
+    const Operand b = reference::prism({{-9, -11}, {11, 9}, {9, 11}, {-11, -9}}, 0, 4);
+    const Operand c = reference::prism({{-11, 9}, {9, -11}, {11, -9}, {-9, 11}}, 0, 4);
+    const Operand touching = reference::prism({{-3, 1}, {2, 1}, {0, 14}}, 0, 4);
+    const Operand corner = reference::prism({{0, 1}, {7, 20}, {-7, 20}}, 0, 4);
+    const Operand beside = reference::prism({{12, -1}, {25, -1}, {21, 17}}, 0, 9);
+    const Operand over = reference::prism({{3, 1}, {27, 1}, {24, -13}, {4, -7}}, 0, 3);
+    for (std::size_t form = 0; form < forms.size(); ++form) {
+        Leaves leaves;
+        for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+            SCOPED_TRACE(std::to_string(form) + " seed " + std::to_string(seed));
+            reference::Random random(seed + 500000);
+            for (const std::vector<Operand>& grid :
+                 {std::vector{a, b, c}, std::vector{a, touching, b}, std::vector{a, corner, c},
+                  std::vector{a, beside, b}, std::vector{a, over, c}}) {
+                const auto [operands, bits] = form_of(form, grid, seed);
+                expect_agreement(operands, reference::random_expression(random, 3, 3), {}, leaves,
+                                 bits);
+                expect_same_outlines(operands, reference::random_expression(random, 3, 3), leaves,
+                                     bits);
+            }
+        }
+        EXPECT_GT(leaves.prisms, 20U) << form;
+    }
+}
+
+// --- Sizes.
 
 // Slanted bars side by side, and one across all of them; a quarter turn takes bars that are long in
 // the one coordinate to bars that are long in the other.

@@ -29,6 +29,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/prism/crossed_ways.h>
 #include <trisect/bsp/leaf/straight_crossings.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/support/as_index.h>
@@ -106,23 +107,19 @@ void PrismArrangement::find_chains() {
 
 // False where too many side faces lie across the lines of chains, as in PrismCrossings.
 bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
-    const auto low = [&](LeafIndex i) {
-        return std::min(side_face(i).from[1], side_face(i).to[1]);
-    };
-    const auto high = [&](LeafIndex i) {
-        return std::max(side_face(i).from[1], side_face(i).to[1]);
-    };
-    std::vector<std::pair<std::int64_t, LeafIndex>> side_faces;  // by their lower ends
+    const auto low = [&](LeafIndex i) { return std::min(side_face(i).from.v, side_face(i).to.v); };
+    const auto high = [&](LeafIndex i) { return std::max(side_face(i).from.v, side_face(i).to.v); };
+    std::vector<std::pair<Coordinate, LeafIndex>> side_faces;  // by their lower ends
     for (LeafIndex i = 0; as_index(i) < facets_.side_faces().size(); ++i)
         if (low(i) != high(i)) side_faces.emplace_back(low(i), i);
     std::ranges::sort(side_faces);
-    const auto start = [&](std::size_t chain) -> const FlatPoint& {
+    const auto start = [&](std::size_t chain) -> const FlatCorner& {
         return side_face(steps_[chain_begin_[chain]].side_face).from;
     };
-    std::vector<std::pair<std::int64_t, std::size_t>> chains;
-    for (std::size_t c = 0; c + 1 < chain_begin_.size(); ++c) chains.emplace_back(start(c)[1], c);
+    std::vector<std::pair<Coordinate, std::size_t>> chains;
+    for (std::size_t c = 0; c + 1 < chain_begin_.size(); ++c) chains.emplace_back(start(c).v, c);
     std::ranges::sort(chains);
-    std::vector<std::pair<std::int64_t, LeafIndex>> across;  // the line of the start: upper ends
+    std::vector<std::pair<Coordinate, LeafIndex>> across;  // the line of the start: upper ends
     std::vector<LeafIndex> crossed;
     auto next = side_faces.begin();
     std::size_t looked_at = 0;
@@ -506,7 +503,7 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
         return {PlaneName::edge(f.source, f.facet, facets_.upright_edge(w, end).edge), false};
     }
     const PrismSideFace& other = side_face(b);
-    const bool left = flat_turn(other.from, other.to, keeps_to ? w.to : w.from) > 0;
+    const bool left = turn(other.from, other.to, keeps_to ? w.to : w.from) > 0;
     return {support_of(b), left == other.above_is_left[0]};
 }
 

@@ -22,34 +22,96 @@ bool are_neighbours(const PrismSideFace& s, const PrismSideFace& t, bool in_line
     return !in_line && (s.from == t.from || s.to == t.to);
 }
 
-// The part of the way along a side face at which another one crosses it.
+// The part of the way along a side face at which another one crosses it: of twice the area of the
+// quadrangle of which both are the diagonals, what is on one side of the other one. The quadrangle
+// has at most the area of a box around both, hence `whole` is below 2^109 in integers and below
+// 2^255 in fractions (flat_corner.h), and `part` is no larger.
+template <class N>
 struct Fraction {
-    Int128 part;
-    Int128 whole;
+    N part;
+    N whole;
 
-    /// From the sides of the other side face on which its ends lie.
-    Fraction(Int128 from, Int128 to)
-        : part(magnitude(from)), whole(magnitude(from) + magnitude(to)) {}
-    Fraction(const PrismSideFace& on, const PrismSideFace& other)
-        : Fraction(flat_turn(other.from, other.to, on.from),
-                   flat_turn(other.from, other.to, on.to)) {}
-    [[nodiscard]] double rounded() const {
-        return static_cast<double>(part) / static_cast<double>(whole);
-    }
+    /// From the turns of the other side face to both ends.
+    Fraction(const N& from, const N& to) : part(from), whole(from + to) {}
 };
+
+using IntegerFraction = Fraction<Int128>;
+using WideFraction = Fraction<WideInt<4>>;
+
+bool is_whole(const PrismSideFace& w) {
+    return w.from.u.is_whole() && w.from.v.is_whole() && w.to.u.is_whole() && w.to.v.is_whole();
+}
+
+/// \pre both have whole coordinates.
+IntegerFraction integer_fraction(const PrismSideFace& on, const PrismSideFace& other) {
+    return {magnitude(turn_of_integers(other.from, other.to, on.from)),
+            magnitude(turn_of_integers(other.from, other.to, on.to))};
+}
+
+WideFraction wide_fraction(const PrismSideFace& on, const PrismSideFace& other) {
+    return {turn_of_fractions(other.from, other.to, on.from).abs(),
+            turn_of_fractions(other.from, other.to, on.to).abs()};
+}
+
+// On which sides of a side face the ends of another one lie.
+struct EndSides {
+    RoundedTurn from;
+    int from_sign;
+    RoundedTurn to;
+    int to_sign;
+
+    EndSides(const PrismSideFace& ends, const PrismSideFace& of)
+        : from(rounded_turn(of.from, of.to, ends.from)),
+          from_sign(sign_of_turn(from, of.from, of.to, ends.from)),
+          to(rounded_turn(of.from, of.to, ends.to)),
+          to_sign(sign_of_turn(to, of.from, of.to, ends.to)) {}
+    [[nodiscard]] bool are_equal() const { return from_sign * to_sign > 0; }
+    [[nodiscard]] bool touch() const { return from_sign == 0 || to_sign == 0; }
+};
+
+// PrismCrossing::at. Let p and q be the magnitudes of both turns, off by at most e from P and Q:
+// p / (p + q) - P / (P + Q) = (p (Q - q) - q (P - p)) / ((p + q) (P + Q)), so it is off by at most
+// e / (P + Q). That is half of place_error here but for terms of second order. Two roundings, of at
+// most 2^-52 together, or four in integers, are the least of it.
+double place(const PrismSideFace& on, const PrismSideFace& other, const EndSides& sides) {
+    const double part = std::fabs(sides.from.value);
+    const double all = part + std::fabs(sides.to.value);
+    if (std::max(sides.from.error, sides.to.error) <= place_error / 2 * all) return part / all;
+    if (is_whole(on) && is_whole(other)) {
+        const IntegerFraction f = integer_fraction(on, other);
+        return static_cast<double>(f.part) / static_cast<double>(f.whole);
+    }
+    const WideFraction f = wide_fraction(on, other);
+    return f.part.to_double() / f.whole.to_double();
+}
+
+// In twice the width of their numbers.
+template <int N>
+int order_of(const WideInt<N>& part, const WideInt<N>& whole, const WideInt<N>& other_part,
+             const WideInt<N>& other_whole) {
+    const auto s = multiply<2 * N>(part, other_whole);
+    const auto t = multiply<2 * N>(other_part, whole);
+    return s < t ? -1 : (t < s ? 1 : 0);
+}
+
+int order_of(const IntegerFraction& f, const IntegerFraction& g) {
+    return order_of<2>(f.part, f.whole, g.part, g.whole);
+}
+
+int order_of(const WideFraction& f, const WideFraction& g) {
+    return order_of<4>(f.part, f.whole, g.part, g.whole);
+}
 
 }  // namespace
 
 int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) const {
-    if (const double gap = a.at - b.at; std::fabs(gap) > 0x1p-50) return gap < 0 ? -1 : 1;
-    const auto place = [&](const PrismCrossing& c) {
-        return Fraction(side_faces_[as_index(c.on)], side_faces_[as_index(c.side_face)]);
-    };
-    const Fraction f = place(a);
-    const Fraction g = place(b);
-    const WideInt<4> s = multiply<4>(WideInt<2>(f.part), WideInt<2>(g.whole));
-    const WideInt<4> t = multiply<4>(WideInt<2>(g.part), WideInt<2>(f.whole));
-    return s < t ? -1 : (t < s ? 1 : 0);
+    if (const double gap = a.at - b.at; std::fabs(gap) > 3 * place_error) return gap < 0 ? -1 : 1;
+    const PrismSideFace& on = side_faces_[as_index(a.on)];
+    const PrismSideFace& s = side_faces_[as_index(a.side_face)];
+    const PrismSideFace& t = side_faces_[as_index(b.side_face)];
+    if (is_whole(on) && is_whole(s) && is_whole(t))
+        return order_of(integer_fraction(on, s), integer_fraction(on, t));
+    return order_of(wide_fraction(on, s), wide_fraction(on, t));
 }
 
 bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideFace> side_faces,
@@ -62,8 +124,8 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideF
         return side_faces[as_index(i)];
     };
     std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
-        return side_face(a).from[0] != side_face(b).from[0]
-                   ? side_face(a).from[0] < side_face(b).from[0]
+        return side_face(a).from.u != side_face(b).from.u
+                   ? side_face(a).from.u < side_face(b).from.u
                    : a < b;
     });
     std::size_t looked_at = 0;
@@ -71,12 +133,12 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideF
         check_budget(*problem.options, stats);
         if (looked_at > most_per_side_face * order_.size()) return false;
         const PrismSideFace& s = side_face(order_[i]);
-        const auto [low, high] = std::minmax(s.from[1], s.to[1]);
+        const auto [low, high] = std::minmax(s.from.v, s.to.v);
         for (std::size_t j = i + 1; j < order_.size(); ++j) {
             const PrismSideFace& t = side_face(order_[j]);
-            if (t.from[0] > s.to[0]) break;
+            if (t.from.u > s.to.u) break;
             ++looked_at;
-            if (std::max(t.from[1], t.to[1]) < low || std::min(t.from[1], t.to[1]) > high ||
+            if (std::max(t.from.v, t.to.v) < low || std::min(t.from.v, t.to.v) > high ||
                 t.lo > s.hi || t.hi < s.lo)
                 continue;
             ++stats.pairs_boxes;
@@ -106,17 +168,15 @@ bool PrismCrossings::any_coincide() const {
 bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
     const PrismSideFace& a = side_faces_[as_index(s)];
     const PrismSideFace& b = side_faces_[as_index(t)];
-    const Int128 b_from = flat_turn(a.from, a.to, b.from);
-    const Int128 b_to = flat_turn(a.from, a.to, b.to);
-    if (sign(b_from) * sign(b_to) > 0) return true;
-    const Int128 a_from = flat_turn(b.from, b.to, a.from);
-    const Int128 a_to = flat_turn(b.from, b.to, a.to);
-    if (sign(a_from) * sign(a_to) > 0) return true;
-    if (b_from == 0 || b_to == 0 || a_from == 0 || a_to == 0)
-        return are_neighbours(a, b, b_from == 0 && b_to == 0);
+    const EndSides of_b(b, a);
+    if (of_b.are_equal()) return true;
+    const EndSides of_a(a, b);
+    if (of_a.are_equal()) return true;
+    if (of_a.touch() || of_b.touch())
+        return are_neighbours(a, b, of_b.from_sign == 0 && of_b.to_sign == 0);
     if (a.operand == b.operand) return false;
-    found_.push_back({s, t, Fraction(a_from, a_to).rounded()});
-    found_.push_back({t, s, Fraction(b_from, b_to).rounded()});
+    found_.push_back({s, t, place(a, b, of_a)});
+    found_.push_back({t, s, place(b, a, of_b)});
     return true;
 }
 

@@ -13,11 +13,14 @@
 
 namespace trisect::detail {
 
+/// How far PrismCrossing::at may be from what it stands for.
+inline constexpr double place_error = 0x1p-36;
+
 /// A place on a side face where another one crosses it.
 struct PrismCrossing {
     LeafIndex on = 0;         ///< that side face
     LeafIndex side_face = 0;  ///< the other one
-    double at = 0;  ///< part of the way from its `from` to its `to`; relative error below 2^-51
+    double at = 0;            ///< part of the way from its `from` to its `to`; within place_error
 };
 
 /// Crossings are many, up to the square of the number of side faces: what is exact about their

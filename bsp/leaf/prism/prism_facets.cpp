@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include <trisect/bsp/leaf/prism/crossed_ways.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -24,14 +25,9 @@ bool same_rectangle(const PrismSideFace& a, const PrismSideFace& b) {
 
 }  // namespace
 
-FlatPoint PrismFacets::flat(const LatticePoint& p) const {
-    return {coordinate(p, (axis_ + 1) % 3).to_integer(),
-            coordinate(p, (axis_ + 2) % 3).to_integer()};
-}
-
 bool PrismFacets::faces_up(const PolygonRef& cap) const {
     const auto corner = [&](int i) { return flat(cap.source->corner(cap.facet, i)); };
-    return flat_turn(corner(0), corner(1), corner(2)) > 0;
+    return turn(corner(0), corner(1), corner(2)) > 0;
 }
 
 PrismFacets::Upright PrismFacets::upright_edge(const PrismSideFace& side_face,
@@ -48,9 +44,7 @@ PrismFacets::Upright PrismFacets::upright_edge(const PrismSideFace& side_face,
 
 // Two of its corners have two coordinates in common, or all three have one.
 bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
-    if (polygon.fragment != nullptr || polygon.source->is_half_space() ||
-        !polygon.source->is_whole())
-        return false;
+    if (polygon.fragment != nullptr || polygon.source->is_half_space()) return false;
     std::array<int, 3> equal{};  // by axis: sides along which it does not change
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& a = polygon.source->corner(polygon.facet, i);
@@ -88,7 +82,7 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
     caps_.clear();
     for (std::size_t o = 0; o < problem.operands.size(); ++o)
         for (const PolygonRef& ref : problem.operands[o].polygons) {
-            if (ref.fragment != nullptr || ref.source->is_half_space() || !ref.source->is_whole() ||
+            if (ref.fragment != nullptr || ref.source->is_half_space() ||
                 !add(ref, static_cast<LeafIndex>(o), problem.operands[o].flipped) ||
                 !problem.cell.contains(ref.box()))
                 return false;
@@ -98,17 +92,17 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
 
 bool PrismFacets::is_grid() const {
     return std::ranges::all_of(side_faces_, [](const PrismSideFace& w) {
-        return w.from[0] == w.to[0] || w.from[1] == w.to[1];
+        return w.from.u == w.to.u || w.from.v == w.to.v;
     });
 }
 
 bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
-    std::array<FlatPoint, 3> corners;
-    std::array<std::int64_t, 3> height{};
+    std::array<FlatCorner, 3> corners;
+    std::array<Coordinate, 3> height{};
     for (int i = 0; i < 3; ++i) {
         const LatticePoint& p = ref.source->corner(ref.facet, i);
         corners[static_cast<std::size_t>(i)] = flat(p);
-        height[static_cast<std::size_t>(i)] = coordinate(p, axis_).to_integer();
+        height[static_cast<std::size_t>(i)] = coordinate(p, axis_);
     }
     if (height[0] == height[1] && height[0] == height[2]) {
         caps_.push_back({operand, ref, 0});
@@ -164,13 +158,13 @@ bool PrismFacets::join_halves() {
 
 bool PrismFacets::find_layers() {
     const auto height = [&](const PolygonRef& ref) {
-        return coordinate(ref.source->corner(ref.facet, 0), axis_).to_integer();
+        return coordinate(ref.source->corner(ref.facet, 0), axis_);
     };
     positions_.clear();
     for (const PrismCap& c : caps_) positions_.push_back(height(c.ref));
     std::ranges::sort(positions_);
     positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
-    const auto index = [&](std::int64_t p) {
+    const auto index = [&](Coordinate p) {
         return static_cast<std::size_t>(std::ranges::lower_bound(positions_, p) -
                                         positions_.begin());
     };
@@ -202,18 +196,12 @@ void PrismFacets::find_outside(const LeafProblem& problem) {
         outside_.push_back(is_inside(o.winding, problem.options->winding) ? 1 : 0);
     const FinePoint& r = problem.reference;
     const auto layer = static_cast<std::size_t>(
-        std::ranges::partition_point(
-            positions_, [&](std::int64_t p) { return p * splitting_scale <= r.c[axis_]; }) -
+        std::ranges::partition_point(positions_,
+                                     [&](Coordinate p) { return compare(p, r.c[axis_]) <= 0; }) -
         positions_.begin());
-    const FlatPoint point{r.c[(axis_ + 1) % 3], r.c[(axis_ + 2) % 3]};
-    for (const PrismSideFace& w : side_faces_) {
-        if (!w.is_in(layer)) continue;
-        const FlatPoint from{w.from[0] * splitting_scale, w.from[1] * splitting_scale};
-        const FlatPoint to{w.to[0] * splitting_scale, w.to[1] * splitting_scale};
-        if ((from[1] > point[1]) == (to[1] > point[1])) continue;
-        if ((flat_turn(from, to, point) > 0) == (to[1] > from[1]))
-            outside_[as_index(w.operand)] ^= 1;
-    }
+    const FlatFinePoint point{r.c[(axis_ + 1) % 3], r.c[(axis_ + 2) % 3]};
+    for (const PrismSideFace& w : side_faces_)
+        if (w.is_in(layer) && crosses_way(w, point)) outside_[as_index(w.operand)] ^= 1;
 }
 
 }  // namespace trisect::detail

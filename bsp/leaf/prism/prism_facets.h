@@ -11,25 +11,17 @@
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
-#include <trisect/kernel/wide_int.h>
+#include <trisect/kernel/number/flat_corner.h>
 
 namespace trisect::detail {
 
-/// A lattice point as it is seen along the prisms' axis.
-using FlatPoint = std::array<std::int64_t, 2>;
-
-/// Twice the area of a triangle, positive when it runs counter-clockwise. Below 2^110.
-[[nodiscard]] inline Int128 flat_turn(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
-    return Int128{b[0] - a[0]} * (c[1] - a[1]) - Int128{b[1] - a[1]} * (c[0] - a[0]);
-}
-
-/// A rectangle along the axis: two facets with a common diagonal.
+/// A rectangle along the axis: two facets with a common diagonal. Its ends are seen along the axis.
 struct PrismSideFace {
     LeafIndex operand = 0;
-    FlatPoint from{};
-    FlatPoint to{};
-    std::int64_t lo = 0;  ///< along the axis
-    std::int64_t hi = 0;
+    FlatCorner from{};
+    FlatCorner to{};
+    Coordinate lo;  ///< along the axis
+    Coordinate hi;
     std::array<PolygonRef, 2> facets;  ///< the first one has an edge at `from`, the other at `to`
     std::array<bool, 2> above_is_left{};  ///< above a facet's support, seen from `from` to `to`
     bool inside_is_left = false;          ///< of the operand
@@ -40,13 +32,6 @@ struct PrismSideFace {
         return layer >= first_layer && layer < end_layer;
     }
 };
-
-/// Whether the way from p along the first of the two coordinates, upwards, crosses a side face. Its
-/// ends count as above the way.
-[[nodiscard]] inline bool crosses_way(const PrismSideFace& w, const FlatPoint& p) {
-    if ((w.from[1] > p[1]) == (w.to[1] > p[1])) return false;
-    return (flat_turn(w.from, w.to, p) > 0) == (w.to[1] > w.from[1]);
-}
 
 /// Leaves of prisms may be so many times as large as others.
 inline constexpr std::uint32_t prism_leaf_factor = 40;
@@ -72,7 +57,7 @@ public:
     [[nodiscard]] std::span<const PrismSideFace> side_faces() const { return side_faces_; }
     /// By position, operand, source and facet.
     [[nodiscard]] std::span<const PrismCap> caps() const { return caps_; }
-    [[nodiscard]] std::span<const std::int64_t> positions() const { return positions_; }
+    [[nodiscard]] std::span<const Coordinate> positions() const { return positions_; }
     /// A facet perpendicular to the axis there.
     [[nodiscard]] const PolygonRef& cap_at(std::size_t position) const { return named_[position]; }
     /// Whether a cap's support has its upper side towards greater positions.
@@ -86,7 +71,9 @@ public:
         int edge = 0;
     };
     [[nodiscard]] Upright upright_edge(const PrismSideFace& side_face, std::size_t end) const;
-    [[nodiscard]] FlatPoint flat(const LatticePoint& p) const;
+    [[nodiscard]] FlatCorner flat(const LatticePoint& p) const {
+        return {coordinate(p, (axis_ + 1) % 3), coordinate(p, (axis_ + 2) % 3)};
+    }
     /// Winding numbers of the operands far away from all of them.
     [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }
 
@@ -101,7 +88,7 @@ private:
     std::size_t axis_ = 0;
     std::vector<PrismSideFace> side_faces_;
     std::vector<PrismCap> caps_;
-    std::vector<std::int64_t> positions_;
+    std::vector<Coordinate> positions_;
     std::vector<PolygonRef> named_;
     std::vector<std::uint8_t> outside_;
 };

@@ -26,6 +26,7 @@
 
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/prism/crossed_ways.h>
 #include <trisect/bsp/leaf/split_piece.h>
 #include <trisect/bsp/leaf/straight_crossings.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -37,24 +38,6 @@ namespace {
 
 constexpr std::size_t on_left = 0;
 constexpr std::size_t on_right = 1;
-
-// crosses_way() from a point in doubles; nothing when they cannot decide.
-std::optional<bool> crosses_way(const PrismSideFace& w, const std::array<double, 2>& p,
-                                double error) {
-    const double from_v = static_cast<double>(w.from[1]) - p[1];
-    const double to_v = static_cast<double>(w.to[1]) - p[1];
-    const double slack = 1.001 * error + 0x1p-52 * (std::fabs(from_v) + std::fabs(to_v));
-    if ((from_v > slack && to_v > slack) || (from_v < -slack && to_v < -slack)) return false;
-    if (std::fabs(from_v) <= slack || std::fabs(to_v) <= slack) return std::nullopt;
-    const double du = static_cast<double>(w.to[0] - w.from[0]);
-    const double dv = static_cast<double>(w.to[1] - w.from[1]);
-    const double s = du * -from_v;
-    const double t = dv * (p[0] - static_cast<double>(w.from[0]));
-    const double bound = minor_rounding * (std::fabs(s) + std::fabs(t)) +
-                         1.001 * error * (std::fabs(du) + std::fabs(dv));
-    if (std::fabs(s - t) <= bound) return std::nullopt;
-    return (s > t) == (dv > 0);
-}
 
 }  // namespace
 
@@ -258,7 +241,7 @@ WorkPolygon PrismLeaf::cutter_of(const Interval& interval) {
     out.support =
         bench_.plane(PlaneName::support(side_face.facets[0].source, side_face.facets[0].facet));
     const auto bound = [&](Bound b, std::size_t end) {
-        const FlatPoint& kept = end == 0 ? side_face.to : side_face.from;
+        const FlatCorner& kept = end == 0 ? side_face.to : side_face.from;
         if (b != open) {
             const PrismSideFace& other = facets_.side_faces()[as_index(b)];
             const PolygonRef& f = other.facets[0];
@@ -277,9 +260,9 @@ WorkPolygon PrismLeaf::cutter_of(const Interval& interval) {
     return out;
 }
 
-bool PrismLeaf::is_left(LeafIndex side_face, const FlatPoint& p) const {
+bool PrismLeaf::is_left(LeafIndex side_face, const FlatCorner& p) const {
     const PrismSideFace& w = facets_.side_faces()[as_index(side_face)];
-    return flat_turn(w.from, w.to, p) > 0;
+    return turn(w.from, w.to, p) > 0;
 }
 
 bool PrismLeaf::cut_cap(const PrismCap& cap) {
@@ -331,6 +314,7 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
         std::array<double, 2> middle{};
         double weights = 0;
         double error = 0;
+        double largest = 0;
         for (std::size_t i = 0; i < part.points.size(); ++i) {
             const Approximation& a = bench_.approximation(part.points[i]);
             const double weight = 1.0 + static_cast<double>((attempt * (i + 1) * 5) % 7);
@@ -338,9 +322,12 @@ std::optional<PrismLeaf::Side> PrismLeaf::side_of_middle(const WorkPolygon& part
             middle[1] += weight * a.c[v_axis];
             weights += weight;
             error = std::max(error, a.error);
+            largest = std::max({largest, std::fabs(a.c[u_axis]), std::fabs(a.c[v_axis])});
         }
         for (double& c : middle) c /= weights;
-        error += 0x1p-48 * (std::fabs(middle[0]) + std::fabs(middle[1]) + 1);
+        // A product, as many sums as there are points and a quotient round, each by a unit roundoff
+        // of a sum that is at most the weights times the largest coordinate.
+        error += last_place * static_cast<double>(part.points.size() + 2) * largest;
         bool sure = true;
         for (std::size_t layer = 0; layer < 2; ++layer)
             std::copy(facets_.outside().begin(), facets_.outside().end(), insides(layer, on_left));
@@ -405,7 +392,7 @@ void PrismLeaf::emit_side_face_part(const SideFacePart& part) {
                                    bench_.plane(PlaneName::support(by.source, by.facet)),
                                    above ? 1 : -1);
         };
-        const auto clip_at = [&](Bound b, const FlatPoint& kept) {
+        const auto clip_at = [&](Bound b, const FlatCorner& kept) {
             if (b == open) return;
             const PrismSideFace& other = facets_.side_faces()[as_index(b)];
             clip(other.facets[0], is_left(b, kept) == other.above_is_left[0]);

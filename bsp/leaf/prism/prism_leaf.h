@@ -66,7 +66,7 @@ private:
     void keep_bench_small();
     [[nodiscard]] std::optional<Side> side_of_middle(const WorkPolygon& part, std::size_t position);
     [[nodiscard]] WorkPolygon cutter_of(const Interval& interval);
-    [[nodiscard]] bool is_left(LeafIndex side_face, const FlatPoint& p) const;
+    [[nodiscard]] bool is_left(LeafIndex side_face, const FlatCorner& p) const;
 
     void emit_walls();
     void emit_side_face(std::size_t first, std::size_t last);

@@ -49,4 +49,33 @@ TEST(FlatCorner, TurnsAreExact) {
     EXPECT_GT(straight, 1000);
 }
 
+// Values of turns, in integers and in doubles, and corners that coincide.
+TEST(FlatCorner, ValuesOfTurns) {
+    oracle::Source source(20261201);
+    for (int round = 0; round < 20000; ++round) {
+        const bool whole = source.coin();
+        const auto number = [&] {
+            return whole ? trisect::Coordinate(source.coordinate(53))
+                         : trisect::Coordinate(source.fraction(53, trisect::fraction_limit));
+        };
+        const FlatCorner a{number(), number()};
+        const FlatCorner b{number(), number()};
+        const FlatCorner c{source.below(3) == 0 ? a.u : number(),
+                           source.below(3) == 0 ? b.v : number()};
+        const auto x = [](trisect::Coordinate v) { return mpq_class(v.to_double()); };
+        const mpq_class exact =
+            (x(b.u) - x(a.u)) * (x(c.v) - x(a.v)) - (x(b.v) - x(a.v)) * (x(c.u) - x(a.u));
+        const mpz_class unit = mpz_class(1) << (2 * trisect::fraction_limit);
+        ASSERT_EQ(mpq_class(oracle::integer(turn_of_fractions(a, b, c))), exact * unit);
+        if (whole) {
+            ASSERT_EQ(mpq_class(oracle::integer(turn_of_integers(a, b, c))), exact);
+        }
+        const auto rounded = rounded_turn(a, b, c);
+        ASSERT_LE(abs(mpq_class(rounded.value) - exact), mpq_class(rounded.error));
+        ASSERT_EQ(turn(a, b, c), sgn(exact));
+        ASSERT_EQ(turn(a, b, a), 0);
+        ASSERT_EQ(turn(a, b, b), 0);
+    }
+}
+
 }  // namespace
