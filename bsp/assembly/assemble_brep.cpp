@@ -22,6 +22,7 @@
 #include <trisect/bsp/assembly/assembly_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/boundary_vertices.h>
+#include <trisect/bsp/assembly/parts/broken_edges.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 #include <trisect/kernel/stop_scope.h>
@@ -136,8 +137,9 @@ Brep assemble_brep(const SolidState& solid, const AssembleOptions& options, Asse
     join_facets(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);
     BoundaryVertices vertices(parts);
-    const std::vector<WholeFacet> whole = list_whole_facets(parts, edges, within_faces, vertices);
-    add_joining_facets(whole, vertices, parts, edges);
+    std::vector<WholeFacet> whole = list_whole_facets(parts, edges, within_faces, vertices);
+    const std::vector<BrokenEdge> broken = find_broken_edges(parts, edges, whole);
+    add_joining_facets(whole, broken, vertices, parts, edges);
     join_coplanar_facets(parts, within_faces, edges);
     if (stats != nullptr) {
         *stats = parts.stats;

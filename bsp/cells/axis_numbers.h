@@ -37,6 +37,7 @@ struct AxisNumbers<std::int64_t> {
         return !source.is_half_space() && source.is_whole();
     }
     [[nodiscard]] static bool takes(const LatticePoint& p) { return p.is_whole(); }
+    [[nodiscard]] static bool takes(Coordinate c) { return c.is_whole(); }
     [[nodiscard]] static std::int64_t place(Coordinate c) { return c.to_integer(); }
     /// From 1/192 lattice units.
     [[nodiscard]] static std::int64_t from_fine(std::int64_t position) { return position; }
@@ -72,6 +73,7 @@ struct AxisNumbers<Int128> {
         return !source.is_half_space() && source.fraction_bits() <= most_bits;
     }
     [[nodiscard]] static bool takes(const LatticePoint& p) { return fraction_bits(p) <= most_bits; }
+    [[nodiscard]] static bool takes(Coordinate c) { return fraction_bits(c) <= most_bits; }
     [[nodiscard]] static Int128 place(Coordinate c) { return scaled_integer(c, most_bits); }
     [[nodiscard]] static Int128 from_fine(std::int64_t position) {
         return AxisNumbers<std::int64_t>::to_wide(position);

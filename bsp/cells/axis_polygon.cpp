@@ -46,10 +46,10 @@ std::optional<AxisPlane<Number>> axis_plane(const PlaneName& name) {
     if (name.is_splitter())
         return AxisPlane<Number>{name.facet, 1, Numbers::from_fine(name.position())};
     const Source& source = *name.source();
-    if (!Numbers::takes(source)) return std::nullopt;
+    if (source.is_half_space()) return std::nullopt;
     if (!name.is_edge()) {
         const auto support = axis_support(source, name.facet);
-        if (!support) return std::nullopt;
+        if (!support || !Numbers::takes(support->at)) return std::nullopt;
         return AxisPlane<Number>{support->axis, support->sign, axis_position<Number>(support->at)};
     }
     // Through an edge and along the axis that the support lies across, or nearly so.
@@ -66,6 +66,7 @@ std::optional<AxisPlane<Number>> axis_plane(const PlaneName& name) {
     std::size_t across = axis_of(from, to, third);
     if (across == 3) across = static_cast<std::size_t>(source.support(name.facet).dominant_axis());
     const std::size_t axis = 3 - along - across;
+    if (!Numbers::takes(coordinate(from, axis))) return std::nullopt;
     // The facet lies below its edge planes.
     const int sign = coordinate(third, axis) < coordinate(from, axis) ? 1 : -1;
     return AxisPlane<Number>{axis, sign, axis_position<Number>(coordinate(from, axis))};

@@ -34,7 +34,7 @@ struct AxisSupport {
 /// Of a facet's support, if that is axis-perpendicular.
 [[nodiscard]] std::optional<AxisSupport> axis_support(const Source& source, std::uint32_t facet);
 
-/// The plane that a name means, if it is axis-perpendicular and the numbers take its source.
+/// The plane that a name means, if it is axis-perpendicular and the numbers take its coordinate.
 template <class Number>
 [[nodiscard]] std::optional<AxisPlane<Number>> axis_plane(const PlaneName& name);
 

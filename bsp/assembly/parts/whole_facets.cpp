@@ -12,6 +12,7 @@
 #include <numeric>
 #include <tuple>
 
+#include <trisect/bsp/assembly/parts/broken_edges.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -186,10 +187,14 @@ std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
     return whole;
 }
 
-void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& vertices,
-                        BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void add_joining_facets(std::span<const WholeFacet> whole, std::span<const BrokenEdge> broken,
+                        BoundaryVertices& vertices, BoundaryParts& parts,
+                        std::vector<BoundaryEdge>& edges) {
     const std::size_t old_count = parts.facets.size();
-    for (const WholeFacet& w : whole) {
+    auto next_broken = broken.begin();
+    std::vector<PointId> chain;
+    for (std::size_t n = 0; n < whole.size(); ++n) {
+        const WholeFacet& w = whole[n];
         if (!w.joins) continue;
         const Source* source = parts.sources[w.table].source();
         const PolygonRef ref{source, nullptr, w.facet, w.flipped, false};
@@ -204,10 +209,16 @@ void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& ver
         const auto facet = static_cast<std::int32_t>(parts.facets.size());
         parts.facets.push_back({source, w.facet, w.flipped, shape.support, -1, false});
         for (std::size_t i = 0; i < 3; ++i) {
-            PointId a = points[i];
-            PointId b = points[(i + 1) % 3];
-            if (w.flipped) std::swap(a, b);
-            edges.push_back({a, b, facet, shape.edges[i]});
+            chain = {points[i]};
+            if (next_broken != broken.end() && next_broken->whole == n &&
+                as_index(next_broken->edge) == i) {
+                chain.insert(chain.end(), next_broken->inside.begin(), next_broken->inside.end());
+                ++next_broken;
+            }
+            chain.push_back(points[(i + 1) % 3]);
+            if (w.flipped) std::ranges::reverse(chain);
+            for (std::size_t k = 1; k < chain.size(); ++k)
+                edges.push_back({chain[k - 1], chain[k], facet, shape.edges[i]});
         }
     }
     if (parts.facets.size() == old_count) return;

@@ -34,9 +34,12 @@ struct WholeFacet {
                                                         bool within_faces,
                                                         BoundaryVertices& vertices);
 
-/// Gives the facets that join edges: adds them to the facets of `parts`, which stay sorted, and
-/// their edges to `edges`.
-void add_joining_facets(std::span<const WholeFacet> whole, BoundaryVertices& vertices,
-                        BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+struct BrokenEdge;
+
+/// Gives the facets that join edges, with the vertices inside broken ones: adds them to the facets
+/// of `parts`, which stay sorted, and their edges to `edges`.
+void add_joining_facets(std::span<const WholeFacet> whole, std::span<const BrokenEdge> broken,
+                        BoundaryVertices& vertices, BoundaryParts& parts,
+                        std::vector<BoundaryEdge>& edges);
 
 }  // namespace trisect::detail

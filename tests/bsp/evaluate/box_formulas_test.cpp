@@ -186,6 +186,7 @@ public:
         const Brep brep = result.to_brep();
         const Brep expected = trisect::evaluate(f.ranks, options_).to_brep();
         EXPECT_EQ(trisect::exact_volume(brep), volume(f.units));
+        EXPECT_EQ(trisect::exact_volume(result.to_brep({.maximal_faces = false})), volume(f.units));
         EXPECT_EQ(trisect::exact_volume(result.to_exact_mesh()), volume(f.units));
         EXPECT_EQ(brep.faces().size(), expected.faces().size());
         EXPECT_EQ(brep.edges().size(), expected.edges().size());
@@ -272,24 +273,60 @@ TEST_P(RandomBoxFormulas, DependOnTheOrderOfCoordinates) {
     EXPECT_EQ(sum.exact_leaves, 0U);
 }
 
-// One cell has a facet of `c` with both facings, and another operand's facet stands for part of it;
-// the next cell lists the facet whole.
-TEST(BoxFormulas, FacetsBoundWithBothFacings) {
-    const RankBox a{{0, 2, 2}, {2, 3, 3}, {{{0, 2}, {2, 3}, {2, 3}}}};
-    const RankBox b{{0, 0, 0}, {1, 3, 2}, {{{0, 1}, {0, 3}, {0, 2}}}};
-    const RankBox c{{1, 2, 0}, {2, 3, 3}, {{{1, 2}, {2, 3}, {0, 1, 3}}}};
-    Coordinates numbers{0, 1, 2, 3};
+/// Boxes of small integers.
+RankBox box_of(const std::array<std::vector<int>, 3>& lines) {
+    RankBox out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out.low[k] = lines[k].front();
+        out.high[k] = lines[k].back();
+    }
+    out.lines = lines;
+    return out;
+}
+
+/// Checks the volume for many choices of diagonals. `formula` gets solids from make(lines).
+template <class MakeFormula>
+void check_with_all_diagonals(const MakeFormula& formula, std::int64_t volume) {
+    const Coordinates numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     trisect::EvaluateOptions options;
     options.leaf_polygons = 4;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
         Random random(seed);
-        const auto solid = [&](const RankBox& box) {
-            return Solid::from_mesh(BoxSurface(box, random).at({numbers, numbers, numbers}));
+        const auto make = [&](const std::array<std::vector<int>, 3>& lines) {
+            const RankBox box = box_of(lines);
+            return Expression(
+                Solid::from_mesh(BoxSurface(box, random).at({numbers, numbers, numbers})));
         };
-        const Solid result =
-            trisect::evaluate((Expression(solid(a)) - solid(b)) ^ solid(c), options);
-        EXPECT_EQ(trisect::exact_volume(result.to_brep()), ExactRational(3));
+        const Solid result = trisect::evaluate(formula(make), options);
+        EXPECT_EQ(trisect::exact_volume(result.to_brep()), ExactRational(volume));
+        EXPECT_EQ(trisect::exact_volume(result.to_exact_mesh()), ExactRational(volume));
     }
+}
+
+// One cell has a facet of the last box with both facings, and another operand's facet stands for
+// part of it; the next cell lists the facet whole.
+TEST(BoxFormulas, FacetsBoundWithBothFacings) {
+    check_with_all_diagonals(
+        [](const auto& make) {
+            return (make({{{0, 2}, {2, 3}, {2, 3}}}) - make({{{0, 1}, {0, 3}, {0, 2}}})) ^
+                   make({{{1, 2}, {2, 3}, {0, 1, 3}}});
+        },
+        3);
+}
+
+// Where another operand's facet stands for parts of those of the last box, its corner at bounding
+// planes of the cell lies on a diagonal of that box: of a facet without area in the cell.
+TEST(BoxFormulas, CornersOfCellsLieOnDiagonals) {
+    check_with_all_diagonals(
+        [](const auto& make) {
+            const Expression gone =
+                (((make({{{3, 6}, {4, 7}, {6, 7}}}) ^ make({{{0, 3}, {3, 5}, {0, 6}}})) -
+                  make({{{3, 7}, {7, 8}, {1, 2, 3, 8}}})) &
+                 make({{{4, 9}, {1, 3}, {8, 9}}}));
+            return make({{{4, 8}, {8, 9}, {3, 7}}}) | gone |
+                   make({{{3, 4}, {3, 5, 7}, {1, 2, 5, 6, 8}}});
+        },
+        4 * 1 * 4 + 1 * 4 * 7);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomBoxFormulas,
