@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BrokenEdge: an edge of a facet that passed through, with vertices of the result inside it.
-//
+// BrokenEdge: an edge with vertices of the result inside it.
 // What touches an edge of a facet from within a cell shows in that cell, and then the facet has not
 // passed through. But where facets of another operand stand for parts of coincident ones, their
 // corners lie where bounding planes of cells meet, and that may be on an edge: of facets that have
