@@ -61,7 +61,10 @@ public:
 
     // The vertices inside an edge, from its lower vertex in the source to the higher one.
     [[nodiscard]] std::vector<PointId> inside(const SourceEdge& edge) const {
-        const auto group = std::ranges::equal_range(parts_of_edges_, edge, {}, &Part::edge);
+        const auto first = std::ranges::lower_bound(parts_of_edges_, edge, {}, &Part::edge);
+        const auto end =
+            std::ranges::upper_bound(first, parts_of_edges_.end(), edge, {}, &Part::edge);
+        const std::span<const Part> group(first, end);
         std::vector<PointId> out;
         if (group.empty() || !group.front().starts) return out;
         const BoundaryFacet& f = parts_.facets[as_index(group.front().facet)];
