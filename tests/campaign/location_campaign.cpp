@@ -7,9 +7,12 @@
 // Points: own vertices, midpoints of edges that are doubles, points moved by one ulp off a vertex,
 // off the middle of an edge or off a face, and uniform ones. Brute force (tests/support) gives the
 // place with the names of faces, under the positive winding rule; CGAL's Side_of_triangle_mesh with
-// exact predicates the side, where the mesh does not meet itself.
+// exact predicates the side, where the mesh does not meet itself. One that does is resolved: off
+// all its polygons places are those of brute force; on a polygon that is no boundary the place is
+// that of points around it.
 //
-//     location_campaign [--points N] [--files N] [--most-triangles T] [--seed S] [PATH...]
+//     location_campaign [--points N] [--files N] [--least-triangles T] [--most-triangles T]
+//                       [--seed S] [PATH...]
 //
 // N points for each of the first closed triangle meshes below the paths, smallest files first;
 // without a path a sphere and a torus. Prints a row a file; exits with 1 at the first difference.
@@ -58,6 +61,7 @@ using SideOf = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
 struct Options {
     std::size_t points = 1000;
     std::size_t files = 40;
+    std::size_t least_triangles = 1;
     std::size_t most_triangles = 30000;
     std::uint64_t seed = 1;
     std::vector<std::string> paths;
@@ -71,7 +75,7 @@ struct Model {
 };
 
 struct Totals {
-    std::size_t files = 0, fractions = 0, points = 0, sides = 0;
+    std::size_t files = 0, fractions = 0, points = 0, sides = 0, resolved = 0, covered = 0;
     std::array<std::size_t, 5> located{};  // by Location
     std::array<std::size_t, 6> kinds{};
 };
@@ -165,9 +169,10 @@ bool is_triangle_mesh(const PolygonMesh& mesh) {
     return mesh.face_count() != 0;
 }
 
-std::optional<Model> model_of(const std::string& name, PolygonMesh mesh,
-                              std::size_t most_triangles) {
-    if (!is_triangle_mesh(mesh) || mesh.face_count() > most_triangles) return std::nullopt;
+std::optional<Model> model_of(const std::string& name, PolygonMesh mesh, const Options& o) {
+    if (!is_triangle_mesh(mesh) || mesh.face_count() < o.least_triangles ||
+        mesh.face_count() > o.most_triangles)
+        return std::nullopt;
     trisect::ImportOptions options;
     options.require_closed = false;
     trisect::ImportedMesh imported = trisect::import_mesh(mesh, options);
@@ -179,8 +184,8 @@ std::optional<Model> model_of(const std::string& name, PolygonMesh mesh,
 std::vector<Model> models_of(const Options& o) {
     std::vector<Model> out;
     if (o.paths.empty()) {
-        out.push_back(*model_of("sphere", trisect::make_icosphere(1, 3), o.most_triangles));
-        out.push_back(*model_of("torus", trisect::make_torus(1, 0.4, 32, 16), o.most_triangles));
+        out.push_back(*model_of("sphere", trisect::make_icosphere(1, 3), o));
+        out.push_back(*model_of("torus", trisect::make_torus(1, 0.4, 32, 16), o));
         return out;
     }
     std::set<std::pair<std::uintmax_t, std::filesystem::path>> files;
@@ -193,8 +198,7 @@ std::vector<Model> models_of(const Options& o) {
     for (const auto& [size, path] : files) {
         if (out.size() == o.files) break;
         try {
-            auto model =
-                model_of(path.filename().string(), trisect::read_mesh(path), o.most_triangles);
+            auto model = model_of(path.filename().string(), trisect::read_mesh(path), o);
             if (model) out.push_back(std::move(*model));
         } catch (const std::exception&) {  // no mesh
         }
@@ -235,19 +239,24 @@ public:
     }
 
     [[nodiscard]] bool has_cgal() const { return side_of_.has_value(); }
+    /// Places inside or outside that are on polygons.
+    [[nodiscard]] std::size_t covered() const { return covered_; }
 
     // Where the point is; nothing when answers differ, which is printed.
-    std::optional<Location> locate(const Point3d& p) const {
+    std::optional<Location> locate(const Point3d& p) {
         const trisect::Place place = index_.locate(p);
         const brute::Answer answer = boundary_.locate(brute::point(p));
+        if (!m_.embedded)
+            return is_resolved(p, place.location, answer.location) ? std::optional(place.location)
+                                                                   : std::nullopt;
         if (!brute::agrees(place, answer, true)) {
-            report(p, place, brute::to_string(answer));
+            report(p, brute::to_string(place), brute::to_string(answer));
             return std::nullopt;
         }
         if (side_of_) {
             const CGAL::Bounded_side side = (*side_of_)(Kernel::Point_3(p[0], p[1], p[2]));
             if (!is_side(side, place.location)) {
-                report(p, place, std::string("CGAL: ") + word(side));
+                report(p, brute::to_string(place), std::string("CGAL: ") + word(side));
                 return std::nullopt;
             }
         }
@@ -255,9 +264,33 @@ public:
     }
 
 private:
-    void report(const Point3d& p, const trisect::Place& place, const std::string& expected) const {
+    static bool is_off(Location l) { return l == Location::Inside || l == Location::Outside; }
+
+    bool is_resolved(const Point3d& p, Location found, Location expected) {
+        if (is_off(expected)) {
+            if (found == expected) return true;
+            report(p, trisect::to_string(found), trisect::to_string(expected));
+            return false;
+        }
+        if (!is_off(found)) return true;
+        ++covered_;
+        // All around on the same side, as far as points are on no polygon.
+        for (int i = 0; i < 100; ++i) {
+            Point3d q = p;
+            for (double& c : q)
+                for (std::uint64_t n = random_.below(5), up = random_.below(2); n != 0; --n)
+                    c = std::nextafter(c, up != 0 ? HUGE_VAL : -HUGE_VAL);
+            const Location around = boundary_.locate(brute::point(q)).location;
+            if (!is_off(around) || around == found) continue;
+            report(p, trisect::to_string(found),
+                   std::string("near a point ") + trisect::to_string(around));
+            return false;
+        }
+        return true;
+    }
+    void report(const Point3d& p, const std::string& found, const std::string& expected) const {
         std::printf("%s: point %a %a %a is %s, not %s\n", m_.name.c_str(), p[0], p[1], p[2],
-                    brute::to_string(place).c_str(), expected.c_str());
+                    found.c_str(), expected.c_str());
     }
 
     const Model& m_;
@@ -266,10 +299,12 @@ private:
     brute::Boundary boundary_;
     Mesh mesh_;
     std::optional<SideOf> side_of_;
+    reference::Random random_{1};
+    std::size_t covered_ = 0;
 };
 
 bool compare(const Model& m, const Options& o, std::uint64_t seed, Totals& totals) {
-    const Comparison comparison(m);
+    Comparison comparison(m);
     Points points(m.mesh, seed);
     std::array<std::size_t, 5> located{};
     for (std::size_t i = 0; i < o.points; ++i) {
@@ -290,6 +325,8 @@ bool compare(const Model& m, const Options& o, std::uint64_t seed, Totals& total
         std::ranges::all_of(m.imported.points, [](const auto& p) { return p.is_whole(); }) ? 0U
                                                                                            : 1U;
     totals.points += o.points;
+    totals.resolved += m.embedded ? 0 : o.points;
+    totals.covered += comparison.covered();
     totals.sides += comparison.has_cgal() ? o.points : 0;
     for (std::size_t i = 0; i < located.size(); ++i) totals.located[i] += located[i];
     return true;
@@ -301,6 +338,8 @@ void print(const Totals& t) {
     std::printf("| of these, with bits behind the point | %zu |\n", t.fractions);
     std::printf("| places compared with brute force | %zu |\n", t.points);
     std::printf("| sides compared with CGAL | %zu |\n", t.sides);
+    std::printf("| points of files that meet themselves | %zu |\n", t.resolved);
+    std::printf("| of these, on a polygon but inside or outside | %zu |\n", t.covered);
     constexpr std::array<const char*, 6> kinds{
         "own vertices",         "midpoints of edges",
         "one ulp off a vertex", "one ulp off the middle of an edge",
@@ -320,6 +359,7 @@ Options parse(int argc, char** argv) {
         const auto value = std::strtoull(argv[++i], nullptr, 10);
         if (name == "--points") o.points = value;
         if (name == "--files") o.files = value;
+        if (name == "--least-triangles") o.least_triangles = value;
         if (name == "--most-triangles") o.most_triangles = value;
         if (name == "--seed") o.seed = value;
     }
