@@ -37,6 +37,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/diagnostics.h>
@@ -454,17 +455,13 @@ public:
     }
 
 private:
-    static void print(const char* name, const Row& r) {
+    static void print(std::string_view name, const Row& r) {
         const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
-        std::printf("| %s | %llu | %llu | %llu | %llu |\n", name, n(r.answers[0]), n(r.answers[1]),
-                    n(r.zeros), n(r.mismatches));
+        std::printf("| %s | %llu | %llu | %llu | %llu |\n", std::string(name).c_str(),
+                    n(r.answers[0]), n(r.answers[1]), n(r.zeros), n(r.mismatches));
     }
 
-    // By the address of the name.
-    struct ByText {
-        bool operator()(const char* a, const char* b) const { return std::string(a) < b; }
-    };
-    std::map<const char*, Row, ByText> rows_;
+    std::map<std::string_view, Row> rows_;
     std::array<std::uint64_t, 2> total_{};
     std::uint64_t inputs_ = 0;
     Kind kind_ = Kind::Random;
