@@ -32,6 +32,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <limits>
 #include <map>
 #include <optional>
@@ -566,6 +567,15 @@ void print_stages(const trisect::PredicateCounters& c) {
         n(c.symbolic), n(c.filtered), n(c.exact_short), n(c.exact_narrow), n(c.exact_wide));
 }
 
+void compare(Ledger& ledger, Generator& generator, const std::array<std::uint64_t, 2>& wanted) {
+    for (const Kind kind : {Kind::Random, Kind::Degenerate})
+        while (ledger.answers(kind) < wanted[static_cast<std::size_t>(kind)]) {
+            ledger.start_input(kind);
+            const Input in = kind == Kind::Random ? generator.random() : generator.degenerate();
+            Comparison(ledger, in).run(ledger.inputs() % 16 == 0);
+        }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -579,12 +589,12 @@ int main(int argc, char** argv) {
     Ledger ledger;
     Generator generator(seed);
     const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
-    for (const Kind kind : {Kind::Random, Kind::Degenerate})
-        while (ledger.answers(kind) < wanted[static_cast<std::size_t>(kind)]) {
-            ledger.start_input(kind);
-            const Input in = kind == Kind::Random ? generator.random() : generator.degenerate();
-            Comparison(ledger, in).run(ledger.inputs() % 16 == 0);
-        }
+    try {
+        compare(ledger, generator, wanted);
+    } catch (const std::exception& e) {
+        std::printf("input %llu: %s\n", static_cast<unsigned long long>(ledger.inputs()), e.what());
+        return 1;
+    }
     ledger.print();
     print_stages(diagnostics.counters());
     std::printf("%llu inputs, seed %llu, %llu different\n",
