@@ -5,8 +5,8 @@
 //
 // The formulas are templates, because the bounds are theorems about any binary format: a test runs
 // them in a format of six bits, where all roundings that can happen do happen
-// (tests/kernel/filter_bounds_test.cpp). The predicates use them with double; `filtered_side` of
-// predicates.h is filter_side written out, and the same test compares both.
+// (tests/kernel/number/filter_bounds_test.cpp). The predicates use them with double;
+// `filtered_side` of predicates.h is filter_side written out, and the same test compares both.
 //
 // u is the unit roundoff, half the distance from 1 to the next number. Rounding is to nearest;
 // nothing underflows or overflows (terms are 0 or at least 2^-400, and below 2^400). Coefficients
@@ -14,9 +14,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -47,6 +49,9 @@ template <class F>
 [[nodiscard]] constexpr F magnitude(F v) {
     return v < F(0) ? -v : v;
 }
+
+// Without a branch.
+[[nodiscard]] inline double magnitude(double v) { return std::fabs(v); }
 
 /// n·c + d, where each true coordinate is within `error` of c.
 ///
@@ -105,6 +110,29 @@ template <class F>
         terms = terms + magnitude(a[i]) * (magnitude(s) + magnitude(t));
     }
     return {sum, Roundoff<F>::times_16 * terms};
+}
+
+/// det(a - d, b - d, c - d) of exact points; differences carry one rounding each. Shewchuk (1997,
+/// 4.4) proves that 8u cover it, with those of the bound.
+template <class F>
+[[nodiscard]] constexpr Filtered<F> filter_orientation(const std::array<F, 3>& a,
+                                                       const std::array<F, 3>& b,
+                                                       const std::array<F, 3>& c,
+                                                       const std::array<F, 3>& d) {
+    const std::array<F, 3> p = minus(a, d);
+    const std::array<F, 3> q = minus(b, d);
+    const std::array<F, 3> r = minus(c, d);
+    F sum = F(0);
+    F permanent = F(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        const F s = q[i] * r[j];
+        const F t = q[j] * r[i];
+        sum = sum + p[k] * (s - t);
+        permanent = permanent + magnitude(p[k]) * (magnitude(s) + magnitude(t));
+    }
+    return {sum, Roundoff<F>::times_8 * permanent};
 }
 
 }  // namespace trisect::detail

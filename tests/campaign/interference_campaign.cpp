@@ -5,8 +5,12 @@
 // and each stage of predicates occurred; exits with 1 at the first difference, whose seed repeats
 // it.
 //
-//     interference_campaign [--pairs 1000] [--seed 1] [--minutes 0]
+// With --fractions 1 each pair is compared a second time, one solid or both of them on lattices
+// whose units are 2^8, 2^24, 2^56 or 2^70 times as large: the same solids.
+//
+//     interference_campaign [--pairs 1000] [--seed 1] [--minutes 0] [--fractions 0]
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -27,7 +31,18 @@ struct Options {
     std::uint64_t pairs = 1000;
     std::uint64_t seed = 1;
     double minutes = 0;  // 0: no limit
+    bool fractions = false;
 };
+
+// Of the units of both solids. The second form of a pair is drawn beside its scene, so that scenes
+// are those of a run without it.
+std::array<int, 2> coarser_units(std::uint64_t seed) {
+    constexpr std::array bits{0, 8, 24, 56, 70};
+    reference::Random random(seed ^ 0x5DEECE66D);
+    std::array<int, 2> out{};
+    while (out == std::array<int, 2>{}) out = {bits[random.below(5)], bits[random.below(5)]};
+    return out;
+}
 
 bool parse(int argc, char** argv, Options& o) {
     for (int i = 1; i + 1 < argc; i += 2) {
@@ -38,6 +53,8 @@ bool parse(int argc, char** argv, Options& o) {
             o.seed = std::strtoull(argv[i + 1], nullptr, 10);
         else if (name == "--minutes")
             o.minutes = std::strtod(argv[i + 1], nullptr);
+        else if (name == "--fractions")
+            o.fractions = std::strtol(argv[i + 1], nullptr, 10) != 0;
         else
             return false;
     }
@@ -57,7 +74,9 @@ int run(const Options& o) {
         reference::Random random(o.seed + done);
         const brute::Scene scene = brute::random_scene(random);
         trisect::Relation relation{};
-        const std::string difference = brute::difference(scene, &relation);
+        std::string difference = brute::difference(scene, &relation);
+        if (difference.empty() && o.fractions)
+            difference = brute::difference_on_coarser_lattices(scene, coarser_units(o.seed + done));
         if (!difference.empty()) {
             std::printf("seed %llu differs:\n%s", static_cast<unsigned long long>(o.seed + done),
                         difference.c_str());
@@ -85,7 +104,9 @@ int run(const Options& o) {
 int main(int argc, char** argv) {
     Options options;
     if (!parse(argc, argv, options)) {
-        std::fprintf(stderr, "usage: interference_campaign [--pairs N] [--seed S] [--minutes M]\n");
+        std::fprintf(
+            stderr,
+            "usage: interference_campaign [--pairs N] [--seed S] [--minutes M] [--fractions 1]\n");
         return 2;
     }
     try {

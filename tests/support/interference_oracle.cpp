@@ -14,6 +14,7 @@
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 
 #include "engines/engines.h"
+#include "fraction_models.h"
 #include "pose_oracle.h"
 #include "reference/triangle_contact.h"
 
@@ -572,6 +573,42 @@ std::string difference(const Scene& scene, Relation* expected) {
             << to_string(found.relation) << '\n';
     if (expected != nullptr) *expected = right.value_or(found.relation);
     return out.str();
+}
+
+namespace {
+
+bool same_regions(const trisect::InterferenceResult& a, const trisect::InterferenceResult& b) {
+    return std::ranges::equal(a.regions, b.regions, [](const auto& x, const auto& y) {
+        return x.a == y.a && x.b == y.b && x.dimension == y.dimension && x.opposite == y.opposite &&
+               loops_of(x) == loops_of(y);
+    });
+}
+
+}  // namespace
+
+std::string difference_on_coarser_lattices(const Scene& scene, const std::array<int, 2>& bits) {
+    const InterferenceModel a(scene.a.solid());
+    const InterferenceModel b(scene.b.solid());
+    const InterferenceModel fa = trisect::test::with_fractions(a, bits[0]);
+    const InterferenceModel fb = trisect::test::with_fractions(b, bits[1]);
+    const trisect::InterferenceOptions all{.contacts = true, .regions = true};
+    const auto expected = interfere(a, scene.pose_a, b, scene.pose_b, all);
+    const auto found = interfere(fa, scene.pose_a, fb, scene.pose_b, all);
+    std::ostringstream out;
+    if (found.relation != expected.relation)
+        out << "relation: " << to_string(found.relation) << ", before "
+            << to_string(expected.relation) << '\n';
+    if (found.contacts != expected.contacts) out << "other contacts\n";
+    if (!same_regions(found, expected)) out << "other regions\n";
+    if (interfere(fa, scene.pose_a, fb, scene.pose_b).relation != expected.relation)
+        out << "another relation without contacts\n";
+    if (interfere(fb, scene.pose_b, fa, scene.pose_a).relation != turned_over(expected.relation))
+        out << "another relation of B to A\n";
+    std::string what = out.str();
+    if (!what.empty())
+        what +=
+            "in units of 2^" + std::to_string(bits[0]) + " and 2^" + std::to_string(bits[1]) + '\n';
+    return what;
 }
 
 }  // namespace brute

@@ -5,6 +5,7 @@
 // other. No tree, no filter, no sign that the library computes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -60,5 +61,10 @@ struct Scene {
 
 /// What differs between the library and brute force; empty when nothing does.
 [[nodiscard]] std::string difference(const Scene& scene, trisect::Relation* expected = nullptr);
+
+/// What differs where the solids are put on lattices of units 2^bits times as large; empty when
+/// nothing does. Compared with the library's answers for the scene as it is.
+[[nodiscard]] std::string difference_on_coarser_lattices(const Scene& scene,
+                                                         const std::array<int, 2>& bits);
 
 }  // namespace brute

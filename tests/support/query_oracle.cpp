@@ -165,6 +165,16 @@ Boundary Boundary::of_mesh(const trisect::LatticeMesh& mesh, std::uint32_t opera
     return b;
 }
 
+Boundary Boundary::of_triangles(const trisect::PolygonMesh& mesh, std::uint32_t operand) {
+    Boundary b;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        std::vector<Point3> corners;
+        for (const std::uint32_t v : mesh.face(f)) corners.push_back(point(mesh.points[v]));
+        b.add(std::move(corners), {operand, static_cast<std::uint32_t>(f)});
+    }
+    return b;
+}
+
 Boundary Boundary::of_result(const reference::Result& result) {
     Boundary b;
     b.unbounded_ = result.unbounded;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <trisect/brep/polygon_mesh.h>
 #include <trisect/bsp/brep_index.h>
 
 #include "reference/naive_boolean.h"
@@ -50,6 +51,8 @@ class Boundary {
 public:
     /// The facets of a mesh, named by the solid's source and the facet.
     static Boundary of_mesh(const trisect::LatticeMesh& mesh, std::uint32_t operand);
+    /// The same for a mesh of triangles, of its doubles as they are.
+    static Boundary of_triangles(const trisect::PolygonMesh& mesh, std::uint32_t operand);
     /// The cells of a reference result; without names.
     static Boundary of_result(const reference::Result& result);
 

@@ -24,5 +24,8 @@ struct RandomResult {
 /// seeds has small leaves. `complements`: formulas may take them, so results may be unbounded.
 [[nodiscard]] RandomResult random_result(std::uint64_t seed, std::size_t most_operands,
                                          bool complements);
+/// The solid alone, of operands in units of 2^bits.
+[[nodiscard]] trisect::Solid random_result_solid(std::uint64_t seed, std::size_t most_operands,
+                                                 bool complements, int bits);
 
 }  // namespace brute

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The error bounds of the filters (kernel/number/filters.h) in a binary format of six bits.
+// The error bounds of the filters (kernel/number/filters.h) in binary formats of six and eleven
+// bits.
 //
 // In double the bounds are theorems that random input hardly touches: an error of five roundings in
 // the worst direction has a probability of nearly nothing. In six bits all inputs of a formula, or
 // all that matter, can be tried, and the largest error that occurs is a good part of the bound. The
 // formulas are the same templates. Exponents are not limited, which is what the proofs assume of
-// double as well.
+// double as well. Determinants of differences have bounds of 64 roundings, which six bits have no
+// room for: these run in eleven bits.
 
 #include <trisect/kernel/number/filters.h>
 
@@ -25,43 +27,52 @@
 
 namespace {
 
-// Numbers of six bits. One operation on two of them is exact in double; Veltkamp's splitting then
+// Numbers of a few bits. One operation on two of them is exact in double; Veltkamp's splitting then
 // rounds to the nearest.
-struct Tiny {
-    static constexpr double u = 0x1p-6;
+template <int bits>
+struct Format {
+    static constexpr double u = 1.0 / (1 << bits);
 
-    Tiny() = default;
-    explicit Tiny(double exact) {
-        const double c = exact * (0x1p47 + 1);  // 2^(53 - 6) + 1
+    Format() = default;
+    explicit Format(double exact) {
+        constexpr double splitter = static_cast<double>(std::int64_t{1} << (53 - bits)) + 1;
+        const double c = exact * splitter;
         v = c - (c - exact);
     }
     double v = 0;
 
-    friend Tiny operator+(Tiny a, Tiny b) { return Tiny(a.v + b.v); }
-    friend Tiny operator-(Tiny a, Tiny b) { return Tiny(a.v - b.v); }
-    friend Tiny operator*(Tiny a, Tiny b) { return Tiny(a.v * b.v); }
-    friend Tiny operator-(Tiny a) { return Tiny(-a.v); }
-    friend bool operator<(Tiny a, Tiny b) { return a.v < b.v; }
-    friend bool operator>(Tiny a, Tiny b) { return a.v > b.v; }
+    friend Format operator+(Format a, Format b) { return Format(a.v + b.v); }
+    friend Format operator-(Format a, Format b) { return Format(a.v - b.v); }
+    friend Format operator*(Format a, Format b) { return Format(a.v * b.v); }
+    friend Format operator-(Format a) { return Format(-a.v); }
+    friend bool operator<(Format a, Format b) { return a.v < b.v; }
+    friend bool operator>(Format a, Format b) { return a.v > b.v; }
 };
+
+using Tiny = Format<6>;
+using Small = Format<11>;
 
 }  // namespace
 
-template <>
-struct trisect::detail::Roundoff<Tiny> {
-    inline static const Tiny times_8{8 * Tiny::u};
-    inline static const Tiny times_16{16 * Tiny::u};
-    inline static const Tiny slack{1 + 8 * Tiny::u};
+template <int bits>
+struct trisect::detail::Roundoff<Format<bits>> {
+    inline static const Format<bits> times_8{8 * Format<bits>::u};
+    inline static const Format<bits> times_16{16 * Format<bits>::u};
+    inline static const Format<bits> slack{1 + 8 * Format<bits>::u};
 };
 
 namespace {
 
+using trisect::detail::cross;
+using trisect::detail::dot;
 using trisect::detail::Filtered;
+using trisect::detail::minus;
 
 // Collects what a filter said about exact values.
 class Verdict {
 public:
-    void see(const Filtered<Tiny>& f, double exact) {
+    template <class F>
+    void see(const Filtered<F>& f, double exact) {
         ++cases_;
         const int sign = f.sign();
         if (sign != 0) ++decided_;
@@ -190,6 +201,111 @@ TEST(FilterBounds, DeterminantOfIntegersAtTheRoundings) {
         });
     });
     verdict.expect(300'000, 0.15);
+}
+
+// Calls visit with all vectors of these components.
+template <class F>
+void each_vector(const std::vector<int>& of, F&& visit) {
+    for (const int x : of)
+        for (const int y : of)
+            for (const int z : of) visit(std::array<int, 3>{x, y, z});
+}
+
+template <class F>
+std::array<F, 3> in_format(const std::array<int, 3>& p) {
+    return {F(p[0]), F(p[1]), F(p[2])};
+}
+
+double exact_det(const std::array<int, 3>& p, const std::array<int, 3>& q,
+                 const std::array<int, 3>& r, const std::array<int, 3>& from) {
+    const auto a = [&](std::size_t k) { return double{1} * (p[k] - from[k]); };
+    const auto b = [&](std::size_t k) { return double{1} * (q[k] - from[k]); };
+    const auto c = [&](std::size_t k) { return double{1} * (r[k] - from[k]); };
+    return a(0) * (b(1) * c(2) - b(2) * c(1)) + a(1) * (b(2) * c(0) - b(0) * c(2)) +
+           a(2) * (b(0) * c(1) - b(1) * c(0));
+}
+
+// Coordinates are numbers of the format; their differences have up to twelve bits and are rounded,
+// as those of coordinates with bits behind the point are.
+TEST(FilterBounds, OrientationOfPointsWhoseDifferencesRound) {
+    Verdict verdict;
+    const auto as = values({0, 63, 66, 2016});
+    const auto bs = values({0, 34, 2112});
+    const auto cs = values({62, 2112}, true);
+    for (const std::array<int, 3>& d :
+         {std::array{0, 0, 0}, std::array{31, -31, 31}, std::array{-1, 63, 33}})
+        each_vector(as, [&](const auto& a) {
+            each_vector(bs, [&](const auto& b) {
+                each_vector(cs, [&](const auto& c) {
+                    verdict.see(
+                        trisect::detail::filter_orientation(in_format<Tiny>(a), in_format<Tiny>(b),
+                                                            in_format<Tiny>(c), in_format<Tiny>(d)),
+                        exact_det(a, b, c, d));
+                });
+            });
+        });
+    verdict.expect(1'000'000, 0.3);
+}
+
+// n · (p - a), n = (b - a) × (c - a), with the bound of difference_determinant_rounding, as sides
+// of triangles are found where coordinates have bits behind the point.
+TEST(FilterBounds, DeterminantOfDifferencesThatRound) {
+    Verdict verdict;
+    const auto far = values({2047, 4094});
+    const auto near = values({5, 1025, 4094});
+    const std::array<int, 3> a{1, -1, 3};
+    each_vector(far, [&](const auto& b) {
+        each_vector(near, [&](const auto& c) {
+            each_vector(far, [&](const auto& p) {
+                const auto from = in_format<Small>(a);
+                const auto u = minus(in_format<Small>(b), from);
+                const auto v = minus(in_format<Small>(c), from);
+                const auto w = minus(in_format<Small>(p), from);
+                const auto largest = [](const std::array<Small, 3>& x) {
+                    return std::max({std::fabs(x[0].v), std::fabs(x[1].v), std::fabs(x[2].v)});
+                };
+                const Small edge(std::max(largest(u), largest(v)));
+                const Small bound = edge * edge * (Small(64 * Small::u) * Small(largest(w)));
+                verdict.see(Filtered<Small>{dot(cross(u, v), w), bound}, exact_det(p, b, c, a));
+            });
+        });
+    });
+    verdict.expect(500'000, 0.1);
+}
+
+// The same where differences are off by e before they are rounded.
+TEST(FilterBounds, DeterminantOfDifferencesThatAreOff) {
+    Verdict determinants;
+    Verdict minors;
+    const auto far = values({2047, 4094});
+    for (const int e : {1, 7, 33})
+        each_vector(far, [&](const auto& p) {
+            each_vector(far, [&](const auto& q) {
+                each_vector(far, [&](const auto& r) {
+                    const auto moved = [&](std::array<int, 3> x, int way) {
+                        for (std::size_t k = 0; k < 3; ++k) x[k] += (way >> k & 1) != 0 ? e : -e;
+                        return x;
+                    };
+                    const auto u = in_format<Small>(p);
+                    const auto v = in_format<Small>(q);
+                    const auto w = in_format<Small>(r);
+                    // difference_determinant_bound and difference_minor_bound for this format.
+                    const double g = 4094;
+                    const Small bound(g * g * (20 * e + 64 * Small::u * g));
+                    const Small minor_bound(g * (5 * e + 16 * Small::u * g));
+                    for (int way = 0; way < 8; ++way) {
+                        const auto [x, y, z] =
+                            std::array{moved(p, way), moved(q, way * 3 % 8), moved(r, way * 5 % 8)};
+                        determinants.see(Filtered<Small>{dot(cross(u, v), w), bound},
+                                         exact_det(x, y, z, {0, 0, 0}));
+                        minors.see(Filtered<Small>{u[0] * v[1] - u[1] * v[0], minor_bound},
+                                   double{1} * x[0] * y[1] - double{1} * x[1] * y[0]);
+                    }
+                });
+            });
+        });
+    determinants.expect(1'000'000, 0.1);
+    minors.expect(1'000'000, 0.3);
 }
 
 // predicates.h has the formula written out for double.
