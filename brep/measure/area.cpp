@@ -7,6 +7,8 @@
 // that component; these areas are summed as integers. A face with plane points, normal n and the
 // area S of its projection along axis k has the area |S|/|n_k| · |n|.
 //
+// Where lattice points have bits behind the point the same is done in units of 2^-fraction_limit.
+//
 // Plain doubles lose the last digits in a sum of a million roots. The first attempt takes the roots
 // of lattice faces in pairs of doubles (Dekker 1971): about 100 bits with an error bound, at the
 // cost of a few operations. Plane points, and everything else when the first attempt does not
@@ -18,11 +20,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect {
@@ -50,9 +54,10 @@ DoublePair add(const DoublePair& a, const DoublePair& b) {
     return two_sum(s.high, s.low + (a.low + b.low));
 }
 
-DoublePair to_pair(const WideInt<4>& v) {
+template <int N>
+DoublePair to_pair(const WideInt<N>& v) {
     DoublePair r;
-    for (int i = 3; i >= 0; --i) {
+    for (int i = N - 1; i >= 0; --i) {
         for (const std::uint64_t part : {v.limb(i) >> 32U, v.limb(i) & 0xffffffffU}) {
             r = {r.high * 0x1p32, r.low * 0x1p32};
             r = add(r, {static_cast<double>(part), 0});
@@ -62,7 +67,8 @@ DoublePair to_pair(const WideInt<4>& v) {
 }
 
 // One step of Newton's iteration from the rounded root x: (v - x²) / (2x) is small, so computing
-// it in doubles adds an error of a few 2^-105. With that of to_pair: below 2^-100.
+// it in doubles adds an error of a few 2^-105. With half of that of to_pair, which adds 16 times at
+// most: below 2^-99.
 DoublePair root(const DoublePair& v) {
     const double x = std::sqrt(v.high);
     const double square = x * x;
@@ -70,12 +76,16 @@ DoublePair root(const DoublePair& v) {
     return two_sum(x, (((v.high - square) - rest) + v.low) / (2 * x));
 }
 
-bool is_whole_face(const Brep& brep, FaceId f) {
+enum class Corners { Whole, Lattice, Others };
+
+Corners corners_of(const Brep& brep, FaceId f) {
+    Corners out = Corners::Whole;
     for (const HalfedgeId h : brep.halfedges(f)) {
         const Point& p = brep.point(brep.origin(h));
-        if (!p.is_lattice() || !p.lattice().is_whole()) return false;
+        if (!p.is_lattice()) return Corners::Others;
+        if (!p.lattice().is_whole()) out = Corners::Lattice;
     }
-    return true;
+    return out;
 }
 
 // Twice the vector area of a loop of whole lattice points. A projected area is below (2^54)^2, so
@@ -95,6 +105,39 @@ public:
 
 private:
     std::array<Uint128, 3> twice_{};
+};
+
+// The same of lattice points with bits behind the point, in units of 2^-fine_area_bits. Differences
+// from an origin are below 2^127. A plane has at most 2^0.5 times the area of a side in a cube, so
+// doubled areas are below 2^255.5, their components below 2^255, and their squares below 2^511.
+constexpr int fine_area_bits = 2 * fraction_limit;
+
+class FineVectorArea {
+public:
+    explicit FineVectorArea(const LatticePoint& origin) : origin_(origin) {}
+
+    void add_edge(const LatticePoint& from, const LatticePoint& to) {
+        const auto p = from_origin(from);
+        const auto q = from_origin(to);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t k = (i + 2) % 3;
+            twice_[i] += multiply<4>(p[j], q[k]) - multiply<4>(p[k], q[j]);
+        }
+    }
+    [[nodiscard]] const WideInt<4>& twice(std::size_t i) const { return twice_[i]; }
+
+private:
+    [[nodiscard]] std::array<WideInt<2>, 3> from_origin(const LatticePoint& p) const {
+        const auto difference = [](Coordinate a, Coordinate b) {
+            return WideInt<2>(scaled_integer(a, fraction_limit) -
+                              scaled_integer(b, fraction_limit));
+        };
+        return {difference(p.x, origin_.x), difference(p.y, origin_.y), difference(p.z, origin_.z)};
+    }
+
+    LatticePoint origin_;
+    std::array<WideInt<4>, 3> twice_{};
 };
 
 // The area of one face with plane points: factor · sqrt(radicand), both non-negative.
@@ -148,8 +191,13 @@ public:
     explicit AreaSum(Lattice lattice) : lattice_(lattice) {}
 
     void add(const Brep& brep, FaceId f) {
-        if (!is_whole_face(brep, f)) {
+        const Corners corners = corners_of(brep, f);
+        if (corners == Corners::Others) {
             faces_.push_back(face_area(brep, f));
+            return;
+        }
+        if (corners == Corners::Lattice) {
+            add_fine(brep, f);
             return;
         }
         VectorArea a;
@@ -158,16 +206,17 @@ public:
         add(a);
     }
     void add(const LatticePoint& p, const LatticePoint& q, const LatticePoint& r) {
-        if (!(p.is_whole() && q.is_whole() && r.is_whole())) {
-            faces_.push_back(
-                triangle_area(corner_at(Point(p)), corner_at(Point(q)), corner_at(Point(r))));
-            return;
+        const auto add_triangle = [&](auto a) {
+            a.add_edge(p, q);
+            a.add_edge(q, r);
+            a.add_edge(r, p);
+            add(a);
+        };
+        if (p.is_whole() && q.is_whole() && r.is_whole()) {
+            add_triangle(VectorArea());
+        } else {
+            add_triangle(FineVectorArea(p));
         }
-        VectorArea a;
-        a.add_edge(p, q);
-        a.add_edge(q, r);
-        a.add_edge(r, p);
-        add(a);
     }
 
     void add(const Point& p, const Point& q, const Point& r) {
@@ -216,13 +265,38 @@ private:
         for (std::size_t i = 0; i < 3; ++i) twice_flat_ += WideInt<4>(a.twice(i)).abs();
     }
 
+    void add_fine(const Brep& brep, FaceId f) {
+        std::optional<FineVectorArea> a;
+        for (const HalfedgeId h : brep.halfedges(f)) {
+            const LatticePoint& from = brep.point(brep.origin(h)).lattice();
+            if (!a) a.emplace(from);
+            a->add_edge(from, brep.point(brep.target(h)).lattice());
+        }
+        add(*a);
+    }
+    void add(const FineVectorArea& a) {
+        WideInt<8> square;
+        int components = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (a.twice(i).is_zero()) continue;
+            ++components;
+            square += multiply<8>(a.twice(i), a.twice(i));
+        }
+        if (components > 1) {
+            fine_squares_.push_back(square);
+            return;
+        }
+        for (std::size_t i = 0; i < 3; ++i) fine_flat_ += WideInt<5>(a.twice(i)).abs();
+    }
+
     // Whether every root is a rational; one that is not is usually the first.
     bool is_rational() const {
         const auto is_square = [](const mpz_class& z) {
             return mpz_perfect_square_p(z.get_mpz_t()) != 0;
         };
-        return std::all_of(squares_.begin(), squares_.end(),
-                           [&](const auto& s) { return is_square(to_integer(s)); }) &&
+        const auto is_root = [&](const auto& s) { return is_square(to_integer(s)); };
+        return std::ranges::all_of(squares_, is_root) &&
+               std::ranges::all_of(fine_squares_, is_root) &&
                std::all_of(faces_.begin(), faces_.end(),
                            [&](const auto& a) { return is_square(a.radicand); });
     }
@@ -230,7 +304,10 @@ private:
     ExactRational exact() const {
         mpz_class twice = to_integer(twice_flat_);
         for (const auto& s : squares_) twice += sqrt(to_integer(s));
-        std::vector<mpq_class> terms{mpq_class(twice) / 2};
+        mpz_class fine = to_integer(fine_flat_);
+        for (const auto& s : fine_squares_) fine += sqrt(to_integer(s));
+        std::vector<mpq_class> terms{mpq_class(twice) / 2,
+                                     fraction(fine, mpz_class(1) << (fine_area_bits + 1))};
         for (const FaceArea& a : faces_) terms.push_back(a.factor * mpz_class(sqrt(a.radicand)));
         while (terms.size() > 1) {
             const std::size_t half = (terms.size() + 1) / 2;
@@ -244,23 +321,34 @@ private:
     Interval quick_roots() const {
         DoublePair sum;
         for (const auto& s : squares_) sum = trisect::add(sum, root(to_pair(s)));
+        constexpr double unit = 0x1p-146;
+        static_assert(fine_area_bits == 146);
+        for (const auto& s : fine_squares_) {
+            const DoublePair r = root(to_pair(s));
+            sum = trisect::add(sum, {r.high * unit, r.low * unit});
+        }
         const ExactRational middle =
             ExactRational::from_double(sum.high) + ExactRational::from_double(sum.low);
-        const double relative = 0x1p-99 * (static_cast<double>(squares_.size()) + 1);
+        const double relative =
+            0x1p-98 * (static_cast<double>(squares_.size() + fine_squares_.size()) + 1);
         const ExactRational error = ExactRational::from_double(sum.high * relative);
         return with_flat_faces({middle - error, middle + error});
     }
 
     // The lattice faces by integer roots: floor(sqrt(floor(x))) = floor(sqrt(x)).
     Interval enclose_roots(unsigned long bits) const {
-        Enclosure e{0, mpz_class(static_cast<unsigned long>(squares_.size())), bits};
+        const std::size_t count = squares_.size() + fine_squares_.size();
+        Enclosure e{0, mpz_class(static_cast<unsigned long>(count)), bits};
         for (const auto& s : squares_) e.low += sqrt(mpz_class(to_integer(s) << (2 * bits)));
+        for (const auto& s : fine_squares_)
+            e.low += sqrt(mpz_class((to_integer(s) << (2 * bits)) >> (2 * fine_area_bits)));
         return with_flat_faces({e.lower_end(), e.upper_end()});
     }
 
     // Doubled areas in, areas of all lattice faces out.
     Interval with_flat_faces(const Interval& twice) const {
-        const ExactRational flat(twice_flat_);
+        const ExactRational flat =
+            ExactRational(twice_flat_) + ExactRational(fine_flat_).scaled(-fine_area_bits);
         return {(twice.low + flat).scaled(-1), (twice.high + flat).scaled(-1)};
     }
 
@@ -290,7 +378,9 @@ private:
     Lattice lattice_;
     WideInt<4> twice_flat_;            // doubled areas of faces along coordinate planes
     std::vector<WideInt<4>> squares_;  // squares of the doubled areas of other lattice faces
-    std::vector<FaceArea> faces_;      // faces with plane points
+    WideInt<5> fine_flat_;             // the same with bits behind the point
+    std::vector<WideInt<8>> fine_squares_;
+    std::vector<FaceArea> faces_;  // faces with plane points
 };
 
 }  // namespace
