@@ -172,6 +172,18 @@ int sign_at(const TierPoint<T>& x, const Plane& s) {
     return sign_of(sum);
 }
 
+// Of coordinates with at most `bits` behind the point, which times 2^bits have so many digits.
+template <class T, int Coordinate>
+int sign_at_fractions(const LatticePoint& p, int bits, const Plane& s) {
+    static_assert(bits_of(3) >= coordinate_bits + fraction_limit && bits_of(2) >= fraction_limit);
+    Columns<std::max(T::normal + Coordinate, T::offset + 2) - 1> sum;
+    for (int i = 0; i < 3; ++i)
+        add_product(sum, to_digits<T::normal>(s.normal(i)),
+                    to_digits<Coordinate>(detail::scaled_integer(p[i], bits)));
+    add_product(sum, to_digits<T::offset>(s.offset()), to_digits<2>(Int128{1} << bits));
+    return sign_of(sum);
+}
+
 template <class T>
 TierPoint<T> tier_point(const HomogeneousPoint& p) {
     return {{to_digits<T::xyz>(p.xyz[0]), to_digits<T::xyz>(p.xyz[1]), to_digits<T::xyz>(p.xyz[2])},
@@ -364,12 +376,13 @@ Side side_of(const LatticePoint& point, const Plane& plane) {
             sum += multiply<3>(WideInt<2>(plane.normal(i)), WideInt<1>(point[i].to_integer()));
         return side_from_sign(sum.sign());
     }
-    // 384 + 73 bits, and 328 + 126.
-    const int bits = detail::fraction_bits(point);
-    WideInt<8> sum = WideInt<8>(plane.offset()).shifted_left(bits);
-    for (int i = 0; i < 3; ++i)
-        sum += multiply<8>(plane.normal(i), WideInt<2>(detail::scaled_integer(point[i], bits)));
-    return side_from_sign(sum.sign());
+    return in_tier(plane.tier(), [&]<class T>(T) {
+        const int bits = detail::fraction_bits(point);
+        // Coordinates times 2^bits are below 2^(53 + bits).
+        return side_from_sign(53 + bits <= bits_of(2)
+                                  ? sign_at_fractions<T, 2>(point, bits, plane)
+                                  : sign_at_fractions<T, 3>(point, bits, plane));
+    });
 }
 
 Side side_of(const HomogeneousPoint& point, const Plane& plane) {

@@ -279,8 +279,9 @@ private:
                 const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
                 group.push_back({f.source, f.facet, f.flipped, e.from < e.to});
             }
-            for (const WholeFacetEdge& w : whole_)
-                if (w.ends == here[i].first) group.push_back(w.edge);
+            for (const WholeFacetEdge& w :
+                 std::ranges::equal_range(whole_, here[i].first, {}, &WholeFacetEdge::ends))
+                group.push_back(w.edge);
             const bool cross = cross_straight(group);
             for (; i < j; ++i)
                 if (cross) gone_[here[i].second] = false;

@@ -27,6 +27,15 @@ bool are_in_one_plane(const FacetEdge& a, const FacetEdge& b) {
     return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
 }
 
+// Whether a facet has edges of its own, although it passed through: it joins with a neighbour.
+bool is_among(std::span<const BoundaryFacet> facets, const Source& source, std::uint32_t facet,
+              bool flipped) {
+    const auto key = [](const BoundaryFacet& f) {
+        return std::tuple(f.source->serial(), f.facet, f.flipped);
+    };
+    return std::ranges::binary_search(facets, std::tuple(source.serial(), facet, flipped), {}, key);
+}
+
 }  // namespace
 
 bool cross_straight(std::span<const FacetEdge> edges) {
@@ -88,12 +97,14 @@ std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
                     first, end, std::tuple(table, std::min(v, w), std::max(v, w)), {},
                     &MeshEdge::key);
                 if (at == end || at->low != std::min(v, w) || at->high != std::max(v, w)) continue;
+                if (is_among(parts.facets, *source, facet, flipped)) break;
                 const bool up = ((v < w) == at->low_is_first) != flipped;
                 out.push_back({at->ends, {source, facet, flipped, up}});
             }
         });
         first = end;
     }
+    std::ranges::stable_sort(out, {}, &WholeFacetEdge::ends);
     return out;
 }
 
