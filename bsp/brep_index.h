@@ -230,7 +230,7 @@ struct IndexCell {
 /// What an index is like. Which stage decided how many signs of queries is in PredicateCounters
 /// (kernel/counters.h).
 struct IndexStats {
-    std::size_t polygons = 0;  ///< facets and fragments of the boundary
+    std::size_t polygons = 0;  ///< facets and fragments that the leaves of the cell tree list
     std::size_t nodes = 0;     ///< inner nodes and leaves
     std::size_t mixed_leaves = 0;
     std::size_t empty_leaves = 0;

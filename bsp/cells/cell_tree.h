@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/cell.h>
+#include <trisect/bsp/cells/node_fact.h>
 #include <trisect/bsp/cells/source.h>
 #include <trisect/kernel/predicates.h>
 
@@ -268,6 +269,10 @@ public:
     /// is listed.
     [[nodiscard]] std::uint64_t size() const { return size_; }
 
+    /// What is derived from the node, see NodeFact.
+    [[nodiscard]] const FactSlot& bounds_fact() const { return bounds_fact_; }
+    [[nodiscard]] const FactSlot& index_fact() const { return index_fact_; }
+
     /// Of a leaf: the same cell with children, if someone has made them.
     [[nodiscard]] const CellNode* refinement() const {
         return refinement_.load(std::memory_order_acquire);
@@ -298,6 +303,8 @@ private:
     int winding_ = 0;
     bool mixed_ = false;
     std::uint64_t size_ = 0;
+    FactSlot bounds_fact_;
+    FactSlot index_fact_;
     mutable std::atomic<const CellNode*> refinement_{nullptr};
     mutable std::shared_ptr<const CellNode> kept_refinement_;
     mutable std::mutex refining_;

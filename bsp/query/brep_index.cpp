@@ -3,15 +3,12 @@
 #include <trisect/bsp/brep_index.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
-#include <trisect/bsp/cells/lazy_tree.h>
-#include <trisect/bsp/expression.h>
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/bsp/query/index/index_core.h>
 #include <trisect/bsp/query/lines/index_box.h>
@@ -21,37 +18,19 @@
 #include <trisect/bsp/query/lines/index_section.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect {
 
 namespace {
 
+using detail::DoubleBox;
 using detail::IndexBase;
 using detail::IndexCore;
+using detail::IndexedLeaf;
 using detail::IndexLine;
 using detail::IndexPoint;
 using detail::PolygonId;
-
-// A boundary that may cross itself is made free of that first.
-Solid resolved(const Solid& solid) {
-    return detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
-}
-
-// All facets of one source in one leaf: then facets keep their numbers.
-const detail::Source* only_source(const Solid& solid) {
-    const detail::CellRef& root = detail::cut_state(solid)->root();
-    if (root.complemented || !root.node->is_leaf()) return nullptr;
-    const detail::Source* source = nullptr;
-    std::uint32_t next = 0;
-    for (const detail::PolygonRef r : root.node->polygons()) {
-        if (next == 0) source = r.source;
-        if (r.source != source || r.fragment != nullptr || r.flipped || r.facet != next++)
-            return nullptr;
-    }
-    if (source == nullptr || source->is_half_space() || next != source->facet_count())
-        return nullptr;
-    return source;
-}
 
 void require_same(Lattice lattice, const Solid& solid) {
     if (detail::state_of(solid)->lattice_matters && lattice != solid.lattice())
@@ -61,7 +40,7 @@ void require_same(Lattice lattice, const Solid& solid) {
 
 // Of a point on these polygons.
 Place named(const IndexCore& core, const IndexPoint& point, std::vector<PolygonId>& on) {
-    Place place = detail::place_on(core.polygons(), on, point);
+    Place place = detail::place_on(on, point);
     if (core.handles) core.handles->name(core, place, on, point);
     return place;
 }
@@ -78,25 +57,22 @@ void sort_unique(std::vector<T>& v) {
     v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 
-IndexCell to_cell(const IndexCore& core, const detail::IndexTree::Cell& c,
-                  const detail::DoubleBox& cell) {
-    return {cell.lo, cell.hi, core.tree().leaf(c.leaf).count, false};
+// The mixed cells in whose boxes `enter` holds and that are wanted.
+template <class Enter, class Wanted>
+std::vector<IndexCell> mixed_cells(const IndexCore& core, const Enter& enter,
+                                   const Wanted& wanted) {
+    std::vector<IndexCell> out;
+    detail::for_mixed_cells(
+        *core.base, enter,
+        [&](const detail::LeafInTree& leaf, const IndexedLeaf::Cell& c, const DoubleBox& box) {
+            const IndexedLeaf& index = leaf.index();
+            if (wanted(index, c, leaf.turned))
+                out.push_back({box.lo, box.hi, index.leaf(c.leaf).count, false});
+        });
+    return out;
 }
 
 }  // namespace
-
-namespace detail {
-
-IndexBase::IndexBase(const Solid& s) : solid(resolved(s)) {
-    const auto start = std::chrono::steady_clock::now();
-    if (const Source* source = only_source(solid)) polygons = IndexPolygons(*source);
-    tree = IndexTree(*detail::cut_state(solid), polygons);
-    std::vector<PolygonId> on;
-    tree.set_inside_beyond(locate_polygons(*this, IndexPoint(tree.lo()), on) == Location::Inside);
-    build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace detail
 
 const char* to_string(Location location) {
     switch (location) {
@@ -134,9 +110,15 @@ BrepIndex BrepIndex::with_brep() const {
     return BrepIndex(std::shared_ptr<const IndexCore>(std::move(with)));
 }
 
-void BrepIndex::refine() const { core().tree().divide_all(); }
+void BrepIndex::refine() const {
+    detail::for_tree_leaves(
+        *core().base, [](const DoubleBox&) { return true; },
+        [](const detail::LeafInTree& leaf) {
+            if (leaf.node.size() != 0) leaf.index().divide_all();
+        });
+}
 
-const Solid& BrepIndex::solid() const { return core().base->solid; }
+const Solid& BrepIndex::solid() const { return core().base->solid(); }
 bool BrepIndex::has_brep() const { return core().handles != nullptr; }
 
 const Brep& BrepIndex::brep() const {
@@ -145,21 +127,42 @@ const Brep& BrepIndex::brep() const {
 }
 
 IndexStats BrepIndex::stats() const {
-    const detail::IndexTree& tree = core().tree();
     IndexStats s;
-    s.polygons = core().polygons().size();
-    const detail::IndexTree::Stats t = tree.stats();
-    s.nodes = t.nodes;
-    s.mixed_leaves = t.mixed;
-    s.empty_leaves = t.empty;
-    s.pending_cells = t.pending;
-    s.listed = t.listed;
-    s.depth = t.depth;
-    s.bytes = t.bytes + core().polygons().bytes();
+    const auto walk = [&](const auto& self, const detail::CellNode& node,
+                          std::size_t depth) -> void {
+        const detail::CellNode& n = detail::refined(node);
+        ++s.nodes;
+        s.depth = std::max(s.depth, depth);
+        if (!n.is_leaf()) {
+            detail::with_enough_stack([&] {
+                self(self, *n.child(0).node, depth + 1);
+                self(self, *n.child(1).node, depth + 1);
+            });
+            return;
+        }
+        const detail::NodeFact* const fact = n.index_fact().get();
+        if (n.size() == 0) ++s.empty_leaves;
+        if (fact == nullptr) {
+            if (n.size() != 0) ++s.pending_cells;
+            s.polygons += n.size();
+            return;
+        }
+        const IndexedLeaf& leaf = static_cast<const IndexedLeaf&>(*fact);
+        const IndexedLeaf::Stats t = leaf.stats();
+        s.polygons += leaf.polygons().size();
+        s.nodes += t.nodes;
+        s.mixed_leaves += t.mixed;
+        s.empty_leaves += t.empty;
+        s.pending_cells += t.pending;
+        s.listed += t.listed;
+        s.depth = std::max(s.depth, depth + t.depth);
+        s.bytes += t.bytes;
+    };
+    walk(walk, *core().base->root().node, 0);
     if (core().handles) s.bytes += core().handles->bytes();
     if (s.polygons != 0)
         s.bytes_per_polygon = static_cast<double>(s.bytes) / static_cast<double>(s.polygons);
-    s.build_seconds = core().base->build_seconds;
+    s.build_seconds = core().base->build_seconds();
     if (core().handles) s.brep_seconds = core().handles->seconds();
     return s;
 }
@@ -277,8 +280,8 @@ BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
     const IndexPoint low = IndexPoint::from_user(lo, lattice);
     const IndexPoint high = IndexPoint::from_user(hi, lattice);
     BoxEntities out;
-    for (const PolygonId id : detail::polygons_in_box(*core().base, low, high)) {
-        out.faces.push_back(core().polygons().face_source(id));
+    for (const PolygonId& id : detail::polygons_in_box(*core().base, low, high)) {
+        out.faces.push_back(id.face_source());
         if (core().handles) out.face_ids.push_back(core().handles->face_of(id));
     }
     sort_unique(out.faces);
@@ -304,56 +307,44 @@ BoxEntities BrepIndex::in_box(const std::array<double, 3>& lo,
 
 std::vector<IndexCell> BrepIndex::cells(FaceId face) const {
     TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
-    std::vector<IndexCell> out;
     const auto polygons = core().handles->polygons_of(face);
-    detail::for_leaves(
-        core().tree(),
-        [&](const detail::DoubleBox& cell) {
-            return std::any_of(polygons.begin(), polygons.end(), [&](PolygonId id) {
-                return cell.overlaps(core().polygons().bounds(id));
-            });
+    return mixed_cells(
+        core(),
+        [&](const DoubleBox& cell) {
+            return std::any_of(polygons.begin(), polygons.end(),
+                               [&](const PolygonId& id) { return cell.overlaps(id.bounds()); });
         },
-        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
-            if (!c.is_mixed()) return;
-            const auto listed = core().tree().listed(core().tree().leaf(c.leaf));
-            if (std::any_of(listed.begin(), listed.end(),
-                            [&](PolygonId id) { return core().handles->face_of(id) == face; }))
-                out.push_back(to_cell(core(), c, cell));
+        [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c, bool turned) {
+            const auto listed = index.listed(index.leaf(c.leaf));
+            return std::any_of(listed.begin(), listed.end(), [&](IndexedLeaf::Id id) {
+                return core().handles->face_of({&index, id, turned}) == face;
+            });
         });
-    return out;
 }
 
 std::vector<IndexCell> BrepIndex::cells(EdgeId edge) const {
     TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
     const Brep& b = brep();
     const HalfedgeId h = b.halfedge(edge);
-    const detail::DoubleBox box = detail::hull(b.point(b.origin(h)), b.point(b.target(h)));
-    std::vector<IndexCell> out;
-    detail::for_leaves(
-        core().tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
-            if (!c.is_mixed()) return;
-            const auto edges = core().handles->edges_in(c.leaf);
-            if (std::find(edges.begin(), edges.end(), edge) != edges.end())
-                out.push_back(to_cell(core(), c, cell));
+    const DoubleBox box = detail::hull(b.point(b.origin(h)), b.point(b.target(h)));
+    return mixed_cells(
+        core(), [&](const DoubleBox& cell) { return cell.overlaps(box); },
+        [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c, bool) {
+            const auto edges = core().handles->edges_in(index, c);
+            return std::find(edges.begin(), edges.end(), edge) != edges.end();
         });
-    return out;
 }
 
 std::vector<IndexCell> BrepIndex::cells(VertexId vertex) const {
     TRISECT_EXPECTS(has_brep(), "cells of an entity need the B-rep");
     const Point& p = brep().point(vertex);
-    const detail::DoubleBox box = detail::hull(p, p);
-    std::vector<IndexCell> out;
-    detail::for_leaves(
-        core().tree(), [&](const detail::DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const detail::IndexTree::Cell& c, const detail::DoubleBox& cell) {
-            if (!c.is_mixed()) return;
-            const auto vertices = core().handles->vertices_in(c.leaf);
-            if (std::find(vertices.begin(), vertices.end(), vertex) != vertices.end())
-                out.push_back(to_cell(core(), c, cell));
+    const DoubleBox box = detail::hull(p, p);
+    return mixed_cells(
+        core(), [&](const DoubleBox& cell) { return cell.overlaps(box); },
+        [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c, bool) {
+            const auto vertices = core().handles->vertices_in(index, c);
+            return std::find(vertices.begin(), vertices.end(), vertex) != vertices.end();
         });
-    return out;
 }
 
 IndexCell BrepIndex::cell_at(const std::array<double, 3>& point) const {

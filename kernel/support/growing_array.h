@@ -19,6 +19,8 @@ namespace trisect::detail {
 template <class T>
 class GrowingArray {
 public:
+    /// The first chunk has 2^first_bits elements. \pre first_bits <= 10
+    explicit GrowingArray(unsigned first_bits = 10) : first_bits_(first_bits) {}
     [[nodiscard]] T& operator[](std::uint32_t i) { return *address(i); }
     [[nodiscard]] const T& operator[](std::uint32_t i) const { return *address(i); }
 
@@ -46,25 +48,25 @@ public:
     [[nodiscard]] std::size_t bytes() const { return used_ * sizeof(T); }
 
 private:
-    static constexpr unsigned first_bits = 10;
     struct Place {
         unsigned chunk = 0;
         std::size_t offset = 0;
     };
-    [[nodiscard]] static std::size_t chunk_size(unsigned chunk) {
-        return std::size_t{1} << (first_bits + chunk);
+    [[nodiscard]] std::size_t chunk_size(unsigned chunk) const {
+        return std::size_t{1} << (first_bits_ + chunk);
     }
-    [[nodiscard]] static Place place(std::uint32_t i) {
-        const std::uint32_t j = i + (1U << first_bits);
+    [[nodiscard]] Place place(std::uint32_t i) const {
+        const std::uint32_t j = i + (1U << first_bits_);
         const unsigned top = 31U - static_cast<unsigned>(std::countl_zero(j));
-        return {top - first_bits, j - (std::uint32_t{1} << top)};
+        return {top - first_bits_, j - (std::uint32_t{1} << top)};
     }
     [[nodiscard]] T* address(std::uint32_t i) const {
         const Place p = place(i);
         return chunks_[p.chunk].get() + p.offset;
     }
 
-    std::array<std::unique_ptr<T[]>, 22> chunks_;
+    unsigned first_bits_;
+    std::array<std::unique_ptr<T[]>, 31> chunks_;
     std::uint32_t end_ = 0;
     std::size_t used_ = 0;
 };

@@ -37,7 +37,7 @@ IndexBrickBuilder::Low sum(const IndexBrickBuilder::Low& low, std::uint32_t x, s
 IndexBrickBuilder::IndexBrickBuilder(const IndexPolygons& polygons, IndexCells& cells,
                                      const IndexGrid& grid, double margin, bool open)
     : polygons_(polygons), cells_(cells), grid_(grid), margin_(margin), open_(open) {
-    for (int i = 0; i <= grid.levels; ++i) work_.push_back(std::make_unique<Work>(polygons));
+    work_.resize(static_cast<std::size_t>(grid.levels) + 1);
 }
 
 void IndexBrickBuilder::gather_triangle(BlockItem& item, Coefficients& plane,
@@ -388,7 +388,9 @@ std::uint32_t IndexBrickBuilder::make_cells(Work& w, const Low& low, int level) 
 
 std::uint32_t IndexBrickBuilder::make(const Low& low, int level, std::span<const Id> ids,
                                       std::int32_t winding) {
-    Work& w = *work_[static_cast<std::size_t>(level)];
+    std::unique_ptr<Work>& work = work_[static_cast<std::size_t>(level)];
+    if (work == nullptr) work = std::make_unique<Work>(polygons_);
+    Work& w = *work;
     depth_ = std::max(depth_, static_cast<std::size_t>(grid_.levels - level));
     if (ids.size() <= limit(level) || level == 0) return make_alone(w, low, level, ids, winding);
     const IndexBlock block = grid_.brick(low, level);

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/query/index/index_tree.h>
 #include <trisect/bsp/query/index/index_windings.h>
+#include <trisect/bsp/query/index/indexed_leaf.h>
 
 namespace trisect::detail {
 

@@ -18,15 +18,14 @@ DoubleBox hull(const Point& a, const Point& b) {
     return box;
 }
 
-DoubleBox root_cell() {
+DoubleBox box_of(const Cell& cell) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    return {{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
-}
-
-DoubleBox child_cell(const DoubleBox& cell, const IndexTree::Node& n, bool above) {
-    DoubleBox c = cell;
-    (above ? c.lo : c.hi)[n.axis()] = n.rounded_splitter();
-    return c;
+    DoubleBox box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.lo[k] = cell.lo[k] <= -universe_limit ? -infinite : rounded_position(cell.lo[k]);
+        box.hi[k] = cell.hi[k] >= universe_limit ? infinite : rounded_position(cell.hi[k]);
+    }
+    return box;
 }
 
 DoubleBox block_cell(const DoubleBox& cell, const IndexBlock& block, std::uint32_t x,
@@ -41,30 +40,39 @@ DoubleBox block_cell(const DoubleBox& cell, const IndexBlock& block, std::uint32
 }
 
 IndexCell cell_at(const IndexBase& index, const IndexPoint& point) {
-    const IndexTree& tree = index.tree;
-    DoubleBox box = root_cell();
-    const IndexTree::Node* n = &tree.node(0);
-    while (n->has_splitter()) {
-        const bool above = IndexTree::side_of_splitter(*n, point) > 0;
-        box = child_cell(box, *n, above);
-        n = &tree.node(n->next + (above ? 1U : 0U));
+    const CellNode* node = &refined(*index.root().node);
+    bool turned = index.root().complemented;
+    Cell place;
+    while (!node->is_leaf()) {
+        const int side =
+            point.compare_fine(static_cast<std::size_t>(node->axis()), node->splitter()) > 0 ? 1
+                                                                                             : 0;
+        place = side == 0 ? place.below(node->axis(), node->splitter())
+                          : place.above(node->axis(), node->splitter());
+        turned = turned != node->child(side).complemented;
+        node = &refined(*node->child(side).node);
     }
-    IndexCell out{box.lo, box.hi, 0, n->is_inside()};
-    if (n->is_leaf()) {
-        if (n->is_mixed()) out.polygons = tree.leaf(n->next).count;
-        return out;
+    const DoubleBox box = box_of(place);
+    IndexCell out{box.lo, box.hi, 0, (node->winding() > 0) != turned};
+    if (node->size() == 0) return out;
+    const IndexedLeaf& leaf = indexed_leaf(*node, place);
+    IndexedLeaf::Cell cell = leaf.whole();
+    if (const IndexGrid* const g = leaf.grid()) {
+        const IndexGrid::Position at = g->position(point);
+        cell = leaf.cell_at(at);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t i = at.fine[k] >> cell.shift;
+            if (i != 0) out.lo[k] = g->splitter(k, i << cell.shift);
+            if ((i + 1) << cell.shift != g->n[k] << g->shift())
+                out.hi[k] = g->splitter(k, (i + 1) << cell.shift);
+        }
     }
-    const IndexGrid& g = tree.grid(*n);
-    const IndexGrid::Position at = g.position(point);
-    const IndexTree::Cell cell = tree.cell_at(g, at);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t i = at.fine[k] >> cell.shift;
-        if (i != 0) out.lo[k] = g.splitter(k, i << cell.shift);
-        if ((i + 1) << cell.shift != g.n[k] << g.shift())
-            out.hi[k] = g.splitter(k, (i + 1) << cell.shift);
+    if (cell.is_mixed()) {
+        out.polygons = leaf.leaf(cell.leaf).count;
+        out.inside = false;
+    } else {
+        out.inside = cell.is_inside() != turned;
     }
-    out.inside = cell.is_inside();
-    if (cell.is_mixed()) out.polygons = tree.leaf(cell.leaf).count;
     return out;
 }
 

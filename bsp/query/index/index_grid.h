@@ -93,8 +93,6 @@ struct IndexGrid {
     std::array<double, 3> scale{1, 1, 1};  ///< 1 / fine, rounded
     std::array<std::uint32_t, 3> n{1, 1, 1};
     int levels = 0;
-    std::uint32_t first = 0;   ///< of the tree's array of slots
-    std::uint32_t number = 0;  ///< of the tree's grids
 
     [[nodiscard]] std::size_t count() const { return std::size_t{n[0]} * n[1] * n[2]; }
     [[nodiscard]] std::size_t cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {

@@ -59,111 +59,83 @@ std::vector<Plane> edges_in_order(const Plane& support, const std::vector<Plane>
 
 }  // namespace
 
-IndexPolygons::IndexPolygons(const Source& source)
-    : only_(&source), whole_(source.is_whole()), size_(source.facet_count()) {
-    TRISECT_EXPECTS(!source.is_half_space(), "a half-space has no facets to number");
-}
-
-std::uint32_t IndexPolygons::slot_of(const Source* source) {
-    if (last_slot_ < sources_.size() && sources_[last_slot_] == source) return last_slot_;
-    const auto [it, is_new] =
-        slots_.try_emplace(source, static_cast<std::uint32_t>(sources_.size()));
-    if (is_new) {
-        sources_.push_back(source);
-        facets_.emplace_back(std::size_t{2} * source->facet_count());
+IndexPolygons::IndexPolygons(const PolygonList& list, const Cell& cell) : cell_(cell) {
+    if (const Source* source = list.whole_source(); source != nullptr && list.has_all_facets() &&
+                                                    !list.flipped() && !source->is_half_space() &&
+                                                    cell.contains(source->box())) {
+        only_ = source;
+        whole_ = source->is_whole();
+        size_ = source->facet_count();
+        return;
     }
-    return last_slot_ = it->second;
+    TRISECT_EXPECTS(list.size() < none, "too many polygons for an index");
+    records_.reserve(list.size());
+    for (const PolygonRef r : list) add(r);
+    size_ = static_cast<std::uint32_t>(records_.size());
 }
 
-IndexPolygons::Facet& IndexPolygons::facet_at(std::uint32_t slot, std::uint32_t facet,
-                                              bool flipped) {
-    return facets_[slot][std::size_t{2} * facet + (flipped ? 1 : 0)];
-}
-
-IndexPolygons::Id IndexPolygons::add_convex(const PolygonRef& ref, bool flipped, std::uint32_t slot,
-                                            std::span<const Plane> edges, const Box& box) {
-    Record r;
-    r.source = slot;
-    r.facet = ref.facet;
-    r.first = static_cast<std::uint32_t>(planes_.size());
-    r.box = static_cast<std::uint32_t>(boxes_.size());
-    r.edges = static_cast<std::uint16_t>(edges.size());
-    r.kind = Kind::Convex;
-    r.flipped = flipped;
-    planes_.push_back(ref.source->support(ref.facet));
-    planes_.insert(planes_.end(), edges.begin(), edges.end());
-    boxes_.push_back(box);
-    records_.push_back(r);
-    return size_++;
-}
-
-void IndexPolygons::note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete) {
-    Facet& f = facet_at(slot_of(ref.source), ref.facet, ref.flipped != turned);
-    whole_ = whole_ && ref.source->is_whole();
-    if (ref.fragment != nullptr)
-        for (const EdgeName& e : ref.fragment->edges())
-            if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
-    if (incomplete || ref.touched || ref.fragment != nullptr) {
-        f.cut = true;
-    } else if (ref.source->is_half_space() ||
-               cell.contains(Box::of(ref.source->corner(ref.facet, 0)))) {
-        f.owned = true;
-    }
-}
-
-IndexPolygons::Id IndexPolygons::add(const PolygonRef& ref, bool turned, const Cell& cell) {
-    TRISECT_EXPECTS(size_ + 1 < none, "too many polygons for an index");
-    const bool flipped = ref.flipped != turned;
-    const std::uint32_t slot = slot_of(ref.source);
-    if (ref.fragment != nullptr) {
-        std::vector<Plane> edges;
-        for (const EdgeName& e : ref.fragment->edges()) {
-            const Plane p = e.plane.plane();
-            edges.push_back(e.above ? p.flipped() : p);
-        }
-        return add_convex(ref, flipped, slot, edges, ref.fragment->box());
-    }
-    Facet& f = facet_at(slot, ref.facet, flipped);
-    const bool is_split = f.cut && !(cell.contains(ref.box()) && !ref.source->is_half_space());
-    if (is_split) return add_clipped(ref, flipped, slot, cell);
-    if (!f.cut && !f.owned) return none;
-    if (f.id != none) return f.id;
-    if (ref.source->is_half_space())
-        return f.id = add_convex(ref, flipped, slot, {}, ref.source->box());
-    Record r;
-    r.source = slot;
-    r.facet = ref.facet;
-    r.flipped = flipped;
-    records_.push_back(r);
-    return f.id = size_++;
-}
-
-// What is of a facet in a cell.
-IndexPolygons::Id IndexPolygons::add_clipped(const PolygonRef& ref, bool flipped,
-                                             std::uint32_t slot, const Cell& cell) {
-    const Plane support = ref.source->support(ref.facet);
+void IndexPolygons::add(const PolygonRef& ref) {
     const Box box = ref.box();
-    std::vector<Plane> edges;
-    if (!ref.source->is_half_space())
-        for (int i = 0; i < 3; ++i) edges.push_back(ref.source->edge_plane(ref.facet, i, support));
+    if (!cell_.meets(box)) return;
+    Record r;
+    r.source = ref.source;
+    r.facet = ref.facet;
+    r.flipped = ref.flipped ? 1 : 0;
+    r.reaches_out = cell_.contains(box) ? 0 : 1;
+    whole_ = whole_ && ref.source->is_whole();
+    if (ref.fragment != nullptr || ref.source->is_half_space()) {
+        r.convex = static_cast<std::uint32_t>(convex_.size()) & triangle;
+        add_planes(ref, box);
+    }
+    records_.push_back(r);
+}
+
+void IndexPolygons::add_planes(const PolygonRef& ref, const Box& box) {
+    Convex c;
+    c.box = box;
+    c.first = static_cast<std::uint32_t>(planes_.size());
+    planes_.push_back(ref.source->support(ref.facet));
+    if (ref.fragment != nullptr)
+        for (const EdgeName& e : ref.fragment->edges()) {
+            if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
+            const Plane p = e.plane.plane();
+            planes_.push_back(e.above ? p.flipped() : p);
+        }
+    c.edges = static_cast<std::uint32_t>(planes_.size() - c.first - 1);
+    convex_.push_back(c);
+}
+
+PolygonPart IndexPolygons::part(Id id) const {
+    std::array<Plane, 3> storage;
+    const auto own = edges(id, storage);
+    PolygonPart out{support(id), {own.begin(), own.end()}};
+    if (!reaches_out(id)) return out;
+    const Box box = is_triangle(id) ? source(id).facet_box(facet(id)) : convex(id).box;
+    const bool everywhere = is_unbounded(id);
     for (int k = 0; k < 3; ++k) {
         const auto kk = static_cast<std::size_t>(k);
-        if (box.lo[kk] <= lattice_below(cell.lo[kk]))
-            edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.lo[kk]).flipped());
-        if (box.hi[kk] > lattice_below(cell.hi[kk]))
-            edges.push_back(Plane::axis_aligned(k, splitting_scale, cell.hi[kk]));
+        if (everywhere || box.lo[kk] <= lattice_below(cell_.lo[kk]))
+            out.edges.push_back(Plane::axis_aligned(k, splitting_scale, cell_.lo[kk]).flipped());
+        if (everywhere || box.hi[kk] > lattice_below(cell_.hi[kk]))
+            out.edges.push_back(Plane::axis_aligned(k, splitting_scale, cell_.hi[kk]));
     }
-    edges = edges_in_order(support, edges);
-    if (edges.size() < 3) return none;
-    return add_convex(ref, flipped, slot, edges, box);
+    out.edges = edges_in_order(out.support, out.edges);
+    return out;
 }
 
-void IndexPolygons::finish() {
-    facets_ = {};
-    slots_ = {};
-    records_.shrink_to_fit();
-    planes_.shrink_to_fit();
-    boxes_.shrink_to_fit();
+bool IndexPolygons::enters(Id id) const {
+    if (!reaches_out(id)) return true;
+    if (is_triangle(id))
+        for (int i = 0; i < 3; ++i)
+            if (cell_.contains(Box::of(corner(id, i)))) return true;
+    return !part(id).is_empty();
+}
+
+std::vector<Point> PolygonPart::corners() const {
+    std::vector<Point> out;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        out.emplace_back(support, edges[i == 0 ? edges.size() - 1 : i - 1], edges[i]);
+    return out;
 }
 
 std::span<const Plane> IndexPolygons::edges(Id id, std::array<Plane, 3>& storage) const {
@@ -207,8 +179,7 @@ FaceSource IndexPolygons::face_source(Id id) const { return source(id).name_of(f
 
 std::size_t IndexPolygons::bytes() const {
     return sizeof(*this) + records_.capacity() * sizeof(Record) +
-           planes_.capacity() * sizeof(Plane) + boxes_.capacity() * sizeof(Box) +
-           sources_.capacity() * sizeof(void*);
+           convex_.capacity() * sizeof(Convex) + planes_.capacity() * sizeof(Plane);
 }
 
 }  // namespace trisect::detail

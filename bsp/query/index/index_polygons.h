@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// IndexPolygons: the polygons of a boundary under consecutive numbers.
+// IndexPolygons: the polygons of a leaf under consecutive numbers.
 // Planes, corners and names of the polygons are here.
 #pragma once
 
@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/query/index/double_box.h>
 #include <trisect/kernel/plane.h>
@@ -20,37 +20,38 @@
 
 namespace trisect::detail {
 
-/// Facets and fragments of the boundary.
+/// A convex polygon by planes: its support, and those below which it lies, counter-clockwise seen
+/// from above the support.
+struct PolygonPart {
+    Plane support;
+    std::vector<Plane> edges;
+
+    [[nodiscard]] bool is_empty() const { return edges.size() < 3; }
+    [[nodiscard]] std::vector<Point> corners() const;
+};
+
+/// Facets and fragments that a leaf lists.
+///
+/// Within the open cell they are the boundary, each point of it in the interior of one polygon
+/// except where polygons end. A polygon may reach out of the cell; what of it is beyond says
+/// nothing, since there something may have cut it. Nor does one that misses the open cell: it is
+/// listed by its box.
 ///
 /// The number of a facet of a mesh that nothing has happened to is its own: then there is no table
 /// at all. Otherwise a polygon takes 16 bytes, and what is not a whole triangle the planes of its
-/// edges (240 bytes each).
-///
-/// Invariant: every polygon is closed, convex and has area; together they are the boundary, each
-/// point of it in the interior of one polygon except where polygons end. The sources must outlive
-/// the table.
+/// edges (240 bytes each). The sources must outlive the table.
 class IndexPolygons {
 public:
     using Id = std::uint32_t;
 
     IndexPolygons() = default;
-    /// All facets of one source, unturned.
-    explicit IndexPolygons(const Source& source);
+    /// Those of a list whose boxes meet the cell.
+    IndexPolygons(const PolygonList& list, const Cell& cell);
 
     static constexpr Id none = 0xffffffffU;
 
-    // Made in two passes over the leaves. A leaf may list facets that only pass by its cell, and a
-    // facet that is listed whole in one cell may be cut in another one: then what is of it in each
-    // cell counts. So facets are looked at in all cells before they are numbered.
-
-    /// First pass: every polygon of every leaf.
-    void note(const PolygonRef& ref, bool turned, const Cell& cell, bool incomplete);
-    /// Second pass: numbers a polygon of a leaf; the same number again for the same whole facet.
-    /// `none` for what is no part of the boundary.
-    Id add(const PolygonRef& ref, bool turned, const Cell& cell);
-    /// Forgets what only `add` needs.
-    void finish();
-
+    /// The cell that the polygons are listed in.
+    [[nodiscard]] const Cell& cell() const { return cell_; }
     [[nodiscard]] std::uint32_t size() const { return size_; }
     /// Whether all sources are whole, those of edges included.
     [[nodiscard]] bool is_whole() const { return whole_; }
@@ -58,23 +59,34 @@ public:
     [[nodiscard]] const Source* only_source() const { return only_; }
 
     [[nodiscard]] bool is_triangle(Id id) const {
-        return only_ != nullptr || records_[id].kind == Kind::Triangle;
+        return only_ != nullptr || records_[id].convex == triangle;
     }
     [[nodiscard]] const Source& source(Id id) const {
-        return only_ != nullptr ? *only_ : *sources_[records_[id].source];
+        return only_ != nullptr ? *only_ : *records_[id].source;
     }
     [[nodiscard]] std::uint32_t facet(Id id) const {
         return only_ != nullptr ? id : records_[id].facet;
     }
+    /// Whether it may reach out of the cell.
+    [[nodiscard]] bool reaches_out(Id id) const {
+        return only_ == nullptr && records_[id].reaches_out != 0;
+    }
+    /// What of it is in the cell; itself where it does not reach out. Exact, and slow where it
+    /// does.
+    [[nodiscard]] PolygonPart part(Id id) const;
+    /// Whether it has a point in the open cell.
+    [[nodiscard]] bool enters(Id id) const;
     /// Whether outside is below the support of the source's facet.
-    [[nodiscard]] bool is_flipped(Id id) const { return only_ == nullptr && records_[id].flipped; }
+    [[nodiscard]] bool is_flipped(Id id) const {
+        return only_ == nullptr && records_[id].flipped != 0;
+    }
     /// Corner i of the source's triangle, whether or not the polygon is all of it.
     [[nodiscard]] const LatticePoint& corner(Id id, int i) const {
         return source(id).corner(facet(id), i);
     }
     /// The support as the source has it.
     [[nodiscard]] Plane support(Id id) const {
-        return is_triangle(id) ? source(id).support(facet(id)) : planes_[records_[id].first];
+        return is_triangle(id) ? source(id).support(facet(id)) : planes_[convex(id).first];
     }
     /// Its normal outward.
     [[nodiscard]] Plane outward(Id id) const {
@@ -84,19 +96,19 @@ public:
     /// The planes of the edges, below which a polygon that is no triangle lies. None for a facet
     /// that is a whole plane.
     [[nodiscard]] std::span<const Plane> edges(Id id) const {
-        const Record& r = records_[id];
-        return std::span(planes_).subspan(std::size_t{r.first} + 1, r.edges);
+        const Convex& c = convex(id);
+        return std::span(planes_).subspan(std::size_t{c.first} + 1, c.edges);
     }
     /// The same, made for triangles too; `storage` holds them.
     [[nodiscard]] std::span<const Plane> edges(Id id, std::array<Plane, 3>& storage) const;
     [[nodiscard]] bool is_unbounded(Id id) const {
-        return !is_triangle(id) && records_[id].edges == 0;
+        return !is_triangle(id) && convex(id).edges == 0;
     }
     /// Counter-clockwise seen from above the source's support. \pre not unbounded.
     [[nodiscard]] std::vector<Point> corners(Id id) const;
     /// Contains the polygon, in lattice units; of triangles, no more.
     [[nodiscard]] DoubleBox bounds(Id id) const {
-        return is_triangle(id) ? triangle_bounds(id) : bounds(boxes_[records_[id].box]);
+        return is_triangle(id) ? triangle_bounds(id) : bounds(convex(id).box);
     }
     /// What lies at these positions.
     [[nodiscard]] DoubleBox bounds(const Box& box) const;
@@ -106,41 +118,33 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    enum class Kind : std::uint8_t { Triangle, Convex };
     struct Record {
-        std::uint32_t source = 0;
+        const Source* source = nullptr;
         std::uint32_t facet = 0;
-        std::uint32_t first = 0;  // of planes_: support, then edges
-        std::uint32_t box = 0;
-        std::uint16_t edges = 0;
-        Kind kind = Kind::Triangle;
-        bool flipped = false;
+        std::uint32_t convex : 30 = triangle;  // of convex_
+        std::uint32_t flipped : 1 = 0;
+        std::uint32_t reaches_out : 1 = 0;
     };
-
-    // What is known of a facet, turned or not, while polygons are added.
-    struct Facet {
-        Id id = none;
-        bool owned = false;  // listed whole where its first corner is
-        bool cut = false;    // or touched or incomplete: not the same in all cells
+    static constexpr std::uint32_t triangle = (1U << 30U) - 1;
+    // What is not a whole triangle.
+    struct Convex {
+        Box box;
+        std::uint32_t first = 0;  // of planes_: support, then edges
+        std::uint32_t edges = 0;
     };
 
     [[nodiscard]] DoubleBox triangle_bounds(Id id) const;
-    std::uint32_t slot_of(const Source* source);
-    [[nodiscard]] Facet& facet_at(std::uint32_t slot, std::uint32_t facet, bool flipped);
-    Id add_clipped(const PolygonRef& ref, bool flipped, std::uint32_t slot, const Cell& cell);
-    Id add_convex(const PolygonRef& ref, bool flipped, std::uint32_t slot,
-                  std::span<const Plane> edges, const Box& box);
+    [[nodiscard]] const Convex& convex(Id id) const { return convex_[records_[id].convex]; }
+    void add(const PolygonRef& ref);
+    void add_planes(const PolygonRef& ref, const Box& box);
 
     const Source* only_ = nullptr;
     bool whole_ = true;
     std::uint32_t size_ = 0;
-    std::vector<const Source*> sources_;
     std::vector<Record> records_;
+    std::vector<Convex> convex_;
     std::vector<Plane> planes_;
-    std::vector<Box> boxes_;
-    std::vector<std::vector<Facet>> facets_;  // by source: two for each facet, unturned and flipped
-    std::unordered_map<const Source*, std::uint32_t> slots_;
-    std::uint32_t last_slot_ = 0;
+    Cell cell_;
 };
 
 inline DoubleBox IndexPolygons::triangle_bounds(Id id) const {

@@ -62,14 +62,18 @@ bool plane_meets(const Plane& plane, const IndexPoint& lo, const IndexPoint& hi)
     return below && above;
 }
 
-bool meets(const IndexPolygons& polygons, PolygonId id, const IndexPoint& lo,
-           const IndexPoint& hi) {
-    if (polygons.is_unbounded(id)) return plane_meets(polygons.support(id), lo, hi);
-    const DoubleBox box = polygons.bounds(id);
-    for (std::size_t k = 0; k < 3; ++k)
-        if (lo.compare(k, box.hi[k]) > 0 || hi.compare(k, box.lo[k]) < 0) return false;
+// The part of a polygon that is in its cell.
+bool meets(const PolygonId& id, const IndexPoint& lo, const IndexPoint& hi) {
+    if (id.is_unbounded() && !id.reaches_out()) return plane_meets(id.support(), lo, hi);
+    if (!id.is_unbounded()) {
+        const DoubleBox box = id.bounds();
+        for (std::size_t k = 0; k < 3; ++k)
+            if (lo.compare(k, box.hi[k]) > 0 || hi.compare(k, box.lo[k]) < 0) return false;
+    }
     std::vector<Exact> corners;
-    for (const Point& c : polygons.corners(id)) {
+    const PolygonPart part = id.part();
+    if (part.is_empty()) return false;
+    for (const Point& c : part.corners()) {
         if (is_in_box(c, lo, hi)) return true;
         corners.push_back(IndexPoint(c).rational());
     }
@@ -103,17 +107,9 @@ std::vector<PolygonId> polygons_in_box(const IndexBase& index, const IndexPoint&
         box.lo[k] = std::nextafter(lo[k] - lo.error(), -HUGE_VAL);
         box.hi[k] = std::nextafter(hi[k] + hi.error(), HUGE_VAL);
     }
-    std::vector<PolygonId> ids;
-    for_leaves(
-        index.tree, [&](const DoubleBox& cell) { return cell.overlaps(box); },
-        [&](const IndexTree::Cell& c, const DoubleBox&) {
-            if (!c.is_mixed()) return;
-            const auto listed = index.tree.listed(index.tree.leaf(c.leaf));
-            ids.insert(ids.end(), listed.begin(), listed.end());
-        });
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    std::erase_if(ids, [&](PolygonId id) { return !meets(index.polygons, id, lo, hi); });
+    std::vector<PolygonId> ids =
+        polygons_in(index, [&](const DoubleBox& cell) { return cell.overlaps(box); });
+    std::erase_if(ids, [&](const PolygonId& id) { return !meets(id, lo, hi); });
     return ids;
 }
 

@@ -49,10 +49,10 @@ struct PlaneFace {
     FaceId face;
 };
 
-// The middle of a polygon: a point of its interior.
-IndexPoint middle_of(const IndexPolygons& polygons, PolygonId id) {
+// A point of the interior of what a polygon has in its cell.
+IndexPoint middle_of(const PolygonPart& part) {
     IndexPoint::Rational sum;
-    const auto corners = polygons.corners(id);
+    const auto corners = part.corners();
     for (const Point& c : corners) {
         const IndexPoint p(c);
         for (std::size_t k = 0; k < 3; ++k) sum[k] += p.rational()[k];
@@ -113,15 +113,32 @@ bool is_same(const IndexPoint& a, const IndexPoint& b) {
 
 IndexHandles::IndexHandles(const IndexBase& base) {
     const auto start = std::chrono::steady_clock::now();
-    base.tree.divide_all();
-    brep_ = base.solid.to_brep();
-    find_faces(base);
+    number_leaves(base);
+    brep_ = base.solid().to_brep();
+    find_faces();
     list_edges(base);
     list_vertices(base);
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void IndexHandles::find_faces(const IndexBase& base) {
+void IndexHandles::number_leaves(const IndexBase& base) {
+    std::uint32_t leaves = 0;
+    for_tree_leaves(
+        base, [](const DoubleBox&) { return true; },
+        [&](const LeafInTree& leaf) {
+            if (leaf.node.size() == 0) return;
+            const IndexedLeaf& index = leaf.index();
+            index.divide_all();
+            numbers_[&index] = {static_cast<std::uint32_t>(all_polygons_.size()), leaves};
+            leaves += index.leaf_count();
+            for (IndexedLeaf::Id id = 0; id < index.polygons().size(); ++id)
+                all_polygons_.push_back({&index, id, leaf.turned});
+        });
+    edges_begin_.assign(leaves + 1, 0);
+    vertices_begin_.assign(leaves + 1, 0);
+}
+
+void IndexHandles::find_faces() {
     std::unordered_map<NormalKey, std::vector<PlaneFace>, NormalHash> by_normal;
     by_normal.reserve(brep_.faces().size());
     for (const FaceId f : brep_.faces())
@@ -142,11 +159,13 @@ void IndexHandles::find_faces(const IndexBase& base) {
                 bounds[f.index].hi[k] = std::max(bounds[f.index].hi[k], a.c[k] + 2 * a.error);
             }
         }
-    faces_.resize(base.polygons.size());
+    faces_.resize(all_polygons_.size());
     std::vector<FaceId> near;
-    for (PolygonId id = 0; id < base.polygons.size(); ++id) {
-        const Plane plane = base.polygons.outward(id);
+    for (std::size_t number = 0; number < all_polygons_.size(); ++number) {
+        const PolygonId& id = all_polygons_[number];
+        const Plane plane = id.outward();
         const auto it = by_normal.find(plane.direction());
+        if (it == by_normal.end() && !id.enters()) continue;
         TRISECT_EXPECTS(it != by_normal.end(), "a polygon in the plane of no face");
         const double height = height_of(plane);
         const double slack = (std::fabs(height) + 1) * 0x1p-40;
@@ -156,8 +175,10 @@ void IndexHandles::find_faces(const IndexBase& base) {
                                        [](const PlaneFace&a, double h) { return a.height < h; });
              f != faces.end() && f->height <= height + slack; ++f)
             near.push_back(f->face);
-        if (near.size() > 1) {
-            const IndexPoint p = middle_of(base.polygons, id);
+        if (near.size() != 1) {
+            const PolygonPart part = id.part();
+            if (part.is_empty() && id.reaches_out()) continue;
+            const IndexPoint p = middle_of(part);
             std::erase_if(near, [&](FaceId f) {
                 for (std::size_t k = 0; k < 3; ++k)
                     if (p[k] + p.error() < bounds[f.index].lo[k] ||
@@ -167,23 +188,24 @@ void IndexHandles::find_faces(const IndexBase& base) {
             });
         }
         TRISECT_EXPECTS(!near.empty(), "a polygon in no face");
-        faces_[id] = *std::min_element(near.begin(), near.end());
+        faces_[number] = *std::min_element(near.begin(), near.end());
     }
     polygons_begin_.assign(brep_.faces().size() + 1, 0);
-    for (const FaceId f : faces_) ++polygons_begin_[f.index + 1];
+    for (const FaceId f : faces_)
+        if (f.is_valid()) ++polygons_begin_[f.index + 1];
     std::partial_sum(polygons_begin_.begin(), polygons_begin_.end(), polygons_begin_.begin());
-    polygons_.resize(faces_.size());
+    polygons_.resize(polygons_begin_.back());
     std::vector<std::uint32_t> at(polygons_begin_.begin(), polygons_begin_.end() - 1);
-    for (PolygonId id = 0; id < faces_.size(); ++id) polygons_[at[faces_[id].index]++] = id;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+        if (faces_[i].is_valid()) polygons_[at[faces_[i].index]++] = all_polygons_[i];
 }
 
 // Leaves whose cells a segment may meet, with a margin for rounding: a walk with the part of the
 // segment that is in the cell.
 void IndexHandles::list_edges(const IndexBase& base) {
-    const IndexTree& tree = base.tree;
-    std::vector<std::pair<std::uint32_t, EdgeId>> found;  // leaf, edge
+    std::vector<std::pair<std::uint32_t, EdgeId>> found;  // mixed cell, edge
     struct Pending {
-        std::uint32_t node = 0;
+        const CellNode* node = nullptr;
         double lo = 0;
         double hi = 1;
     };
@@ -192,29 +214,34 @@ void IndexHandles::list_edges(const IndexBase& base) {
         const HalfedgeId h = brep_.halfedge(e);
         const Approximation a = brep_.point(brep_.origin(h)).approximation();
         const Approximation b = brep_.point(brep_.target(h)).approximation();
-        pending.push_back({});
+        pending.push_back({base.root().node.get()});
         while (!pending.empty()) {
-            Pending p = pending.back();
+            const Pending p = pending.back();
             pending.pop_back();
-            const IndexTree::Node& n = tree.node(p.node);
-            if (n.is_grid()) {
-                const IndexGrid& g = tree.grid(n);
+            const CellNode& n = refined(*p.node);
+            if (n.is_leaf()) {
+                if (n.size() == 0) continue;
+                // Its index is there already.
+                const IndexedLeaf& index = indexed_leaf(n, Cell{});
+                const std::uint32_t first = numbers_of(index).leaf;
+                if (index.grid() == nullptr) {
+                    if (index.leaf_count() != 0) found.emplace_back(first, e);
+                    continue;
+                }
                 ApproximateLine line{a.c, {}, a.error, 2 * (a.error + b.error)};
                 for (std::size_t k = 0; k < 3; ++k) {
                     line.direction[k] = b.c[k] - a.c[k];
                     line.direction_error += std::fabs(line.direction[k]) * last_place;
                 }
                 for_grid_leaves_along(
-                    tree, g, line, p.lo, p.hi, [](double) { return true; },
-                    [&](std::uint32_t leaf, double, double) { found.emplace_back(leaf, e); });
+                    index, line, p.lo, p.hi, [](double) { return true; },
+                    [&](std::uint32_t leaf, double, double) {
+                        found.emplace_back(first + leaf, e);
+                    });
                 continue;
             }
-            if (n.is_leaf()) {
-                if (n.is_mixed()) found.emplace_back(n.next, e);
-                continue;
-            }
-            const std::size_t k = n.axis();
-            const double splitter = n.rounded_splitter();
+            const auto k = static_cast<std::size_t>(n.axis());
+            const double splitter = rounded_position(n.splitter());
             const double size =
                 std::max({std::fabs(splitter), std::fabs(a.c[k]), std::fabs(b.c[k])});
             const double slack = 2 * (a.error + b.error) + size * 0x1p-45;
@@ -230,19 +257,18 @@ void IndexHandles::list_edges(const IndexBase& base) {
                 Pending second = p;
                 first.hi = std::min(p.hi, t + margin);
                 second.lo = std::max(p.lo, t - margin);
-                first.node = n.next + (step > 0 ? 0U : 1U);
-                second.node = n.next + (step > 0 ? 1U : 0U);
+                first.node = n.child(step > 0 ? 0 : 1).node.get();
+                second.node = n.child(step > 0 ? 1 : 0).node.get();
                 pending.push_back(first);
                 pending.push_back(second);
                 continue;
             }
-            if (below) pending.push_back({n.next, p.lo, p.hi});
-            if (above) pending.push_back({n.next + 1, p.lo, p.hi});
+            if (below) pending.push_back({n.child(0).node.get(), p.lo, p.hi});
+            if (above) pending.push_back({n.child(1).node.get(), p.lo, p.hi});
         }
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    edges_begin_.assign(tree.leaf_count() + 1, 0);
     edges_.reserve(found.size());
     for (const auto& [leaf, e] : found) {
         ++edges_begin_[leaf + 1];
@@ -254,12 +280,11 @@ void IndexHandles::list_edges(const IndexBase& base) {
 void IndexHandles::list_vertices(const IndexBase& base) {
     std::vector<std::pair<std::uint32_t, VertexId>> found;
     for (const VertexId v : brep_.vertices())
-        base.tree.for_leaves_at(IndexPoint(brep_.point(v)),
-                                [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
-                                    if (c.is_mixed()) found.emplace_back(c.leaf, v);
-                                });
+        for_mixed_cells_at(base, IndexPoint(brep_.point(v)),
+                           [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c) {
+                               found.emplace_back(numbers_of(index).leaf + c.leaf, v);
+                           });
     std::sort(found.begin(), found.end());
-    vertices_begin_.assign(base.tree.leaf_count() + 1, 0);
     vertices_.reserve(found.size());
     for (const auto& [leaf, v] : found) {
         ++vertices_begin_[leaf + 1];
@@ -281,21 +306,19 @@ bool IndexHandles::is_on(EdgeId edge, const IndexPoint& point) const {
     return true;
 }
 
-EdgeId IndexHandles::edge_at(const IndexTree& tree, const IndexPoint& point) const {
+EdgeId IndexHandles::edge_at(const IndexBase& base, const IndexPoint& point) const {
     EdgeId best;
-    tree.for_leaves_at(point, [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
-        if (!c.is_mixed()) return;
-        for (const EdgeId e : edges_in(c.leaf))
+    for_mixed_cells_at(base, point, [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c) {
+        for (const EdgeId e : edges_in(index, c))
             if (e < best && is_on(e, point)) best = e;
     });
     return best;
 }
 
-VertexId IndexHandles::vertex_at(const IndexTree& tree, const IndexPoint& point) const {
+VertexId IndexHandles::vertex_at(const IndexBase& base, const IndexPoint& point) const {
     VertexId best;
-    tree.for_leaves_at(point, [&](const IndexTree::Cell& c, const IndexGrid::Position&) {
-        if (!c.is_mixed()) return;
-        for (const VertexId v : vertices_in(c.leaf))
+    for_mixed_cells_at(base, point, [&](const IndexedLeaf& index, const IndexedLeaf::Cell& c) {
+        for (const VertexId v : vertices_in(index, c))
             if (v < best && is_same(IndexPoint(brep_.point(v)), point)) best = v;
     });
     return best;
@@ -304,14 +327,14 @@ VertexId IndexHandles::vertex_at(const IndexTree& tree, const IndexPoint& point)
 void IndexHandles::name(const IndexCore& core, Place& place, std::span<const PolygonId> on,
                         const IndexPoint& point) const {
     if (place.location == Location::OnFace) {
-        for (const PolygonId id : on) place.face = std::min(place.face, faces_[id]);
+        for (const PolygonId& id : on) place.face = std::min(place.face, face_of(id));
     } else if (place.location == Location::OnEdge) {
-        place.edge = edge_at(core.tree(), point);
+        place.edge = edge_at(*core.base, point);
         TRISECT_EXPECTS(place.edge.is_valid(), "a point of an edge that the B-rep lacks");
     } else if (place.location == Location::OnVertex) {
-        place.vertex = vertex_at(core.tree(), point);
+        place.vertex = vertex_at(*core.base, point);
         // Two edges that touch crosswise: no vertex.
-        if (!place.vertex.is_valid()) place.edge = edge_at(core.tree(), point);
+        if (!place.vertex.is_valid()) place.edge = edge_at(*core.base, point);
         TRISECT_EXPECTS(place.vertex.is_valid() || place.edge.is_valid(),
                         "a point of a vertex that the B-rep lacks");
     }
@@ -319,8 +342,8 @@ void IndexHandles::name(const IndexCore& core, Place& place, std::span<const Pol
 
 std::size_t IndexHandles::bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return of(faces_) + of(polygons_) + of(polygons_begin_) + of(edges_) + of(edges_begin_) +
-           of(vertices_) + of(vertices_begin_);
+    return of(faces_) + of(polygons_) + of(all_polygons_) + of(polygons_begin_) + of(edges_) +
+           of(edges_begin_) + of(vertices_) + of(vertices_begin_);
 }
 
 }  // namespace trisect::detail

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include <trisect/bsp/query/index/index_core.h>
@@ -26,7 +27,9 @@ public:
     [[nodiscard]] double seconds() const { return seconds_; }
     [[nodiscard]] std::size_t bytes() const;
 
-    [[nodiscard]] FaceId face_of(PolygonId id) const { return faces_[id]; }
+    [[nodiscard]] FaceId face_of(const PolygonId& id) const {
+        return faces_[numbers_of(*id.leaf).polygon + id.number];
+    }
     [[nodiscard]] std::span<const PolygonId> polygons_of(FaceId face) const {
         return std::span(polygons_).subspan(
             polygons_begin_[face.index],
@@ -37,25 +40,40 @@ public:
     void name(const IndexCore& core, Place& place, std::span<const PolygonId> on,
               const IndexPoint& point) const;
 
-    [[nodiscard]] std::span<const EdgeId> edges_in(std::uint32_t leaf) const {
-        return std::span(edges_).subspan(edges_begin_[leaf],
-                                         edges_begin_[leaf + 1] - edges_begin_[leaf]);
+    /// Of a mixed cell.
+    [[nodiscard]] std::span<const EdgeId> edges_in(const IndexedLeaf& index,
+                                                   const IndexedLeaf::Cell& cell) const {
+        const std::uint32_t i = numbers_of(index).leaf + cell.leaf;
+        return std::span(edges_).subspan(edges_begin_[i], edges_begin_[i + 1] - edges_begin_[i]);
     }
-    [[nodiscard]] std::span<const VertexId> vertices_in(std::uint32_t leaf) const {
-        return std::span(vertices_).subspan(vertices_begin_[leaf],
-                                            vertices_begin_[leaf + 1] - vertices_begin_[leaf]);
+    [[nodiscard]] std::span<const VertexId> vertices_in(const IndexedLeaf& index,
+                                                        const IndexedLeaf::Cell& cell) const {
+        const std::uint32_t i = numbers_of(index).leaf + cell.leaf;
+        return std::span(vertices_).subspan(vertices_begin_[i],
+                                            vertices_begin_[i + 1] - vertices_begin_[i]);
     }
 
 private:
-    void find_faces(const IndexBase& base);
+    // The first polygon and the first mixed cell of a leaf, counted through all leaves.
+    struct Numbers {
+        std::uint32_t polygon = 0;
+        std::uint32_t leaf = 0;
+    };
+    [[nodiscard]] const Numbers& numbers_of(const IndexedLeaf& leaf) const {
+        return numbers_.at(&leaf);
+    }
+    void number_leaves(const IndexBase& base);
+    void find_faces();
     void list_edges(const IndexBase& base);
     void list_vertices(const IndexBase& base);
-    [[nodiscard]] EdgeId edge_at(const IndexTree& tree, const IndexPoint& point) const;
-    [[nodiscard]] VertexId vertex_at(const IndexTree& tree, const IndexPoint& point) const;
+    [[nodiscard]] EdgeId edge_at(const IndexBase& base, const IndexPoint& point) const;
+    [[nodiscard]] VertexId vertex_at(const IndexBase& base, const IndexPoint& point) const;
     [[nodiscard]] bool is_on(EdgeId edge, const IndexPoint& point) const;
 
     Brep brep_;
-    std::vector<FaceId> faces_;  // by polygon
+    std::unordered_map<const IndexedLeaf*, Numbers> numbers_;
+    std::vector<PolygonId> all_polygons_;
+    std::vector<FaceId> faces_;  // by polygon; none for one that misses its cell
     std::vector<PolygonId> polygons_;
     std::vector<std::uint32_t> polygons_begin_;  // by face
     std::vector<EdgeId> edges_;

@@ -94,8 +94,15 @@ struct Bounds {
     double hi = HUGE_VAL;
 };
 
-// Of the distance from the origin to the hull of the corners, which are known within `error`.
-Bounds bounds_of(std::span<const Vector3> corners, double error) {
+// Of the distance from the origin to the hull of the corners, which are known within `error`. A
+// point of the hull is within `slack` of `nearest`.
+struct NearestInHull {
+    Bounds bounds;
+    Vector3 nearest{};
+    double slack = HUGE_VAL;
+};
+
+NearestInHull nearest_in_hull(std::span<const Vector3> corners, double error) {
     double m = 0;
     for (const Vector3& c : corners) m = std::max(m, largest_component(c));
     if (!(m < 0x1p500)) return {};
@@ -114,12 +121,30 @@ Bounds bounds_of(std::span<const Vector3> corners, double error) {
         // |g| is within slack of exact; so is each g · c / |g| times a few.
         b.lo = std::max(0.0, least / length - 8 * slack * (1 + m / length));
     }
-    return b;
+    return {b, q, slack};
+}
+
+Bounds bounds_of(std::span<const Vector3> corners, double error) {
+    return nearest_in_hull(corners, error).bounds;
+}
+
+// A convex polygon with its corners.
+struct ExactPolygon {
+    Plane support;
+    std::vector<Plane> edges;
+    std::vector<Exact> corners;
+};
+
+ExactPolygon exact_polygon(const PolygonPart& part) {
+    ExactPolygon out{part.support, part.edges, {}};
+    if (!part.is_empty())
+        for (const Point& p : part.corners()) out.corners.push_back(IndexPoint(p).rational());
+    return out;
 }
 
 // Something that may hold the nearest point: a polygon, an edge or a corner.
 struct Feature {
-    PolygonId polygon = 0;
+    PolygonId polygon;
     std::int32_t edge = -1;
     std::int32_t corner = -1;
     Bounds bounds;
@@ -165,19 +190,27 @@ NearestPart surely_nearest(const std::array<Vector3, 3>& c, double error) {
     return inside == 3 ? NearestPart{NearestPart::Kind::Face, 0} : NearestPart{};
 }
 
+// Polygons count for what is of them in their leaf's cell. One that reaches out of it is taken
+// whole as long as the nearest point of the whole is in the cell, and clipped exactly otherwise, if
+// the nearest point of all can be a matter of that.
 class NearestSearch {
 public:
     NearestSearch(const IndexCore& core, const IndexPoint& point, NearestKind kind)
-        : core_(core), polygons_(core.polygons()), p_(point), kind_(kind) {}
+        : core_(core), index_(*core.base), p_(point), kind_(kind) {}
 
     [[nodiscard]] std::optional<Nearest> run() {
-        walk(0, root_cell());
-        std::sort(features_.begin(), features_.end(),
-                  [](const Feature& a, const Feature& b) { return a.bounds.lo < b.bounds.lo; });
+        walk();
+        // Of equal ones those first that are sure.
+        std::sort(features_.begin(), features_.end(), [](const Feature& a, const Feature& b) {
+            return a.bounds.lo != b.bounds.lo ? a.bounds.lo < b.bounds.lo
+                                              : a.bounds.hi < b.bounds.hi;
+        });
         for (const Feature& f : features_) {
             if (f.bounds.lo > limit_) break;
             decide(f);
         }
+        for (const Feature& f : doubtful_)
+            if (f.bounds.lo <= limit_) decide_border(f.polygon);
         if (!found_) return std::nullopt;
         return finished();
     }
@@ -185,17 +218,20 @@ public:
     // The distance in doubles only.
     [[nodiscard]] std::optional<NearestBounds> run_in_doubles() {
         only_bounds_ = true;
-        walk(0, root_cell());
-        if (best_ == IndexPolygons::none) return std::nullopt;
-        const int e = core_.base->solid.lattice().exponent;
-        return NearestBounds{polygons_.face_source(best_), std::ldexp(std::min(least_, limit_), e),
+        walk();
+        for (const Feature& f : doubtful_)
+            if (f.bounds.lo < least_ && f.bounds.lo <= limit_) offer_part(f.polygon);
+        if (!best_.is_valid()) return std::nullopt;
+        const int e = index_.lattice().exponent;
+        return NearestBounds{best_.face_source(), std::ldexp(std::min(least_, limit_), e),
                              std::ldexp(limit_, e)};
     }
 
 private:
     struct Pending {
-        std::uint32_t node = 0;
-        DoubleBox cell;
+        const CellNode* node = nullptr;
+        bool turned = false;
+        Cell cell;
         double distance = 0;
     };
 
@@ -203,8 +239,8 @@ private:
     [[nodiscard]] double distance_to(const DoubleBox& cell) const {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double lo = std::max(cell.lo[k], core_.tree().lo()[k]);
-            const double hi = std::min(cell.hi[k], core_.tree().hi()[k]);
+            const double lo = std::max(cell.lo[k], index_.lo()[k]);
+            const double hi = std::min(cell.hi[k], index_.hi()[k]);
             const double d = std::max({0.0, lo - p_[k], p_[k] - hi});
             sum += d * d;
         }
@@ -223,8 +259,8 @@ private:
         for (std::uint32_t i = 0; i < block.n[k]; ++i) {
             const double lo = i == 0 ? whole.lo[k] : block.splitter(k, i);
             const double hi = i + 1 == block.n[k] ? whole.hi[k] : block.splitter(k, i + 1);
-            const double d = std::max({0.0, std::max(lo, core_.tree().lo()[k]) - p_[k],
-                                       p_[k] - std::min(hi, core_.tree().hi()[k])});
+            const double d = std::max(
+                {0.0, std::max(lo, index_.lo()[k]) - p_[k], p_[k] - std::min(hi, index_.hi()[k])});
             out[i] = d * d;
         }
     }
@@ -234,41 +270,57 @@ private:
         return squared > limit * limit;
     }
 
-    void walk(std::uint32_t node, const DoubleBox& cell) {
-        const IndexTree& tree = core_.tree();
-        std::vector<Pending> pending{{node, cell, 0}};
+    void walk() {
+        std::vector<Pending> pending{
+            {index_.root().node.get(), index_.root().complemented, Cell{}, 0}};
         while (!pending.empty()) {
             const Pending at = pending.back();
             pending.pop_back();
             if (at.distance > limit_) continue;
-            const IndexTree::Node& n = tree.node(at.node);
-            if (n.is_grid()) {
-                walk_grid(tree.grid(n), at.cell);
-                continue;
-            }
+            const CellNode& n = refined(*at.node);
             if (n.is_leaf()) {
-                if (n.is_mixed()) visit_leaf(n.next);
+                if (n.size() != 0) visit_tree_leaf(indexed_leaf(n, at.cell), at.turned, at.cell);
                 continue;
             }
-            Pending near{n.next, child_cell(at.cell, n, false), 0};
-            Pending far{n.next + 1, child_cell(at.cell, n, true), 0};
-            near.distance = distance_to(near.cell);
-            far.distance = distance_to(far.cell);
+            const auto child = [&](int i) {
+                const CellRef& c = n.child(i);
+                Pending out{c.node.get(), at.turned != c.complemented,
+                            i == 0 ? at.cell.below(n.axis(), n.splitter())
+                                   : at.cell.above(n.axis(), n.splitter()),
+                            0};
+                out.distance = distance_to(box_of(out.cell));
+                return out;
+            };
+            Pending near = child(0);
+            Pending far = child(1);
             if (far.distance < near.distance ||
-                (far.distance == near.distance && p_[n.axis()] > n.rounded_splitter()))
+                (far.distance == near.distance &&
+                 p_[static_cast<std::size_t>(n.axis())] > rounded_position(n.splitter())))
                 std::swap(near, far);
             pending.push_back(far);
             pending.push_back(near);
         }
     }
 
+    void visit_tree_leaf(const IndexedLeaf& leaf, bool turned, const Cell& cell) {
+        leaf_ = &leaf;
+        turned_ = turned;
+        box_ = box_of(cell);
+        recent_.fill(IndexPolygons::none);
+        if (leaf.grid() != nullptr) {
+            walk_grid(*leaf.grid(), box_);
+        } else if (leaf.polygons().size() != 0) {
+            visit_leaf(0);
+        }
+    }
+
     void visit_leaf(std::uint32_t leaf) {
-        const auto listed = core_.tree().listed(core_.tree().leaf(leaf));
-        if (const Source* source = polygons_.only_source()) {
-            for (const PolygonId id : listed)
+        const auto listed = leaf_->listed(leaf_->leaf(leaf));
+        if (const Source* source = leaf_->polygons().only_source()) {
+            for (const IndexedLeaf::Id id : listed)
                 for (int i = 0; i < 3; ++i) __builtin_prefetch(&source->corner(id, i));
         }
-        for (const PolygonId id : listed) visit(id);
+        for (const IndexedLeaf::Id id : listed) visit(id);
     }
 
     // What is in a cell of a grid: of a brick the near cells first.
@@ -279,8 +331,7 @@ private:
             visit_leaf(slot);
             return;
         }
-        const IndexTree& tree = core_.tree();
-        const IndexBrick& brick = tree.brick(slot);
+        const IndexBrick& brick = leaf_->brick(slot);
         const IndexBlock block = g.brick(low, level);
         struct Near {
             double squared = 0;
@@ -302,7 +353,7 @@ private:
             const unsigned bit = near[i].bit;
             const std::array at{bit & 3U, bit >> 2U & 3U, bit >> 4U};
             walk_slot(
-                g, tree.slot(brick.slot(bit)),
+                g, leaf_->slot(brick.slot(bit)),
                 {low[0] + (at[0] << shift), low[1] + (at[1] << shift), low[2] + (at[2] << shift)},
                 level - 1, block_cell(whole, block, at[0], at[1], at[2]));
         }
@@ -336,13 +387,13 @@ private:
         // Of a shell the near cells first. Most are empty, and that is one look.
         std::vector<NearCell>& shell = shell_;
         const auto note = [&](std::int64_t x, std::int64_t y, std::int64_t z, double row) {
-            if (core_.tree().is_empty(g, g.cell(number(x), number(y), number(z)))) return;
+            if (leaf_->is_empty(g.cell(number(x), number(y), number(z)))) return;
             const double d = row + squared(0, x);
             if (!is_beyond(d)) shell.push_back({d, {number(x), number(y), number(z)}});
         };
         const auto walk_cell = [&](const std::array<std::uint32_t, 3>& at) {
             const unsigned shift = g.shift();
-            walk_slot(g, core_.tree().slot(g, g.cell(at[0], at[1], at[2])),
+            walk_slot(g, leaf_->grid_slot(g.cell(at[0], at[1], at[2])),
                       {at[0] << shift, at[1] << shift, at[2] << shift}, g.levels,
                       block_cell(whole, block, at[0], at[1], at[2]));
         };
@@ -376,27 +427,41 @@ private:
         }
     }
 
-    [[nodiscard]] std::array<Vector3, 3> relative_triangle(PolygonId id) const {
+    [[nodiscard]] std::array<Vector3, 3> relative_triangle(const PolygonId& id) const {
         std::array<Vector3, 3> out{};
-        for (int i = 0; i < 3; ++i) {
-            const LatticePoint& c = polygons_.corner(id, i);
-            out[static_cast<std::size_t>(i)] = minus(c.doubles(), p_.approximate());
-        }
+        for (int i = 0; i < 3; ++i)
+            out[static_cast<std::size_t>(i)] = minus(id.corner(i).doubles(), p_.approximate());
         return out;
     }
 
-    [[nodiscard]] std::vector<Vector3> relative_corners(PolygonId id, double& error) const {
+    [[nodiscard]] std::vector<Vector3> relative(std::span<const Point> corners,
+                                                double& error) const {
         std::vector<Vector3> out;
         error = p_.error();
-        if (polygons_.is_triangle(id)) {
-            const auto c = relative_triangle(id);
-            return {c.begin(), c.end()};
-        }
-        for (const Point& c : polygons_.corners(id)) {
+        for (const Point& c : corners) {
             out.push_back(minus(c.approximation().c, p_.approximate()));
             error = std::max(error, p_.error() + c.approximation().error);
         }
         return out;
+    }
+
+    [[nodiscard]] std::vector<Vector3> relative_corners(const PolygonId& id, double& error) const {
+        if (!id.is_triangle()) return relative(id.all().corners(id.number), error);
+        error = p_.error();
+        const auto c = relative_triangle(id);
+        return {c.begin(), c.end()};
+    }
+
+    // Whether a point is surely in the leaf's cell, with all that is within `slack` of it.
+    [[nodiscard]] bool is_in_cell(const Vector3& relative, double slack) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double x = p_[k] + relative[k];
+            const double e = slack + p_.error() + (std::fabs(p_[k]) + std::fabs(x)) * 0x1p-50;
+            if (!(x - e > box_.lo[k] * (box_.lo[k] > 0 ? slightly_more : slightly_less)) ||
+                !(x + e < box_.hi[k] * (box_.hi[k] > 0 ? slightly_less : slightly_more)))
+                return false;
+        }
+        return true;
     }
 
     // Whether the box of a triangle is surely farther than what is known.
@@ -411,40 +476,63 @@ private:
         return is_beyond(sum);
     }
 
-    void visit(PolygonId id) {
-        if (polygons_.is_unbounded(id)) {
+    void visit(IndexedLeaf::Id number) {
+        const PolygonId id{leaf_, number, turned_};
+        if (id.is_unbounded()) {
             if (kind_ == NearestKind::Boundary) offer({id, -1, -1, {}});
             return;
         }
-        if (kind_ == NearestKind::Boundary && polygons_.is_triangle(id)) {
+        if (kind_ == NearestKind::Boundary && id.is_triangle()) {
             // Neighbouring cells list the same triangles.
-            PolygonId& recent = recent_[id % recent_.size()];
-            if (recent == id) return;
-            recent = id;
+            IndexedLeaf::Id& recent = recent_[number % recent_.size()];
+            if (recent == number) return;
+            recent = number;
             const std::array<Vector3, 3> c = relative_triangle(id);
-            if (!is_box_beyond(c)) offer({id, -1, -1, bounds_of(c, p_.error())});
+            if (!is_box_beyond(c)) offer_polygon(id, c, p_.error());
             return;
         }
         double error = 0;
         const std::vector<Vector3> c = relative_corners(id, error);
         if (kind_ == NearestKind::Boundary) {
-            offer({id, -1, -1, bounds_of(c, error)});
+            offer_polygon(id, c, error);
             return;
         }
+        // What of these is no edge or vertex of the set is found out when it is decided.
         for (std::size_t i = 0; i < c.size(); ++i) {
-            const auto number = static_cast<std::int32_t>(i);
-            offer({id, -1, number, bounds_of(std::span(c).subspan(i, 1), error)});
+            const auto corner = static_cast<std::int32_t>(i);
+            offer({id, -1, corner, bounds_of(std::span(c).subspan(i, 1), error)});
             if (kind_ != NearestKind::Edge) continue;
             const std::array<Vector3, 2> ends{c[i], c[(i + 1) % c.size()]};
-            offer({id, number, -1, bounds_of(ends, error)});
+            offer({id, corner, -1, bounds_of(ends, error)});
         }
+        if (kind_ == NearestKind::Edge && id.reaches_out())
+            doubtful_.push_back({id, -1, -1, bounds_of(c, error)});
+    }
+
+    void offer_polygon(const PolygonId& id, std::span<const Vector3> corners, double error) {
+        const NearestInHull n = nearest_in_hull(corners, error);
+        if (!id.reaches_out() || is_in_cell(n.nearest, n.slack)) {
+            offer({id, -1, -1, n.bounds});
+        } else if (n.bounds.lo <= limit_) {
+            // Its nearest point may be one that something has cut away beyond the cell.
+            (only_bounds_ ? doubtful_ : features_).push_back({id, -1, -1, {n.bounds.lo, HUGE_VAL}});
+        }
+    }
+
+    // What of a polygon is in its cell.
+    void offer_part(const PolygonId& id) {
+        const PolygonPart part = id.part();
+        if (part.is_empty()) return;
+        double error = 0;
+        const std::vector<Vector3> c = relative(part.corners(), error);
+        offer({id, -1, -1, bounds_of(c, error)});
     }
 
     void offer(const Feature& f) {
         if (f.bounds.lo > limit_) return;
         if (only_bounds_) {
             least_ = std::min(least_, f.bounds.lo);
-            if (f.bounds.hi < limit_ || best_ == IndexPolygons::none) best_ = f.polygon;
+            if (f.bounds.hi < limit_ || !best_.is_valid()) best_ = f.polygon;
         }
         if (kind_ == NearestKind::Boundary) {
             limit_ = std::min(limit_, f.bounds.hi);
@@ -458,73 +546,99 @@ private:
 
     // The exact point of a feature, and whether it is the best so far.
     void decide(const Feature& f) {
+        const PolygonId& id = f.polygon;
         Exact q = nearest_of(f);
         ExactRational d = squared_distance(q, p_.rational());
+        if (kind_ == NearestKind::Boundary && id.reaches_out() && !is_of_cell(id, q)) {
+            // All else of it is farther.
+            if (found_ && (d <=> squared_) >= 0) return;
+            const ExactPolygon part = exact_polygon(id.part());
+            if (part.corners.empty()) return;
+            q = nearest_on(part);
+            d = squared_distance(q, p_.rational());
+        }
+        consider(std::move(q), std::move(d), id);
+    }
+
+    // Of a polygon that counts to the border of its cell: the edges there.
+    void decide_border(const PolygonId& id) {
+        const ExactPolygon part = exact_polygon(id.part());
+        for (std::size_t i = 0; i < part.corners.size(); ++i) {
+            Exact q = nearest_on_edge(part.corners, i);
+            ExactRational d = squared_distance(q, p_.rational());
+            consider(std::move(q), std::move(d), id);
+        }
+    }
+
+    void consider(Exact q, ExactRational d, const PolygonId& id) {
         if (found_) {
             const auto order = d <=> squared_;
             if (order > 0) return;
             if (order == 0 && !(q < q_) && !(q == q_)) return;
             if (order == 0 && q == q_) {
-                on_.push_back(f.polygon);
+                on_.push_back(id);
                 return;
             }
         }
         if (kind_ != NearestKind::Boundary) {
             std::vector<PolygonId> on;
             const IndexPoint at{Exact(q)};
-            Location l = locate_polygons(*core_.base, at, on);
-            if (l == Location::OnFace) l = place_on(polygons_, on).location;
+            Location l = locate_polygons(index_, at, on);
+            if (l == Location::OnFace) l = place_on(on).location;
             if (l != Location::OnVertex && (kind_ != NearestKind::Edge || l != Location::OnEdge))
                 return;
         }
         found_ = true;
         q_ = std::move(q);
         squared_ = std::move(d);
-        on_.assign(1, f.polygon);
+        on_.assign(1, id);
         const double root = std::sqrt(squared_.to_double());
         limit_ = std::min(limit_, root * slightly_more + 0x1p-500);
     }
 
-    [[nodiscard]] Exact nearest_of(const Feature& f) const {
-        if (f.corner >= 0)
-            return IndexPoint(polygons_.corners(f.polygon)[static_cast<std::size_t>(f.corner)])
-                .rational();
-        std::vector<Exact> c;
-        if (!polygons_.is_unbounded(f.polygon))
-            for (const Point& p : polygons_.corners(f.polygon))
-                c.push_back(IndexPoint(p).rational());
-        const auto on_edge = [&](std::size_t i) {
-            const Exact& a = c[i];
-            const Exact e = minus(c[(i + 1) % c.size()], a);
-            ExactRational t = dot(minus(p_.rational(), a), e) / dot(e, e);
-            if (t.sign() < 0) t = ExactRational();
-            if (t > ExactRational(1)) t = ExactRational(1);
-            return Exact{a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]};
-        };
-        if (f.edge >= 0) return on_edge(static_cast<std::size_t>(f.edge));
-        const NearestPart part = polygons_.is_triangle(f.polygon)
-                                     ? surely_nearest(relative_triangle(f.polygon), p_.error())
-                                     : NearestPart{};
-        if (part.kind == NearestPart::Kind::Corner) return c[part.number];
-        if (part.kind == NearestPart::Kind::Edge) return on_edge(part.number);
-        // The foot of the perpendicular, if it is in the polygon; else some edge has the nearest.
-        const Plane support = polygons_.support(f.polygon);
+    // Whether a point of a polygon is one of its part in its leaf's cell.
+    [[nodiscard]] static bool is_of_cell(const PolygonId& id, const Exact& q) {
+        const IndexPoint p{Exact(q)};
+        const Cell& cell = id.all().cell();
+        bool on_wall = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int above = cell.lo[k] > -universe_limit ? p.compare_fine(k, cell.lo[k]) : 1;
+            const int below = cell.hi[k] < universe_limit ? p.compare_fine(k, cell.hi[k]) : -1;
+            if (above < 0 || below > 0) return false;
+            on_wall = on_wall || above == 0 || below == 0;
+        }
+        return !on_wall || id.enters();
+    }
+
+    [[nodiscard]] Exact nearest_on_edge(const std::vector<Exact>& c, std::size_t i) const {
+        const Exact& a = c[i];
+        const Exact e = minus(c[(i + 1) % c.size()], a);
+        ExactRational t = dot(minus(p_.rational(), a), e) / dot(e, e);
+        if (t.sign() < 0) t = ExactRational();
+        if (t > ExactRational(1)) t = ExactRational(1);
+        return {a[0] + t * e[0], a[1] + t * e[1], a[2] + t * e[2]};
+    }
+
+    // The foot of the perpendicular to a plane.
+    [[nodiscard]] Exact foot_on(const Plane& plane) const {
         Exact n;
-        for (int k = 0; k < 3; ++k)
-            n[static_cast<std::size_t>(k)] = ExactRational(support.normal(k));
-        const ExactRational t = value_at(p_.rational(), support) / dot(n, n);
+        for (int k = 0; k < 3; ++k) n[static_cast<std::size_t>(k)] = ExactRational(plane.normal(k));
+        const ExactRational t = value_at(p_.rational(), plane) / dot(n, n);
         Exact foot = p_.rational();
         for (std::size_t k = 0; k < 3; ++k) foot[k] -= t * n[k];
-        if (part.kind == NearestPart::Kind::Face) return foot;
-        std::array<Plane, 3> storage;
-        const auto edges = polygons_.edges(f.polygon, storage);
-        if (std::all_of(edges.begin(), edges.end(),
+        return foot;
+    }
+
+    // The foot if it is in the polygon; else some edge has the nearest point.
+    [[nodiscard]] Exact nearest_on(const ExactPolygon& polygon) const {
+        Exact foot = foot_on(polygon.support);
+        if (std::all_of(polygon.edges.begin(), polygon.edges.end(),
                         [&](const Plane& e) { return value_at(foot, e).sign() <= 0; }))
             return foot;
-        Exact best = on_edge(0);
+        Exact best = nearest_on_edge(polygon.corners, 0);
         ExactRational least = squared_distance(best, p_.rational());
-        for (std::size_t i = 1; i < c.size(); ++i) {
-            Exact q = on_edge(i);
+        for (std::size_t i = 1; i < polygon.corners.size(); ++i) {
+            Exact q = nearest_on_edge(polygon.corners, i);
             ExactRational d = squared_distance(q, p_.rational());
             if (d < least) {
                 least = std::move(d);
@@ -534,15 +648,36 @@ private:
         return best;
     }
 
+    [[nodiscard]] Exact nearest_of(const Feature& f) const {
+        const PolygonId& id = f.polygon;
+        std::vector<Point> corners;
+        if (!id.is_unbounded()) corners = id.all().corners(id.number);
+        if (f.corner >= 0)
+            return IndexPoint(corners[static_cast<std::size_t>(f.corner)]).rational();
+        ExactPolygon polygon;
+        for (const Point& p : corners) polygon.corners.push_back(IndexPoint(p).rational());
+        if (f.edge >= 0) return nearest_on_edge(polygon.corners, static_cast<std::size_t>(f.edge));
+        const NearestPart part =
+            id.is_triangle() ? surely_nearest(relative_triangle(id), p_.error()) : NearestPart{};
+        if (part.kind == NearestPart::Kind::Corner) return polygon.corners[part.number];
+        if (part.kind == NearestPart::Kind::Edge)
+            return nearest_on_edge(polygon.corners, part.number);
+        polygon.support = id.support();
+        if (part.kind == NearestPart::Kind::Face) return foot_on(polygon.support);
+        std::array<Plane, 3> storage;
+        const auto edges = id.all().edges(id.number, storage);
+        polygon.edges.assign(edges.begin(), edges.end());
+        return nearest_on(polygon);
+    }
+
     [[nodiscard]] Nearest finished() {
         const IndexPoint at{Exact(q_)};
-        if (kind_ != NearestKind::Boundary) (void)locate_polygons(*core_.base, at, on_);
-        std::sort(on_.begin(), on_.end());
-        on_.erase(std::unique(on_.begin(), on_.end()), on_.end());
+        if (kind_ != NearestKind::Boundary) (void)locate_polygons(index_, at, on_);
+        sort_unique(on_);
         Nearest out;
-        out.place = place_on(polygons_, on_, at);
+        out.place = place_on(on_, at);
         if (core_.handles) core_.handles->name(core_, out.place, on_, at);
-        const int e = core_.base->solid.lattice().exponent;
+        const int e = index_.lattice().exponent;
         for (std::size_t k = 0; k < 3; ++k) out.point[k] = q_[k].scaled(e);
         out.squared_distance = squared_.scaled(2 * e);
         out.squared_rounded = out.squared_distance.to_double();
@@ -551,21 +686,22 @@ private:
     }
 
     const IndexCore& core_;
-    const IndexPolygons& polygons_;
+    const IndexBase& index_;
     const IndexPoint& p_;
     NearestKind kind_;
     double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
     std::vector<Feature> features_;
+    std::vector<Feature> doubtful_;  // that what is of them in their cells may be needed of
     std::array<std::vector<double>, 3> slabs_;
     std::vector<NearCell> shell_;
     bool only_bounds_ = false;
     double least_ = HUGE_VAL;
-    PolygonId best_ = IndexPolygons::none;
-    std::array<PolygonId, 256> recent_ = [] {
-        std::array<PolygonId, 256> none{};
-        none.fill(IndexPolygons::none);
-        return none;
-    }();
+    PolygonId best_;
+    // The leaf of the cell tree that is visited.
+    const IndexedLeaf* leaf_ = nullptr;
+    bool turned_ = false;
+    DoubleBox box_;
+    std::array<IndexedLeaf::Id, 256> recent_{};
     bool found_ = false;
     Exact q_;
     ExactRational squared_;

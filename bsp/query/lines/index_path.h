@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <trisect/bsp/query/index/index_tree.h>
+#include <trisect/bsp/query/index/indexed_leaf.h>
 #include <trisect/bsp/query/lines/index_line.h>
 
 namespace trisect::detail {
@@ -67,13 +67,13 @@ public:
 
     /// Calls visit(leaf, span) in order, until more(t) does not hold for a cell that begins at t.
     template <class More, class Visit>
-    void walk(const IndexTree& tree, const More& more, const Visit& visit) const {
+    void walk(const IndexedLeaf& index, const More& more, const Visit& visit) const {
         if (!(lo_ <= hi_)) return;
         (void)walk_block(
             {0, 0, 0}, grid_.n, grid_.shift(), lo_, hi_,
             [&](const Cell& at) { return grid_.cell(at[0], at[1], at[2]); },
             [&](std::size_t cell, const Cell& low, double t0, double t1) {
-                return walk_slot(tree, tree.slot(grid_, cell), low, grid_.levels, t0, t1, more,
+                return walk_slot(index, index.grid_slot(cell), low, grid_.levels, t0, t1, more,
                                  visit);
             });
     }
@@ -101,7 +101,7 @@ private:
     }
 
     template <class More, class Visit>
-    [[nodiscard]] bool walk_slot(const IndexTree& tree, std::uint32_t slot, const Cell& low,
+    [[nodiscard]] bool walk_slot(const IndexedLeaf& index, std::uint32_t slot, const Cell& low,
                                  int level, double t0, double t1, const More& more,
                                  const Visit& visit) const {
         if (IndexSlot::is_empty(slot)) return true;
@@ -118,14 +118,14 @@ private:
             visit(slot, span);
             return true;
         }
-        const IndexBrick& brick = tree.brick(slot);
+        const IndexBrick& brick = index.brick(slot);
         return walk_block(
             low, {4, 4, 4}, shift - 2, t0, t1,
             [&](const Cell& at) { return IndexBrick::bit(at[0], at[1], at[2]); },
             [&](unsigned bit, const Cell& cell, double from, double to) {
                 if (!brick.is_mixed(bit)) return true;
-                return walk_slot(tree, tree.slot(brick.slot(bit)), cell, level - 1, from, to, more,
-                                 visit);
+                return walk_slot(index, index.slot(brick.slot(bit)), cell, level - 1, from, to,
+                                 more, visit);
             });
     }
 

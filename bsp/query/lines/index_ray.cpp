@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Rays. The tree is walked from front to back with enclosures of the parameters at its splitting
-// planes, so that no cell that the ray touches is missed; each polygon of a cell is tested whole,
-// wherever it meets the ray. The walk for a first hit ends when every cell left begins behind the
-// upper bound of a hit.
+// planes, so that no cell that the ray touches is missed; each polygon of a leaf is tested whole,
+// and counts where it meets the ray in the leaf's cell. The walk for a first hit ends when every
+// cell left begins behind the upper bound of a hit.
 //
 // A line meets most polygons in an interior point, which doubles decide. What is left are rays
 // through edges and vertices, along edges and in faces. There all contacts are collected, their
@@ -17,11 +17,13 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/bsp/query/lines/index_handles.h>
 #include <trisect/bsp/query/lines/index_path.h>
+#include <trisect/bsp/query/lines/line_in_cell.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
 
@@ -30,8 +32,9 @@ namespace trisect::detail {
 namespace {
 
 struct Contact {
-    PolygonId id = 0;
+    PolygonId id;
     LineContact contact;
+    std::optional<std::uint32_t> ends;  // where they were worked out already
 };
 
 struct ParameterRange {
@@ -49,16 +52,22 @@ ParameterRange at_splitter(const IndexLine& line, std::size_t axis, double split
     return {t - e, t + e};
 }
 
+struct Contacts {
+    std::vector<Contact> all;
+    std::vector<ContactEnds> ends;
+};
+
 class Walk {
 public:
     Walk(const IndexCore& core, const IndexLine& line, bool first_only)
         : index_(*core.base), line_(line), first_only_(first_only) {}
 
-    // Every polygon that the line meets, once; for a first hit, those that may be it.
-    [[nodiscard]] std::vector<Contact> contacts() {
+    // Every polygon that the line meets in its cell, once for each leaf; for a first hit, those
+    // that may be it.
+    [[nodiscard]] Contacts contacts() {
         if (line_.is_moderate()) {
             ParameterRange whole{0, line_.limit()};
-            if (clipped_to_bounds(whole)) walk(0, whole);
+            if (clipped_to_bounds(whole)) walk(whole);
         } else {
             visit_all();
         }
@@ -68,38 +77,41 @@ public:
                   [](const Contact& a, const Contact& b) { return a.id < b.id; });
         const auto same = [](const Contact& a, const Contact& b) { return a.id == b.id; };
         found_.erase(std::unique(found_.begin(), found_.end(), same), found_.end());
-        return std::move(found_);
+        return {std::move(found_), std::move(ends_)};
     }
 
 private:
     struct Pending {
-        std::uint32_t node = 0;
+        const CellNode* node = nullptr;
+        bool turned = false;
+        Cell cell;
         ParameterRange range;
     };
 
     // For lines whose cells doubles do not decide.
     void visit_all() {
-        for_leaves(
-            index_.tree, [](const DoubleBox&) { return true; },
-            [this](const IndexTree::Cell& c, const DoubleBox&) {
-                if (c.is_mixed()) visit(index_.tree.leaf(c.leaf));
+        for_tree_leaves(
+            index_, [](const DoubleBox&) { return true; },
+            [this](const LeafInTree& leaf) {
+                if (leaf.node.size() == 0) return;
+                enter(leaf.index(), leaf.turned);
+                for (IndexedLeaf::Id id = 0; id < leaf_->polygons().size(); ++id) test(id);
             });
     }
 
     // Faces without an end may be hit beyond the bounds.
     [[nodiscard]] bool clipped_to_bounds(ParameterRange& range) const {
-        const IndexTree& tree = index_.tree;
-        if (!tree.is_bounded()) return true;
+        if (!index_.is_bounded()) return true;
         for (std::size_t k = 0; k < 3; ++k) {
             if (line_.is_parallel(k)) {
                 const double o = line_.origin()[k];
                 const double e = line_.origin().error();
-                if (o + e < tree.lo()[k] || o - e > tree.hi()[k]) return false;
+                if (o + e < index_.lo()[k] || o - e > index_.hi()[k]) return false;
                 continue;
             }
             if (line_.direction()[k] == 0) continue;  // too small for a double
-            const ParameterRange a = at_splitter(line_, k, tree.lo()[k], 0);
-            const ParameterRange b = at_splitter(line_, k, tree.hi()[k], 0);
+            const ParameterRange a = at_splitter(line_, k, index_.lo()[k], 0);
+            const ParameterRange b = at_splitter(line_, k, index_.hi()[k], 0);
             const double lo = std::min(a.lo, b.lo);
             const double hi = std::max(a.hi, b.hi);
             if (lo > range.hi || hi < range.lo) return false;
@@ -109,74 +121,88 @@ private:
         return true;
     }
 
-    // From a node on, front to back.
-    void walk(std::uint32_t node, const ParameterRange& whole) {
-        const std::size_t base = pending_.size();
-        pending_.push_back({node, whole});
-        while (pending_.size() > base) {
+    // Front to back.
+    void walk(const ParameterRange& whole) {
+        pending_.push_back({index_.root().node.get(), index_.root().complemented, Cell{}, whole});
+        while (!pending_.empty()) {
             Pending at = pending_.back();
             pending_.pop_back();
             if (first_only_ && at.range.lo > nearest_) continue;
-            const IndexTree::Node* n = &index_.tree.node(at.node);
-            while (n->has_splitter()) {
-                step(*n, at);
-                n = &index_.tree.node(at.node);
-            }
-            if (n->is_grid()) {
-                walk_grid(index_.tree.grid(*n), at.range);
-            } else if (n->is_mixed()) {
-                visit(index_.tree.leaf(n->next));
-            }
+            const CellNode* n = &refined(*at.node);
+            for (; !n->is_leaf(); n = &refined(*at.node)) step(*n, at);
+            if (n->size() == 0) continue;
+            enter(indexed_leaf(*n, at.cell), at.turned);
+            walk_leaf(at.range);
         }
     }
 
-    void walk_grid(const IndexGrid& g, const ParameterRange& range) {
+    // The leaf of the cell tree that is next.
+    void enter(const IndexedLeaf& leaf, bool turned) {
+        leaf_ = &leaf;
+        turned_ = turned;
+        in_cell_.reset();
+        recent_.fill(IndexPolygons::none);
+    }
+
+    void walk_leaf(const ParameterRange& range) {
+        const IndexGrid* const g = leaf_->grid();
+        if (g == nullptr) {
+            if (leaf_->polygons().size() != 0) visit(leaf_->leaf(0));
+            return;
+        }
         const auto more = [&](double t) { return !first_only_ || !(t > nearest_); };
         // Faces without an end may be hit beyond the grid.
-        const auto path = index_.tree.is_bounded() ? GridPath::make(g, line_, range) : std::nullopt;
+        const auto path = index_.is_bounded() ? GridPath::make(*g, line_, range) : std::nullopt;
         if (path) {
-            path->walk(index_.tree, more, [&](std::uint32_t leaf, const GridPath::Span& span) {
-                visit(index_.tree.leaf(leaf), span);
+            path->walk(*leaf_, more, [&](std::uint32_t leaf, const GridPath::Span& span) {
+                visit(leaf_->leaf(leaf), span);
             });
             return;
         }
         const ApproximateLine line{line_.origin().approximate(), line_.direction(),
                                    line_.origin().error(), line_.direction_error()};
         for_grid_leaves_along(
-            index_.tree, g, line, range.lo, range.hi, more,
-            [&](std::uint32_t leaf, double, double) { visit(index_.tree.leaf(leaf)); });
+            *leaf_, line, range.lo, range.hi, more,
+            [&](std::uint32_t leaf, double, double) { visit(leaf_->leaf(leaf)); });
+    }
+
+    static void enter_child(const CellNode& n, int side, Pending& at) {
+        const CellRef& child = n.child(side);
+        at.node = child.node.get();
+        at.turned = at.turned != child.complemented;
+        (side == 0 ? at.cell.hi : at.cell.lo)[static_cast<std::size_t>(n.axis())] = n.splitter();
     }
 
     // Goes to the child that the line is in first; the other one waits, if the line gets there.
-    void step(const IndexTree::Node& n, Pending& at) {
-        const std::size_t axis = n.axis();
-        const double splitter = n.rounded_splitter();
+    void step(const CellNode& n, Pending& at) {
+        const auto axis = static_cast<std::size_t>(n.axis());
+        const double splitter = rounded_position(n.splitter());
         const double splitter_error = std::fabs(splitter) * last_place;
+        const auto wait = [&](int side, const ParameterRange& range) {
+            Pending other = at;
+            other.range = range;
+            enter_child(n, side, other);
+            pending_.push_back(other);
+        };
         if (line_.is_parallel(axis)) {
             const double d = line_.origin()[axis] - splitter;
             const double slack = splitter_error + 2 * line_.origin().error();
-            if (d < -slack) {
-                at.node = n.next;
-            } else if (d > slack) {
-                at.node = n.next + 1;
-            } else {
-                pending_.push_back({n.next + 1, at.range});
-                at.node = n.next;
-            }
+            if (d >= -slack && d <= slack) wait(1, at.range);
+            enter_child(n, d > slack ? 1 : 0, at);
             return;
         }
-        const std::uint32_t far = line_.direction()[axis] > 0 ? 1 : 0;
+        const int far = line_.direction()[axis] > 0 ? 1 : 0;
         const ParameterRange t = at_splitter(line_, axis, splitter, splitter_error);
         if (at.range.hi < t.lo) {
-            at.node = n.next + 1 - far;
+            enter_child(n, 1 - far, at);
         } else if (at.range.lo > t.hi) {
-            at.node = n.next + far;
+            enter_child(n, far, at);
         } else {
             ParameterRange behind = at.range;
             if (t.lo > behind.lo) behind.lo = t.lo;
-            pending_.push_back({n.next + far, behind});
+            wait(far, behind);
             if (t.hi < at.range.hi) at.range.hi = t.hi;
-            at.node = n.next + 1 - far;
+            enter_child(n, 1 - far, at);
         }
     }
 
@@ -188,10 +214,10 @@ private:
             return;
         }
         detail::counters_of_thread<PredicateCounters>.filtered += 2 * std::uint64_t{leaf.count};
-        const LeafPlanes planes = index_.tree.planes(leaf);
+        const LeafPlanes planes = leaf_->planes(leaf);
         const PlaneSides a = sides_of(planes, leaf.count, span.enter);
         const PlaneSides b = sides_of(planes, leaf.count, span.leave);
-        const auto listed = index_.tree.listed(leaf);
+        const auto listed = leaf_->listed(leaf);
         std::uint64_t left = ~((a.above & b.above) | (a.below & b.below));
         left &= ~std::uint64_t{0} >> (64 - leaf.count);
         for (; left != 0; left &= left - 1)
@@ -199,25 +225,43 @@ private:
     }
 
     void visit(const IndexLeaf& leaf) {
-        for (const PolygonId id : index_.tree.listed(leaf)) test(id);
+        for (const IndexedLeaf::Id id : leaf_->listed(leaf)) test(id);
     }
 
-    void test(PolygonId id) {
+    void test(IndexedLeaf::Id id) {
         // Neighbouring cells list the same polygons; most repetitions are recent ones.
-        PolygonId& recent = recent_[id % recent_.size()];
+        IndexedLeaf::Id& recent = recent_[id % recent_.size()];
         if (recent == id) return;
         recent = id;
-        const LineContact c = meet(index_.polygons, id, line_);
+        const IndexPolygons& polygons = leaf_->polygons();
+        LineContact c = meet(polygons, id, line_);
         if (c.kind == LineContact::Kind::None) return;
+        std::optional<std::uint32_t> ends;
+        if (polygons.reaches_out(id)) {
+            if (first_only_ && c.lo > nearest_) return;
+            if (!in_cell_) in_cell_.emplace(line_, polygons.cell());
+            if (c.kind != LineContact::Kind::Interval) {
+                if (!in_cell_->contains(polygons, id, c)) return;
+            } else {
+                const auto clipped = in_cell_->clipped(polygons, id, c);
+                if (!clipped) return;
+                c.lo = clipped->enter.approximate() - clipped->enter.error();
+                ends = static_cast<std::uint32_t>(ends_.size());
+                ends_.push_back(*clipped);
+            }
+        }
         if (first_only_) {
             if (c.lo > nearest_) return;
             // An interval begins before it ends.
-            const double latest = c.kind == LineContact::Kind::Interval
-                                      ? std::nextafter(std::nextafter(c.lo, HUGE_VAL), HUGE_VAL)
-                                      : c.hi;
+            double latest = c.hi;
+            if (ends) {
+                latest = ends_.back().enter.approximate() + ends_.back().enter.error();
+            } else if (c.kind == LineContact::Kind::Interval) {
+                latest = std::nextafter(std::nextafter(c.lo, HUGE_VAL), HUGE_VAL);
+            }
             nearest_ = std::min(nearest_, latest);
         }
-        found_.push_back({id, c});
+        found_.push_back({{leaf_, id, turned_}, c, ends});
     }
 
     const IndexBase& index_;
@@ -225,17 +269,17 @@ private:
     bool first_only_;
     double nearest_ = HUGE_VAL;
     std::vector<Contact> found_;
+    std::vector<ContactEnds> ends_;
     std::vector<Pending> pending_;
-    std::array<PolygonId, 64> recent_ = [] {
-        std::array<PolygonId, 64> none{};
-        none.fill(IndexPolygons::none);
-        return none;
-    }();
+    const IndexedLeaf* leaf_ = nullptr;
+    bool turned_ = false;
+    std::optional<LineInCell> in_cell_;  // of the leaf
+    std::array<IndexedLeaf::Id, 64> recent_{};
 };
 
 // A contact with its ends.
 struct Part {
-    PolygonId id = 0;
+    PolygonId id;
     ContactEnds ends;
 };
 
@@ -250,10 +294,11 @@ struct LinePiece {
 
 class Pieces {
 public:
-    Pieces(const IndexCore& core, const IndexLine& line, const std::vector<Contact>& contacts)
+    Pieces(const IndexCore& core, const IndexLine& line, const Contacts& contacts)
         : core_(core), line_(line) {
-        for (const Contact& c : contacts)
-            parts_.push_back({c.id, ends_of(core.polygons(), c.id, line, c.contact)});
+        for (const Contact& c : contacts.all)
+            parts_.push_back({c.id, c.ends ? contacts.ends[*c.ends]
+                                           : ends_of(c.id.all(), c.id.number, line, c.contact)});
     }
 
     [[nodiscard]] std::vector<RayHit> hits() {
@@ -299,7 +344,7 @@ private:
              const std::vector<const Part*>& parts) {
         LinePiece piece{enter, leave, is_interval, 0, {}};
         for (const Part* p : parts) piece.on.push_back(p->id);
-        piece.rank = place_on(core_.polygons(), piece.on).face_count;
+        piece.rank = place_on(piece.on).face_count;
         pieces_.push_back(std::move(piece));
     }
 
@@ -319,15 +364,14 @@ private:
             on.insert(on.end(), pieces_[i].on.begin(), pieces_[i].on.end());
             h.is_interval = h.is_interval || pieces_[i].is_interval;
         }
-        std::sort(on.begin(), on.end());
-        on.erase(std::unique(on.begin(), on.end()), on.end());
-        h.place = place_on(core_.polygons(), on);
-        h.plane = core_.polygons().outward(on.front());
+        sort_unique(on);
+        h.place = place_on(on);
+        h.plane = on.front().outward();
         if (h.is_interval) {
             if (core_.handles) core_.handles->name(core_, h.place, on, middle(h));
         } else if (core_.handles || h.place.location == Location::OnVertex) {
             const IndexPoint p = line_.at(h.enter);
-            h.place = place_on(core_.polygons(), on, p);
+            h.place = place_on(on, p);
             if (core_.handles) core_.handles->name(core_, h.place, on, p);
         }
         return h;
@@ -354,30 +398,34 @@ std::vector<RayHit> all_hits(const IndexCore& core, const IndexLine& line) {
 
 namespace {
 
-RayHit first_of(const IndexCore& core, const IndexLine& line,
-                const std::vector<Contact>& contacts) {
+RayHit first_of(const IndexCore& core, const IndexLine& line, const Contacts& contacts) {
     // Where the line runs in a face or along an edge from the start, the end may be far away.
-    const bool may_run = std::any_of(contacts.begin(), contacts.end(), [](const Contact& c) {
-        return c.contact.kind == LineContact::Kind::Interval;
-    });
+    const bool may_run =
+        std::any_of(contacts.all.begin(), contacts.all.end(),
+                    [](const Contact& c) { return c.contact.kind == LineContact::Kind::Interval; });
     auto hits = may_run ? all_hits(core, line) : Pieces(core, line, contacts).hits();
     return std::move(hits.front());
+}
+
+bool is_one_crossing(const Contacts& contacts) {
+    return contacts.all.size() == 1 &&
+           contacts.all.front().contact.kind == LineContact::Kind::Crossing;
 }
 
 }  // namespace
 
 std::optional<RayHit> first_hit(const IndexCore& core, const IndexLine& line) {
     const auto contacts = Walk(core, line, true).contacts();
-    if (contacts.empty()) return std::nullopt;
-    if (contacts.size() == 1 && contacts.front().contact.kind == LineContact::Kind::Crossing) {
-        const PolygonId id = contacts.front().id;
+    if (contacts.all.empty()) return std::nullopt;
+    if (is_one_crossing(contacts)) {
+        const PolygonId id = contacts.all.front().id;
         RayHit h;
-        h.plane = core.polygons().outward(id);
+        h.plane = id.outward();
         h.enter = line.meet(h.plane);
         h.leave = h.enter;
         h.place.location = Location::OnFace;
         h.place.face_count = 1;
-        h.place.faces[0] = core.polygons().face_source(id);
+        h.place.faces[0] = id.face_source();
         if (core.handles) h.place.face = core.handles->face_of(id);
         return h;
     }
@@ -386,10 +434,10 @@ std::optional<RayHit> first_hit(const IndexCore& core, const IndexLine& line) {
 
 std::optional<FacetHit> first_facet(const IndexCore& core, const IndexLine& line) {
     const auto contacts = Walk(core, line, true).contacts();
-    if (contacts.empty()) return std::nullopt;
-    if (contacts.size() == 1 && contacts.front().contact.kind == LineContact::Kind::Crossing) {
-        const auto& [id, c] = contacts.front();
-        return FacetHit{core.polygons().face_source(id), c.lo, c.hi};
+    if (contacts.all.empty()) return std::nullopt;
+    if (is_one_crossing(contacts)) {
+        const auto& [id, c, ends] = contacts.all.front();
+        return FacetHit{id.face_source(), c.lo, c.hi};
     }
     const RayHit h = first_of(core, line, contacts);
     const double t = h.enter.approximate();

@@ -48,11 +48,11 @@ int side_of_box(const DoubleBox& box, const Plane& plane) {
     return 0;
 }
 
-DoubleBox bounded(const DoubleBox& cell, const IndexTree& tree) {
+DoubleBox bounded(const DoubleBox& cell, const IndexBase& index) {
     DoubleBox b = cell;
     for (std::size_t k = 0; k < 3; ++k) {
-        b.lo[k] = std::max(b.lo[k], tree.lo()[k]);
-        b.hi[k] = std::min(b.hi[k], tree.hi()[k]);
+        b.lo[k] = std::max(b.lo[k], index.lo()[k]);
+        b.hi[k] = std::min(b.hi[k], index.hi()[k]);
     }
     return b;
 }
@@ -95,10 +95,13 @@ struct Directed {
 
 class Sectioner {
 public:
-    Sectioner(const IndexCore& core, const Plane& plane) : core_(core), plane_(plane) {}
+    Sectioner(const IndexBase& index, const Plane& plane) : index_(index), plane_(plane) {}
 
     [[nodiscard]] std::vector<SectionRegion> regions() {
-        for (const PolygonId id : polygons_near()) add(id);
+        const auto is_near = [&](const DoubleBox& cell) {
+            return side_of_box(bounded(cell, index_), plane_) == 0;
+        };
+        for (const PolygonId& id : polygons_in(index_, is_near)) add(id);
         cancel();
         if (split()) cancel();
         const std::vector<IndexLoop> loops = chain();
@@ -121,66 +124,45 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<PolygonId> polygons_near() const {
-        const IndexTree& tree = core_.tree();
-        std::vector<PolygonId> ids;
-        for_leaves(
-            tree,
-            [&](const DoubleBox& cell) { return side_of_box(bounded(cell, tree), plane_) == 0; },
-            [&](const IndexTree::Cell& leaf, const DoubleBox&) {
-                if (!leaf.is_mixed()) return;
-                const auto listed = tree.listed(tree.leaf(leaf.leaf));
-                ids.insert(ids.end(), listed.begin(), listed.end());
-            });
-        std::sort(ids.begin(), ids.end());
-        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-        return ids;
-    }
-
-    void add(PolygonId id) {
-        const IndexPolygons& polygons = core_.polygons();
-        if (polygons.is_unbounded(id)) {
-            const Plane support = polygons.support(id);
+    void add(const PolygonId& id) {
+        if (id.is_unbounded() && !id.reaches_out()) {
+            const Plane support = id.support();
             if (is_parallel(support, plane_) && !is_same_plane(support, plane_)) return;
             throw UnsupportedError("the section is unbounded");
         }
-        if (polygons.is_triangle(id)) {
-            std::array<Side, 3> sides{};
-            bool above = false;
-            bool other = false;
-            for (int i = 0; i < 3; ++i) {
-                const Side s = trisect::side_of(polygons.corner(id, i), plane_);
-                sides[static_cast<std::size_t>(i)] = s;
-                (s == Side::Above ? above : other) = true;
-            }
-            if (above && other) {
-                std::vector<Point> corners = polygons.corners(id);
-                add_crossing(id, corners, sides);
-            } else if (!above && sides == std::array{Side::On, Side::On, Side::On}) {
-                add_outline(id, polygons.corners(id));
-            }
-            return;
-        }
-        const std::vector<Point> corners = polygons.corners(id);
+        if (id.is_triangle() && !is_near(id)) return;
+        // What of it is in its cell; the cuts cancel or run straight on.
+        const PolygonPart part = id.part();
+        const std::vector<Point> corners = part.corners();
         std::vector<Side> sides;
         for (const Point& c : corners) {
+            sides.push_back(trisect::side_of(c, plane_));
             for (const double x : c.nearest())
                 if (std::fabs(x) > 0x1p53) throw UnsupportedError("the section is unbounded");
-            sides.push_back(trisect::side_of(c, plane_));
         }
         const auto count = [&](Side s) { return std::count(sides.begin(), sides.end(), s); };
         if (count(Side::On) == std::ssize(sides)) {
             add_outline(id, corners);
         } else if (count(Side::Above) != 0 && count(Side::Above) != std::ssize(sides)) {
-            add_crossing(id, corners, sides);
+            add_crossing(id, part, corners, sides);
         }
     }
 
+    // Whether a triangle has something to do with the plane from below.
+    [[nodiscard]] bool is_near(const PolygonId& id) const {
+        bool above = false;
+        bool below = false;
+        for (int i = 0; i < 3; ++i) {
+            const Side s = trisect::side_of(id.corner(i), plane_);
+            above = above || s == Side::Above;
+            below = below || s == Side::Below;
+        }
+        return above ? true : !below;
+    }
+
     // From where the polygon's outline goes down through the plane to where it comes up.
-    void add_crossing(PolygonId id, std::span<const Point> corners, std::span<const Side> sides) {
-        std::array<Plane, 3> storage;
-        const auto edges = core_.polygons().edges(id, storage);
-        const Plane support = core_.polygons().support(id);
+    void add_crossing(const PolygonId& id, const PolygonPart& part, std::span<const Point> corners,
+                      std::span<const Side> sides) {
         Directed d;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::size_t j = (i + 1) % corners.size();
@@ -188,20 +170,20 @@ private:
             if ((sides[i] == Side::Above) == up) continue;
             const std::size_t low = up ? i : j;
             const std::uint32_t n = numbers_.number(
-                sides[low] == Side::On ? corners[low] : Point(support, edges[i], plane_));
+                sides[low] == Side::On ? corners[low] : Point(part.support, part.edges[i], plane_));
             (up ? d.to : d.from) = n;
         }
-        if (core_.polygons().is_flipped(id)) std::swap(d.from, d.to);
+        if (id.is_flipped()) std::swap(d.from, d.to);
         if (d.from != d.to) segments_.push_back(d);
     }
 
     // A polygon in the plane that looks up.
-    void add_outline(PolygonId id, const std::vector<Point>& corners) {
-        if (!same_orientation(core_.polygons().outward(id), plane_)) return;
+    void add_outline(const PolygonId& id, const std::vector<Point>& corners) {
+        if (!same_orientation(id.outward(), plane_)) return;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             Directed d{numbers_.number(corners[i]),
                        numbers_.number(corners[(i + 1) % corners.size()])};
-            if (core_.polygons().is_flipped(id)) std::swap(d.from, d.to);
+            if (id.is_flipped()) std::swap(d.from, d.to);
             segments_.push_back(d);
         }
     }
@@ -297,7 +279,7 @@ private:
     [[nodiscard]] SectionLoop finished(const IndexLoop& loop,
                                        const PlaneProjection& projection) const {
         SectionLoop out;
-        const Lattice lattice = core_.base->solid.lattice();
+        const Lattice lattice = index_.lattice();
         const std::size_t n = loop.size();
         for (std::size_t i = 0; i < n; ++i) {
             if (projection.orientation(loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n]) == 0)
@@ -311,7 +293,7 @@ private:
         return out;
     }
 
-    const IndexCore& core_;
+    const IndexBase& index_;
     const Plane& plane_;
     PointNumbers numbers_;
     std::vector<Directed> segments_;
@@ -321,13 +303,12 @@ private:
 
 std::vector<SectionRegion> section(const IndexCore& core, const Plane& plane) {
     if (!plane.is_valid()) throw UsageError("the section of a plane without normal");
-    return Sectioner(core, plane).regions();
+    return Sectioner(*core.base, plane).regions();
 }
 
 PlaneRelation relation_to(const IndexCore& core, const Plane& plane) {
     if (!plane.is_valid()) throw UsageError("a plane without normal");
-    const IndexTree& tree = core.tree();
-    const IndexPolygons& polygons = core.polygons();
+    const IndexBase& index = *core.base;
     bool below = false;
     bool on = false;
     bool above = false;
@@ -335,42 +316,47 @@ PlaneRelation relation_to(const IndexCore& core, const Plane& plane) {
     const auto note = [&](Side s) {
         (s == Side::Above ? above : s == Side::Below ? below : on) = true;
     };
-    for_leaves(
-        tree,
+    const auto note_whole_plane = [&](const PolygonId& id) {
+        const Plane support = id.support();
+        if (is_same_plane(support, plane)) {
+            on = true;
+            solid_below = same_orientation(id.outward(), plane);
+        } else if (!is_parallel(support, plane)) {
+            above = below = true;
+        } else {
+            // Some point of the support, by its foot below the origin.
+            IndexPoint::Rational p;
+            ExactRational nn;
+            for (int k = 0; k < 3; ++k) {
+                const ExactRational x(support.normal(k));
+                nn += x * x;
+                p[static_cast<std::size_t>(k)] = -x * ExactRational(support.offset());
+            }
+            for (ExactRational& x : p) x /= nn;
+            note(side_from_sign(value_at(p, plane).sign()));
+        }
+    };
+    const auto note_polygon = [&](const PolygonId& id) {
+        if (id.is_unbounded() && !id.reaches_out()) {
+            note_whole_plane(id);
+        } else if (id.reaches_out() || !id.is_triangle()) {
+            for (const Point& c : id.part().corners()) note(trisect::side_of(c, plane));
+        } else {
+            for (int i = 0; i < 3; ++i) note(trisect::side_of(id.corner(i), plane));
+        }
+    };
+    for_mixed_cells(
+        index,
         [&](const DoubleBox& cell) {
             if (above && below) return false;
-            const int s = side_of_box(bounded(cell, tree), plane);
+            const int s = side_of_box(bounded(cell, index), plane);
             return !(s > 0 && above) && !(s < 0 && below);
         },
-        [&](const IndexTree::Cell& leaf, const DoubleBox&) {
-            if (!leaf.is_mixed()) return;
-            for (const PolygonId id : tree.listed(tree.leaf(leaf.leaf))) {
+        [&](const LeafInTree& leaf, const IndexedLeaf::Cell& c, const DoubleBox&) {
+            const IndexedLeaf& here = leaf.index();
+            for (const IndexedLeaf::Id id : here.listed(here.leaf(c.leaf))) {
                 if (above && below) return;
-                if (polygons.is_triangle(id)) {
-                    for (int i = 0; i < 3; ++i)
-                        note(trisect::side_of(polygons.corner(id, i), plane));
-                } else if (!polygons.is_unbounded(id)) {
-                    for (const Point& c : polygons.corners(id)) note(trisect::side_of(c, plane));
-                } else {
-                    const Plane support = polygons.support(id);
-                    if (is_same_plane(support, plane)) {
-                        on = true;
-                        solid_below = same_orientation(polygons.outward(id), plane);
-                    } else if (!is_parallel(support, plane)) {
-                        above = below = true;
-                    } else {
-                        // Some point of the support, by its foot below the origin.
-                        IndexPoint::Rational p;
-                        ExactRational nn;
-                        for (int k = 0; k < 3; ++k) {
-                            const ExactRational x(support.normal(k));
-                            nn += x * x;
-                            p[static_cast<std::size_t>(k)] = -x * ExactRational(support.offset());
-                        }
-                        for (ExactRational& x : p) x /= nn;
-                        note(side_from_sign(value_at(p, plane).sign()));
-                    }
-                }
+                note_polygon({&here, id, leaf.turned});
             }
         });
     if (above && below) return PlaneRelation::Straddling;

@@ -26,7 +26,6 @@ using Answer = PointInLeaf::Answer;
 
 // What is wanted of points: where they are.
 struct ToLocations {
-    const IndexPolygons& polygons;
     std::span<Location> results;
 
     void off(std::uint32_t number, bool inside) const {
@@ -37,7 +36,7 @@ struct ToLocations {
         results[number] = rank == 1   ? Location::OnFace
                           : rank == 2 ? Location::OnEdge
                           : rank == 3 ? Location::OnVertex
-                                      : location_on(polygons, on);
+                                      : location_on(on);
     }
 };
 
@@ -80,17 +79,19 @@ std::vector<std::uint32_t> in_order_of_leaves(const std::vector<std::vector<Poin
     return order;
 }
 
-// Points of a solid whose index is one grid.
+// Points of a solid whose tree is one leaf, with a grid.
 template <class Sink>
 class Batch {
 public:
     static constexpr std::size_t together = 32;
 
-    Batch(const IndexBase& index, Points points, const Sink& sink)
+    Batch(const IndexBase& index, const IndexedLeaf& leaf, Points points, const Sink& sink)
         : index_(index),
-          tree_(index.tree),
-          grid_(tree_.grid(tree_.node(0))),
-          lattice_(index.solid.lattice()),
+          leaf_(leaf),
+          grid_(*leaf.grid()),
+          turned_(index.root().complemented),
+          beyond_(index.is_inside_beyond()),
+          lattice_(index.lattice()),
           points_(points),
           sink_(sink) {}
 
@@ -130,7 +131,7 @@ private:
         State state = State::Known;
         bool inside = false;
         IndexGrid::Position at;
-        IndexTree::Cell cell;
+        IndexedLeaf::Cell cell;
         PointInLeaf in_leaf;
     };
 
@@ -141,16 +142,16 @@ private:
         if (!IndexPoint::to_lattice(points_[number], lattice_, p)) return;
         d.state = State::Known;
         for (std::size_t k = 0; k < 3; ++k)
-            if (p[k] > tree_.hi()[k] || p[k] < tree_.lo()[k]) {
-                d.inside = tree_.is_inside_beyond();
+            if (p[k] > index_.hi()[k] || p[k] < index_.lo()[k]) {
+                d.inside = beyond_;
                 return;
             }
         if (!grid_.find_position(p, d.at)) {
             d.state = State::Alone;
             return;
         }
-        d.cell = tree_.cell_at(grid_, d.at);
-        d.inside = d.cell.is_inside();
+        d.cell = leaf_.cell_at(d.at);
+        d.inside = d.cell.is_inside() != turned_;
         if (d.cell.is_mixed()) d.state = State::Mixed;
     }
 
@@ -158,16 +159,16 @@ private:
         count_ = order.size();
         for (std::size_t i = 0; i < count_; ++i) {
             descend(all_[i], order[i]);
-            if (all_[i].state == State::Mixed) __builtin_prefetch(&tree_.leaf(all_[i].cell.leaf));
+            if (all_[i].state == State::Mixed) __builtin_prefetch(&leaf_.leaf(all_[i].cell.leaf));
         }
         for_those(State::Mixed, [&](Descent& d) {
-            tree_.prefetch(tree_.leaf(d.cell.leaf));
-            d.in_leaf.begin(tree_, d.cell, d.at, true);
+            leaf_.prefetch(leaf_.leaf(d.cell.leaf));
+            d.in_leaf.begin(leaf_, d.cell, d.at, true);
         });
         for_those(State::Mixed, [&](Descent& d) {
-            const Answer a = d.in_leaf.decide(index_);
+            const Answer a = d.in_leaf.decide();
             d.state = a == Answer::Open ? State::Open : State::Known;
-            d.inside = a == Answer::Inside;
+            d.inside = (a == Answer::Inside) != turned_;
         });
         fetch_corners();
         for (std::size_t i = 0; i < count_; ++i) finish(all_[i]);
@@ -185,8 +186,10 @@ private:
         if (d.state == State::Alone) {
             inside = locate_polygons(index_, p, on_) == Location::Inside;
         } else {
-            inside = d.in_leaf.finish(index_, p, on_);
-            if (!on_.empty()) rank = d.in_leaf.rank(tree_);
+            numbers_.clear();
+            inside = d.in_leaf.finish(p, numbers_) != turned_;
+            for (const IndexedLeaf::Id id : numbers_) on_.push_back({&leaf_, id, turned_});
+            if (!on_.empty()) rank = d.in_leaf.rank();
         }
         if (on_.empty()) {
             sink_.off(d.number, inside);
@@ -203,45 +206,50 @@ private:
     template <class Work>
     void for_wanted(const Work& work) {
         for_those(State::Open, [&](const Descent& d) {
-            const auto listed = tree_.listed(tree_.leaf(d.cell.leaf));
+            const auto listed = leaf_.listed(leaf_.leaf(d.cell.leaf));
             for (std::uint64_t left = d.in_leaf.wanted(); left != 0; left &= left - 1)
                 work(listed[static_cast<std::size_t>(std::countr_zero(left))]);
         });
     }
     void fetch_corners() {
-        const Source* source = index_.polygons.only_source();
+        const Source* source = leaf_.polygons().only_source();
         if (source == nullptr) return;
         for_those(State::Open, [&](const Descent& d) {
-            __builtin_prefetch(tree_.listed(tree_.leaf(d.cell.leaf)).data());
+            __builtin_prefetch(leaf_.listed(leaf_.leaf(d.cell.leaf)).data());
         });
-        for_wanted([&](PolygonId id) { __builtin_prefetch(&source->mesh().triangles[id]); });
-        for_wanted([&](PolygonId id) {
+        for_wanted([&](IndexedLeaf::Id id) { __builtin_prefetch(&source->mesh().triangles[id]); });
+        for_wanted([&](IndexedLeaf::Id id) {
             for (int i = 0; i < 3; ++i) __builtin_prefetch(&source->corner(id, i));
         });
     }
 
     const IndexBase& index_;
-    const IndexTree& tree_;
+    const IndexedLeaf& leaf_;
     const IndexGrid& grid_;
+    const bool turned_;
+    const bool beyond_;
     const Lattice lattice_;
     Points points_;
     const Sink& sink_;
     std::array<Descent, together> all_;
     std::size_t count_ = 0;
+    std::vector<IndexedLeaf::Id> numbers_;
     std::vector<PolygonId> on_;
 };
 
 template <class Sink>
-void locate_in_grid(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
+void locate_in_grid(const IndexBase& index, const IndexedLeaf& leaf, Points points,
+                    unsigned threads, const Sink& sink) {
     const ParallelParts parts(points.size(), threads);
     std::vector<std::vector<PointOfLeaf>> mixed(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-        Batch(index, points, sink).find_empty(begin, end, mixed[part]);
+        Batch(index, leaf, points, sink).find_empty(begin, end, mixed[part]);
     });
     const std::vector<std::uint32_t> order = in_order_of_leaves(mixed);
     ParallelParts(order.size(), threads)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            Batch(index, points, sink).find_mixed(std::span(order).subspan(begin, end - begin));
+            Batch(index, leaf, points, sink)
+                .find_mixed(std::span(order).subspan(begin, end - begin));
         });
 }
 
@@ -251,7 +259,7 @@ void locate_one_by_one(const IndexBase& index, Points points, unsigned threads, 
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             std::vector<PolygonId> on;
             for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
-                const IndexPoint p = IndexPoint::from_user(points[i], index.solid.lattice());
+                const IndexPoint p = IndexPoint::from_user(points[i], index.lattice());
                 const Location l = locate_polygons(index, p, on);
                 if (on.empty()) {
                     sink.off(i, l == Location::Inside);
@@ -265,8 +273,9 @@ void locate_one_by_one(const IndexBase& index, Points points, unsigned threads, 
 template <class Sink>
 void locate_all(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
     if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
-    if (index.tree.node(0).is_grid() && index.tree.is_bounded()) {
-        locate_in_grid(index, points, threads, sink);
+    const IndexedLeaf* const leaf = index.is_bounded() ? index.only_leaf() : nullptr;
+    if (leaf != nullptr) {
+        locate_in_grid(index, *leaf, points, threads, sink);
     } else {
         locate_one_by_one(index, points, threads, sink);
     }
@@ -281,7 +290,7 @@ void locate_batch(const IndexBase& index, Points points, unsigned threads,
 
 void classify_batch(const IndexBase& index, Points points, unsigned threads,
                     std::span<Location> results) {
-    locate_all(index, points, threads, ToLocations{index.polygons, results});
+    locate_all(index, points, threads, ToLocations{results});
 }
 
 }  // namespace trisect::detail

@@ -42,7 +42,7 @@ Answer answer(bool inside) { return inside ? Answer::Inside : Answer::Outside; }
 unsigned lowest(std::uint64_t bits) { return static_cast<unsigned>(std::countr_zero(bits)); }
 
 // The place of a point in a cell's coordinates; false when it is not near.
-bool find_place(const IndexTree::Cell& cell, const IndexGrid::Position& at,
+bool find_place(const IndexedLeaf::Cell& cell, const IndexGrid::Position& at,
                 std::array<float, 3>& place) {
     const double scale = 1 / static_cast<double>(std::uint32_t{1} << cell.shift);
     bool fits = true;
@@ -62,8 +62,8 @@ PlaneSides sides_of_corner(const LeafPlanes& planes, std::uint32_t count, unsign
                      static_cast<float>(corner >> 2U)});
 }
 
-int passed(const IndexPolygons& polygons, PolygonId id, const IndexPoint& p,
-           const Reference& reference, std::vector<PolygonId>& on) {
+int passed(const IndexPolygons& polygons, IndexedLeaf::Id id, const IndexPoint& p,
+           const Reference& reference, std::vector<IndexedLeaf::Id>& on) {
     const Passing s = passing(polygons, id, p, reference);
     if (s == Passing::On) {
         on.push_back(id);
@@ -74,9 +74,10 @@ int passed(const IndexPolygons& polygons, PolygonId id, const IndexPoint& p,
 
 }  // namespace
 
-void PointInLeaf::begin(const IndexTree& tree, const IndexTree::Cell& cell,
+void PointInLeaf::begin(const IndexedLeaf& index, const IndexedLeaf::Cell& cell,
                         const IndexGrid::Position& at, bool precise) {
-    leaf_ = &tree.leaf(cell.leaf);
+    index_ = &index;
+    leaf_ = &index.leaf(cell.leaf);
     cell_ = cell;
     at_ = at;
     near_ = 0;
@@ -87,9 +88,9 @@ void PointInLeaf::begin(const IndexTree& tree, const IndexTree::Cell& cell,
     kind_ = leaf_->count <= LeafPlanes::most ? Kind::Few : Kind::Many;
 }
 
-Answer PointInLeaf::decide(const IndexBase& index) {
+Answer PointInLeaf::decide() {
     if (kind_ != Kind::Few) return Answer::Open;
-    const PlaneSides sides = sides_of(index.tree.planes(*leaf_), leaf_->count, place_);
+    const PlaneSides sides = sides_of(index_->planes(*leaf_), leaf_->count, place_);
     detail::counters_of_thread<PredicateCounters>.filtered += leaf_->count;
     above_ = sides.above;
     below_ = sides.below;
@@ -106,17 +107,17 @@ Answer PointInLeaf::decide(const IndexBase& index) {
         ++index_counters().region;
         return answer(*known);
     }
-    near_ = narrowed(index, open);
-    return near_ != 0 ? Answer::Open : trace(index);
+    near_ = narrowed(open);
+    return near_ != 0 ? Answer::Open : trace();
 }
 
 // Without polygons beside which the point surely is.
-std::uint64_t PointInLeaf::narrowed(const IndexBase& index, std::uint64_t open) const {
+std::uint64_t PointInLeaf::narrowed(std::uint64_t open) const {
     if (open == 0 || !leaf_->has_corners()) return open;
-    const LeafPlanes planes = index.tree.planes(*leaf_);
+    const LeafPlanes planes = index_->planes(*leaf_);
     std::uint64_t out = 0;
     LeafLine line(leaf_->step, place_);
-    const float* corners = index.tree.corners(*leaf_);
+    const float* corners = index_->corners(*leaf_);
     for (; open != 0; open &= open - 1) {
         const unsigned i = lowest(open);
         line.aim_along(planes, i);
@@ -126,8 +127,8 @@ std::uint64_t PointInLeaf::narrowed(const IndexBase& index, std::uint64_t open) 
 }
 
 // For a point on no polygon.
-Answer PointInLeaf::trace(const IndexBase& index) {
-    const LeafPlanes planes = index.tree.planes(*leaf_);
+Answer PointInLeaf::trace() {
+    const LeafPlanes planes = index_->planes(*leaf_);
     const std::array<std::uint8_t, 8> together = planes_together(planes, place_);
     corner_ = no_corner;
     int most = -1;
@@ -149,7 +150,7 @@ Answer PointInLeaf::trace(const IndexBase& index) {
     if (!leaf_->has_corners()) return Answer::Open;
     unsure_ = 0;
     const std::uint64_t opposite = (above_ & of_corner.below) | (below_ & of_corner.above);
-    const float* corners = index.tree.corners(*leaf_);
+    const float* corners = index_->corners(*leaf_);
     LeafLine line(leaf_->step, place_);
     line.aim_at_corner(corner_);
     for (std::uint64_t left = apart; left != 0; left &= left - 1) {
@@ -179,14 +180,14 @@ FinePoint PointInLeaf::corner_point() const {
     return p;
 }
 
-bool PointInLeaf::finish(const IndexBase& index, const IndexPoint& p, std::vector<PolygonId>& on) {
-    if (kind_ == Kind::List) return trace_to_reference(index, p, on);
-    if (kind_ == Kind::Many) return finish_many(index, p, on);
-    const auto listed = index.tree.listed(*leaf_);
+bool PointInLeaf::finish(const IndexPoint& p, std::vector<Id>& on) {
+    if (kind_ == Kind::List) return trace_to_reference(p, on);
+    if (kind_ == Kind::Many) return finish_many(p, on);
+    const auto listed = index_->listed(*leaf_);
     if (near_ != 0) {
         for (; near_ != 0; near_ &= near_ - 1) {
             const unsigned i = lowest(near_);
-            if (!is_on(index.polygons, listed[i], p)) continue;
+            if (!is_on(index_->polygons(), listed[i], p)) continue;
             on.push_back(listed[i]);
             on_ |= std::uint64_t{1} << i;
         }
@@ -194,24 +195,23 @@ bool PointInLeaf::finish(const IndexBase& index, const IndexPoint& p, std::vecto
             ++index_counters().on;
             return false;
         }
-        const Answer found = trace(index);
+        const Answer found = trace();
         if (found != Answer::Open) return found == Answer::Inside;
     }
-    if (corner_ == no_corner) return trace_to_reference(index, p, on);
+    if (corner_ == no_corner) return trace_to_reference(p, on);
     ++index_counters().exact;
     const Reference reference(corner_point());
     for (; unsure_ != 0; unsure_ &= unsure_ - 1)
-        winding_ += passed(index.polygons, listed[lowest(unsure_)], p, reference, on);
+        winding_ += passed(index_->polygons(), listed[lowest(unsure_)], p, reference, on);
     if ((above_ | below_) == all_) remember(*leaf_, above_, winding_ > 0);
     return winding_ > 0;
 }
 
 // The same plane by plane.
-bool PointInLeaf::finish_many(const IndexBase& index, const IndexPoint& p,
-                              std::vector<PolygonId>& on) {
+bool PointInLeaf::finish_many(const IndexPoint& p, std::vector<Id>& on) {
     const std::size_t before = on.size();
-    const LeafPlanes planes = index.tree.planes(*leaf_);
-    const auto listed = index.tree.listed(*leaf_);
+    const LeafPlanes planes = index_->planes(*leaf_);
+    const auto listed = index_->listed(*leaf_);
     detail::counters_of_thread<PredicateCounters>.filtered += leaf_->count;
     const auto at_corner = [&](std::uint32_t i, unsigned c) {
         return planes.at(i, {static_cast<float>(c & 1U), static_cast<float>(c >> 1U & 1U),
@@ -221,7 +221,7 @@ bool PointInLeaf::finish_many(const IndexBase& index, const IndexPoint& p,
     for (std::uint32_t i = 0; i < leaf_->count; ++i) {
         const int sign = sure_sign(planes.at(i, place_));
         if (sign == unsure_sign) {
-            if (is_on(index.polygons, listed[i], p)) on.push_back(listed[i]);
+            if (is_on(index_->polygons(), listed[i], p)) on.push_back(listed[i]);
             continue;
         }
         for (unsigned c = 0; c < 8; ++c)
@@ -236,35 +236,34 @@ bool PointInLeaf::finish_many(const IndexBase& index, const IndexPoint& p,
         if ((leaf_->known >> c & 1U) != 0 &&
             (corner_ == no_corner || together[c] > together[corner_]))
             corner_ = c;
-    if (corner_ == no_corner) return trace_to_reference(index, p, on);
+    if (corner_ == no_corner) return trace_to_reference(p, on);
     winding_ = leaf_->inside >> corner_ & 1;
     ++index_counters().exact;
     const Reference reference(corner_point());
     for (std::uint32_t i = 0; i < leaf_->count; ++i) {
         const int sign = sure_sign(planes.at(i, place_));
         if (sign != unsure_sign && sign == sure_sign(at_corner(i, corner_))) continue;
-        winding_ += passed(index.polygons, listed[i], p, reference, on);
+        winding_ += passed(index_->polygons(), listed[i], p, reference, on);
     }
     return winding_ > 0;
 }
 
-bool PointInLeaf::trace_to_reference(const IndexBase& index, const IndexPoint& p,
-                                     std::vector<PolygonId>& on) const {
+bool PointInLeaf::trace_to_reference(const IndexPoint& p, std::vector<Id>& on) const {
     const std::size_t before = on.size();
     int winding = leaf_->winding;
-    const Reference reference(index.tree.reference(cell_, at_));
-    for (const PolygonId id : index.tree.listed(*leaf_))
-        winding += passed(index.polygons, id, p, reference, on);
+    const Reference reference(index_->reference(cell_, at_));
+    for (const Id id : index_->listed(*leaf_))
+        winding += passed(index_->polygons(), id, p, reference, on);
     ++(on.size() == before ? index_counters().exact : index_counters().on);
     return winding > 0;
 }
 
 // Components of a cross product of two normals err by less than 2^-18, a determinant of three by
 // less than 2^-15.
-int PointInLeaf::rank(const IndexTree& tree) const {
+int PointInLeaf::rank() const {
     if (on_ == 0) return 0;
     if ((on_ & (on_ - 1)) == 0) return 1;
-    const LeafPlanes planes = tree.planes(*leaf_);
+    const LeafPlanes planes = index_->planes(*leaf_);
     const auto normal = [&](unsigned i) {
         const float* f = planes.first + i;
         return std::array<float, 3>{f[0], f[planes.stride], f[2 * planes.stride]};

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <trisect/bsp/query/index/index_core.h>
+#include <trisect/bsp/query/index/indexed_leaf.h>
 
 namespace trisect::detail {
 
@@ -16,36 +16,36 @@ namespace trisect::detail {
 /// proved bounds; the last one decides exactly what these left open.
 class PointInLeaf {
 public:
+    using Id = IndexedLeaf::Id;
+    /// As if the leaf were not turned.
     enum class Answer : std::uint8_t { Outside, Inside, Open };
 
     /// \pre the cell is mixed, and the place is known to 2^-23 of it where `precise`.
-    void begin(const IndexTree& tree, const IndexTree::Cell& cell, const IndexGrid::Position& at,
-               bool precise);
+    void begin(const IndexedLeaf& index, const IndexedLeaf::Cell& cell,
+               const IndexGrid::Position& at, bool precise);
     /// From the leaf alone. When it is open, `wanted` are the polygons that will be looked at,
     /// of the first 64.
-    [[nodiscard]] Answer decide(const IndexBase& index);
+    [[nodiscard]] Answer decide();
     [[nodiscard]] std::uint64_t wanted() const { return near_ != 0 ? near_ : unsure_; }
     /// After an open answer. When polygons contain the point they are added to `on`, and what is
     /// returned has no meaning.
-    [[nodiscard]] bool finish(const IndexBase& index, const IndexPoint& p,
-                              std::vector<PolygonId>& on);
+    [[nodiscard]] bool finish(const IndexPoint& p, std::vector<Id>& on);
     /// The rank of the normals of the polygons found, or 0 where single precision does not decide.
-    [[nodiscard]] int rank(const IndexTree& tree) const;
+    [[nodiscard]] int rank() const;
 
 private:
     enum class Kind : std::uint8_t { List, Few, Many };
     static constexpr unsigned no_corner = 8;
 
-    [[nodiscard]] Answer trace(const IndexBase& index);
-    [[nodiscard]] std::uint64_t narrowed(const IndexBase& index, std::uint64_t open) const;
+    [[nodiscard]] Answer trace();
+    [[nodiscard]] std::uint64_t narrowed(std::uint64_t open) const;
     [[nodiscard]] FinePoint corner_point() const;
-    [[nodiscard]] bool finish_many(const IndexBase& index, const IndexPoint& p,
-                                   std::vector<PolygonId>& on);
-    [[nodiscard]] bool trace_to_reference(const IndexBase& index, const IndexPoint& p,
-                                          std::vector<PolygonId>& on) const;
+    [[nodiscard]] bool finish_many(const IndexPoint& p, std::vector<Id>& on);
+    [[nodiscard]] bool trace_to_reference(const IndexPoint& p, std::vector<Id>& on) const;
 
+    const IndexedLeaf* index_ = nullptr;
     const IndexLeaf* leaf_ = nullptr;
-    IndexTree::Cell cell_;
+    IndexedLeaf::Cell cell_;
     IndexGrid::Position at_;
     std::array<float, 3> place_{};
     Kind kind_ = Kind::List;

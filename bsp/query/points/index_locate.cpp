@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include <trisect/bsp/query/index/branch_block.h>
 #include <trisect/bsp/query/index/index_core.h>
+#include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/bsp/query/points/index_counters.h>
 #include <trisect/bsp/query/points/index_in_leaf.h>
 
@@ -13,54 +15,134 @@ namespace trisect::detail {
 namespace {
 
 // Whether a point is known well enough for the planes of a cell.
-bool is_precise(const IndexTree::Cell& cell, const IndexPoint& p) {
+bool is_precise(const IndexedLeaf::Cell& cell, const IndexPoint& p) {
     if (p.is_doubles()) return true;
     if (cell.grid == nullptr) return false;
     const auto& s = cell.grid->scale;
     return p.error() * std::max({s[0], s[1], s[2]}) < 0x1p-22;
 }
 
-bool is_beyond(const IndexTree& tree, const IndexPoint& p) {
-    if (!tree.is_bounded()) return false;
+bool is_beyond(const IndexBase& index, const IndexPoint& p) {
+    if (!index.is_bounded()) return false;
     for (std::size_t k = 0; k < 3; ++k)
-        if (p[k] - p.error() > tree.hi()[k] || p[k] + p.error() < tree.lo()[k]) return true;
+        if (p[k] - p.error() > index.hi()[k] || p[k] + p.error() < index.lo()[k]) return true;
     return false;
+}
+
+// Of a point in the closed cell: whether it is inside, if none of the polygons that enter the cell
+// contains it. The others do not count, and some of them contains it.
+bool is_inside(const IndexedLeaf& leaf, const IndexPoint& p) {
+    ++index_counters().exact;
+    const IndexPolygons& polygons = leaf.polygons();
+    const Reference reference(leaf.reference());
+    int winding = leaf.winding();
+    for (IndexedLeaf::Id id = 0; id < polygons.size(); ++id) {
+        const Passing s = passing(polygons, id, p, reference);
+        if (s == Passing::On) continue;
+        winding += polygons.is_flipped(id) ? -static_cast<int>(s) : static_cast<int>(s);
+    }
+    return winding > 0;
+}
+
+// A point, leaf by leaf.
+class PointInLeaves {
+public:
+    PointInLeaves(const IndexPoint& p, std::vector<PolygonId>& on) : p_(p), on_(on) {}
+
+    void visit(const LeafPlace& place) {
+        if (place.leaf == nullptr) {
+            ++index_counters().empty;
+            inside_ = place.inside;
+            return;
+        }
+        const IndexedLeaf& leaf = *place.leaf;
+        if (const auto inside = leaf.beyond(p_.approximate(), p_.error())) {
+            ++index_counters().empty;
+            inside_ = *inside != place.turned;
+            return;
+        }
+        IndexGrid::Position at;
+        IndexedLeaf::Cell cell;
+        if (const IndexGrid* const grid = leaf.grid()) {
+            at = grid->position(p_);
+            cell = leaf.cell_at(at);
+        } else {
+            cell = leaf.whole();
+        }
+        if (!cell.is_mixed()) {
+            ++index_counters().empty;
+            inside_ = cell.is_inside() != place.turned;
+            return;
+        }
+        here_.clear();
+        PointInLeaf in_leaf;
+        in_leaf.begin(leaf, cell, at, is_precise(cell, p_));
+        const PointInLeaf::Answer quick = in_leaf.decide();
+        bool found = quick == PointInLeaf::Answer::Open ? in_leaf.finish(p_, here_)
+                                                        : quick == PointInLeaf::Answer::Inside;
+        if (!here_.empty() && place.on_wall) {
+            // On the cell's border: what does not enter the cell is its neighbours' affair.
+            std::erase_if(here_, [&](IndexedLeaf::Id id) { return !leaf.polygons().enters(id); });
+            if (here_.empty()) found = is_inside(leaf, p_);
+        }
+        for (const IndexedLeaf::Id id : here_) on_.push_back({&leaf, id, place.turned});
+        if (here_.empty()) inside_ = found != place.turned;
+    }
+    /// When no polygon contains it.
+    [[nodiscard]] bool inside() const { return inside_; }
+
+private:
+    const IndexPoint& p_;
+    std::vector<PolygonId>& on_;
+    std::vector<IndexedLeaf::Id> here_;
+    bool inside_ = false;
+};
+
+// The leaf of a point that is on no splitting plane, if it has an index already.
+bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place) {
+    const BranchBlock* block = index.root_block();
+    if (block == nullptr) return false;
+    place.turned = index.root().complemented;
+    for (;;) {
+        const int way = block->way_of(p);
+        if (way < 0) return false;
+        const BranchBlock::Next next = block->next(way);
+        if (!next.is_known()) return false;
+        if (next.is_empty()) {
+            place.inside = next.turned() != place.turned;
+            return true;
+        }
+        place.turned = place.turned != next.turned();
+        if (next.is_leaf()) {
+            place.leaf = &next.leaf();
+            return true;
+        }
+        block = &next.block();
+    }
 }
 
 }  // namespace
 
+Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
+                          std::vector<PolygonId>& on) {
+    on.clear();
+    PointInLeaves found(point, on);
+    LeafPlace quick;
+    if (find_quickly(index, point, quick)) {
+        found.visit(quick);
+    } else {
+        for_leaves_at(index, point, [&](const LeafPlace& place) { found.visit(place); });
+    }
+    if (!on.empty()) return Location::OnFace;
+    return found.inside() ? Location::Inside : Location::Outside;
+}
+
 Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                          std::vector<PolygonId>& on) {
+    if (!is_beyond(index, point)) return locate_in_leaves(index, point, on);
     on.clear();
-    const IndexTree& tree = index.tree;
-    if (is_beyond(tree, point)) {
-        ++index_counters().empty;
-        return tree.is_inside_beyond() ? Location::Inside : Location::Outside;
-    }
-    bool inside = false;
-    bool several = false;
-    tree.for_leaves_at(point, [&](const IndexTree::Cell& cell, const IndexGrid::Position& at) {
-        if (!cell.is_mixed()) {
-            ++index_counters().empty;
-            inside = cell.is_inside();
-            return;
-        }
-        const std::size_t before = on.size();
-        PointInLeaf in_leaf;
-        in_leaf.begin(tree, cell, at, is_precise(cell, point));
-        const PointInLeaf::Answer quick = in_leaf.decide(index);
-        const bool found = quick == PointInLeaf::Answer::Open
-                               ? in_leaf.finish(index, point, on)
-                               : quick == PointInLeaf::Answer::Inside;
-        if (on.empty()) inside = found;
-        several = several || (before != 0 && on.size() != before);
-    });
-    if (on.empty()) return inside ? Location::Inside : Location::Outside;
-    if (several) {
-        std::sort(on.begin(), on.end());
-        on.erase(std::unique(on.begin(), on.end()), on.end());
-    }
-    return Location::OnFace;
+    ++index_counters().empty;
+    return index.is_inside_beyond() ? Location::Inside : Location::Outside;
 }
 
 }  // namespace trisect::detail

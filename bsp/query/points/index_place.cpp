@@ -22,11 +22,11 @@ bool have_parallel_normals(const Plane& a, const Plane& b) {
 }
 
 // A triangle's normal, its largest component 1, in doubles: within 2^-40, or not known.
-bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector3& n) {
-    if (!polygons.is_triangle(id)) return false;
+bool find_normal(const PolygonId& id, Vector3& n) {
+    if (!id.is_triangle()) return false;
     std::array<Vector3, 3> c{};
     for (int i = 0; i < 3; ++i) {
-        const LatticePoint& p = polygons.corner(id, i);
+        const LatticePoint& p = id.corner(i);
         c[static_cast<std::size_t>(i)] = p.doubles();
     }
     const Vector3 u{c[1][0] - c[0][0], c[1][1] - c[0][1], c[1][2] - c[0][2]};
@@ -43,11 +43,10 @@ bool find_normal(const IndexPolygons& polygons, PolygonId id, Vector3& n) {
 // of those before. Doubles mostly decide.
 class Independent {
 public:
-    explicit Independent(const IndexPolygons& polygons) : polygons_(polygons) {}
     [[nodiscard]] std::size_t rank() const { return rank_; }
-    void add(PolygonId id) {
+    void add(const PolygonId& id) {
         Vector3 n{};
-        const bool known = find_normal(polygons_, id, n);
+        const bool known = find_normal(id, n);
         if (!is_independent(id, known, n)) return;
         if (rank_ == 1) both_ = cross(first_, n);
         if (rank_ == 0) first_ = n;
@@ -56,20 +55,19 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_independent(PolygonId id, bool known, const Vector3& n) const {
+    [[nodiscard]] bool is_independent(const PolygonId& id, bool known, const Vector3& n) const {
         if (rank_ == 0) return true;
         // Components of a cross product are within 2^-38, a determinant within 2^-35.
         const double turn = rank_ == 1
                                 ? largest_component(cross(first_, n))
                                 : std::fabs(both_[0] * n[0] + both_[1] * n[1] + both_[2] * n[2]);
         if (known && sure_ && turn > 0x1p-30) return true;
-        const Plane p = polygons_.support(id);
-        const Plane first = polygons_.support(id_[0]);
+        const Plane p = id.support();
+        const Plane first = id_[0].support();
         if (rank_ == 1) return !have_parallel_normals(first, p);
-        return sign_of_det(first, polygons_.support(id_[1]), p) != 0;
+        return sign_of_det(first, id_[1].support(), p) != 0;
     }
 
-    const IndexPolygons& polygons_;
     std::array<PolygonId, 3> id_{};
     std::size_t rank_ = 0;
     bool sure_ = true;  // the normals below are good
@@ -88,26 +86,26 @@ bool is_at(const IndexPoint& point, const LatticePoint& corner) {
 
 }  // namespace
 
-Location location_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
-    Independent chosen(polygons);
-    for (const PolygonId id : on) {
+Location location_on(const std::vector<PolygonId>& on) {
+    Independent chosen;
+    for (const PolygonId& id : on) {
         chosen.add(id);
         if (chosen.rank() == 3) return Location::OnVertex;
     }
     return chosen.rank() == 1 ? Location::OnFace : Location::OnEdge;
 }
 
-Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
+Place place_on(std::vector<PolygonId>& on) {
     if (on.size() > 1)
         std::sort(on.begin(), on.end(),
-                  [&](PolygonId a, PolygonId b) { return polygons.name(a) < polygons.name(b); });
+                  [](const PolygonId& a, const PolygonId& b) { return a.name() < b.name(); });
     Place place;
-    Independent chosen(polygons);
-    for (const PolygonId id : on) {
+    Independent chosen;
+    for (const PolygonId& id : on) {
         if (chosen.rank() == 3) break;
         const std::size_t before = chosen.rank();
         chosen.add(id);
-        if (chosen.rank() != before) place.faces[before] = polygons.face_source(id);
+        if (chosen.rank() != before) place.faces[before] = id.face_source();
     }
     const std::size_t rank = chosen.rank();
     place.face_count = static_cast<std::uint8_t>(rank);
@@ -117,16 +115,16 @@ Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on) {
     return place;
 }
 
-Place place_on(const IndexPolygons& polygons, std::vector<PolygonId>& on, const IndexPoint& point) {
-    Place place = place_on(polygons, on);
+Place place_on(std::vector<PolygonId>& on, const IndexPoint& point) {
+    Place place = place_on(on);
     if (place.location != Location::OnVertex) return place;
-    for (const PolygonId id : on) {
-        const Source& s = polygons.source(id);
+    for (const PolygonId& id : on) {
+        const Source& s = id.source();
         if (s.is_half_space()) continue;
         for (int i = 0; i < 3; ++i) {
-            const LatticePoint& c = s.corner(polygons.facet(id), i);
+            const LatticePoint& c = s.corner(id.facet(), i);
             if (!is_at(point, c)) continue;
-            const CornerSource name{s.operand(), s.corner_index(polygons.facet(id), i)};
+            const CornerSource name{s.operand(), s.corner_index(id.facet(), i)};
             if (!place.corner.is_valid() || name < place.corner) place.corner = name;
         }
     }

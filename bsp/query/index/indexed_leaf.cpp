@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Building the tree in which queries run.
+// Building the structure in which queries run.
 //
 // The cell tree of a solid is as fine as the last operation needed it: a fresh mesh is one leaf
-// that lists everything, and a leaf of a result may list thousands of facets that nothing cut. Its
-// splitting planes are kept, and a leaf with many polygons becomes a grid over the box of these,
-// whose crowded cells are divided 4 x 4 x 4 at a time (index_bricks.cpp).
+// that lists everything, and a leaf of a result may list thousands of facets that nothing cut. A
+// leaf with many polygons becomes a grid over the box of these, whose crowded cells are divided
+// 4 x 4 x 4 at a time (index_bricks.cpp).
 //
 // Built at once is only the grid with its lists and winding numbers. Its cells are divided when a
 // query first comes to them, under a lock, and then published by one word; queries of a corner of a
@@ -17,11 +17,12 @@
 // cell tree's leaf. Where a corner lies on a polygon, the whole grid is moved a little and made
 // again; where that does not help the leaf remains a list.
 
-#include <trisect/bsp/query/index/index_tree.h>
+#include <trisect/bsp/query/index/indexed_leaf.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -29,18 +30,17 @@
 #include <trisect/bsp/query/index/index_bricks.h>
 #include <trisect/bsp/query/index/index_grid_lists.h>
 #include <trisect/bsp/query/index/index_signs.h>
-#include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
-#include <trisect/kernel/support/deep_recursion.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
 namespace {
 
 using Id = IndexPolygons::Id;
-using Node = IndexTree::Node;
 
-constexpr std::size_t grid_polygons = 10;  // from so many on
+constexpr std::size_t divided_polygons = 10;  // by a grid of several cells, from so many on
+constexpr std::size_t made_at_once = 64;      // up to so many, without waiting for queries
 constexpr int attempts = 4;
 // Around the polygons, lattice units, and a part of their extent: corners of the grid should be
 // surely off planes that bound the solid.
@@ -99,76 +99,118 @@ private:
     IndexBrickBuilder builder_;
 };
 
-IndexTree::IndexTree()
-    : nodes_(1),
-      cells_(std::make_unique<IndexCells>()),
-      dividing_(std::make_unique<std::mutex>()) {}
-IndexTree::~IndexTree() = default;
-IndexTree::IndexTree(IndexTree&&) noexcept = default;
-IndexTree& IndexTree::operator=(IndexTree&&) noexcept = default;
+IndexCells::IndexCells(std::size_t polygons) {
+    // About a brick for 200 polygons, a leaf for 8, each polygon listed three times.
+    const auto bits = static_cast<unsigned>(std::bit_width(polygons));
+    const auto chunk = [&](unsigned more, unsigned less) {
+        return std::clamp(bits + more, less + 2, less + 10) - less;
+    };
+    slots = GrowingArray<std::uint32_t>(chunk(0, 2));
+    bricks = GrowingArray<IndexBrick>(chunk(0, 6));
+    leaves = GrowingArray<IndexLeaf>(chunk(0, 3));
+    listed = GrowingArray<Id>(chunk(1, 0));
+    planes = GrowingArray<float>(chunk(4, 0));
+}
+
+IndexedLeaf::~IndexedLeaf() = default;
+
+// Few threads divide at a time, so leaves share mutexes.
+std::mutex& IndexedLeaf::dividing() const {
+    static std::array<std::mutex, 64> mutexes;
+    return mutexes[mix64(reinterpret_cast<std::uintptr_t>(this)) % mutexes.size()];
+}
+
+// Along a line from the reference.
+bool IndexedLeaf::find_side(std::size_t side) const {
+    const std::size_t k = side / 2;
+    FinePoint to = reference_;
+    to.c[k] =
+        side % 2 == 0
+            ? reference_position(
+                  (static_cast<std::int64_t>(std::floor(below_[k])) - 2) * splitting_scale, -1)
+            : reference_position(
+                  (static_cast<std::int64_t>(std::ceil(above_[k])) + 2) * splitting_scale, 1);
+    std::int32_t winding = winding_;
+    const IndexPoint point(to);
+    const Reference from(reference_);
+    for (Id id = 0; id < polygons_.size(); ++id) {
+        const DoubleBox box = polygons_.bounds(id);
+        bool near = true;
+        for (std::size_t j = 0; j < 3; ++j)
+            near = near && (j == k || (box.lo[j] <= from.c[j] + from.error &&
+                                       box.hi[j] >= from.c[j] - from.error));
+        if (!near) continue;
+        const int passed = static_cast<int>(passing(polygons_, id, point, from));
+        winding += polygons_.is_flipped(id) ? -passed : passed;
+    }
+    sides_[side].store(winding > 0 ? 1 : 0, std::memory_order_relaxed);
+    return winding > 0;
+}
+
+IndexedLeaf::Cell IndexedLeaf::whole() const {
+    Cell c;
+    c.inside = winding_ > 0;
+    if (polygons_.size() != 0) c.leaf = 0;
+    return c;
+}
 
 // What others see of a cell before its slot is the old slot, afterwards everything below it.
-std::uint32_t IndexTree::divide(const IndexGrid& g, std::size_t cell) const {
+std::uint32_t IndexedLeaf::divide(std::size_t cell) const {
     check_stop();
-    const std::lock_guard lock(*dividing_);
-    const std::atomic_ref slot(roots_[g.first + cell]);
+    const std::lock_guard lock(dividing());
+    const std::atomic_ref slot(roots_[cell]);
     if (const std::uint32_t s = slot.load(std::memory_order_relaxed); s != IndexSlot::pending)
         return s;
-    const std::uint32_t made = divisions_[g.number]->divide(cell);
+    const std::uint32_t made = division_->divide(cell);
     slot.store(made, std::memory_order_release);
     return made;
 }
 
-void IndexTree::divide_all() const {
-    for (const IndexGrid& g : grids_)
-        for (std::size_t cell = 0; cell < g.count(); ++cell) (void)slot(g, cell);
+void IndexedLeaf::divide_all() const {
+    for (std::size_t cell = 0; cell < roots_.size(); ++cell) (void)grid_slot(cell);
 }
 
-IndexTree::Stats IndexTree::stats() const {
-    const std::lock_guard lock(*dividing_);
+IndexedLeaf::Stats IndexedLeaf::stats() const {
+    const std::lock_guard lock(dividing());
     Stats s;
-    s.nodes = nodes_.size() + roots_.size();
-    for (const Node& n : nodes_)
-        if (n.is_leaf() && !n.is_mixed()) ++s.empty;
+    s.nodes = roots_.size();
     for (std::uint32_t& root : roots_) {
         const std::uint32_t slot = std::atomic_ref(root).load(std::memory_order_relaxed);
         if (slot == IndexSlot::pending) ++s.pending;
         if (IndexSlot::is_empty(slot)) ++s.empty;
     }
-    for (std::uint32_t i = 0; i < cells_->bricks.end(); ++i) {
-        const IndexBrick& b = cells_->bricks[i];
+    for (std::uint32_t i = 0; i < cells_.bricks.end(); ++i) {
+        const IndexBrick& b = cells_.bricks[i];
         s.nodes += 64;
         s.empty += 64 - static_cast<std::size_t>(std::popcount(b.mixed));
         for (std::uint64_t left = b.mixed; left != 0; left &= left - 1)
             if (IndexSlot::is_empty(slot(b.slot(static_cast<unsigned>(std::countr_zero(left))))))
                 ++s.empty;
     }
-    s.mixed = cells_->leaves.end();
-    for (std::uint32_t i = 0; i < cells_->leaves.end(); ++i) s.listed += cells_->leaves[i].count;
-    s.depth = depth_;
-    s.bytes = sizeof(*this) + bytes_of(nodes_) + bytes_of(grids_) + bytes_of(references_) +
-              bytes_of(roots_) + cells_->bytes();
-    for (const auto& d : divisions_) {
-        s.depth = std::max(s.depth, depth_ + 1 + d->depth());
-        s.bytes += d->bytes();
+    s.mixed = cells_.leaves.end();
+    for (std::uint32_t i = 0; i < cells_.leaves.end(); ++i) s.listed += cells_.leaves[i].count;
+    s.bytes = sizeof(*this) + polygons_.bytes() + bytes_of(roots_) + cells_.bytes();
+    if (division_ != nullptr) {
+        s.depth = 1 + division_->depth();
+        s.bytes += division_->bytes();
     }
     return s;
 }
 
-FinePoint IndexTree::reference(const Cell& c, const IndexGrid::Position& at) const {
-    if (c.grid == nullptr) return references_[c.reference];
+FinePoint IndexedLeaf::reference(const Cell& c, const IndexGrid::Position& at) const {
+    if (c.grid == nullptr) return reference_;
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k)
         p.c[k] = fine_position(c.grid->splitter(k, at.fine[k] >> c.shift << c.shift));
     return p;
 }
 
-class IndexTreeBuilder {
+class IndexedLeafBuilder {
 public:
-    IndexTreeBuilder(IndexTree& tree, IndexPolygons& polygons)
-        : t_(tree), cells_(*tree.cells_), polygons_(polygons) {}
+    explicit IndexedLeafBuilder(IndexedLeaf& index)
+        : index_(index), cells_(index.cells_), polygons_(index.polygons_) {}
 
-    void build(const SolidState& state);
+    void build();
 
 private:
     using Vector = std::array<double, 3>;
@@ -179,159 +221,89 @@ private:
         bool whole = false;  // contains all polygons of the leaf
     };
 
-    void find_bounds(const CellRef& root);
-    void note_polygons(const SolidState& state, const CellRef& ref, bool turned, const Cell& cell);
-    void add_cells(const CellRef& ref, bool turned, const Cell& cell, std::uint32_t node,
-                   int depth);
-    void add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell, std::uint32_t node,
-                       int depth);
-    void make_leaf(std::uint32_t node, const FinePoint& reference, std::int32_t winding);
+    void find_sides(const DoubleBox& bounds);
+    void find_quantum(const Place& place);
+    void make_list();
     [[nodiscard]] static Place place_of(const Cell& cell, const DoubleBox& polygons);
     [[nodiscard]] std::optional<IndexGrid> grid_over(const Place& place, int attempt) const;
-    [[nodiscard]] bool make_grid(IndexGrid grid, const Place& place, std::uint32_t node,
-                                 const FinePoint& reference, std::int32_t winding);
+    [[nodiscard]] bool make_grid(const IndexGrid& grid, const Place& place);
     [[nodiscard]] bool trace(const FinePoint& from, const FinePoint& to,
                              std::int32_t& winding) const;
 
-    IndexTree& t_;
+    IndexedLeaf& index_;
     IndexCells& cells_;
-    IndexPolygons& polygons_;
+    const IndexPolygons& polygons_;
     // Positions are odd multiples of it.
     double quantum_ = 1.0 / static_cast<double>(dyadic_scale);
-    std::vector<Id> ids_;  // of a leaf
+    std::vector<Id> ids_;
 };
 
-void IndexTreeBuilder::build(const SolidState& state) {
-    find_bounds(state.root());
-    if (polygons_.only_source() == nullptr) note_polygons(state, state.root(), false, Cell{});
-    add_cells(state.root(), false, Cell{}, 0, 0);
-    polygons_.finish();
-    t_.nodes_.shrink_to_fit();
-}
-
-// The box of everything, a little larger.
-void IndexTreeBuilder::find_bounds(const CellRef& root) {
-    Box box;
-    if (const Source* only = polygons_.only_source()) {
-        box = only->box();
-    } else {
-        std::vector<const CellNode*> pending{root.node.get()};
-        while (!pending.empty()) {
-            const CellNode& n = *pending.back();
-            pending.pop_back();
-            if (!n.is_leaf()) {
-                pending.push_back(n.child(0).node.get());
-                pending.push_back(n.child(1).node.get());
-                continue;
-            }
-            for (const PolygonRef r : n.polygons()) box.add(r.box());
+void IndexedLeafBuilder::build() {
+    const std::uint32_t n = polygons_.size();
+    if (n == 0) return;
+    check_stop(1 + n);
+    ids_.resize(n);
+    std::iota(ids_.begin(), ids_.end(), Id{0});
+    DoubleBox bounds;
+    bool is_bounded = false;
+    for (const Id id : ids_) {
+        if (polygons_.is_unbounded(id)) continue;
+        const DoubleBox b = polygons_.bounds(id);
+        for (std::size_t k = 0; k < 3; ++k) {
+            bounds.lo[k] = is_bounded ? std::min(bounds.lo[k], b.lo[k]) : b.lo[k];
+            bounds.hi[k] = is_bounded ? std::max(bounds.hi[k], b.hi[k]) : b.hi[k];
         }
+        is_bounded = true;
     }
-    std::int64_t reach = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (box.is_empty()) {
-            box.lo[k] = 0;
-            box.hi[k] = 0;
-        }
-        t_.bounded_ = t_.bounded_ && std::max(-box.lo[k], box.hi[k]) < coordinate_limit;
-        // Room for the reference point of a fresh mesh.
-        box.lo[k] -= 3;
-        box.hi[k] += 3;
-        t_.lo_[k] = static_cast<double>(box.lo[k]);
-        t_.hi_[k] = static_cast<double>(box.hi[k]);
-        reach = std::max({reach, -box.lo[k], box.hi[k]});
-    }
-    // Splitting planes must be doubles: multiples of the quantum below 2^52 of it.
-    while (static_cast<double>(reach) >= 0x1p51 * quantum_) quantum_ *= 2;
-}
-
-// As deep as the cell tree, here and in add_cells.
-void IndexTreeBuilder::note_polygons(const SolidState& state, const CellRef& ref, bool turned,
-                                     const Cell& cell) {
-    turned = turned != ref.complemented;
-    const CellNode& n = *ref.node;
-    if (!n.is_leaf()) {
-        with_enough_stack([&] {
-            note_polygons(state, n.child(0), turned, cell.below(n.axis(), n.splitter()));
-            note_polygons(state, n.child(1), turned, cell.above(n.axis(), n.splitter()));
-        });
-        return;
-    }
-    check_stop(1 + n.size());
-    const auto& incomplete = state.tree().incomplete;
-    for (const PolygonRef r : n.polygons()) {
-        const bool is_incomplete =
-            !incomplete.empty() && std::binary_search(incomplete.begin(), incomplete.end(),
-                                                      FacetName{r.source->serial(), r.facet});
-        polygons_.note(r, turned, cell, is_incomplete);
-    }
-}
-
-void IndexTreeBuilder::add_cells(const CellRef& ref, bool turned, const Cell& cell,
-                                 std::uint32_t node, int depth) {
-    turned = turned != ref.complemented;
-    const CellNode& n = *ref.node;
-    if (n.is_leaf()) return add_leaf_cell(n, turned, cell, node, depth);
-    const auto children = static_cast<std::uint32_t>(t_.nodes_.size());
-    t_.nodes_.resize(t_.nodes_.size() + 2);
-    t_.nodes_[node] = {n.splitter(), children, static_cast<std::uint32_t>(n.axis())};
-    with_enough_stack([&] {
-        add_cells(n.child(0), turned, cell.below(n.axis(), n.splitter()), children, depth + 1);
-        add_cells(n.child(1), turned, cell.above(n.axis(), n.splitter()), children + 1, depth + 1);
-    });
-}
-
-void IndexTreeBuilder::add_leaf_cell(const CellNode& cell_node, bool turned, const Cell& cell,
-                                     std::uint32_t node, int depth) {
-    check_stop(1 + cell_node.size());
-    ids_.clear();
-    Box bounds;
-    if (const Source* only = polygons_.only_source()) {
-        for (Id id = 0; id < only->facet_count(); ++id) ids_.push_back(id);
-        bounds = only->box();
-    } else {
-        for (const PolygonRef r : cell_node.polygons()) {
-            const Id id = polygons_.add(r, turned, cell);
-            if (id == IndexPolygons::none || !cell.meets(r.box())) continue;
-            ids_.push_back(id);
-            if (!polygons_.is_unbounded(id)) bounds.add(r.box());
-        }
-    }
-    const FinePoint reference = cell_node.reference();
-    const int inside = cell_node.winding() > 0 ? 1 : 0;
-    const std::int32_t winding = turned ? 1 - inside : inside;
-    t_.depth_ = std::max(t_.depth_, static_cast<std::size_t>(depth));
-    if (ids_.size() >= grid_polygons && !bounds.is_empty()) {
-        const Place place = place_of(cell, polygons_.bounds(bounds));
+    if (is_bounded) {
+        find_sides(bounds);
+        const Place place = place_of(polygons_.cell(), bounds);
+        find_quantum(place);
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const auto grid = grid_over(place, attempt);
-            if (grid && make_grid(*grid, place, node, reference, winding)) return;
+            if (!grid || !make_grid(*grid, place)) continue;
+            if (n <= made_at_once) {
+                index_.divide_all();
+                index_.division_.reset();
+            }
+            return;
         }
     }
-    make_leaf(node, reference, winding);
+    make_list();
 }
 
-void IndexTreeBuilder::make_leaf(std::uint32_t node, const FinePoint& reference,
-                                 std::int32_t winding) {
-    Node& n = t_.nodes_[node];
-    n = {};
-    if (ids_.empty()) {
-        if (winding > 0) n.flags |= Node::inside;
-        return;
+// Where the cell goes on beyond the polygons far enough for a point with a known position.
+void IndexedLeafBuilder::find_sides(const DoubleBox& bounds) {
+    constexpr double least = 4;
+    for (Id id : ids_)
+        if (polygons_.is_unbounded(id)) return;
+    const Cell& cell = polygons_.cell();
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (bounds.lo[k] - rounded_position(cell.lo[k]) > least) index_.below_[k] = bounds.lo[k];
+        if (rounded_position(cell.hi[k]) - bounds.hi[k] > least) index_.above_[k] = bounds.hi[k];
     }
-    n.position = static_cast<std::int64_t>(t_.references_.size());
-    t_.references_.push_back(reference);
+}
+
+// Splitting planes must be doubles: multiples of the quantum below 2^52 of it.
+void IndexedLeafBuilder::find_quantum(const Place& place) {
+    double reach = 1;
+    for (std::size_t k = 0; k < 3; ++k)
+        reach = std::max({reach, std::fabs(place.lo[k]), std::fabs(place.hi[k])});
+    while (reach >= 0x1p51 * quantum_) quantum_ *= 2;
+}
+
+void IndexedLeafBuilder::make_list() {
     IndexLeaf leaf;
     leaf.first = cells_.listed.append(ids_.size());
     leaf.count = static_cast<std::uint32_t>(ids_.size());
-    leaf.winding = winding;
+    leaf.winding = index_.winding_;
     std::copy(ids_.begin(), ids_.end(), &cells_.listed[leaf.first]);
-    n.next = cells_.leaves.append(1);
-    cells_.leaves[n.next] = leaf;
+    cells_.leaves[cells_.leaves.append(1)] = leaf;
 }
 
 // Where a grid is wanted: around the polygons, in the cell.
-IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const DoubleBox& polygons) {
+IndexedLeafBuilder::Place IndexedLeafBuilder::place_of(const Cell& cell,
+                                                       const DoubleBox& polygons) {
     Place p;
     p.whole = true;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -349,7 +321,7 @@ IndexTreeBuilder::Place IndexTreeBuilder::place_of(const Cell& cell, const Doubl
     return p;
 }
 
-std::optional<IndexGrid> IndexTreeBuilder::grid_over(const Place& place, int attempt) const {
+std::optional<IndexGrid> IndexedLeafBuilder::grid_over(const Place& place, int attempt) const {
     IndexGrid g;
     Vector extent{};
     double largest = 0;
@@ -366,7 +338,9 @@ std::optional<IndexGrid> IndexTreeBuilder::grid_over(const Place& place, int att
         if (!(extent[k] > 0)) return std::nullopt;
         largest = std::max(largest, extent[k]);
     }
-    const double wanted = std::max(8.0, 0.12 * static_cast<double>(ids_.size()));
+    const double wanted = ids_.size() < divided_polygons
+                              ? 1.0
+                              : std::max(8.0, 0.12 * static_cast<double>(ids_.size()));
     double size = largest;
     const auto count = [&](std::size_t k) {
         return std::clamp(std::round(extent[k] / size), 1.0, 512.0);
@@ -389,8 +363,7 @@ std::optional<IndexGrid> IndexTreeBuilder::grid_over(const Place& place, int att
     return g;
 }
 
-bool IndexTreeBuilder::make_grid(IndexGrid g, const Place& place, std::uint32_t node,
-                                 const FinePoint& reference, std::int32_t winding) {
+bool IndexedLeafBuilder::make_grid(const IndexGrid& g, const Place& place) {
     // What the first and last cells reach beyond the grid; where all polygons are in it, only what
     // is beyond their box counts.
     double margin = 0;
@@ -398,24 +371,21 @@ bool IndexTreeBuilder::make_grid(IndexGrid g, const Place& place, std::uint32_t 
     margin *= 1.001;
     FinePoint corner;
     for (std::size_t k = 0; k < 3; ++k) corner.c[k] = fine_position(g.origin[k]);
-    if (!trace(reference, corner, winding)) return false;
+    std::int32_t winding = index_.winding_;
+    if (!trace(index_.reference_, corner, winding)) return false;
     auto division = std::make_unique<IndexDivision>(polygons_, cells_, g, margin, !place.whole);
     if (!division->prepare(ids_, winding)) return false;
-    g.first = static_cast<std::uint32_t>(t_.roots_.size());
-    g.number = static_cast<std::uint32_t>(t_.grids_.size());
-    t_.roots_.resize(g.first + g.count());
+    index_.roots_.resize(g.count());
     for (std::size_t cell = 0; cell < g.count(); ++cell)
-        t_.roots_[g.first + cell] = division->slot_before(cell);
-    t_.nodes_[node].next = g.number;
-    t_.nodes_[node].flags = Node::leaf | Node::grid_flag;
-    t_.grids_.push_back(g);
-    t_.divisions_.push_back(std::move(division));
+        index_.roots_[cell] = division->slot_before(cell);
+    index_.grid_ = g;
+    index_.division_ = std::move(division);
     return true;
 }
 
 // Winding number at `to`, given that at `from`; false when `to` is on a polygon.
-bool IndexTreeBuilder::trace(const FinePoint& from, const FinePoint& to,
-                             std::int32_t& winding) const {
+bool IndexedLeafBuilder::trace(const FinePoint& from, const FinePoint& to,
+                               std::int32_t& winding) const {
     const IndexPoint point(to);
     const Reference reference(from);
     DoubleBox way;
@@ -433,8 +403,17 @@ bool IndexTreeBuilder::trace(const FinePoint& from, const FinePoint& to,
     return true;
 }
 
-IndexTree::IndexTree(const SolidState& state, IndexPolygons& polygons) : IndexTree() {
-    IndexTreeBuilder(*this, polygons).build(state);
+IndexedLeaf::IndexedLeaf(const CellNode& node, const detail::Cell& cell)
+    : polygons_(node.polygons(), cell),
+      reference_(node.reference()),
+      winding_(node.winding() > 0 ? 1 : 0),
+      cells_(polygons_.size()) {
+    IndexedLeafBuilder(*this).build();
+}
+
+const IndexedLeaf& indexed_leaf(const CellNode& leaf, const Cell& cell) {
+    return static_cast<const IndexedLeaf&>(
+        leaf.index_fact().get_or([&] { return std::make_unique<const IndexedLeaf>(leaf, cell); }));
 }
 
 }  // namespace trisect::detail

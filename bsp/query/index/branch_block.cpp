@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/query/index/branch_block.h>
+
+#include <limits>
+#include <memory>
+
+#include <trisect/bsp/query/index/index_core.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr double no_wall = std::numeric_limits<double>::max();
+
+// Of what was an inner node, perhaps by its refinement, when the block was made.
+const CellNode& inner(const CellNode& node) { return node.is_leaf() ? *node.refinement() : node; }
+
+}  // namespace
+
+const BranchBlock& BranchBlock::of(const CellNode& node) {
+    return static_cast<const BranchBlock&>(
+        node.index_fact().get_or([&] { return std::make_unique<const BranchBlock>(node); }));
+}
+
+BranchBlock::BranchBlock(const CellNode& node) : node_(node) {
+    std::array<const CellNode*, 7> nodes{&node};
+    walls_.fill(no_wall);
+    for (std::size_t at = 0; at < 7; ++at) {
+        if (nodes[at] == nullptr) continue;
+        const CellNode& n = *nodes[at];
+        walls_[at] = rounded_position(n.splitter());
+        axes_ |= static_cast<std::uint32_t>(n.axis()) << (2 * at);
+        for (std::size_t i = 0; at < 3 && i < 2; ++i) {
+            const CellNode& child = refined(*n.child(static_cast<int>(i)).node);
+            if (!child.is_leaf()) nodes[2 * at + 1 + i] = &child;
+        }
+    }
+}
+
+BranchBlock::Next BranchBlock::find_next(int way) const {
+    const CellNode* node = &node_;
+    bool turned = false;
+    std::size_t at = 0;
+    for (int level = 2; level >= 0; --level) {
+        if (walls_[at] == no_wall) break;
+        const int side = way >> level & 1;
+        const CellRef& child = inner(*node).child(side);
+        turned = turned != child.complemented;
+        node = child.node.get();
+        at = 2 * at + 1 + static_cast<std::size_t>(side);
+    }
+    const CellNode& end = refined(*node);
+    Next next;
+    if (!end.is_leaf()) {
+        next = Next::block(of(end), turned);
+    } else if (end.size() == 0) {
+        next = Next::empty((end.winding() > 0) != turned);
+    } else if (const NodeFact* const fact = end.index_fact().get()) {
+        next = Next::leaf(static_cast<const IndexedLeaf&>(*fact), turned);
+    }
+    if (next.is_known())
+        next_[static_cast<std::size_t>(way)].store(next.word_, std::memory_order_release);
+    return next;
+}
+
+}  // namespace trisect::detail
