@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// NodeFact, FactSlot: what is derived from a node of a cell tree, kept with the node.
+// NodeFact: something derived from a node of a cell tree.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ public:
     virtual ~NodeFact() = default;
 };
 
-/// The place of one fact: empty until someone asks. Safe from any thread.
+/// The place of one fact: empty until it is first needed. Safe from any thread.
 class FactSlot {
 public:
     FactSlot() = default;
@@ -31,7 +31,7 @@ public:
     /// Null when it is still to be made.
     [[nodiscard]] const NodeFact* get() const { return fact_.load(std::memory_order_acquire); }
     /// What there is, or else what make() returns, a unique pointer. `make` runs once for a slot
-    /// and must not ask for facts of the same or another node.
+    /// and must not make facts of the same or another node.
     template <class Make>
     const NodeFact& get_or(const Make& make) const {
         if (const NodeFact* there = get()) return *there;

@@ -2,7 +2,7 @@
 
 #include <trisect/bsp/query/index/branch_block.h>
 
-#include <limits>
+#include <bit>
 #include <memory>
 
 #include <trisect/bsp/query/index/index_core.h>
@@ -11,7 +11,8 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr double no_wall = std::numeric_limits<double>::max();
+// Its last bits are 0.
+constexpr double no_wall = 0x1p1000;
 
 // Of what was an inner node, perhaps by its refinement, when the block was made.
 const CellNode& inner(const CellNode& node) { return node.is_leaf() ? *node.refinement() : node; }
@@ -29,8 +30,9 @@ BranchBlock::BranchBlock(const CellNode& node) : node_(node) {
     for (std::size_t at = 0; at < 7; ++at) {
         if (nodes[at] == nullptr) continue;
         const CellNode& n = *nodes[at];
-        walls_[at] = rounded_position(n.splitter());
-        axes_ |= static_cast<std::uint32_t>(n.axis()) << (2 * at);
+        const auto bits = std::bit_cast<std::uint64_t>(rounded_position(n.splitter()));
+        walls_[at] = std::bit_cast<double>((bits & ~std::uint64_t{3}) |
+                                           static_cast<std::uint64_t>(n.axis()));
         for (std::size_t i = 0; at < 3 && i < 2; ++i) {
             const CellNode& child = refined(*n.child(static_cast<int>(i)).node);
             if (!child.is_leaf()) nodes[2 * at + 1 + i] = &child;

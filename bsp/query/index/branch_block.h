@@ -5,13 +5,13 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/query/index/index_point.h>
 #include <trisect/bsp/query/index/indexed_leaf.h>
-#include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
 
@@ -60,8 +60,8 @@ public:
         std::size_t at = 0;
         for (int level = 0; level < 3; ++level) {
             const double wall = walls_[at];
-            const double d = p[axes_ >> (2 * at) & 3U] - wall;
-            const double e = slack + std::fabs(wall) * last_place;
+            const double d = p[std::bit_cast<std::uint64_t>(wall) & 3U] - wall;
+            const double e = slack + std::fabs(wall) * wall_error;
             if (!(d > e || d < -e)) return -1;
             at = 2 * at + (d > 0 ? 2 : 1);
         }
@@ -77,10 +77,12 @@ public:
 private:
     [[nodiscard]] Next find_next(int way) const;
 
-    // In the order of a heap. Where a leaf comes before the third level, the walls below it are so
-    // far that all points are on the lower side.
+    // Of the last bits of a wall, and of rounding.
+    static constexpr double wall_error = 0x1p-49;
+
+    // In the order of a heap; the last two bits are the axis. Where a leaf comes before the third
+    // level, the walls below it are so far that all points are on the lower side.
     std::array<double, 7> walls_{};
-    std::uint32_t axes_ = 0;  // two bits each
     mutable std::array<std::atomic<std::uintptr_t>, 8> next_{};
     const CellNode& node_;
 };

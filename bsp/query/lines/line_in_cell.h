@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LineInCell: which contacts of a line are in a closed cell.
+// LineInCell: the contacts of a line within a closed cell.
 #pragma once
 
 #include <array>
