@@ -221,8 +221,11 @@ bool same_hits(const std::vector<trisect::RayHit>& a, const std::vector<brute::H
     return true;
 }
 
-// The operands of two solids have different names.
-bool same(const trisect::Place& a, const trisect::Place& b) {
+// The operands of two solids have different names. Of facets that coincide any may speak for all,
+// in each cell another one, and cells differ between lattices: then only what is not a matter of
+// names is compared.
+bool same(const trisect::Place& a, const trisect::Place& b, bool named) {
+    if (!named) return a.location == b.location && a.face_count == b.face_count;
     bool faces = a.face_count == b.face_count;
     for (std::size_t i = 0; faces && i < a.face_count; ++i)
         faces = a.faces[i].face == b.faces[i].face;
@@ -230,10 +233,11 @@ bool same(const trisect::Place& a, const trisect::Place& b) {
            a.face == b.face && a.edge == b.edge && a.vertex == b.vertex;
 }
 
-bool same(const std::vector<trisect::RayHit>& a, const std::vector<trisect::RayHit>& b) {
-    return std::ranges::equal(a, b, [](const trisect::RayHit& x, const trisect::RayHit& y) {
+bool same(const std::vector<trisect::RayHit>& a, const std::vector<trisect::RayHit>& b,
+          bool named) {
+    return std::ranges::equal(a, b, [&](const trisect::RayHit& x, const trisect::RayHit& y) {
         return x.enter.exact() == y.enter.exact() && x.leave.exact() == y.leave.exact() &&
-               x.is_interval == y.is_interval && same(x.place, y.place);
+               x.is_interval == y.is_interval && same(x.place, y.place, named);
     });
 }
 
@@ -243,13 +247,13 @@ void print_point(const char* what, const std::array<double, 3>& p) {
 
 // Many points at once are where each of them is.
 bool same_at_once(const Solid& solid, const std::vector<std::array<double, 3>>& points,
-                  const std::vector<trisect::Place>& places) {
+                  const std::vector<trisect::Place>& places, bool named) {
     const BrepIndex index(solid);
     std::vector<trisect::Location> found(points.size());
     index.classify(points, found);
-    const std::vector<trisect::Place> named = index.locate(points);
+    const std::vector<trisect::Place> again = index.locate(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (found[i] == places[i].location && same(named[i], places[i])) continue;
+        if (found[i] == places[i].location && same(again[i], places[i], named)) continue;
         print_point("one of many points", points[i]);
         return false;
     }
@@ -301,7 +305,7 @@ bool Run::right_place(const std::array<double, 3>& p, const trisect::Place& plac
     }
     for (std::size_t i = 0; i < coarser_.size(); ++i) {
         const trisect::Place other = coarser_[i].locate(p);
-        if (same(place, other)) continue;
+        if (same(place, other, m_.named)) continue;
         print_point("point", p);
         std::printf("%s, on a lattice of exponent %d %s\n", brute::to_string(place).c_str(),
                     m_.coarser[i].lattice().exponent, brute::to_string(other).c_str());
@@ -321,9 +325,10 @@ bool Run::points(int count) {
         places.push_back(place);
         if (!right_place(p, place)) return false;
     }
-    if (!same_at_once(m_.solid, points, places)) return false;
-    return std::ranges::all_of(
-        m_.coarser, [&](const Solid& solid) { return same_at_once(solid, points, places); });
+    if (!same_at_once(m_.solid, points, places, true)) return false;
+    return std::ranges::all_of(m_.coarser, [&](const Solid& solid) {
+        return same_at_once(solid, points, places, m_.named);
+    });
 }
 
 bool Run::right_first_hit(const BrepIndex& index, const trisect::Ray& ray,
@@ -348,8 +353,9 @@ bool Run::right_hits(const trisect::Ray& ray, const std::vector<trisect::RayHit>
         return false;
     return std::ranges::all_of(coarser_, [&](const BrepIndex& index) {
         const auto other = index.first_hit(ray);
-        return same(index.all_hits(ray), found) && right_first_hit(index, ray, expected) &&
-               (!other || same(other->place, first->place));
+        return same(index.all_hits(ray), found, m_.named) &&
+               right_first_hit(index, ray, expected) &&
+               (!other || same(other->place, first->place, m_.named));
     });
 }
 

@@ -106,11 +106,12 @@ IndexBase::IndexBase(const Solid& s)
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-const IndexedLeaf* IndexBase::only_leaf() const {
-    const CellNode& node = refined(*root_.node);
+const IndexedLeaf* IndexBase::find_only_leaf() const {
+    const CellNode& node = *root_.node;
     if (!node.is_leaf() || node.size() == 0) return nullptr;
     const IndexedLeaf& leaf = indexed_leaf(node, Cell{});
-    return leaf.grid() != nullptr ? &leaf : nullptr;
+    only_leaf_.store(&leaf, std::memory_order_release);
+    return &leaf;
 }
 
 bool IndexBase::is_inside_beyond() const {

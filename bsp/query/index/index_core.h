@@ -31,8 +31,12 @@ public:
     [[nodiscard]] const Solid& solid() const { return solid_; }
     [[nodiscard]] Lattice lattice() const { return solid_.lattice(); }
     [[nodiscard]] const CellRef& root() const { return root_; }
-    /// Where the tree is one leaf with a grid: its index. Else null.
-    [[nodiscard]] const IndexedLeaf* only_leaf() const;
+    /// Where the tree is one leaf that lists something: its index. Else null.
+    [[nodiscard]] const IndexedLeaf* only_leaf() const {
+        if (root_block_ != nullptr) return nullptr;
+        const IndexedLeaf* const known = only_leaf_.load(std::memory_order_acquire);
+        return known != nullptr ? known : find_only_leaf();
+    }
     /// Contains the boundary; strictly outside of it everything has the membership `beyond`.
     [[nodiscard]] const std::array<double, 3>& lo() const { return lo_; }
     [[nodiscard]] const std::array<double, 3>& hi() const { return hi_; }
@@ -43,6 +47,8 @@ public:
     [[nodiscard]] double build_seconds() const { return build_seconds_; }
 
 private:
+    [[nodiscard]] const IndexedLeaf* find_only_leaf() const;
+
     Solid solid_;
     std::shared_ptr<const SolidState> state_;  // with the tree
     CellRef root_;
@@ -50,6 +56,7 @@ private:
     std::array<double, 3> hi_{};
     bool bounded_ = true;
     const BranchBlock* root_block_ = nullptr;
+    mutable std::atomic<const IndexedLeaf*> only_leaf_{nullptr};
     mutable std::atomic<std::int8_t> beyond_{-1};  // -1: not known yet
     double build_seconds_ = 0;
 };

@@ -130,7 +130,20 @@ private:
             if (is_parallel(support, plane_) && !is_same_plane(support, plane_)) return;
             throw UnsupportedError("the section is unbounded");
         }
-        if (id.is_triangle() && !is_near(id)) return;
+        if (id.is_triangle()) {
+            std::array<Side, 3> sides{};
+            for (int i = 0; i < 3; ++i)
+                sides[static_cast<std::size_t>(i)] = trisect::side_of(id.corner(i), plane_);
+            const auto is = [&](Side s) { return std::ranges::count(sides, s); };
+            // What touches the plane from below is no part of the section.
+            if (is(Side::Above) == 3 || (is(Side::Above) == 0 && is(Side::On) != 3)) return;
+            if (!id.reaches_out()) {
+                std::array<Plane, 3> storage;
+                add(id, id.all().corners(id.number), sides, id.support(),
+                    id.all().edges(id.number, storage));
+                return;
+            }
+        }
         // What of it is in its cell; the cuts cancel or run straight on.
         const PolygonPart part = id.part();
         const std::vector<Point> corners = part.corners();
@@ -140,29 +153,23 @@ private:
             for (const double x : c.nearest())
                 if (std::fabs(x) > 0x1p53) throw UnsupportedError("the section is unbounded");
         }
-        const auto count = [&](Side s) { return std::count(sides.begin(), sides.end(), s); };
+        add(id, corners, sides, part.support, part.edges);
+    }
+
+    void add(const PolygonId& id, const std::vector<Point>& corners, std::span<const Side> sides,
+             const Plane& support, std::span<const Plane> edges) {
+        const auto count = [&](Side s) { return std::ranges::count(sides, s); };
         if (count(Side::On) == std::ssize(sides)) {
             add_outline(id, corners);
         } else if (count(Side::Above) != 0 && count(Side::Above) != std::ssize(sides)) {
-            add_crossing(id, part, corners, sides);
+            add_crossing(id, corners, sides, support, edges);
         }
-    }
-
-    // Whether a triangle has something to do with the plane from below.
-    [[nodiscard]] bool is_near(const PolygonId& id) const {
-        bool above = false;
-        bool below = false;
-        for (int i = 0; i < 3; ++i) {
-            const Side s = trisect::side_of(id.corner(i), plane_);
-            above = above || s == Side::Above;
-            below = below || s == Side::Below;
-        }
-        return above ? true : !below;
     }
 
     // From where the polygon's outline goes down through the plane to where it comes up.
-    void add_crossing(const PolygonId& id, const PolygonPart& part, std::span<const Point> corners,
-                      std::span<const Side> sides) {
+    void add_crossing(const PolygonId& id, std::span<const Point> corners,
+                      std::span<const Side> sides, const Plane& support,
+                      std::span<const Plane> edges) {
         Directed d;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const std::size_t j = (i + 1) % corners.size();
@@ -170,7 +177,7 @@ private:
             if ((sides[i] == Side::Above) == up) continue;
             const std::size_t low = up ? i : j;
             const std::uint32_t n = numbers_.number(
-                sides[low] == Side::On ? corners[low] : Point(part.support, part.edges[i], plane_));
+                sides[low] == Side::On ? corners[low] : Point(support, edges[i], plane_));
             (up ? d.to : d.from) = n;
         }
         if (id.is_flipped()) std::swap(d.from, d.to);

@@ -163,7 +163,7 @@ private:
         }
         for_those(State::Mixed, [&](Descent& d) {
             leaf_.prefetch(leaf_.leaf(d.cell.leaf));
-            d.in_leaf.begin(leaf_, d.cell, d.at, true);
+            d.in_leaf.begin(leaf_, turned_, d.cell, d.at, true);
         });
         for_those(State::Mixed, [&](Descent& d) {
             const Answer a = d.in_leaf.decide();
@@ -186,9 +186,7 @@ private:
         if (d.state == State::Alone) {
             inside = locate_polygons(index_, p, on_) == Location::Inside;
         } else {
-            numbers_.clear();
-            inside = d.in_leaf.finish(p, numbers_) != turned_;
-            for (const IndexedLeaf::Id id : numbers_) on_.push_back({&leaf_, id, turned_});
+            inside = d.in_leaf.finish(p, on_) != turned_;
             if (!on_.empty()) rank = d.in_leaf.rank();
         }
         if (on_.empty()) {
@@ -233,7 +231,6 @@ private:
     const Sink& sink_;
     std::array<Descent, together> all_;
     std::size_t count_ = 0;
-    std::vector<IndexedLeaf::Id> numbers_;
     std::vector<PolygonId> on_;
 };
 
@@ -274,7 +271,7 @@ template <class Sink>
 void locate_all(const IndexBase& index, Points points, unsigned threads, const Sink& sink) {
     if (points.size() >= 0xffffffffU) throw LimitError("more than 2^32 points at once");
     const IndexedLeaf* const leaf = index.is_bounded() ? index.only_leaf() : nullptr;
-    if (leaf != nullptr) {
+    if (leaf != nullptr && leaf->grid() != nullptr) {
         locate_in_grid(index, *leaf, points, threads, sink);
     } else {
         locate_one_by_one(index, points, threads, sink);

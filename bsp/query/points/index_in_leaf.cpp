@@ -62,21 +62,12 @@ PlaneSides sides_of_corner(const LeafPlanes& planes, std::uint32_t count, unsign
                      static_cast<float>(corner >> 2U)});
 }
 
-int passed(const IndexPolygons& polygons, IndexedLeaf::Id id, const IndexPoint& p,
-           const Reference& reference, std::vector<IndexedLeaf::Id>& on) {
-    const Passing s = passing(polygons, id, p, reference);
-    if (s == Passing::On) {
-        on.push_back(id);
-        return 0;
-    }
-    return polygons.is_flipped(id) ? -static_cast<int>(s) : static_cast<int>(s);
-}
-
 }  // namespace
 
-void PointInLeaf::begin(const IndexedLeaf& index, const IndexedLeaf::Cell& cell,
+void PointInLeaf::begin(const IndexedLeaf& index, bool turned, const IndexedLeaf::Cell& cell,
                         const IndexGrid::Position& at, bool precise) {
     index_ = &index;
+    turned_ = turned;
     leaf_ = &index.leaf(cell.leaf);
     cell_ = cell;
     at_ = at;
@@ -171,6 +162,17 @@ Answer PointInLeaf::trace() {
     return answer(winding_ > 0);
 }
 
+// The change of the winding number at a polygon on the way to the reference.
+int PointInLeaf::passed(Id id, const IndexPoint& p, const Reference& reference,
+                        std::vector<PolygonId>& on) const {
+    const Passing s = passing(index_->polygons(), id, p, reference);
+    if (s == Passing::On) {
+        on.push_back({index_, id, turned_});
+        return 0;
+    }
+    return index_->polygons().is_flipped(id) ? -static_cast<int>(s) : static_cast<int>(s);
+}
+
 FinePoint PointInLeaf::corner_point() const {
     FinePoint p;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -180,7 +182,7 @@ FinePoint PointInLeaf::corner_point() const {
     return p;
 }
 
-bool PointInLeaf::finish(const IndexPoint& p, std::vector<Id>& on) {
+bool PointInLeaf::finish(const IndexPoint& p, std::vector<PolygonId>& on) {
     if (kind_ == Kind::List) return trace_to_reference(p, on);
     if (kind_ == Kind::Many) return finish_many(p, on);
     const auto listed = index_->listed(*leaf_);
@@ -188,7 +190,7 @@ bool PointInLeaf::finish(const IndexPoint& p, std::vector<Id>& on) {
         for (; near_ != 0; near_ &= near_ - 1) {
             const unsigned i = lowest(near_);
             if (!is_on(index_->polygons(), listed[i], p)) continue;
-            on.push_back(listed[i]);
+            on.push_back({index_, listed[i], turned_});
             on_ |= std::uint64_t{1} << i;
         }
         if (on_ != 0) {
@@ -202,13 +204,13 @@ bool PointInLeaf::finish(const IndexPoint& p, std::vector<Id>& on) {
     ++index_counters().exact;
     const Reference reference(corner_point());
     for (; unsure_ != 0; unsure_ &= unsure_ - 1)
-        winding_ += passed(index_->polygons(), listed[lowest(unsure_)], p, reference, on);
+        winding_ += passed(listed[lowest(unsure_)], p, reference, on);
     if ((above_ | below_) == all_) remember(*leaf_, above_, winding_ > 0);
     return winding_ > 0;
 }
 
 // The same plane by plane.
-bool PointInLeaf::finish_many(const IndexPoint& p, std::vector<Id>& on) {
+bool PointInLeaf::finish_many(const IndexPoint& p, std::vector<PolygonId>& on) {
     const std::size_t before = on.size();
     const LeafPlanes planes = index_->planes(*leaf_);
     const auto listed = index_->listed(*leaf_);
@@ -221,7 +223,7 @@ bool PointInLeaf::finish_many(const IndexPoint& p, std::vector<Id>& on) {
     for (std::uint32_t i = 0; i < leaf_->count; ++i) {
         const int sign = sure_sign(planes.at(i, place_));
         if (sign == unsure_sign) {
-            if (is_on(index_->polygons(), listed[i], p)) on.push_back(listed[i]);
+            if (is_on(index_->polygons(), listed[i], p)) on.push_back({index_, listed[i], turned_});
             continue;
         }
         for (unsigned c = 0; c < 8; ++c)
@@ -243,17 +245,16 @@ bool PointInLeaf::finish_many(const IndexPoint& p, std::vector<Id>& on) {
     for (std::uint32_t i = 0; i < leaf_->count; ++i) {
         const int sign = sure_sign(planes.at(i, place_));
         if (sign != unsure_sign && sign == sure_sign(at_corner(i, corner_))) continue;
-        winding_ += passed(index_->polygons(), listed[i], p, reference, on);
+        winding_ += passed(listed[i], p, reference, on);
     }
     return winding_ > 0;
 }
 
-bool PointInLeaf::trace_to_reference(const IndexPoint& p, std::vector<Id>& on) const {
+bool PointInLeaf::trace_to_reference(const IndexPoint& p, std::vector<PolygonId>& on) const {
     const std::size_t before = on.size();
     int winding = leaf_->winding;
     const Reference reference(index_->reference(cell_, at_));
-    for (const Id id : index_->listed(*leaf_))
-        winding += passed(index_->polygons(), id, p, reference, on);
+    for (const Id id : index_->listed(*leaf_)) winding += passed(id, p, reference, on);
     ++(on.size() == before ? index_counters().exact : index_counters().on);
     return winding > 0;
 }

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <trisect/bsp/query/index/indexed_leaf.h>
+#include <trisect/bsp/query/index/index_signs.h>
+#include <trisect/bsp/query/index/polygon_id.h>
 
 namespace trisect::detail {
 
@@ -21,7 +22,8 @@ public:
     enum class Answer : std::uint8_t { Outside, Inside, Open };
 
     /// \pre the cell is mixed, and the place is known to 2^-23 of it where `precise`.
-    void begin(const IndexedLeaf& index, const IndexedLeaf::Cell& cell,
+    /// `turned`: for the names of polygons.
+    void begin(const IndexedLeaf& index, bool turned, const IndexedLeaf::Cell& cell,
                const IndexGrid::Position& at, bool precise);
     /// From the leaf alone. When it is open, `wanted` are the polygons that will be looked at,
     /// of the first 64.
@@ -29,7 +31,7 @@ public:
     [[nodiscard]] std::uint64_t wanted() const { return near_ != 0 ? near_ : unsure_; }
     /// After an open answer. When polygons contain the point they are added to `on`, and what is
     /// returned has no meaning.
-    [[nodiscard]] bool finish(const IndexPoint& p, std::vector<Id>& on);
+    [[nodiscard]] bool finish(const IndexPoint& p, std::vector<PolygonId>& on);
     /// The rank of the normals of the polygons found, or 0 where single precision does not decide.
     [[nodiscard]] int rank() const;
 
@@ -39,11 +41,14 @@ private:
 
     [[nodiscard]] Answer trace();
     [[nodiscard]] std::uint64_t narrowed(std::uint64_t open) const;
+    [[nodiscard]] int passed(Id id, const IndexPoint& p, const Reference& reference,
+                             std::vector<PolygonId>& on) const;
     [[nodiscard]] FinePoint corner_point() const;
-    [[nodiscard]] bool finish_many(const IndexPoint& p, std::vector<Id>& on);
-    [[nodiscard]] bool trace_to_reference(const IndexPoint& p, std::vector<Id>& on) const;
+    [[nodiscard]] bool finish_many(const IndexPoint& p, std::vector<PolygonId>& on);
+    [[nodiscard]] bool trace_to_reference(const IndexPoint& p, std::vector<PolygonId>& on) const;
 
     const IndexedLeaf* index_ = nullptr;
+    bool turned_ = false;
     const IndexLeaf* leaf_ = nullptr;
     IndexedLeaf::Cell cell_;
     IndexGrid::Position at_;

@@ -74,19 +74,20 @@ public:
             inside_ = cell.is_inside() != place.turned;
             return;
         }
-        here_.clear();
+        const auto before = static_cast<std::ptrdiff_t>(on_.size());
         PointInLeaf in_leaf;
-        in_leaf.begin(leaf, cell, at, is_precise(cell, p_));
+        in_leaf.begin(leaf, place.turned, cell, at, is_precise(cell, p_));
         const PointInLeaf::Answer quick = in_leaf.decide();
-        bool found = quick == PointInLeaf::Answer::Open ? in_leaf.finish(p_, here_)
+        bool found = quick == PointInLeaf::Answer::Open ? in_leaf.finish(p_, on_)
                                                         : quick == PointInLeaf::Answer::Inside;
-        if (!here_.empty() && place.on_wall) {
+        if (std::ssize(on_) != before && place.on_wall) {
             // On the cell's border: what does not enter the cell is its neighbours' affair.
-            std::erase_if(here_, [&](IndexedLeaf::Id id) { return !leaf.polygons().enters(id); });
-            if (here_.empty()) found = is_inside(leaf, p_);
+            on_.erase(std::remove_if(on_.begin() + before, on_.end(),
+                                     [](const PolygonId& id) { return !id.enters(); }),
+                      on_.end());
+            if (std::ssize(on_) == before) found = is_inside(leaf, p_);
         }
-        for (const IndexedLeaf::Id id : here_) on_.push_back({&leaf, id, place.turned});
-        if (here_.empty()) inside_ = found != place.turned;
+        if (std::ssize(on_) == before) inside_ = found != place.turned;
     }
     /// When no polygon contains it.
     [[nodiscard]] bool inside() const { return inside_; }
@@ -94,15 +95,17 @@ public:
 private:
     const IndexPoint& p_;
     std::vector<PolygonId>& on_;
-    std::vector<IndexedLeaf::Id> here_;
     bool inside_ = false;
 };
 
 // The leaf of a point that is on no splitting plane, if it has an index already.
 bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place) {
-    const BranchBlock* block = index.root_block();
-    if (block == nullptr) return false;
     place.turned = index.root().complemented;
+    const BranchBlock* block = index.root_block();
+    if (block == nullptr) {
+        place.leaf = index.only_leaf();
+        return place.leaf != nullptr;
+    }
     for (;;) {
         const int way = block->way_of(p);
         if (way < 0) return false;
@@ -139,7 +142,9 @@ Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
 
 Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                          std::vector<PolygonId>& on) {
-    if (!is_beyond(index, point)) return locate_in_leaves(index, point, on);
+    // A single leaf has bounds of its own.
+    if (index.only_leaf() != nullptr || !is_beyond(index, point))
+        return locate_in_leaves(index, point, on);
     on.clear();
     ++index_counters().empty;
     return index.is_inside_beyond() ? Location::Inside : Location::Outside;
