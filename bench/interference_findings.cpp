@@ -6,7 +6,7 @@
 // answer that is right follows from the exact relation and, for those who ask about surfaces, from
 // whether there is any contact; every answer that differs is a finding.
 //
-//     interference_findings        prints a table for docs/exactness.md
+//     interference_findings        prints the tables of bench/results/interference_findings.md
 
 #include <algorithm>
 #include <array>

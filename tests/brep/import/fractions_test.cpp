@@ -26,15 +26,16 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/dyadic.h>
 
+#include "random_tetrahedra.h"
 #include "support/fractions.h"
 #include "support/mesh_builders.h"
 
 namespace trisect::import_fractions {
 namespace {
 
-using Random = std::mt19937_64;
-
-std::uint64_t below(Random& random, std::uint64_t n) { return random() % n; }
+using test::below;
+using test::Random;
+using test::tetrahedra;
 
 ImportedMesh keep(const PolygonMesh& mesh, ImportOptions options = {}) {
     return detail::import_mesh(mesh, options, Fractions::Kept);
@@ -180,26 +181,6 @@ TEST(ImportFractions, DecimalsAreTheNearestDoublesAndAreWrittenAgain) {
         const PolygonMesh again = read_mesh(written.bytes, format, "t");
         expect_own_doubles(m, keep(again));
     }
-}
-
-/// The outward triangles of tetrahedra on a small grid: faces, edges and corners coincide.
-PolygonMesh tetrahedra(Random& random, std::uint64_t grid, std::size_t count) {
-    PolygonMesh m;
-    const std::size_t points = 4 + below(random, 12);
-    for (std::size_t i = 0; i < points; ++i) {
-        Point3d p;
-        for (double& c : p) c = static_cast<double>(below(random, grid));
-        m.points.push_back(p);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        std::array<std::uint32_t, 4> t{};
-        for (auto& c : t) c = static_cast<std::uint32_t>(below(random, points));
-        m.add_triangle(t[0], t[2], t[1]);
-        m.add_triangle(t[0], t[1], t[3]);
-        m.add_triangle(t[1], t[2], t[3]);
-        m.add_triangle(t[2], t[0], t[3]);
-    }
-    return m;
 }
 
 // A square face in the place of two triangles, or a face less, or a side divided.

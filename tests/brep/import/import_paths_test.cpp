@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 #include <set>
 #include <string>
 #include <tuple>
@@ -26,6 +25,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 
+#include "random_tetrahedra.h"
 #include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"
 
@@ -35,9 +35,10 @@ namespace {
 using detail::import_counters;
 using detail::import_polygons;
 using detail::import_triangles;
-using Random = std::mt19937_64;
+using test::below;
+using test::Random;
+using test::tetrahedra;
 
-std::uint64_t below(Random& random, std::uint64_t n) { return random() % n; }
 bool one_in(Random& random, std::uint64_t n) { return below(random, n) == 0; }
 
 /// Everything that import says, or the error with its message.
@@ -108,27 +109,6 @@ bool compare(const PolygonMesh& mesh, const ImportOptions& options = {},
         expect_same(in_parts.imported, expected.imported);
     }
     return short_way;
-}
-
-/// A chain without boundary: the outward triangles of tetrahedra whose corners are drawn from few
-/// points, so that faces, edges and corners coincide, degenerate and turn inside out all the time.
-PolygonMesh tetrahedra(Random& random, std::uint64_t grid, std::size_t count) {
-    PolygonMesh m;
-    const std::size_t points = 4 + below(random, 12);
-    for (std::size_t i = 0; i < points; ++i) {
-        Point3d p;
-        for (double& c : p) c = static_cast<double>(below(random, grid));
-        m.points.push_back(p);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        std::array<std::uint32_t, 4> t{};
-        for (auto& c : t) c = static_cast<std::uint32_t>(below(random, points));
-        m.add_triangle(t[0], t[2], t[1]);
-        m.add_triangle(t[0], t[1], t[3]);
-        m.add_triangle(t[1], t[2], t[3]);
-        m.add_triangle(t[2], t[0], t[3]);
-    }
-    return m;
 }
 
 /// Every face cut into a fan.

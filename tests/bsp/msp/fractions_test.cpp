@@ -17,6 +17,7 @@
 #include <trisect/bsp/msp_tree.h>
 
 #include "engines/engines.h"
+#include "prisms.h"
 #include "support/breps.h"
 #include "support/fractions.h"
 #include "support/probes.h"
@@ -100,19 +101,8 @@ TEST(MspFractions, KeepLeavesOfSketches) {
     SolidSketch edge;
     edge.box({0, 0, 0}, {4, 4, 4}).box({4, 4, 2}, {8, 8, 9});
     expect_the_same_leaves(edge.build(), 100, 2);
-    expect_the_same_leaves(test::prism({{{0, 0, 0},
-                                         {6, 2, 0},
-                                         {12, 0, 0},
-                                         {10, 6, 0},
-                                         {12, 12, 0},
-                                         {6, 10, 0},
-                                         {0, 12, 0},
-                                         {2, 6, 0}}},
-                                       5),
-                           100, 3);
-    expect_the_same_leaves(
-        test::prism({{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {6, 6, 0}, {3, 6, 0}, {0, 6, 0}}}, 5), 100,
-        4);
+    expect_the_same_leaves(test::prism_over_a_star(), 100, 3);
+    expect_the_same_leaves(test::prism_with_straight_corners(), 100, 4);
 }
 
 TEST(MspFractions, KeepLeavesOfResults) {

@@ -22,6 +22,7 @@
 #include <trisect/bsp/solid.h>
 
 #include "engines/engines.h"
+#include "prisms.h"
 #include "support/breps.h"
 #include "support/probes.h"
 
@@ -69,24 +70,9 @@ TEST(MspLocate, PlateWithHoles) {
                      1000, 4);
 }
 
-TEST(MspLocate, PrismOverAStar) {
-    expect_agreement(test::prism({{{0, 0, 0},
-                                   {6, 2, 0},
-                                   {12, 0, 0},
-                                   {10, 6, 0},
-                                   {12, 12, 0},
-                                   {6, 10, 0},
-                                   {0, 12, 0},
-                                   {2, 6, 0}}},
-                                 5),
-                     1000, 5);
-}
+TEST(MspLocate, PrismOverAStar) { expect_agreement(test::prism_over_a_star(), 1000, 5); }
 
-TEST(MspLocate, StraightCorners) {
-    expect_agreement(
-        test::prism({{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {6, 6, 0}, {3, 6, 0}, {0, 6, 0}}}, 5), 500,
-        6);
-}
+TEST(MspLocate, StraightCorners) { expect_agreement(test::prism_with_straight_corners(), 500, 6); }
 
 TEST(MspLocate, CubesThatShareAnEdge) {
     SolidSketch sketch;
