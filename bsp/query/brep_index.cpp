@@ -149,6 +149,7 @@ IndexStats BrepIndex::stats() const {
         }
         const IndexedLeaf& leaf = static_cast<const IndexedLeaf&>(*fact);
         const IndexedLeaf::Stats t = leaf.stats();
+        if (!leaf.is_divided()) ++s.pending_cells;
         s.polygons += leaf.polygons().size();
         s.nodes += t.nodes;
         s.mixed_leaves += t.mixed;

@@ -10,51 +10,20 @@ namespace trisect::detail {
 
 namespace {
 
-// The corners of a convex polygon given by its edges in any order: the points where two edges meet
-// that lie on no wrong side. Only for the rare facets that are cut by a cell; sorted around by the
-// chain of shared edges.
-std::vector<Plane> edges_in_order(const Plane& support, const std::vector<Plane>& edges) {
-    struct Corner {
-        std::size_t a, b;
-        Point point;
-    };
-    std::vector<Corner> corners;
-    for (std::size_t a = 0; a < edges.size(); ++a)
-        for (std::size_t b = a + 1; b < edges.size(); ++b) {
-            if (!meet_in_a_point(support, edges[a], edges[b])) continue;
-            Point p(support, edges[a], edges[b]);
-            const bool kept = std::all_of(edges.begin(), edges.end(), [&](const Plane& e) {
-                return trisect::side_of(p, e) != Side::Above;
-            });
-            const bool known = std::any_of(corners.begin(), corners.end(),
-                                           [&](const Corner& c) { return c.point == p; });
-            if (kept && !known) corners.push_back({a, b, std::move(p)});
-        }
-    if (corners.size() < 3) return {};
-    // Walk: from a corner along one of its edges to the other corner on that edge.
-    std::vector<Plane> out;
-    std::vector<bool> used(edges.size());
-    std::size_t at = 0;
-    for (std::size_t step = 0; step < corners.size(); ++step) {
-        std::size_t next = corners.size();
-        for (std::size_t e = 0; e < edges.size() && next == corners.size(); ++e) {
-            if (used[e] || trisect::side_of(corners[at].point, edges[e]) != Side::On) continue;
-            for (std::size_t c = 0; c < corners.size(); ++c)
-                if (c != at && trisect::side_of(corners[c].point, edges[e]) == Side::On) {
-                    used[e] = true;
-                    out.push_back(edges[e]);
-                    next = c;
-                    break;
-                }
-        }
-        if (next == corners.size()) break;
-        at = next;
-    }
-    // Counter-clockwise seen from above: the triple (support, edge, next edge) turns like the
-    // outward normals of a corner do.
-    if (out.size() >= 3 && sign_of_det(support, out[0], out[1]) < 0)
-        std::reverse(out.begin(), out.end());
-    return out;
+Plane wall(int axis, std::int64_t position) {
+    return Plane::axis_aligned(axis, splitting_scale, position);
+}
+
+// What of a plane is in the universe, as far as walls across its dominant axis say.
+ConvexPolygon universe_on(const Plane& plane) {
+    const int axis = plane.dominant_axis();
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    std::vector<Plane> edges{wall(v, -universe_limit).flipped(), wall(u, universe_limit),
+                             wall(v, universe_limit), wall(u, -universe_limit).flipped()};
+    // Counter-clockwise where the normal points up.
+    if (plane.normal(axis).sign() < 0) std::reverse(edges.begin(), edges.end());
+    return {plane, std::move(edges)};
 }
 
 }  // namespace
@@ -94,32 +63,38 @@ void IndexPolygons::add_planes(const PolygonRef& ref, const Box& box) {
     Convex c;
     c.box = box;
     c.first = static_cast<std::uint32_t>(planes_.size());
+    c.corner = static_cast<std::uint32_t>(corners_.size());
     planes_.push_back(ref.source->support(ref.facet));
-    if (ref.fragment != nullptr)
+    if (ref.fragment != nullptr) {
+        const auto corners = ref.fragment->vertices();
+        corners_.insert(corners_.end(), corners.begin(), corners.end());
         for (const EdgeName& e : ref.fragment->edges()) {
             if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
             const Plane p = e.plane.plane();
             planes_.push_back(e.above ? p.flipped() : p);
         }
+    }
     c.edges = static_cast<std::uint32_t>(planes_.size() - c.first - 1);
     convex_.push_back(c);
 }
 
-PolygonPart IndexPolygons::part(Id id) const {
-    std::array<Plane, 3> storage;
-    const auto own = edges(id, storage);
-    PolygonPart out{support(id), {own.begin(), own.end()}};
+ConvexPolygon IndexPolygons::part(Id id) const {
+    ConvexPolygon out;
+    if (is_triangle(id)) {
+        out = ConvexPolygon::from_triangle(corner(id, 0), corner(id, 1), corner(id, 2));
+    } else if (is_unbounded(id)) {
+        out = universe_on(support(id));
+    } else {
+        const auto planes = edges(id);
+        out = ConvexPolygon(support(id), {planes.begin(), planes.end()});
+    }
     if (!reaches_out(id)) return out;
     const Box box = is_triangle(id) ? source(id).facet_box(facet(id)) : convex(id).box;
-    const bool everywhere = is_unbounded(id);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3 && !out.is_empty(); ++k) {
         const auto kk = static_cast<std::size_t>(k);
-        if (everywhere || box.lo[kk] <= lattice_below(cell_.lo[kk]))
-            out.edges.push_back(Plane::axis_aligned(k, splitting_scale, cell_.lo[kk]).flipped());
-        if (everywhere || box.hi[kk] > lattice_below(cell_.hi[kk]))
-            out.edges.push_back(Plane::axis_aligned(k, splitting_scale, cell_.hi[kk]));
+        if (box.lo[kk] <= lattice_below(cell_.lo[kk])) out = out.clip_above(wall(k, cell_.lo[kk]));
+        if (box.hi[kk] > lattice_below(cell_.hi[kk])) out = out.clip_below(wall(k, cell_.hi[kk]));
     }
-    out.edges = edges_in_order(out.support, out.edges);
     return out;
 }
 
@@ -129,13 +104,6 @@ bool IndexPolygons::enters(Id id) const {
         for (int i = 0; i < 3; ++i)
             if (cell_.contains(Box::of(corner(id, i)))) return true;
     return !part(id).is_empty();
-}
-
-std::vector<Point> PolygonPart::corners() const {
-    std::vector<Point> out;
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        out.emplace_back(support, edges[i == 0 ? edges.size() - 1 : i - 1], edges[i]);
-    return out;
 }
 
 std::span<const Plane> IndexPolygons::edges(Id id, std::array<Plane, 3>& storage) const {
@@ -179,7 +147,8 @@ FaceSource IndexPolygons::face_source(Id id) const { return source(id).name_of(f
 
 std::size_t IndexPolygons::bytes() const {
     return sizeof(*this) + records_.capacity() * sizeof(Record) +
-           convex_.capacity() * sizeof(Convex) + planes_.capacity() * sizeof(Plane);
+           convex_.capacity() * sizeof(Convex) + planes_.capacity() * sizeof(Plane) +
+           corners_.capacity() * sizeof(Approximation);
 }
 
 }  // namespace trisect::detail

@@ -15,20 +15,11 @@
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/query/index/double_box.h>
+#include <trisect/kernel/convex_polygon.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
 
 namespace trisect::detail {
-
-/// A convex polygon by planes: its support, and those below which it lies, counter-clockwise seen
-/// from above the support.
-struct PolygonPart {
-    Plane support;
-    std::vector<Plane> edges;
-
-    [[nodiscard]] bool is_empty() const { return edges.size() < 3; }
-    [[nodiscard]] std::vector<Point> corners() const;
-};
 
 /// Facets and fragments that a leaf lists.
 ///
@@ -39,7 +30,7 @@ struct PolygonPart {
 ///
 /// The number of a facet of a mesh that nothing has happened to is its own: then there is no table
 /// at all. Otherwise a polygon takes 16 bytes, and what is not a whole triangle the planes of its
-/// edges (240 bytes each). The sources must outlive the table.
+/// edges (270 bytes each, with corners in doubles). The sources must outlive the table.
 class IndexPolygons {
 public:
     using Id = std::uint32_t;
@@ -71,9 +62,9 @@ public:
     [[nodiscard]] bool reaches_out(Id id) const {
         return only_ == nullptr && records_[id].reaches_out != 0;
     }
-    /// What of it is in the cell; itself where it does not reach out. Exact, and slow where it
-    /// does.
-    [[nodiscard]] PolygonPart part(Id id) const;
+    /// What of it is in the cell, seen from above the support; itself where it does not reach out.
+    /// Exact: some microseconds. \pre it is bounded, or reaches out.
+    [[nodiscard]] ConvexPolygon part(Id id) const;
     /// Whether it has a point in the open cell.
     [[nodiscard]] bool enters(Id id) const;
     /// Whether outside is below the support of the source's facet.
@@ -106,6 +97,11 @@ public:
     }
     /// Counter-clockwise seen from above the source's support. \pre not unbounded.
     [[nodiscard]] std::vector<Point> corners(Id id) const;
+    /// The same in doubles, of what is no triangle.
+    [[nodiscard]] std::span<const Approximation> approximate_corners(Id id) const {
+        const Convex& c = convex(id);
+        return std::span(corners_).subspan(c.corner, c.edges);
+    }
     /// Contains the polygon, in lattice units; of triangles, no more.
     [[nodiscard]] DoubleBox bounds(Id id) const {
         return is_triangle(id) ? triangle_bounds(id) : bounds(convex(id).box);
@@ -131,6 +127,7 @@ private:
         Box box;
         std::uint32_t first = 0;  // of planes_: support, then edges
         std::uint32_t edges = 0;
+        std::uint32_t corner = 0;  // the first one, of corners_
     };
 
     [[nodiscard]] DoubleBox triangle_bounds(Id id) const;
@@ -144,6 +141,7 @@ private:
     std::vector<Record> records_;
     std::vector<Convex> convex_;
     std::vector<Plane> planes_;
+    std::vector<Approximation> corners_;
     Cell cell_;
 };
 

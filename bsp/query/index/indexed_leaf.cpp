@@ -224,6 +224,7 @@ private:
     void find_sides(const DoubleBox& bounds);
     void find_quantum(const Place& place);
     void make_list();
+    void divide_all();
     [[nodiscard]] static Place place_of(const Cell& cell, const DoubleBox& polygons);
     [[nodiscard]] std::optional<IndexGrid> grid_over(const Place& place, int attempt) const;
     [[nodiscard]] bool make_grid(const IndexGrid& grid, const Place& place);
@@ -262,10 +263,7 @@ void IndexedLeafBuilder::build() {
         for (int attempt = 0; attempt < attempts; ++attempt) {
             const auto grid = grid_over(place, attempt);
             if (!grid || !make_grid(*grid, place)) continue;
-            if (n <= made_at_once) {
-                index_.divide_all();
-                index_.division_.reset();
-            }
+            if (n <= made_at_once) divide_all();
             return;
         }
     }
@@ -290,6 +288,13 @@ void IndexedLeafBuilder::find_quantum(const Place& place) {
     for (std::size_t k = 0; k < 3; ++k)
         reach = std::max({reach, std::fabs(place.lo[k]), std::fabs(place.hi[k])});
     while (reach >= 0x1p51 * quantum_) quantum_ *= 2;
+}
+
+void IndexedLeafBuilder::divide_all() {
+    for (std::size_t cell = 0; cell < index_.roots_.size(); ++cell)
+        if (index_.roots_[cell] == IndexSlot::pending)
+            index_.roots_[cell] = index_.division_->divide(cell);
+    index_.division_.reset();
 }
 
 void IndexedLeafBuilder::make_list() {
@@ -407,11 +412,17 @@ IndexedLeaf::IndexedLeaf(const CellNode& node, const detail::Cell& cell)
     : polygons_(node.polygons(), cell),
       reference_(node.reference()),
       winding_(node.winding() > 0 ? 1 : 0),
-      cells_(polygons_.size()) {
-    IndexedLeafBuilder(*this).build();
+      cells_(polygons_.size()) {}
+
+void IndexedLeaf::build() const {
+    const std::lock_guard lock(dividing());
+    if (divided_.load(std::memory_order_relaxed)) return;
+    // Nobody has seen what is made now.
+    IndexedLeafBuilder(const_cast<IndexedLeaf&>(*this)).build();
+    divided_.store(true, std::memory_order_release);
 }
 
-const IndexedLeaf& indexed_leaf(const CellNode& leaf, const Cell& cell) {
+const IndexedLeaf& listed_leaf(const CellNode& leaf, const Cell& cell) {
     return static_cast<const IndexedLeaf&>(
         leaf.index_fact().get_or([&] { return std::make_unique<const IndexedLeaf>(leaf, cell); }));
 }

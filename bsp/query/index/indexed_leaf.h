@@ -79,6 +79,14 @@ public:
     ~IndexedLeaf() override;
 
     [[nodiscard]] const IndexPolygons& polygons() const { return polygons_; }
+    /// Whether the grid or list is there. What only looks at all polygons needs none.
+    [[nodiscard]] bool is_divided() const { return divided_.load(std::memory_order_acquire); }
+    /// Makes the grid or list. To be called before all that follows.
+    const IndexedLeaf& divided() const {
+        if (!is_divided()) build();
+        return *this;
+    }
+
     /// Null for a list, which is leaf 0, and for a cell that no polygon meets.
     [[nodiscard]] const IndexGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
     /// Of a list: its cell.
@@ -154,6 +162,7 @@ public:
 private:
     friend class IndexedLeafBuilder;
 
+    void build() const;
     [[nodiscard]] std::uint32_t divide(std::size_t cell) const;
     [[nodiscard]] std::mutex& dividing() const;
     [[nodiscard]] bool side_is_inside(std::size_t side) const {
@@ -165,6 +174,8 @@ private:
     IndexPolygons polygons_;
     FinePoint reference_;
     std::int32_t winding_ = 0;
+    mutable std::atomic<bool> divided_{false};
+    // All that follows is made by build().
     // Strictly beyond these, along their axis, the cell has no polygons; infinite where the cell
     // ends before. What is there: 0 outside, 1 inside, -1 not known yet; below and above by axis.
     std::array<double, 3> below_{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -202,7 +213,11 @@ inline IndexedLeaf::Cell IndexedLeaf::cell_at(const IndexGrid::Position& at) con
     return c;
 }
 
-/// The index of a leaf of the cell tree, made when it is first needed.
-[[nodiscard]] const IndexedLeaf& indexed_leaf(const CellNode& leaf, const Cell& cell);
+/// The index of a leaf of the cell tree, made when it is first needed, perhaps without a grid.
+[[nodiscard]] const IndexedLeaf& listed_leaf(const CellNode& leaf, const Cell& cell);
+/// The same, divided.
+[[nodiscard]] inline const IndexedLeaf& indexed_leaf(const CellNode& leaf, const Cell& cell) {
+    return listed_leaf(leaf, cell).divided();
+}
 
 }  // namespace trisect::detail

@@ -28,7 +28,7 @@ struct PolygonId {
     [[nodiscard]] bool is_unbounded() const { return all().is_unbounded(number); }
     [[nodiscard]] bool reaches_out() const { return all().reaches_out(number); }
     [[nodiscard]] bool enters() const { return all().enters(number); }
-    [[nodiscard]] PolygonPart part() const { return all().part(number); }
+    [[nodiscard]] ConvexPolygon part() const { return all().part(number); }
     [[nodiscard]] const LatticePoint& corner(int i) const { return all().corner(number, i); }
     [[nodiscard]] Plane support() const { return all().support(number); }
     [[nodiscard]] Plane outward() const {

@@ -71,9 +71,9 @@ bool meets(const PolygonId& id, const IndexPoint& lo, const IndexPoint& hi) {
             if (lo.compare(k, box.hi[k]) > 0 || hi.compare(k, box.lo[k]) < 0) return false;
     }
     std::vector<Exact> corners;
-    const PolygonPart part = id.part();
+    const ConvexPolygon part = id.part();
     if (part.is_empty()) return false;
-    for (const Point& c : part.corners()) {
+    for (const Point& c : part.vertices()) {
         if (is_in_box(c, lo, hi)) return true;
         corners.push_back(IndexPoint(c).rational());
     }

@@ -50,9 +50,9 @@ struct PlaneFace {
 };
 
 // A point of the interior of what a polygon has in its cell.
-IndexPoint middle_of(const PolygonPart& part) {
+IndexPoint middle_of(const ConvexPolygon& part) {
     IndexPoint::Rational sum;
-    const auto corners = part.corners();
+    const auto corners = part.vertices();
     for (const Point& c : corners) {
         const IndexPoint p(c);
         for (std::size_t k = 0; k < 3; ++k) sum[k] += p.rational()[k];
@@ -176,7 +176,7 @@ void IndexHandles::find_faces() {
              f != faces.end() && f->height <= height + slack; ++f)
             near.push_back(f->face);
         if (near.size() != 1) {
-            const PolygonPart part = id.part();
+            const ConvexPolygon part = id.part();
             if (part.is_empty() && id.reaches_out()) continue;
             const IndexPoint p = middle_of(part);
             std::erase_if(near, [&](FaceId f) {

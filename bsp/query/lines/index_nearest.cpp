@@ -135,10 +135,10 @@ struct ExactPolygon {
     std::vector<Exact> corners;
 };
 
-ExactPolygon exact_polygon(const PolygonPart& part) {
-    ExactPolygon out{part.support, part.edges, {}};
+ExactPolygon exact_polygon(const ConvexPolygon& part) {
+    ExactPolygon out{part.support(), {part.edges().begin(), part.edges().end()}, {}};
     if (!part.is_empty())
-        for (const Point& p : part.corners()) out.corners.push_back(IndexPoint(p).rational());
+        for (const Point& p : part.vertices()) out.corners.push_back(IndexPoint(p).rational());
     return out;
 }
 
@@ -235,12 +235,14 @@ private:
         double distance = 0;
     };
 
-    // The distance from the point to a cell, rounded down a little.
-    [[nodiscard]] double distance_to(const DoubleBox& cell) const {
+    // The distance from the point to what is listed in a cell, rounded down a little.
+    [[nodiscard]] double distance_to(const DoubleBox& cell, const CellNode& node) const {
+        const Box& box = bounds_of(node);
+        if (box.is_empty()) return HUGE_VAL;
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double lo = std::max(cell.lo[k], index_.lo()[k]);
-            const double hi = std::min(cell.hi[k], index_.hi()[k]);
+            const double lo = std::max(cell.lo[k], static_cast<double>(box.lo[k] - 1));
+            const double hi = std::min(cell.hi[k], static_cast<double>(box.hi[k] + 1));
             const double d = std::max({0.0, lo - p_[k], p_[k] - hi});
             sum += d * d;
         }
@@ -279,7 +281,7 @@ private:
             if (at.distance > limit_) continue;
             const CellNode& n = refined(*at.node);
             if (n.is_leaf()) {
-                if (n.size() != 0) visit_tree_leaf(indexed_leaf(n, at.cell), at.turned, at.cell);
+                if (n.size() != 0) visit_tree_leaf(listed_leaf(n, at.cell), at.turned, at.cell);
                 continue;
             }
             const auto child = [&](int i) {
@@ -288,7 +290,7 @@ private:
                             i == 0 ? at.cell.below(n.axis(), n.splitter())
                                    : at.cell.above(n.axis(), n.splitter()),
                             0};
-                out.distance = distance_to(box_of(out.cell));
+                out.distance = distance_to(box_of(out.cell), *out.node);
                 return out;
             };
             Pending near = child(0);
@@ -307,7 +309,11 @@ private:
         turned_ = turned;
         box_ = box_of(cell);
         recent_.fill(IndexPolygons::none);
-        if (leaf.grid() != nullptr) {
+        // Few polygons are looked at faster than they are divided.
+        constexpr std::uint32_t few = 1024;
+        if (!leaf.is_divided() && leaf.polygons().size() <= few) {
+            for (IndexedLeaf::Id id = 0; id < leaf.polygons().size(); ++id) visit(id);
+        } else if (leaf.divided().grid() != nullptr) {
             walk_grid(*leaf.grid(), box_);
         } else if (leaf.polygons().size() != 0) {
             visit_leaf(0);
@@ -446,10 +452,17 @@ private:
     }
 
     [[nodiscard]] std::vector<Vector3> relative_corners(const PolygonId& id, double& error) const {
-        if (!id.is_triangle()) return relative(id.all().corners(id.number), error);
         error = p_.error();
-        const auto c = relative_triangle(id);
-        return {c.begin(), c.end()};
+        if (id.is_triangle()) {
+            const auto c = relative_triangle(id);
+            return {c.begin(), c.end()};
+        }
+        std::vector<Vector3> out;
+        for (const Approximation& a : id.all().approximate_corners(id.number)) {
+            out.push_back(minus(a.c, p_.approximate()));
+            error = std::max(error, p_.error() + a.error);
+        }
+        return out;
     }
 
     // Whether a point is surely in the leaf's cell, with all that is within `slack` of it.
@@ -464,13 +477,17 @@ private:
         return true;
     }
 
-    // Whether the box of a triangle is surely farther than what is known.
-    [[nodiscard]] bool is_box_beyond(const std::array<Vector3, 3>& c) const {
+    // Whether the box of corners is surely farther than what is known.
+    [[nodiscard]] bool is_box_beyond(std::span<const Vector3> corners, double error) const {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double lo = std::min(std::min(c[0][k], c[1][k]), c[2][k]);
-            const double hi = std::max(std::max(c[0][k], c[1][k]), c[2][k]);
-            const double d = std::max(std::max(lo, -hi), 0.0);
+            double lo = HUGE_VAL;
+            double hi = -HUGE_VAL;
+            for (const Vector3& c : corners) {
+                lo = std::min(lo, c[k]);
+                hi = std::max(hi, c[k]);
+            }
+            const double d = std::max(std::max(lo, -hi) - error, 0.0);
             sum += d * d;
         }
         return is_beyond(sum);
@@ -482,19 +499,21 @@ private:
             if (kind_ == NearestKind::Boundary) offer({id, -1, -1, {}});
             return;
         }
-        if (kind_ == NearestKind::Boundary && id.is_triangle()) {
-            // Neighbouring cells list the same triangles.
+        if (kind_ == NearestKind::Boundary) {
+            // Neighbouring cells list the same polygons.
             IndexedLeaf::Id& recent = recent_[number % recent_.size()];
             if (recent == number) return;
             recent = number;
-            const std::array<Vector3, 3> c = relative_triangle(id);
-            if (!is_box_beyond(c)) offer_polygon(id, c, p_.error());
-            return;
+            if (id.is_triangle()) {
+                const std::array<Vector3, 3> c = relative_triangle(id);
+                if (!is_box_beyond(c, 0)) offer_polygon(id, c, p_.error());
+                return;
+            }
         }
         double error = 0;
         const std::vector<Vector3> c = relative_corners(id, error);
         if (kind_ == NearestKind::Boundary) {
-            offer_polygon(id, c, error);
+            if (!is_box_beyond(c, error)) offer_polygon(id, c, error);
             return;
         }
         // What of these is no edge or vertex of the set is found out when it is decided.
@@ -521,10 +540,10 @@ private:
 
     // What of a polygon is in its cell.
     void offer_part(const PolygonId& id) {
-        const PolygonPart part = id.part();
+        const ConvexPolygon part = id.part();
         if (part.is_empty()) return;
         double error = 0;
-        const std::vector<Vector3> c = relative(part.corners(), error);
+        const std::vector<Vector3> c = relative(part.vertices(), error);
         offer({id, -1, -1, bounds_of(c, error)});
     }
 
@@ -532,7 +551,10 @@ private:
         if (f.bounds.lo > limit_) return;
         if (only_bounds_) {
             least_ = std::min(least_, f.bounds.lo);
-            if (f.bounds.hi < limit_ || !best_.is_valid()) best_ = f.polygon;
+            // Of equal ones the first by name, in whatever order they come.
+            if (f.bounds.hi < limit_ || !best_.is_valid() ||
+                (f.bounds.hi == limit_ && f.polygon.name() < best_.name()))
+                best_ = f.polygon;
         }
         if (kind_ == NearestKind::Boundary) {
             limit_ = std::min(limit_, f.bounds.hi);

@@ -145,18 +145,18 @@ private:
             }
         }
         // What of it is in its cell; the cuts cancel or run straight on.
-        const PolygonPart part = id.part();
-        const std::vector<Point> corners = part.corners();
+        const ConvexPolygon part = id.part();
+        const auto corners = part.vertices();
         std::vector<Side> sides;
         for (const Point& c : corners) {
             sides.push_back(trisect::side_of(c, plane_));
             for (const double x : c.nearest())
                 if (std::fabs(x) > 0x1p53) throw UnsupportedError("the section is unbounded");
         }
-        add(id, corners, sides, part.support, part.edges);
+        add(id, corners, sides, part.support(), part.edges());
     }
 
-    void add(const PolygonId& id, const std::vector<Point>& corners, std::span<const Side> sides,
+    void add(const PolygonId& id, std::span<const Point> corners, std::span<const Side> sides,
              const Plane& support, std::span<const Plane> edges) {
         const auto count = [&](Side s) { return std::ranges::count(sides, s); };
         if (count(Side::On) == std::ssize(sides)) {
@@ -185,7 +185,7 @@ private:
     }
 
     // A polygon in the plane that looks up.
-    void add_outline(const PolygonId& id, const std::vector<Point>& corners) {
+    void add_outline(const PolygonId& id, std::span<const Point> corners) {
         if (!same_orientation(id.outward(), plane_)) return;
         for (std::size_t i = 0; i < corners.size(); ++i) {
             Directed d{numbers_.number(corners[i]),
@@ -347,7 +347,8 @@ PlaneRelation relation_to(const IndexCore& core, const Plane& plane) {
         if (id.is_unbounded() && !id.reaches_out()) {
             note_whole_plane(id);
         } else if (id.reaches_out() || !id.is_triangle()) {
-            for (const Point& c : id.part().corners()) note(trisect::side_of(c, plane));
+            for (const ConvexPolygon part = id.part(); const Point& c : part.vertices())
+                note(trisect::side_of(c, plane));
         } else {
             for (int i = 0; i < 3; ++i) note(trisect::side_of(id.corner(i), plane));
         }

@@ -55,7 +55,7 @@ public:
             inside_ = place.inside;
             return;
         }
-        const IndexedLeaf& leaf = *place.leaf;
+        const IndexedLeaf& leaf = place.leaf->divided();
         if (const auto inside = leaf.beyond(p_.approximate(), p_.error())) {
             ++index_counters().empty;
             inside_ = *inside != place.turned;
