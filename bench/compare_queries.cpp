@@ -36,7 +36,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/brep_index.h>
-#include <trisect/bsp/query/points/index_counters.h>
+#include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/diagnostics.h>

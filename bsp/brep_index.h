@@ -243,16 +243,19 @@ struct IndexStats {
     double brep_seconds = 0;  ///< of with_brep
 };
 
-/// An index over the boundary of a solid. Results of evaluate() are indexed from the leaves of
-/// their cell tree; no B-rep is built unless requested.
+/// A view of a solid's cell tree for queries. No B-rep is built unless requested.
 ///
 /// Immutable value; copying shares. Safe to use from many threads. It keeps the solid alive. An
 /// index that was moved from is that of the empty set.
 ///
-/// Cost: building O(n), about 0.1 us a triangle; a query that comes to a part of the boundary where
-/// none was before prepares that part (about 10 us for the next 30 triangles, 0.3 us a triangle
-/// altogether, see refine); `locate` one descent and the polygons of one small cell; a ray the
-/// cells on its way up to its first hit.
+/// What queries prepare is kept with the solid's tree, and shared by all solids that share parts of
+/// it: by a second index, and by results of evaluate(). So an index costs what is new in the tree
+/// since the last one, after a small cut some microseconds; of a solid that no index has seen, the
+/// bounds of all its leaves.
+///
+/// Cost of queries: one that comes to a part of the boundary where none was before prepares that
+/// part (about 10 us for the next 30 triangles, 0.3 us a triangle altogether, see refine); `locate`
+/// one descent and the polygons of one small cell; a ray the cells on its way up to its first hit.
 ///
 /// Solids imported under Embedding::Resolve are resolved first. An import under Embedding::Assume
 /// promises a boundary that does not touch itself in two coincident facets.

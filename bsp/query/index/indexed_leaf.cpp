@@ -28,6 +28,7 @@
 
 #include <trisect/bsp/query/index/double_box.h>
 #include <trisect/bsp/query/index/index_bricks.h>
+#include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/index/index_grid_lists.h>
 #include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/kernel/stop_scope.h>
@@ -423,8 +424,10 @@ void IndexedLeaf::build() const {
 }
 
 const IndexedLeaf& listed_leaf(const CellNode& leaf, const Cell& cell) {
-    return static_cast<const IndexedLeaf&>(
-        leaf.index_fact().get_or([&] { return std::make_unique<const IndexedLeaf>(leaf, cell); }));
+    return static_cast<const IndexedLeaf&>(leaf.index_fact().get_or([&] {
+        ++index_counters().leaves;
+        return std::make_unique<const IndexedLeaf>(leaf, cell);
+    }));
 }
 
 }  // namespace trisect::detail

@@ -196,7 +196,10 @@ NearestPart surely_nearest(const std::array<Vector3, 3>& c, double error) {
 class NearestSearch {
 public:
     NearestSearch(const IndexCore& core, const IndexPoint& point, NearestKind kind)
-        : core_(core), index_(*core.base), p_(point), kind_(kind) {}
+        : core_(core), index_(*core.base), p_(point), kind_(kind) {
+        for (std::size_t k = 0; k < 3; ++k)
+            reach_ = std::max({reach_, -index_.lo()[k], index_.hi()[k]});
+    }
 
     [[nodiscard]] std::optional<Nearest> run() {
         walk();
@@ -459,6 +462,8 @@ private:
         }
         std::vector<Vector3> out;
         for (const Approximation& a : id.all().approximate_corners(id.number)) {
+            // Nearly parallel planes: with more effort they are known better.
+            if (a.error > 0x1p-42 * reach_) return relative(id.all().corners(id.number), error);
             out.push_back(minus(a.c, p_.approximate()));
             error = std::max(error, p_.error() + a.error);
         }
@@ -711,6 +716,7 @@ private:
     const IndexBase& index_;
     const IndexPoint& p_;
     NearestKind kind_;
+    double reach_ = 0;         // the largest coordinate
     double limit_ = HUGE_VAL;  // nothing beyond can be the nearest
     std::vector<Feature> features_;
     std::vector<Feature> doubtful_;  // that what is of them in their cells may be needed of

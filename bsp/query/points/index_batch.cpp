@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <trisect/bsp/query/index/index_core.h>
-#include <trisect/bsp/query/points/index_counters.h>
+#include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/points/index_in_leaf.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>

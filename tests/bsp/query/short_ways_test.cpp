@@ -9,7 +9,7 @@
 
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/query/points/index_counters.h>
+#include <trisect/bsp/query/index/index_counters.h>
 
 #include "support/lattice_arithmetic.h"
 #include "support/query_oracle.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Counters of the stages of point location, per thread.
+// Counters of what queries do, per thread.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@ struct IndexCounters {
     std::uint64_t traced = 0;  ///< by a segment to such a corner, in single precision
     std::uint64_t exact = 0;   ///< by a segment to a known point, past some polygon exactly
     std::uint64_t on = 0;      ///< on a polygon
+    std::uint64_t leaves = 0;  ///< of cell trees, whose polygons were prepared
 };
 
 inline constinit thread_local IndexCounters index_counters_of_thread;
