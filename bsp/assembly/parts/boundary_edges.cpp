@@ -279,9 +279,10 @@ private:
                 const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
                 group.push_back({f.source, f.facet, f.flipped, e.from < e.to});
             }
-            for (const WholeFacetEdge& w :
-                 std::ranges::equal_range(whole_, here[i].first, {}, &WholeFacetEdge::ends))
-                group.push_back(w.edge);
+            const auto first =
+                std::ranges::lower_bound(whole_, here[i].first, {}, &WholeFacetEdge::ends);
+            for (auto w = first; w != whole_.end() && w->ends == here[i].first; ++w)
+                group.push_back(w->edge);
             const bool cross = cross_straight(group);
             for (; i < j; ++i)
                 if (cross) gone_[here[i].second] = false;

@@ -18,10 +18,10 @@
 #include <bit>
 #include <cmath>
 
+#include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/index/index_regions.h>
 #include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/bsp/query/index/index_windings.h>
-#include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/kernel/counters.h>
 
 namespace trisect::detail {

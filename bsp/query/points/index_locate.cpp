@@ -6,8 +6,8 @@
 
 #include <trisect/bsp/query/index/branch_block.h>
 #include <trisect/bsp/query/index/index_core.h>
-#include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/bsp/query/index/index_counters.h>
+#include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/bsp/query/points/index_in_leaf.h>
 
 namespace trisect::detail {
