@@ -5,10 +5,12 @@
 // nearest point and placement of another solid; from time to time many points of the version as it
 // is.
 //
-//     chain_queries [--level N] [--cuts N] [--every N] [--path] [--no-interference]
+//     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined]
+//                   [--no-interference]
 //
-// --level: the stock has 20 · 4^N triangles. --path: cuts follow each other instead of lying all
-// over the stock. --every: after so many cuts 20,000 points, and a fresh index beside.
+// --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
+// cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
+// points, and a fresh index beside.
 
 #include <algorithm>
 #include <chrono>
@@ -114,6 +116,7 @@ struct Options {
     int cuts = 300;
     int every = 100;
     bool path = false;
+    bool refined = true;
     bool interference = true;
 };
 
@@ -130,6 +133,8 @@ Options parsed(int argc, char** argv) {
             o.every = std::max(1, number());
         } else if (arg == "--path") {
             o.path = true;
+        } else if (arg == "--unrefined") {
+            o.refined = false;
         } else if (arg == "--no-interference") {
             o.interference = false;
         } else {
@@ -172,6 +177,8 @@ public:
           radius_(std::sqrt(300.0 / (5 * std::pow(4, o.level)))),
           ball_(shapes::icosphere(3)),
           holder_(solid_of(on_grid(scaled(shapes::icosphere(4), 0.25)))) {
+        if (o.refined) stock_.refine();
+        (void)BrepIndex(stock_);
         if (o.interference) holder_model_.emplace(holder_);
     }
 

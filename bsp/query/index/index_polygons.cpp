@@ -54,28 +54,12 @@ void IndexPolygons::add(const PolygonRef& ref) {
     whole_ = whole_ && ref.source->is_whole();
     if (ref.fragment != nullptr || ref.source->is_half_space()) {
         r.convex = static_cast<std::uint32_t>(convex_.size()) & triangle;
-        add_planes(ref, box);
+        convex_.push_back({box, ref.fragment});
+        if (ref.fragment != nullptr)
+            for (const EdgeName& e : ref.fragment->edges())
+                if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
     }
     records_.push_back(r);
-}
-
-void IndexPolygons::add_planes(const PolygonRef& ref, const Box& box) {
-    Convex c;
-    c.box = box;
-    c.first = static_cast<std::uint32_t>(planes_.size());
-    c.corner = static_cast<std::uint32_t>(corners_.size());
-    planes_.push_back(ref.source->support(ref.facet));
-    if (ref.fragment != nullptr) {
-        const auto corners = ref.fragment->vertices();
-        corners_.insert(corners_.end(), corners.begin(), corners.end());
-        for (const EdgeName& e : ref.fragment->edges()) {
-            if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
-            const Plane p = e.plane.plane();
-            planes_.push_back(e.above ? p.flipped() : p);
-        }
-    }
-    c.edges = static_cast<std::uint32_t>(planes_.size() - c.first - 1);
-    convex_.push_back(c);
 }
 
 ConvexPolygon IndexPolygons::part(Id id) const {
@@ -85,8 +69,7 @@ ConvexPolygon IndexPolygons::part(Id id) const {
     } else if (is_unbounded(id)) {
         out = universe_on(support(id));
     } else {
-        const auto planes = edges(id);
-        out = ConvexPolygon(support(id), {planes.begin(), planes.end()});
+        out = ConvexPolygon(support(id), edges(id));
     }
     if (!reaches_out(id)) return out;
     const Box box = is_triangle(id) ? source(id).facet_box(facet(id)) : convex(id).box;
@@ -106,13 +89,19 @@ bool IndexPolygons::enters(Id id) const {
     return !part(id).is_empty();
 }
 
-std::span<const Plane> IndexPolygons::edges(Id id, std::array<Plane, 3>& storage) const {
-    if (!is_triangle(id)) return edges(id);
-    const Source& s = source(id);
-    const Plane plane = s.support(facet(id));
-    for (int i = 0; i < 3; ++i)
-        storage[static_cast<std::size_t>(i)] = s.edge_plane(facet(id), i, plane);
-    return storage;
+std::vector<Plane> IndexPolygons::edges(Id id) const {
+    std::vector<Plane> out;
+    if (is_triangle(id)) {
+        const Source& s = source(id);
+        const Plane plane = s.support(facet(id));
+        for (int i = 0; i < 3; ++i) out.push_back(s.edge_plane(facet(id), i, plane));
+    } else if (const Fragment* const fragment = convex(id).fragment) {
+        for (const EdgeName& e : fragment->edges()) {
+            const Plane p = e.plane.plane();
+            out.push_back(e.above ? p.flipped() : p);
+        }
+    }
+    return out;
 }
 
 std::vector<Point> IndexPolygons::corners(Id id) const {
@@ -147,8 +136,7 @@ FaceSource IndexPolygons::face_source(Id id) const { return source(id).name_of(f
 
 std::size_t IndexPolygons::bytes() const {
     return sizeof(*this) + records_.capacity() * sizeof(Record) +
-           convex_.capacity() * sizeof(Convex) + planes_.capacity() * sizeof(Plane) +
-           corners_.capacity() * sizeof(Approximation);
+           convex_.capacity() * sizeof(Convex);
 }
 
 }  // namespace trisect::detail

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <optional>
 
+#include <trisect/bsp/query/index/line_through.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -372,6 +373,15 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
     const int p_side = p.side_of(support);
     if (p_side == 0) return is_on(polygons, id, p) ? Passing::On : Passing::None;
     if (reference_side(r, support) == p_side) return Passing::None;
+    Vector3 way{};
+    for (std::size_t k = 0; k < 3; ++k) way[k] = r.c[k] - p[k];
+    const LineThrough line(p.approximate(), p.error(), way,
+                           p.error() + r.error + largest_component(way) * unit_roundoff);
+    if (const int through = line.of(polygons.approximate_corners(id)); through != 0) {
+        ++detail::counters_of_thread<PredicateCounters>.filtered;
+        if (through < 0) return Passing::None;
+        return p_side < 0 ? Passing::Entering : Passing::Leaving;
+    }
     for (const Plane& edge : polygons.edges(id)) {
         // Ends on one side of the edge decide without the meeting point.
         const auto a = filtered_side(p.approximation(), edge);

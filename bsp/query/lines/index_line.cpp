@@ -16,6 +16,7 @@
 #include <limits>
 #include <utility>
 
+#include <trisect/bsp/query/index/line_through.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -220,8 +221,7 @@ ExactPart exact_part(const IndexLine& line, const Plane& support, std::span<cons
 }
 
 LineContact meet_exactly(const IndexPolygons& polygons, Id id, const IndexLine& line) {
-    std::array<Plane, 3> storage;
-    const auto edges = polygons.edges(id, storage);
+    const std::vector<Plane> edges = polygons.edges(id);
     const Plane support = polygons.support(id);
     const ExactPart part = exact_part(line, support, edges);
     if (!part.exists) return {};
@@ -293,28 +293,20 @@ Ball slope_of(const Plane& plane, const IndexLine& line) {
     return linear_value(plane, 0, line.direction(), line.direction_error());
 }
 
-int meet_convex(const Plane& support, std::span<const Plane> edges, const IndexLine& line,
-                LineContact& contact) {
+// The same for a fragment, by its corners in doubles; its support is made for what may be hit only.
+int meet_fragment(const IndexPolygons& polygons, Id id, const IndexLine& line,
+                  LineContact& contact) {
+    const LineThrough through(line.origin().approximate(), line.origin().error(), line.direction(),
+                              line.direction_error());
+    const int side = through.of(polygons.approximate_corners(id));
+    if (side < 0) return -1;
+    const Plane support = polygons.support(id);
     const Ball at = value_of(support, line.origin());
     const Ball slope = slope_of(support, line);
     const QuotientRange t = quotient(-at.value, at.error, slope.value, slope.error);
     if (!t.known) return 0;
     if (t.hi < 0 || t.lo > line.limit()) return -1;
-    bool sure = t.lo >= 0 && t.hi <= line.limit();
-    const double mid = 0.5 * (t.lo + t.hi);
-    const double half = 0.5 * (t.hi - t.lo) * 1.001 + std::fabs(mid) * 0x1p-51;
-    for (const Plane& edge : edges) {
-        const Ball e = value_of(edge, line.origin());
-        const Ball s = slope_of(edge, line);
-        const double value = e.value + mid * s.value;
-        const double error =
-            (e.error + std::fabs(mid) * s.error + half * (std::fabs(s.value) + s.error) +
-             (std::fabs(e.value) + std::fabs(mid * s.value)) * 0x1p-51) *
-            1.001;
-        if (value > error) return -1;
-        if (!(value < -error)) sure = false;
-    }
-    if (!sure) return 0;
+    if (side == 0 || t.lo < 0 || t.hi > line.limit()) return 0;
     contact = {LineContact::Kind::Crossing, t.lo, t.hi};
     return 1;
 }
@@ -400,7 +392,7 @@ LineContact meet(const IndexPolygons& polygons, Id id, const IndexLine& line) {
         known = meet_triangle(polygons.corner(id, 0).doubles(), polygons.corner(id, 1).doubles(),
                               polygons.corner(id, 2).doubles(), line, contact);
     } else {
-        known = meet_convex(polygons.support(id), polygons.edges(id), line, contact);
+        known = polygons.is_unbounded(id) ? 0 : meet_fragment(polygons, id, line, contact);
     }
     if (known != 0) {
         detail::counters_of_thread<PredicateCounters>.filtered += 3;
@@ -416,8 +408,8 @@ ContactEnds ends_of(const IndexPolygons& polygons, Id id, const IndexLine& line,
         const RayParameter t = line.meet(support);
         return {t, t};
     }
-    std::array<Plane, 3> storage;
-    const ExactPart part = exact_part(line, support, polygons.edges(id, storage));
+    const std::vector<Plane> edges = polygons.edges(id);
+    const ExactPart part = exact_part(line, support, edges);
     ContactEnds ends{line.begin(), line.end()};
     if (part.enter_plane != nullptr) ends.enter = line.meet(*part.enter_plane);
     if (part.leave_plane != nullptr) ends.leave = line.meet(*part.leave_plane);

@@ -691,9 +691,7 @@ private:
             return nearest_on_edge(polygon.corners, part.number);
         polygon.support = id.support();
         if (part.kind == NearestPart::Kind::Face) return foot_on(polygon.support);
-        std::array<Plane, 3> storage;
-        const auto edges = id.all().edges(id.number, storage);
-        polygon.edges.assign(edges.begin(), edges.end());
+        polygon.edges = id.all().edges(id.number);
         return nearest_on(polygon);
     }
 

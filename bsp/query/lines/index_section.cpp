@@ -138,9 +138,8 @@ private:
             // What touches the plane from below is no part of the section.
             if (is(Side::Above) == 3 || (is(Side::Above) == 0 && is(Side::On) != 3)) return;
             if (!id.reaches_out()) {
-                std::array<Plane, 3> storage;
                 add(id, id.all().corners(id.number), sides, id.support(),
-                    id.all().edges(id.number, storage));
+                    id.all().edges(id.number));
                 return;
             }
         }
