@@ -424,6 +424,10 @@ void IndexedLeaf::build() const {
 }
 
 const IndexedLeaf& listed_leaf(const CellNode& leaf, const Cell& cell) {
+    if (const NodeFact* const there = leaf.index_fact().get())
+        return static_cast<const IndexedLeaf&>(*there);
+    // A deferred leaf is arranged before the slot is locked.
+    (void)leaf.polygons();
     return static_cast<const IndexedLeaf&>(leaf.index_fact().get_or([&] {
         ++index_counters().leaves;
         return std::make_unique<const IndexedLeaf>(leaf, cell);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LineThrough: the way of a line past a convex polygon, in doubles.
+// LineThrough: a line beside or through convex polygons, in doubles.
 #pragma once
 
 #include <algorithm>
