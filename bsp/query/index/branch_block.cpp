@@ -14,12 +14,14 @@ namespace {
 // Its last bits are 0.
 constexpr double no_wall = 0x1p1000;
 
-// Of what was an inner node, perhaps by its refinement, when the block was made.
-const CellNode& inner(const CellNode& node) { return node.is_leaf() ? *node.refinement() : node; }
-
 }  // namespace
 
 const BranchBlock& BranchBlock::of(const CellNode& node) {
+    // The block looks at facts of leaves, which may have the same lock.
+    for (int i = 0; node.index_fact().get() == nullptr && i < 2; ++i) {
+        const CellNode& child = refined(*node.child(i).node);
+        for (int j = 0; !child.is_leaf() && j < 2; ++j) (void)refined(*child.child(j).node);
+    }
     return static_cast<const BranchBlock&>(
         node.index_fact().get_or([&] { return std::make_unique<const BranchBlock>(node); }));
 }
@@ -47,7 +49,7 @@ BranchBlock::Next BranchBlock::find_next(int way) const {
     for (int level = 2; level >= 0; --level) {
         if (walls_[at] == no_wall) break;
         const int side = way >> level & 1;
-        const CellRef& child = inner(*node).child(side);
+        const CellRef& child = refined(*node).child(side);
         turned = turned != child.complemented;
         node = child.node.get();
         at = 2 * at + 1 + static_cast<std::size_t>(side);

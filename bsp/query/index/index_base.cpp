@@ -15,13 +15,8 @@ namespace trisect::detail {
 
 namespace {
 
-struct BoundsFact final : NodeFact {
-    Box box;
-};
-
-const Box* known_bounds(const CellNode& node) {
-    const NodeFact* const fact = node.bounds_fact().get();
-    return fact != nullptr ? &static_cast<const BoundsFact*>(fact)->box : nullptr;
+const NodeBounds* known_bounds(const CellNode& node) {
+    return static_cast<const NodeBounds*>(node.bounds_fact().get());
 }
 
 void add(Box& box, const PolygonList& list) {
@@ -44,13 +39,15 @@ Box leaf_bounds(const CellNode& leaf) {
     return box;
 }
 
-const Box& keep_bounds(const CellNode& node, const Box& box) {
+const NodeBounds& keep_bounds(const CellNode& node, const Box& box) {
     const auto make = [&] {
-        auto fact = std::make_unique<BoundsFact>();
+        auto fact = std::make_unique<NodeBounds>();
         fact->box = box;
+        const CellNode* const refinement = node.is_leaf() ? node.refinement() : nullptr;
+        fact->queried = refinement != nullptr ? refinement : &node;
         return fact;
     };
-    return static_cast<const BoundsFact&>(node.bounds_fact().get_or(make)).box;
+    return static_cast<const NodeBounds&>(node.bounds_fact().get_or(make));
 }
 
 // A boundary that may cross itself is made free of that first.
@@ -60,8 +57,8 @@ Solid resolved(const Solid& solid) {
 
 }  // namespace
 
-const Box& bounds_of(const CellNode& node) {
-    if (const Box* const known = known_bounds(node)) return *known;
+const NodeBounds& node_bounds(const CellNode& node) {
+    if (const NodeBounds* const known = known_bounds(node)) return *known;
     // Children first; nodes are put off until theirs are known.
     std::vector<const CellNode*> pending{&node};
     for (;;) {
@@ -73,15 +70,15 @@ const Box& bounds_of(const CellNode& node) {
             const std::size_t before = pending.size();
             for (int i = 0; i < 2; ++i) {
                 const CellNode* const child = n.child(i).node.get();
-                if (const Box* const known = known_bounds(*child)) {
-                    if (!known->is_empty()) box.add(*known);
+                if (const NodeBounds* const known = known_bounds(*child)) {
+                    if (!known->box.is_empty()) box.add(known->box);
                 } else {
                     pending.push_back(child);
                 }
             }
             if (pending.size() != before) continue;
         }
-        const Box& kept = keep_bounds(n, box);
+        const NodeBounds& kept = keep_bounds(n, box);
         pending.pop_back();
         if (pending.empty()) return kept;
     }

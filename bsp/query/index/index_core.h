@@ -118,14 +118,20 @@ void classify_batch(const IndexBase& index, std::span<const std::array<double, 3
 /// looked for.
 [[nodiscard]] Place place_on(std::vector<PolygonId>& on);
 
-/// Of a node: a box of positions that contains the polygons below. A fact of the node.
-[[nodiscard]] const Box& bounds_of(const CellNode& node);
+/// What queries take a node for: made once, so that all of them go the same way from then on.
+struct NodeBounds final : NodeFact {
+    Box box;                            ///< of positions; contains the polygons below
+    const CellNode* queried = nullptr;  ///< the node, or a leaf's refinement if there was one
+};
 
-/// The node itself, or its refinement where there is one and no index yet.
+/// Made with those of all nodes below, where they are not there yet.
+[[nodiscard]] const NodeBounds& node_bounds(const CellNode& node);
+
+[[nodiscard]] inline const Box& bounds_of(const CellNode& node) { return node_bounds(node).box; }
+
+/// The node that a query goes on with: always the same one.
 [[nodiscard]] inline const CellNode& refined(const CellNode& node) {
-    if (!node.is_leaf() || node.index_fact().get() != nullptr) return node;
-    const CellNode* const refinement = node.refinement();
-    return refinement != nullptr ? *refinement : node;
+    return node.is_leaf() ? *node_bounds(node).queried : node;
 }
 
 template <class Visit>

@@ -230,6 +230,27 @@ TEST(QueriesOfChains, ACutMakesFewLeavesNewInPartsOfAnySize) {
     EXPECT_LE(of_330k, 40U);
 }
 
+// An index that was made before its solid was refined, and one with handles that was made after.
+TEST(QueriesOfChains, RefiningBetweenTwoIndicesMakesNoDifference) {
+    for (const bool used_before : {false, true}) {
+        const PolygonMesh mesh = on_grid(trisect::make_icosphere(1, 5), 0x1p-10, {});
+        const Solid stock = imported(mesh);
+        const BrepIndex before(stock);
+        if (used_before) (void)before.locate(mesh.points[0]);
+        stock.refine();
+        const BrepIndex after = BrepIndex(stock).with_brep();
+        for (std::size_t i = 0; i < mesh.points.size(); i += 100) {
+            const Place plain = before.locate(mesh.points[i]);
+            const Place named = after.locate(mesh.points[i]);
+            ASSERT_EQ(plain.location, Location::OnVertex);
+            ASSERT_EQ(named.location, Location::OnVertex);
+            ASSERT_TRUE(named.vertex.is_valid());
+            ASSERT_EQ(plain.faces, named.faces);
+            ASSERT_EQ(plain.corner, named.corner);
+        }
+    }
+}
+
 TEST(QueriesOfChains, ThreadsMayUseAVersionThatWasJustMade) {
     Random random(5);
     Solid stock = imported(on_grid(trisect::make_icosphere(1, 5), 0x1p-10, {}));
