@@ -34,8 +34,12 @@ public:
         return ObbChild(leaf_bit | first << 3 | count);
     }
     /// A node that is still to be made. `what` is a number of its source, below 2^30.
-    [[nodiscard]] static ObbChild pending(std::uint32_t what) { return ObbChild(pending_bit | what); }
-    [[nodiscard]] bool is_pending() const { return (code_ & (leaf_bit | pending_bit)) == pending_bit; }
+    [[nodiscard]] static ObbChild pending(std::uint32_t what) {
+        return ObbChild(pending_bit | what);
+    }
+    [[nodiscard]] bool is_pending() const {
+        return (code_ & (leaf_bit | pending_bit)) == pending_bit;
+    }
     [[nodiscard]] std::uint32_t pending() const { return code_ & ~pending_bit; }
     [[nodiscard]] bool is_leaf() const { return (code_ & leaf_bit) != 0; }
     [[nodiscard]] std::uint32_t node() const { return code_; }

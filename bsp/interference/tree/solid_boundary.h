@@ -30,11 +30,11 @@ public:
     /// Where a triangle is from.
     struct Origin {
         const LeafBoxes* leaf = nullptr;
-        std::uint32_t place = 0;  ///< in the order of the leaf's tree
-        bool turned = false;      ///< the leaf is read as that of a complement
+        std::uint32_t triangle = 0;  ///< of the leaf
+        bool turned = false;         ///< the leaf is read as that of a complement
 
         [[nodiscard]] PolygonId polygon() const {
-            return {&leaf->leaf(), leaf->polygon_of(place), turned};
+            return {&leaf->leaf(), leaf->polygon_of(triangle), turned};
         }
     };
     [[nodiscard]] Origin origin(std::uint32_t triangle) const;
@@ -55,26 +55,27 @@ public:
         const CellNode* node = nullptr;
         Cell cell;
         bool turned = false;
-        [[nodiscard]] const LeafBoxes& boxes() const { return leaf_boxes(*node, cell); }
+        [[nodiscard]] const BoxedLeaf& boxed() const { return boxed_leaf(*node, cell); }
     };
-    /// What is below a box: the one leaf of the cell tree, or null where there is an inner node of
-    /// it. \pre the box is one of the upper ones
-    [[nodiscard]] const LeafAt* leaf_below(ObbId id) const;
-    /// Whether the box is that of a node of the cell tree.
-    [[nodiscard]] bool is_upper(ObbId id) const { return part_of_[id.index] != none; }
+    /// The leaf of which a box is the hull; null for boxes above. \pre one of these
+    [[nodiscard]] const LeafAt* leaf_of_hull(ObbId id) const {
+        const Part& p = parts_[part_of_[id.index]];
+        return p.is_hull ? &p.at : nullptr;
+    }
 
 private:
     // A node of the cell tree.
     struct Part {
         LeafAt at;  // or an inner node
         DoubleBox box;
+        bool is_hull = false;  // of a leaf, after its bounds
     };
-    // Of a leaf's tree, below a box that is still closed.
+    // What is below a box of a leaf that is still closed.
     struct Inner {
         std::uint32_t leaf = 0;  // of leaves_
-        std::uint32_t node = 0;
+        const LeafTree::Node* node = nullptr;
+        std::uint32_t lane = 0;
     };
-    // Triangles from `first` on are of this leaf.
     struct OpenedLeaf {
         const LeafBoxes* boxes = nullptr;
         bool turned = false;
@@ -87,19 +88,25 @@ private:
     [[nodiscard]] Part part(const CellNode& node, const Cell& cell, bool turned) const;
     [[nodiscard]] std::uint32_t add_node(ObbId above);
     void open_cells(const Part& part, std::uint32_t node);
+    void open_hull(const Part& part, std::uint32_t node);
     void open_leaf(const Part& part, std::uint32_t node);
-    void open_inner(const Inner& inner, std::uint32_t node);
+    void take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node);
     void put_box(std::uint32_t node, std::uint32_t lane, const DoubleBox& box);
-    [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane, const ObbTree& tree,
+    [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane,
+                               const std::array<double, 3>& origin, double unit,
                                const OrientedBox& box);
+    void add_triangle(std::uint32_t leaf, std::uint32_t triangle);
 
     IndexBase base_;
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_;  // of parts_, by the index of an ObbId; or none
     std::vector<OpenedLeaf> leaves_;
-    std::vector<Inner> inner_;            // what is pending below boxes of leaves
-    std::vector<std::uint32_t> leaf_of_;  // of leaves_, by triangle
-    std::vector<std::uint32_t> place_of_;  // in the leaf's tree, by triangle
+    std::vector<Inner> inner_;  // what is pending below boxes of leaves
+    struct TriangleOf {
+        std::uint32_t leaf = 0;  // of leaves_
+        std::uint32_t triangle = 0;
+    };
+    std::vector<TriangleOf> triangle_of_;  // of leaves, by the numbers here
 };
 
 }  // namespace trisect::detail
