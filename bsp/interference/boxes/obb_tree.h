@@ -139,6 +139,23 @@ public:
     virtual std::uint32_t open(ObbId id) = 0;
 };
 
+/// Which boxes of a tree are other ones than before.
+class ChangedBoxes {
+public:
+    /// Of a tree with so many nodes.
+    explicit ChangedBoxes(std::size_t nodes) : gone_(nodes, false), other_(4 * nodes, false) {}
+    void set_gone(std::uint32_t node) { gone_[node] = true; }
+    void set_other(ObbId id) { other_[id.index] = true; }
+    /// Whether the box is no more.
+    [[nodiscard]] bool is_gone(ObbId id) const { return gone_[id.node()]; }
+    /// Whether it is around something else.
+    [[nodiscard]] bool is_other(ObbId id) const { return other_[id.index]; }
+
+private:
+    std::vector<bool> gone_;
+    std::vector<bool> other_;
+};
+
 /// A boundary as walks see it.
 struct BoxedTriangles {
     const ObbTree* tree = nullptr;

@@ -44,16 +44,16 @@ bool is_empty(const DoubleBox& b) {
 
 }  // namespace
 
-SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
-    lattice = base_.lattice();
-    const CellNode& root = refined(*base_.root().node);
+SolidBoundary::SolidBoundary(const Solid& solid) : base_(std::make_unique<const IndexBase>(solid)) {
+    lattice = base_->lattice();
+    const CellNode& root = refined(*base_->root().node);
     if (root.size() == 0) {
-        if (base_.solid().is_whole_space())
+        if (base_->solid().is_whole_space())
             throw UnsupportedError("interference of an unbounded solid");
         return;
     }
     find_bounds();
-    if (base_.is_inside_beyond() || !(largest < 0x1p60))
+    if (base_->is_inside_beyond() || !(largest < 0x1p60))
         throw UnsupportedError("interference of an unbounded solid");
     set_frame();
     parts_.reserve(64);
@@ -62,7 +62,7 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
     boxes.parent.reserve(64);
     inner_.reserve(128);
     boxes.source = this;
-    parts_.push_back(part(root, Cell{}, base_.root().complemented));
+    parts_.push_back(part(root, Cell{}, base_->root().complemented));
     const std::uint32_t node = add_node(ObbId{});
     put_box(node, 0, parts_[0].box);
     part_of_[0] = 0;
@@ -70,11 +70,12 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
 }
 
 // Of a node: its bounds in its cell.
-SolidBoundary::Part SolidBoundary::part(const CellNode& node, const Cell& cell, bool turned) const {
+SolidBoundary::Part SolidBoundary::part(const IndexBase& base, const CellNode& node,
+                                        const Cell& cell, bool turned) {
     Part p{{&node, cell, turned}, {}, false};
     const Box& bounds = bounds_of(node);
     const DoubleBox walls = box_of(cell);
-    const bool whole = state_of(base_.solid())->whole;
+    const bool whole = state_of(base.solid())->whole;
     for (std::size_t k = 0; k < 3; ++k) {
         const double room = whole ? 0 : 1;
         p.box.lo[k] = std::max(static_cast<double>(bounds.lo[k]) - room,
@@ -96,11 +97,11 @@ void SolidBoundary::find_bounds() {
             all.hi[k] = std::max(all.hi[k], b.hi[k]);
         }
     };
-    if (base_.is_bounded()) {
-        add(part(refined(*base_.root().node), Cell{}, false).box);
+    if (base_->is_bounded()) {
+        add(part(refined(*base_->root().node), Cell{}, false).box);
     } else {
         for_tree_leaves(
-            base_, [](const DoubleBox&) { return true; },
+            *base_, [](const DoubleBox&) { return true; },
             [&](const LeafInTree& leaf) {
                 if (leaf.node.size() == 0) return;
                 const DoubleBox box = part(leaf.node, leaf.cell, false).box;
@@ -112,7 +113,7 @@ void SolidBoundary::find_bounds() {
     for (std::size_t k = 0; k < 3; ++k)
         largest = std::max({largest, std::fabs(lo[k]), std::fabs(hi[k])});
     // Those of leaves are smaller, or the same.
-    const CellNode& root = refined(*base_.root().node);
+    const CellNode& root = refined(*base_->root().node);
     const bool is_mesh =
         root.is_leaf() && boxed_leaf(root, Cell{}).boxes().polygons().only_source() != nullptr;
     position_error = is_mesh ? 0 : clipped_error * largest;

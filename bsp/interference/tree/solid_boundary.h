@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <trisect/bsp/interference/relation/boundary.h>
@@ -24,7 +26,13 @@ public:
     /// that must be resolved.
     explicit SolidBoundary(const Solid& solid);
 
-    [[nodiscard]] const IndexBase& base() const { return base_; }
+    /// Goes on with another solid, keeping the boxes of all nodes that both have: nearly all after
+    /// a cut. Which boxes are other ones; or nothing, and nothing has changed, where a new boundary
+    /// should be made: for a solid that is empty or not within the bounds of this one, or on
+    /// another lattice, and when too much has been replaced.
+    [[nodiscard]] std::optional<ChangedBoxes> replace(const Solid& solid);
+
+    [[nodiscard]] const IndexBase& base() const { return *base_; }
     [[nodiscard]] bool is_empty() const { return boxes.is_empty(); }
 
     /// Where a triangle is from.
@@ -85,7 +93,14 @@ private:
     std::uint32_t open(ObbId id) override;
     void find_bounds();
     void set_frame();
-    [[nodiscard]] Part part(const CellNode& node, const Cell& cell, bool turned) const;
+    [[nodiscard]] static Part part(const IndexBase& base, const CellNode& node, const Cell& cell,
+                                   bool turned);
+    [[nodiscard]] Part part(const CellNode& node, const Cell& cell, bool turned) const {
+        return part(*base_, node, cell, turned);
+    }
+    void update(ObbId id, const Part& next, ChangedBoxes& changed);
+    [[nodiscard]] bool update_cells(std::uint32_t node, const Part& next, ChangedBoxes& changed);
+    void drop(std::uint32_t node, ChangedBoxes& changed);
     [[nodiscard]] std::uint32_t add_node(ObbId above);
     void open_cells(const Part& part, std::uint32_t node);
     void open_hull(const Part& part, std::uint32_t node);
@@ -97,7 +112,8 @@ private:
                                const OrientedBox& box);
     void add_triangle(std::uint32_t leaf, std::uint32_t triangle);
 
-    IndexBase base_;
+    std::unique_ptr<const IndexBase> base_;
+    std::uint32_t dropped_ = 0;  // nodes that are no more
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_;  // of parts_, by the index of an ObbId; or none
     std::vector<OpenedLeaf> leaves_;
