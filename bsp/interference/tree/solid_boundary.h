@@ -55,6 +55,10 @@ public:
     [[nodiscard]] bool is_alone_at(std::uint32_t triangle, const std::array<double, 3>& point,
                                    double reach) const override;
 
+    /// Boxes that contain the boundary, `most` of them or fewer; of a solid whose tree is one leaf,
+    /// those of its points in the cells of a grid. O(most), or O(n) for the latter.
+    [[nodiscard]] std::vector<DoubleBox> outline(std::size_t most) const;
+
     /// The numbers of all triangles, every node being made now: [0, what is returned).
     [[nodiscard]] std::uint32_t open_all() const;
 
