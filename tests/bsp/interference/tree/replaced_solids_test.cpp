@@ -13,7 +13,6 @@
 #include <map>
 #include <vector>
 
-#include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/interference.h>
@@ -36,13 +35,6 @@ using trisect::Point3d;
 using trisect::Pose;
 using trisect::Relation;
 using trisect::Solid;
-
-Solid sphere(double radius, const Point3d& at, int level) {
-    trisect::PolygonMesh mesh = trisect::make_icosphere(radius, static_cast<std::uint32_t>(level));
-    for (Point3d& p : mesh.points)
-        for (std::size_t k = 0; k < 3; ++k) p[k] = std::round((p[k] + at[k]) * 0x1p20) * 0x1p-20;
-    return Solid::from_mesh(mesh);
-}
 
 double uniform(Random& random) { return static_cast<double>(random.below(1U << 20U)) * 0x1p-20; }
 
@@ -82,14 +74,14 @@ void expect_same(const Solid& stock, const Solid& tool, const Pose& pose, Interf
 
 TEST(ReplacedSolids, AStockThatIsCutAllAround) {
     Random random(1);
-    Solid stock = sphere(1, {0, 0, 0}, 4);
+    Solid stock = solids::ball(1, 4, {0, 0, 0});
     stock.refine();
-    const Solid holder = sphere(0.25, {0, 0, 0}, 3);
+    const Solid holder = solids::ball(0.25, 3, {0, 0, 0});
     InterferenceQuery query(stock, holder);
     std::map<Relation, int> seen;
     for (int cut = 0; cut < 40; ++cut) {
         const Point3d at = on_sphere(random, 1);
-        stock = evaluate(Expression(stock) - Expression(sphere(0.15, at, 2)));
+        stock = evaluate(Expression(stock) - Expression(solids::ball(0.15, 2, at)));
         query.replace_a(stock);
         for (int i = 0; i < 4; ++i) {
             Point3d by = i < 3 ? at : on_sphere(random, 1);
@@ -167,16 +159,16 @@ TEST(ReplacedSolids, CavitiesAndIslandsCutLoose) {
 TEST(ReplacedSolids, LookAtWhatIsNewOnly) {
     const auto made = [](int level) {
         Random random(3);
-        Solid stock = sphere(1, {0, 0, 0}, level);
+        Solid stock = solids::ball(1, level, {0, 0, 0});
         stock.refine();
         const double size = 0.6 / (1 << (level - 3));
-        const Solid holder = sphere(size, {0, 0, 0}, 3);
+        const Solid holder = solids::ball(size, 3, {0, 0, 0});
         InterferenceQuery query(stock, holder);
         std::uint64_t leaves = 0;
         std::uint64_t triangles = 0;
         for (int cut = 0; cut < 20; ++cut) {
             const Point3d at = on_sphere(random, 1);
-            stock = evaluate(Expression(stock) - Expression(sphere(size / 2, at, 2)));
+            stock = evaluate(Expression(stock) - Expression(solids::ball(size / 2, 2, at)));
             const Diagnostics<trisect::detail::BoxesCounters> diagnostics;
             query.replace_a(stock);
             Point3d by = at;

@@ -6,11 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <vector>
 
-#include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
@@ -29,17 +27,11 @@ using trisect::Scene;
 using trisect::ScenePair;
 using trisect::Solid;
 
-Solid ball(double radius, std::uint32_t level) {
-    trisect::PolygonMesh mesh = trisect::make_icosphere(radius, level);
-    for (Point3d& p : mesh.points)
-        for (double& c : p) c = std::round(c * 0x1p20) * 0x1p-20;
-    return Solid::from_mesh(mesh);
-}
-
 TEST(SceneOfSolids, AStockIsCutWhileOthersMove) {
     reference::Random random(5);
     Solid stock = solids::box(0, 0, 0, 16, 16, 4);
-    const std::vector<Solid> others{solids::box(0, 2), ball(1.5, 3), solids::box(0, 0, 0, 1, 1, 6),
+    const std::vector<Solid> others{solids::box(0, 2), solids::ball(1.5, 3),
+                                    solids::box(0, 0, 0, 1, 1, 6),
                                     solids::box(-20, -20, -2, 40, 40, 0)};
     Scene scene;
     Scene models;
