@@ -61,6 +61,7 @@ public:
             inside_ = *inside != place.turned;
             return;
         }
+        leaf.prefetch_cells();
         IndexGrid::Position at;
         IndexedLeaf::Cell cell;
         if (const IndexGrid* const grid = leaf.grid()) {
@@ -106,8 +107,9 @@ bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place)
         place.leaf = index.only_leaf();
         return place.leaf != nullptr;
     }
+    const WallPoint at(p);
     for (;;) {
-        const int way = block->way_of(p);
+        const int way = block->way_of(at);
         if (way < 0) return false;
         const BranchBlock::Next next = block->next(way);
         if (!next.is_known()) return false;
@@ -118,9 +120,11 @@ bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place)
         place.turned = place.turned != next.turned();
         if (next.is_leaf()) {
             place.leaf = &next.leaf();
+            place.leaf->prefetch();
             return true;
         }
         block = &next.block();
+        block->prefetch();
     }
 }
 
