@@ -22,6 +22,7 @@ namespace trisect::detail {
 /// Where a point is along each axis, up to all errors of a comparison with a wall.
 class WallPoint {
 public:
+    WallPoint() = default;
     explicit WallPoint(const IndexPoint& p) : WallPoint(p.approximate(), p.error()) {}
     /// A point within `error` of `p` in each coordinate.
     WallPoint(const std::array<double, 3>& p, double error) {
@@ -47,7 +48,7 @@ public:
 
 private:
     using Ends = std::array<double, 2>;
-    alignas(16) std::array<Ends, 3> at_;
+    alignas(16) std::array<Ends, 3> at_{};
 };
 
 /// What a descent for a point reads of an inner node and the two levels below it. A fact of the
@@ -114,6 +115,9 @@ public:
         return word != 0 ? Next(word) : find_next(way);
     }
 
+    /// Of the root of a tree: what is derived of it as that.
+    [[nodiscard]] const FactSlot& root_fact() const { return root_fact_; }
+
 private:
     [[nodiscard]] Next find_next(int way) const;
 
@@ -122,6 +126,7 @@ private:
     std::array<double, 7> walls_{};
     mutable std::array<std::atomic<std::uintptr_t>, 8> next_{};
     const CellNode& node_;
+    FactSlot root_fact_;
 };
 
 }  // namespace trisect::detail

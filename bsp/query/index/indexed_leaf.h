@@ -104,6 +104,15 @@ public:
         }
         return std::nullopt;
     }
+    /// The same for all points of the cell in a box.
+    [[nodiscard]] std::optional<bool> beyond(const std::array<double, 3>& lo,
+                                             const std::array<double, 3>& hi) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (hi[k] < below_[k]) return side_is_inside(2 * k);
+            if (lo[k] > above_[k]) return side_is_inside(2 * k + 1);
+        }
+        return std::nullopt;
+    }
 
     [[nodiscard]] const IndexLeaf& leaf(std::uint32_t i) const { return cells_.leaves[i]; }
     /// How many there are now; all of them after divide_all().
@@ -135,6 +144,12 @@ public:
     void prefetch_cells() const {
         const char* const first = reinterpret_cast<const char*>(&cells_);
         for (std::size_t at = 0; at < sizeof cells_; at += 64) __builtin_prefetch(first + at);
+    }
+    /// Asks for the slot of a grid's cell. \pre grid() != nullptr
+    void prefetch_root(const IndexGrid::Position& at) const {
+        const unsigned shift = grid_->shift();
+        __builtin_prefetch(
+            &roots_[grid_->cell(at.fine[0] >> shift, at.fine[1] >> shift, at.fine[2] >> shift)]);
     }
     [[nodiscard]] const IndexBrick& brick(std::uint32_t slot) const {
         return cells_.bricks[IndexSlot::number(slot)];

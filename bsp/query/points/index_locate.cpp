@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <trisect/bsp/query/index/branch_block.h>
+#include <trisect/bsp/query/index/coarse_map.h>
 #include <trisect/bsp/query/index/index_core.h>
 #include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/index/index_signs.h>
@@ -27,6 +28,13 @@ bool is_beyond(const IndexBase& index, const IndexPoint& p) {
     for (std::size_t k = 0; k < 3; ++k)
         if (p[k] - p.error() > index.hi()[k] || p[k] + p.error() < index.lo()[k]) return true;
     return false;
+}
+
+// Of a point that is not beyond the solid's box, up to its error.
+CoarseMap::Side coarse_side(const IndexBase& index, const IndexPoint& p) {
+    if (!index.is_bounded() || index.root_block() == nullptr || !p.is_doubles())
+        return CoarseMap::Side::Open;
+    return index.coarse_map().at(p.approximate());
 }
 
 // Of a point in the closed cell: whether it is inside, if none of the polygons that enter the cell
@@ -147,11 +155,18 @@ Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
 Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                          std::vector<PolygonId>& on) {
     // A single leaf has bounds of its own.
-    if (index.only_leaf() != nullptr || !is_beyond(index, point))
-        return locate_in_leaves(index, point, on);
+    if (index.only_leaf() != nullptr) return locate_in_leaves(index, point, on);
+    bool inside = false;
+    if (is_beyond(index, point)) {
+        inside = index.is_inside_beyond();
+    } else {
+        const CoarseMap::Side side = coarse_side(index, point);
+        if (side == CoarseMap::Side::Open) return locate_in_leaves(index, point, on);
+        inside = (side == CoarseMap::Side::Inside) != index.root().complemented;
+    }
     on.clear();
     ++index_counters().empty;
-    return index.is_inside_beyond() ? Location::Inside : Location::Outside;
+    return inside ? Location::Inside : Location::Outside;
 }
 
 }  // namespace trisect::detail
