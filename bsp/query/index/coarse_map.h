@@ -18,32 +18,40 @@ namespace trisect::detail {
 /// A coarse grid over the box of the polygons below a node, a byte a cell. Most of the box of a
 /// solid is far from its boundary; there a point needs no descent.
 ///
-/// A cell is examined when points have come to it a few times, and again later where leaves on its
-/// way had no index yet. That takes about as long as a few descents, so it never costs much more
-/// than it saves. A fact of the node; of its cell, which is all of space for the root of a tree, it
-/// describes the box only. Safe to use from many threads: what two of them find is the same.
+/// The second point that comes to a cell has it examined, which takes about as long as a descent:
+/// so a map never costs much more than it saves. Only bounds of nodes are read for that, no index.
+/// A fact of the root of a tree, whose cell is all of space. Safe to use from many threads: what
+/// two of them find is the same.
 class CoarseMap final : public NodeFact {
 public:
-    enum class Side : std::uint8_t { Outside, Inside, Open };
+    enum class Side : std::uint8_t { Open, Outside, Inside };
 
-    /// \pre the box is not empty and contains all polygons below the node, which fills space.
+    /// \pre the node fills space, and the box contains all polygons below it and is not flat.
     CoarseMap(const CellNode& node, const DoubleBox& box);
 
-    /// Of a point in the box, given within a millionth of the box: where it is, as in a tree whose
-    /// root is not complemented. Open where its cell is not one or the other as a whole, or where
-    /// that is not known.
-    [[nodiscard]] Side at(const std::array<double, 3>& p) const {
-        const std::size_t cell = cell_of(p);
-        const std::uint8_t state = states_[cell].load(std::memory_order_relaxed);
-        if (state >= open) return state == open ? Side::Open : static_cast<Side>(state - outside);
-        return visit(cell, state);
+    /// Of a point in the box: its side, as in a tree whose root is not complemented. Open where a
+    /// polygon may meet its cell, or where that is not known yet. `is_inside()` is called once a
+    /// cell, for a point that is on no polygon.
+    template <class IsInside>
+    [[nodiscard]] Side at(const std::array<double, 3>& p, const IsInside& is_inside) const {
+        std::atomic<std::uint8_t>& cell = states_[cell_of(p)];
+        const std::uint8_t state = cell.load(std::memory_order_relaxed);
+        if (state < unseen) return static_cast<Side>(state);
+        if (state == unseen) {
+            cell.store(seen, std::memory_order_relaxed);
+            return Side::Open;
+        }
+        Side side = Side::Open;
+        if (is_clear(cell_of(p))) side = is_inside() ? Side::Inside : Side::Outside;
+        cell.store(static_cast<std::uint8_t>(side), std::memory_order_relaxed);
+        return side;
     }
     [[nodiscard]] std::size_t bytes() const { return sizeof(*this) + count(); }
 
 private:
-    // Below: how many points have come to a cell.
-    static constexpr std::uint8_t open = 253;
-    static constexpr std::uint8_t outside = 254;
+    // A cell's state is its side, or one of these.
+    static constexpr std::uint8_t unseen = 3;
+    static constexpr std::uint8_t seen = 4;  // by one point
 
     [[nodiscard]] std::size_t count() const { return std::size_t{n_[0]} * n_[1] * n_[2]; }
     [[nodiscard]] std::size_t cell_of(const std::array<double, 3>& p) const {
@@ -54,8 +62,9 @@ private:
         }
         return (std::size_t{i[2]} * n_[1] + i[1]) * n_[0] + i[0];
     }
-    [[nodiscard]] Side visit(std::size_t cell, std::uint8_t visits) const;
-    [[nodiscard]] DoubleBox enlarged_cell(std::size_t cell) const;
+    // Whether no polygon meets a cell.
+    [[nodiscard]] bool is_clear(std::size_t cell) const;
+    [[nodiscard]] DoubleBox enlarged(std::size_t cell) const;
 
     std::array<double, 3> lo_{};
     std::array<double, 3> scale_{};

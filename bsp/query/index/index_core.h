@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -96,7 +97,13 @@ void for_leaves_at(const IndexBase& base, const IndexPoint& p, Visit&& visit);
 [[nodiscard]] Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                                        std::vector<PolygonId>& on);
 
-/// The same without a look at the solid's bounds.
+/// Of a point in the solid's box, in lattice units: whether it is inside, if it is so far from the
+/// boundary that the coarse map decides.
+/// \pre the index is bounded, and its tree has inner nodes.
+[[nodiscard]] std::optional<bool> far_side(const IndexBase& index,
+                                           const std::array<double, 3>& point);
+
+/// The same as locate_polygons without a look at the solid's bounds.
 [[nodiscard]] Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
                                         std::vector<PolygonId>& on);
 

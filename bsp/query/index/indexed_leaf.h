@@ -104,15 +104,6 @@ public:
         }
         return std::nullopt;
     }
-    /// The same for all points of the cell in a box.
-    [[nodiscard]] std::optional<bool> beyond(const std::array<double, 3>& lo,
-                                             const std::array<double, 3>& hi) const {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (hi[k] < below_[k]) return side_is_inside(2 * k);
-            if (lo[k] > above_[k]) return side_is_inside(2 * k + 1);
-        }
-        return std::nullopt;
-    }
 
     [[nodiscard]] const IndexLeaf& leaf(std::uint32_t i) const { return cells_.leaves[i]; }
     /// How many there are now; all of them after divide_all().

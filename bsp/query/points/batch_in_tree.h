@@ -11,7 +11,6 @@
 #include <span>
 
 #include <trisect/bsp/query/index/branch_block.h>
-#include <trisect/bsp/query/index/coarse_map.h>
 #include <trisect/bsp/query/index/index_core.h>
 #include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/points/mixed_points.h>
@@ -28,7 +27,6 @@ public:
     /// \pre the index is bounded, and its tree has inner nodes.
     BatchInTree(const IndexBase& index, Points points, const Sink& sink)
         : index_(index),
-          map_(index.coarse_map()),
           beyond_(index.is_inside_beyond()),
           lattice_(index.lattice()),
           points_(points),
@@ -80,8 +78,8 @@ private:
                 found(number, beyond_);
                 return;
             }
-        if (const CoarseMap::Side side = map_.at(p); side != CoarseMap::Side::Open) {
-            found(number, (side == CoarseMap::Side::Inside) != index_.root().complemented);
+        if (const auto inside = far_side(index_, p)) {
+            found(number, *inside);
             return;
         }
         Descent& d = all_[count_++];
@@ -154,7 +152,6 @@ private:
     }
 
     const IndexBase& index_;
-    const CoarseMap& map_;
     const bool beyond_;
     const Lattice lattice_;
     Points points_;

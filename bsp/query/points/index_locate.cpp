@@ -30,13 +30,6 @@ bool is_beyond(const IndexBase& index, const IndexPoint& p) {
     return false;
 }
 
-// Of a point that is not beyond the solid's box, up to its error.
-CoarseMap::Side coarse_side(const IndexBase& index, const IndexPoint& p) {
-    if (!index.is_bounded() || index.root_block() == nullptr || !p.is_doubles())
-        return CoarseMap::Side::Open;
-    return index.coarse_map().at(p.approximate());
-}
-
 // Of a point in the closed cell: whether it is inside, if none of the polygons that enter the cell
 // contains it. The others do not count, and some of them contains it.
 bool is_inside(const IndexedLeaf& leaf, const IndexPoint& p) {
@@ -152,6 +145,16 @@ Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
     return found.inside() ? Location::Inside : Location::Outside;
 }
 
+std::optional<bool> far_side(const IndexBase& index, const std::array<double, 3>& point) {
+    const bool turned = index.root().complemented;
+    const CoarseMap::Side side = index.coarse_map().at(point, [&] {
+        std::vector<PolygonId> on;
+        return (locate_in_leaves(index, IndexPoint(point), on) == Location::Inside) != turned;
+    });
+    if (side == CoarseMap::Side::Open) return std::nullopt;
+    return (side == CoarseMap::Side::Inside) != turned;
+}
+
 Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                          std::vector<PolygonId>& on) {
     // A single leaf has bounds of its own.
@@ -160,9 +163,11 @@ Location locate_polygons(const IndexBase& index, const IndexPoint& point,
     if (is_beyond(index, point)) {
         inside = index.is_inside_beyond();
     } else {
-        const CoarseMap::Side side = coarse_side(index, point);
-        if (side == CoarseMap::Side::Open) return locate_in_leaves(index, point, on);
-        inside = (side == CoarseMap::Side::Inside) != index.root().complemented;
+        std::optional<bool> far;
+        if (index.is_bounded() && index.root_block() != nullptr && point.is_doubles())
+            far = far_side(index, point.approximate());
+        if (!far) return locate_in_leaves(index, point, on);
+        inside = *far;
     }
     on.clear();
     ++index_counters().empty;
