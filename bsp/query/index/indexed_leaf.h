@@ -31,11 +31,12 @@ struct IndexCells {
     /// For about so many polygons.
     explicit IndexCells(std::size_t polygons);
 
-    GrowingArray<std::uint32_t> slots;  // of bricks, see IndexSlot
-    GrowingArray<IndexBrick> bricks;
+    // In the order in which most points of small grids come to them.
     GrowingArray<IndexLeaf> leaves;
-    GrowingArray<Id> listed;
     GrowingArray<float> planes;
+    GrowingArray<IndexBrick> bricks;
+    GrowingArray<std::uint32_t> slots;  // of bricks, see IndexSlot
+    GrowingArray<Id> listed;
     /// Bytes that the leaves made so far may take together, if corners are what makes them larger.
     double room = 0;
 
@@ -133,8 +134,8 @@ public:
     }
     /// Asks for the memory that a point between the polygons needs next.
     void prefetch_cells() const {
-        const char* const first = reinterpret_cast<const char*>(&cells_);
-        for (std::size_t at = 0; at < sizeof cells_; at += 64) __builtin_prefetch(first + at);
+        __builtin_prefetch(&cells_.leaves);
+        __builtin_prefetch(&cells_.bricks);
     }
     /// Asks for the slot of a grid's cell. \pre grid() != nullptr
     void prefetch_root(const IndexGrid::Position& at) const {
