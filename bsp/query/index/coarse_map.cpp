@@ -24,9 +24,13 @@ struct Branch {
     DoubleBox box;  // as far as it is in the node's cell
 };
 
+// Bounds that nobody has needed yet are not made for this: they would be those of all nodes below.
 bool may_have_polygons(const CellNode& node, const DoubleBox& box) {
     constexpr std::int64_t around = 3;  // positions are rounded
-    const Box& bounds = bounds_of(node);
+    if (node.size() == 0) return false;
+    const NodeFact* const known = node.bounds_fact().get();
+    if (known == nullptr) return true;
+    const Box& bounds = static_cast<const NodeBounds&>(*known).box;
     if (bounds.is_empty()) return false;
     for (std::size_t k = 0; k < 3; ++k)
         if (box.lo[k] > static_cast<double>(bounds.hi[k] + around) ||
