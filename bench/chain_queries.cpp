@@ -18,7 +18,6 @@
 // see scripts/count-chain-instructions.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -214,14 +213,8 @@ private:
     template <class Work>
     [[nodiscard]] static double best_of(std::size_t points, const Work& work) {
         double best = HUGE_VAL;
-        for (int again = 0; again < 4; ++again) {
-            const auto start = std::chrono::steady_clock::now();
-            work();
-            const std::chrono::duration<double, std::micro> t =
-                std::chrono::steady_clock::now() - start;
-            best = std::min(best, t.count() / static_cast<double>(points));
-        }
-        return best;
+        for (int again = 0; again < 8; ++again) best = std::min(best, milliseconds_of(work));
+        return 1000 * best / static_cast<double>(points);
     }
     void print_bytes() const {
         if (added_.empty()) return;

@@ -3,7 +3,6 @@
 #include "chain_rebuild.h"
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,14 +26,6 @@ namespace {
 using trisect::PolygonMesh;
 using trisect::Solid;
 
-template <class Work>
-double milliseconds(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
-
 Solid imported(const PolygonMesh& mesh) {
     trisect::SolidOptions options;
     options.embedding = trisect::Embedding::Assume;
@@ -48,7 +39,7 @@ ChainRebuild::ChainRebuild(PolygonMesh holder, bool models)
 
 void ChainRebuild::ask(const Solid& version, const ChainQuestions& q) {
     PolygonMesh mesh;
-    mesh_.add_milliseconds(milliseconds([&] { mesh = version.to_mesh(1); }));
+    mesh_.add_milliseconds(milliseconds_of([&] { mesh = version.to_mesh(1); }));
     ask_ourselves(mesh, q);
     ask_cgal(mesh, q);
     ask_fcl(mesh, q);
@@ -56,17 +47,17 @@ void ChainRebuild::ask(const Solid& version, const ChainQuestions& q) {
 
 void ChainRebuild::ask_ourselves(const PolygonMesh& mesh, const ChainQuestions& q) {
     Solid solid;
-    import_.add_milliseconds(milliseconds([&] {
+    import_.add_milliseconds(milliseconds_of([&] {
         solid = imported(mesh);
         solid.refine();
     }));
     index_.add_milliseconds(
-        milliseconds([&] { (void)trisect::BrepIndex(solid).locate(q.near).location; }));
+        milliseconds_of([&] { (void)trisect::BrepIndex(solid).locate(q.near).location; }));
     if (!models_) return;
     std::optional<trisect::InterferenceModel> model;
-    model_.add_milliseconds(milliseconds([&] { model.emplace(solid); }));
+    model_.add_milliseconds(milliseconds_of([&] { model.emplace(solid); }));
     const trisect::InterferenceModel holder(imported(holder_));
-    interfere_.add_milliseconds(milliseconds([&] {
+    interfere_.add_milliseconds(milliseconds_of([&] {
         (void)interfere(*model, trisect::Pose(), holder, trisect::Pose::from_translation(q.holder));
     }));
 }
@@ -76,7 +67,7 @@ void ChainRebuild::ask_cgal([[maybe_unused]] const PolygonMesh& mesh,
 #if defined(TRISECT_WITH_CGAL)
     const auto peer = query_peers::make_cgal(mesh);
     cgal_tree_.add_milliseconds(1000 * peer->build_seconds());
-    cgal_first_.add_milliseconds(milliseconds([&] {
+    cgal_first_.add_milliseconds(milliseconds_of([&] {
         std::array<query_peers::Side, 1> side{};
         peer->locate(std::span(&q.near, 1), side);
         std::array<std::int64_t, 1> hit{};
@@ -97,8 +88,8 @@ void ChainRebuild::ask_fcl([[maybe_unused]] const PolygonMesh& mesh,
     interference_peers::Peers peers;
     interference_peers::add_fcl_obbrss(peers, mesh, holder_, std::span(&at, 1));
     fcl_model_.add_milliseconds(1000 * peers[0]->build_seconds());
-    fcl_collide_.add_milliseconds(milliseconds([&] { (void)peers[0]->collide(0); }));
-    fcl_distance_.add_milliseconds(milliseconds([&] { (void)peers[0]->distance(0); }));
+    fcl_collide_.add_milliseconds(milliseconds_of([&] { (void)peers[0]->collide(0); }));
+    fcl_distance_.add_milliseconds(milliseconds_of([&] { (void)peers[0]->distance(0); }));
 #endif
 }
 

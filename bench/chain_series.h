@@ -4,9 +4,9 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,19 @@ struct ChainCounters {
     int cut = 0;
 };
 
+/// Of a processor's time that this thread gets: others may share the machine.
+template <class Work>
+[[nodiscard]] double milliseconds_of(const Work& work) {
+    const auto now = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+    };
+    const double start = now();
+    work();
+    return now() - start;
+}
+
 class Series {
 public:
     explicit Series(std::string name) : name_(std::move(name)) {}
@@ -26,11 +39,8 @@ public:
     template <class Work>
     void add(const ChainCounters& counters, const Work& work) {
         const double before = counters.instructions.now();
-        const auto start = std::chrono::steady_clock::now();
-        counters.parts.count(name_ + " " + std::to_string(counters.cut), work);
-        const std::chrono::duration<double, std::milli> t =
-            std::chrono::steady_clock::now() - start;
-        add_milliseconds(t.count());
+        add_milliseconds(milliseconds_of(
+            [&] { counters.parts.count(name_ + " " + std::to_string(counters.cut), work); }));
         instructions_.push_back(counters.instructions.now() - before);
     }
     void add_milliseconds(double t) { milliseconds_.push_back(t); }
