@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What may be asked of a solid right after it was cut: a sphere of many triangles, cut by balls one
-// after the other, each of which meets some 300 facets. After each cut come the first point, ray,
-// nearest point and placement of another solid; from time to time many points of the version as it
-// is.
+// chain_queries: the first query of each kind after every cut of a chain, and warm speed on
+// results. A cut costs what changes; this is about whether queries do, too.
 //
-//     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined]
-//                   [--no-interference]
+//     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
+//                   [--rebuild N] [--models] [--bytes] [--count N]
 //
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
-// points, and a fresh index beside.
+// points, one by one and as a batch, and a fresh index beside.
+// --interference: a holder beside each cut, by the solids themselves.
+// --rebuild: after every so many cuts also what making everything anew takes, CGAL and FCL beside
+// it; with --models an InterferenceModel, too.
+// --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
+// are longer.
+// --count: under callgrind, the instructions of so many cuts after the fifth and of the last ones;
+// see scripts/count-chain-instructions.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -24,135 +28,71 @@
 #include <string>
 #include <vector>
 
-#include <linux/perf_event.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/interference/interference.h>
-#include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 
-#include "shapes.h"
+#include "chain_cuts.h"
+#include "chain_facts.h"
+#include "chain_rebuild.h"
+#include "chain_series.h"
 
 namespace {
 
 using trisect::BrepIndex;
 using trisect::Expression;
-using trisect::InterferenceModel;
 using trisect::Point3d;
 using trisect::PolygonMesh;
 using trisect::Pose;
 using trisect::Solid;
 
-/// Instructions of this thread in user space; 0 where the machine does not count them.
-class Instructions {
-public:
-    Instructions() {
-        perf_event_attr a{};
-        a.type = PERF_TYPE_HARDWARE;
-        a.size = sizeof a;
-        a.config = PERF_COUNT_HW_INSTRUCTIONS;
-        a.exclude_kernel = 1;
-        a.exclude_hv = 1;
-        file_ = static_cast<int>(syscall(SYS_perf_event_open, &a, 0, -1, -1, 0));
-    }
-    ~Instructions() {
-        if (file_ >= 0) close(file_);
-    }
-    Instructions(const Instructions&) = delete;
-    Instructions& operator=(const Instructions&) = delete;
-    [[nodiscard]] double now() const {
-        std::uint64_t count = 0;
-        if (file_ < 0 || read(file_, &count, sizeof count) != sizeof count) return 0;
-        return static_cast<double>(count);
-    }
-
-private:
-    int file_ = -1;
-};
-
-/// What one question took, cut by cut.
-class Series {
-public:
-    explicit Series(const char* name) : name_(name) {}
-
-    template <class Work>
-    void add(const Instructions& counter, const Work& work) {
-        const double before = counter.now();
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        const std::chrono::duration<double, std::milli> t =
-            std::chrono::steady_clock::now() - start;
-        milliseconds_.push_back(t.count());
-        instructions_.push_back(counter.now() - before);
-    }
-    void print() const {
-        if (milliseconds_.empty()) return;
-        std::vector<double> sorted = milliseconds_;
-        std::ranges::sort(sorted);
-        const auto n = sorted.size();
-        std::printf("| %s | %.3f | %.3f | %.3f | %.0f | %.0f |\n", name_, mean(milliseconds_, 0, n),
-                    sorted[n * 99 / 100], sorted[n - 1],
-                    mean(instructions_, 0, std::min<std::size_t>(n, 20)) / 1000,
-                    mean(instructions_, n - std::min<std::size_t>(n, 20), n) / 1000);
-    }
-
-private:
-    static double mean(const std::vector<double>& v, std::size_t first, std::size_t end) {
-        double sum = 0;
-        for (std::size_t i = first; i < end; ++i) sum += v[i];
-        return sum / static_cast<double>(end - first);
-    }
-    const char* name_;
-    std::vector<double> milliseconds_;
-    std::vector<double> instructions_;
-};
-
 struct Options {
     int level = 6;
     int cuts = 300;
     int every = 100;
+    int rebuild = 0;
+    int count = 0;
     bool path = false;
     bool refined = true;
-    bool interference = true;
+    bool interference = false;
+    bool models = false;
+    bool bytes = false;
 };
 
 Options parsed(int argc, char** argv) {
     Options o;
     for (int i = 1; i < argc; ++i) {
         const std::string arg = argv[i];
-        const auto number = [&] { return i + 1 < argc ? std::atoi(argv[++i]) : 0; };
+        const auto number = [&] { return std::max(0, i + 1 < argc ? std::atoi(argv[++i]) : 0); };
         if (arg == "--level") {
             o.level = number();
         } else if (arg == "--cuts") {
             o.cuts = number();
         } else if (arg == "--every") {
             o.every = std::max(1, number());
+        } else if (arg == "--rebuild") {
+            o.rebuild = number();
+        } else if (arg == "--count") {
+            o.count = number();
         } else if (arg == "--path") {
             o.path = true;
         } else if (arg == "--unrefined") {
             o.refined = false;
-        } else if (arg == "--no-interference") {
-            o.interference = false;
+        } else if (arg == "--interference") {
+            o.interference = true;
+        } else if (arg == "--models") {
+            o.models = true;
+        } else if (arg == "--bytes") {
+            o.bytes = true;
         } else {
             throw std::runtime_error("unknown option " + arg);
         }
     }
+    if (o.count != 0 && !CallgrindParts::is_compiled_in())
+        throw std::runtime_error("compiled without the header of callgrind");
     return o;
-}
-
-constexpr double unit = 0x1p-30;
-
-double on_unit(double v) { return std::round(v / unit) * unit; }
-
-/// On multiples of 2^-30, as a user's data on one grid is.
-PolygonMesh on_grid(PolygonMesh m) {
-    for (Point3d& p : m.points)
-        for (double& c : p) c = on_unit(c);
-    return m;
 }
 
 Solid solid_of(const PolygonMesh& mesh) {
@@ -171,83 +111,72 @@ class Chain {
 public:
     explicit Chain(const Options& o)
         : options_(o),
-          random_(1),
-          stock_(solid_of(on_grid(shapes::icosphere(o.level)))),
-          // Meets about 300 facets, whatever their number.
-          radius_(std::sqrt(300.0 / (5 * std::pow(4, o.level)))),
-          ball_(shapes::icosphere(3)),
-          holder_(solid_of(on_grid(scaled(shapes::icosphere(4), 0.25)))) {
+          cuts_(o.level, o.path),
+          stock_(solid_of(cuts_.stock())),
+          holder_(solid_of(ChainCuts::holder())),
+          rebuild_(ChainCuts::holder(), o.models) {
         if (o.refined) stock_.refine();
         (void)BrepIndex(stock_);
-        if (o.interference) holder_model_.emplace(holder_);
+        if (o.interference) (void)interfere(stock_, Pose(), holder_, Pose());
+        if (o.bytes) facts_.emplace(stock_);
     }
 
     void run() {
         for (int i = 1; i <= options_.cuts; ++i) {
+            counters_.cut = i;
+            const bool counted = (i > first_counted && i <= first_counted + options_.count) ||
+                                 i > options_.cuts - options_.count;
+            counted ? counters_.parts.begin() : counters_.parts.end();
             step(i);
+            if (options_.count != 0) continue;
             if (i % options_.every == 0) warm(i);
         }
-        std::puts(
-            "\n| first after a cut | mean ms | 99 % | worst | 10^3 instructions, first 20 | last "
-            "20 |");
-        std::puts("|---|---:|---:|---:|---:|---:|");
-        for (const Series* s : {&cut_, &index_, &locate_, &ray_, &nearest_, &model_, &interfere_})
+        counters_.parts.end();
+        Series::print_head();
+        for (const Series* s :
+             {&cut_, &index_, &locate_, &ray_, &nearest_, &interfere_, &distance_})
             s->print();
+        rebuild_.print();
+        print_bytes();
     }
 
 private:
-    static PolygonMesh scaled(PolygonMesh m, double by) {
-        for (Point3d& p : m.points)
-            for (double& c : p) c *= by;
-        return m;
-    }
+    static constexpr int first_counted = 5;  // what happens once has happened
 
-    [[nodiscard]] Point3d on_sphere(double radius) {
-        const double z = 2 * random_.uniform() - 1;
-        const double a = 2 * M_PI * random_.uniform();
-        const double r = std::sqrt(1 - z * z);
-        return {radius * r * std::cos(a), radius * r * std::sin(a), radius * z};
-    }
-    [[nodiscard]] Point3d place(int i) {
-        if (!options_.path) return on_sphere(1);
-        const double t = 0.7 * radius_ * i;  // along a spiral
-        const double z = 1 - std::fmod(2.0 * t * radius_ / (2 * M_PI), 2.0);
-        const double r = std::sqrt(std::max(0.0, 1 - z * z));
-        return {r * std::cos(t), r * std::sin(t), z};
+    // A point beside the cut, a ray towards it, a point above it; the holder above the tool, a
+    // little off the stock.
+    [[nodiscard]] ChainQuestions questions_at(const Point3d& at) const {
+        const double r = cuts_.radius();
+        return {ChainCuts::times(at, 1 - 0.9 * r), ChainCuts::times(at, 3),
+                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1.25 + 0.1 * r)};
     }
 
     void step(int i) {
-        const Point3d at = place(i);
-        const PolygonMesh tool = on_grid(shapes::moved(scaled(ball_, radius_), at));
-        cut_.add(counter_, [&] {
+        const Point3d at = cuts_.place(i);
+        const PolygonMesh tool = cuts_.ball_at(at);
+        cut_.add(counters_, [&] {
             stock_ = evaluate(Expression(stock_) - Expression(solid_of(tool)), one_thread());
         });
-        // A point beside the cut, a ray towards it, a point above it.
-        Point3d near = at;
-        for (double& c : near) c *= 1 - 0.9 * radius_;
-        Point3d above = at;
-        for (double& c : above) c *= 1 + 2 * radius_;
-        Point3d far = at;
-        for (double& c : far) c *= 3;
+        const ChainQuestions q = questions_at(at);
         std::optional<BrepIndex> index;
-        index_.add(counter_, [&] { index.emplace(stock_); });
-        locate_.add(counter_,
-                    [&] { sum_ += static_cast<std::size_t>(index->locate(near).location); });
-        ray_.add(counter_, [&] {
-            sum_ += index->first_facet(trisect::Segment{far, {0, 0, 0}}) ? 1 : 0;
+        index_.add(counters_, [&] { index.emplace(stock_); });
+        locate_.add(counters_,
+                    [&] { sum_ += static_cast<std::size_t>(index->locate(q.near).location); });
+        ray_.add(counters_, [&] {
+            sum_ += index->first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
         });
-        nearest_.add(counter_, [&] { sum_ += index->distance(above) ? 1 : 0; });
-        if (!options_.interference) return;
-        std::optional<InterferenceModel> model;
-        model_.add(counter_, [&] { model.emplace(stock_); });
-        // The holder above the tool, a little off the stock.
-        Point3d by = at;
-        for (double& c : by) c *= 1.25 + 0.1 * radius_;
-        const Pose pose = Pose::from_translation(by);
-        interfere_.add(counter_, [&] {
-            sum_ +=
-                static_cast<std::size_t>(interfere(*model, Pose(), *holder_model_, pose).relation);
+        nearest_.add(counters_, [&] { sum_ += index->distance(q.above) ? 1 : 0; });
+        if (options_.interference) ask_holder(Pose::from_translation(q.holder));
+        if (facts_) added_.push_back(static_cast<double>(facts_->added_by(stock_)));
+        if (options_.rebuild != 0 && i % options_.rebuild == 0) rebuild_.ask(stock_, q);
+    }
+
+    void ask_holder(const Pose& pose) {
+        interfere_.add(counters_, [&] {
+            sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
         });
+        distance_.add(counters_,
+                      [&] { sum_ += boundary_distance(stock_, Pose(), holder_, pose) ? 1 : 0; });
     }
 
     void warm(int i) {
@@ -255,49 +184,63 @@ private:
         std::vector<Point3d> uniform;
         std::vector<Point3d> near;
         for (std::size_t k = 0; k < count; ++k) {
-            Point3d p{};
-            for (double& c : p) c = 2 * random_.uniform() - 1;
-            uniform.push_back(p);
-            near.push_back(on_sphere(1 + 0.01 * (random_.uniform() - 0.5)));
+            uniform.push_back(cuts_.in_cube());
+            near.push_back(cuts_.on_sphere(1 + 0.01 * (cuts_.uniform() - 0.5)));
         }
         const BrepIndex index(stock_);
-        const BrepIndex fresh(solid_of(index_mesh()));
+        const BrepIndex fresh(solid_of(stock_.to_mesh()));
         std::printf("| after %d cuts |", i);
         for (const auto* points : {&uniform, &near})
-            for (const BrepIndex* b : {&index, &fresh}) {
-                double best = HUGE_VAL;
-                for (int again = 0; again < 4; ++again) {
-                    const auto start = std::chrono::steady_clock::now();
-                    for (const Point3d& p : *points)
-                        sum_ += static_cast<std::size_t>(b->locate(p).location);
-                    const std::chrono::duration<double, std::micro> t =
-                        std::chrono::steady_clock::now() - start;
-                    best = std::min(best, t.count() / static_cast<double>(count));
-                }
-                std::printf(" %s %s %.3f us |", points == &uniform ? "uniform" : "near",
-                            b == &index ? "result" : "fresh", best);
-            }
+            for (const BrepIndex* b : {&index, &fresh})
+                std::printf(" %s %s %.3f us, batch %.3f us |",
+                            points == &uniform ? "uniform" : "near",
+                            b == &index ? "result" : "fresh", one_by_one(*b, *points),
+                            as_batch(*b, *points));
         std::printf(" %.1f MB |\n", static_cast<double>(index.stats().bytes) * 1e-6);
         std::fflush(stdout);
     }
-    [[nodiscard]] PolygonMesh index_mesh() const { return stock_.to_mesh(); }
+    // Microseconds a point, the best of some times.
+    [[nodiscard]] double one_by_one(const BrepIndex& index, const std::vector<Point3d>& points) {
+        return best_of(points.size(), [&] {
+            for (const Point3d& p : points)
+                sum_ += static_cast<std::size_t>(index.locate(p).location);
+        });
+    }
+    [[nodiscard]] double as_batch(const BrepIndex& index, const std::vector<Point3d>& points) {
+        std::vector<trisect::Location> found(points.size());
+        return best_of(points.size(), [&] { index.classify(points, found, 1); });
+    }
+    template <class Work>
+    [[nodiscard]] static double best_of(std::size_t points, const Work& work) {
+        double best = HUGE_VAL;
+        for (int again = 0; again < 8; ++again) best = std::min(best, milliseconds_of(work));
+        return 1000 * best / static_cast<double>(points);
+    }
+    void print_bytes() const {
+        if (added_.empty()) return;
+        double sum = 0;
+        for (const double b : added_) sum += b;
+        std::printf("\nfacts that a version adds: mean %.1f kB, most %.1f kB\n",
+                    1e-3 * sum / static_cast<double>(added_.size()),
+                    1e-3 * *std::ranges::max_element(added_));
+    }
 
     Options options_;
-    shapes::Random random_;
-    Instructions counter_;
+    ChainCuts cuts_;
+    ChainCounters counters_;
     Solid stock_;
-    double radius_;
-    PolygonMesh ball_;
     Solid holder_;
-    std::optional<InterferenceModel> holder_model_;
+    ChainRebuild rebuild_;
+    std::optional<ChainFacts> facts_;
+    std::vector<double> added_;
     std::size_t sum_ = 0;
     Series cut_{"the cut"};
     Series index_{"BrepIndex"};
     Series locate_{"locate"};
     Series ray_{"first_facet"};
     Series nearest_{"distance"};
-    Series model_{"InterferenceModel"};
     Series interfere_{"interfere"};
+    Series distance_{"boundary_distance"};
 };
 
 }  // namespace

@@ -137,6 +137,11 @@ void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::Polygon
     peers.push_back(make_unique<Fcl<fcl::AABB<double>>>("AABB", false, true, a, b, p, home));
 }
 
+void add_fcl_obbrss(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+                    std::span<const Placement> p) {
+    peers.push_back(std::make_unique<Fcl<fcl::OBBRSS<double>>>("OBBRSS", true, false, a, b, p));
+}
+
 void add_fcl_boxes(Peers& peers, const std::array<double, 3>& a, const std::array<double, 3>& b,
                    std::span<const Placement> placements, const Placement& home) {
     peers.push_back(std::make_unique<FclBoxes>(a, b, placements, home));

@@ -40,6 +40,9 @@ using Peers = std::vector<std::unique_ptr<Peer>>;
 /// FCL with each of its volumes. The first body is at `home`.
 void add_fcl(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
              std::span<const Placement> placements, const Placement& home = home_placement);
+/// FCL with the volume that it uses by default, for collisions and distances.
+void add_fcl_obbrss(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
+                    std::span<const Placement> placements);
 /// FCL with the volumes that we have too: AABB, KDOP16, KDOP18, KDOP24, OBB.
 void add_fcl_volumes(Peers& peers, const trisect::PolygonMesh& a, const trisect::PolygonMesh& b,
                      std::span<const Placement> placements);

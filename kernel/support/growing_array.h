@@ -32,8 +32,8 @@ public:
             const Place p = place(end_);
             const std::size_t room = chunk_size(p.chunk) - p.offset;
             if (n <= room) {
-                if (!chunks_[p.chunk])
-                    chunks_[p.chunk] = std::make_unique_for_overwrite<T[]>(chunk_size(p.chunk));
+                std::unique_ptr<T[]>& memory = chunk_to_fill(p.chunk);
+                if (!memory) memory = std::make_unique_for_overwrite<T[]>(chunk_size(p.chunk));
                 const std::uint32_t first = end_;
                 end_ += static_cast<std::uint32_t>(n);
                 used_ += n;
@@ -62,12 +62,21 @@ private:
     }
     [[nodiscard]] T* address(std::uint32_t i) const {
         const Place p = place(i);
-        return chunks_[p.chunk].get() + p.offset;
+        return (p.chunk < few ? chunks_[p.chunk] : (*more_)[p.chunk - few]).get() + p.offset;
+    }
+    [[nodiscard]] std::unique_ptr<T[]>& chunk_to_fill(unsigned chunk) {
+        if (chunk < few) return chunks_[chunk];
+        if (!more_) more_ = std::make_unique<std::array<std::unique_ptr<T[]>, 31 - few>>();
+        return (*more_)[chunk - few];
     }
 
+    // Most arrays are short; there are many of them.
+    static constexpr unsigned few = 3;
+
     unsigned first_bits_;
-    std::array<std::unique_ptr<T[]>, 31> chunks_;
     std::uint32_t end_ = 0;
+    std::array<std::unique_ptr<T[]>, few> chunks_;
+    std::unique_ptr<std::array<std::unique_ptr<T[]>, 31 - few>> more_;
     std::size_t used_ = 0;
 };
 

@@ -9,11 +9,47 @@
 #include <cmath>
 #include <cstdint>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/query/index/index_point.h>
 #include <trisect/bsp/query/index/indexed_leaf.h>
 
 namespace trisect::detail {
+
+/// Where a point is along each axis, up to all errors of a comparison with a wall.
+class WallPoint {
+public:
+    WallPoint() = default;
+    explicit WallPoint(const IndexPoint& p) : WallPoint(p.approximate(), p.error()) {}
+    /// A point within `error` of `p` in each coordinate.
+    WallPoint(const std::array<double, 3>& p, double error) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            // Walls are rounded by 2^-50 of themselves. Those that are not as large as the
+            // coordinate, up to a factor of two, are far away.
+            const double slack = 2 * error + std::fabs(p[k]) * 0x1p-48;
+            const bool finite = slack < HUGE_VAL;
+            at_[k] = {finite ? p[k] - slack : -HUGE_VAL, finite ? p[k] + slack : HUGE_VAL};
+        }
+    }
+    /// Relative to a wall: 3 when surely above it, 0 when surely below it, otherwise 2.
+    [[nodiscard]] unsigned side_of(double wall) const {
+        const std::size_t axis = std::bit_cast<std::uint64_t>(wall) & 3U;
+#if defined(__SSE2__)
+        const __m128d ends = _mm_load_pd(at_[axis].data());
+        return static_cast<unsigned>(_mm_movemask_pd(_mm_cmplt_pd(_mm_set1_pd(wall), ends)));
+#else
+        const Ends& ends = at_[axis];
+        return (wall < ends[0] ? 1U : 0U) | (wall < ends[1] ? 2U : 0U);
+#endif
+    }
+
+private:
+    using Ends = std::array<double, 2>;
+    alignas(16) std::array<Ends, 3> at_{};
+};
 
 /// What a descent for a point reads of an inner node and the two levels below it. A fact of the
 /// node: all below is immutable.
@@ -54,18 +90,23 @@ public:
     explicit BranchBlock(const CellNode& node);
 
     /// The number of the way that a point takes; -1 where it is on a splitting plane or so near to
-    /// one that doubles do not decide.
-    [[nodiscard]] int way_of(const IndexPoint& p) const {
-        const double slack = 2 * p.error();
-        std::size_t at = 0;
-        for (int level = 0; level < 3; ++level) {
-            const double wall = walls_[at];
-            const double d = p[std::bit_cast<std::uint64_t>(wall) & 3U] - wall;
-            const double e = slack + std::fabs(wall) * wall_error;
-            if (!(d > e || d < -e)) return -1;
-            at = 2 * at + (d > 0 ? 2 : 1);
-        }
-        return static_cast<int>(at - 7);
+    /// one that doubles do not decide. All walls are compared: that takes less time than to wait
+    /// for one result after the other.
+    [[nodiscard]] int way_of(const WallPoint& p) const {
+        unsigned sides = 0;
+        for (std::size_t i = 0; i < 7; ++i) sides |= p.side_of(walls_[i]) << (2 * i);
+        const unsigned first = sides & 3U;
+        const unsigned second = sides >> (2 + (first & 2U)) & 3U;
+        const unsigned third = sides >> (6 + 2 * (first & 2U) + (second & 2U)) & 3U;
+        const unsigned doubt =
+            (first ^ first >> 1U) | (second ^ second >> 1U) | (third ^ third >> 1U);
+        if ((doubt & 1U) != 0) return -1;
+        return static_cast<int>((first & 2U) << 1U | (second & 2U) | third >> 1U);
+    }
+    /// Asks for what follows the walls in memory.
+    void prefetch() const {
+        __builtin_prefetch(this);
+        __builtin_prefetch(&next_);
     }
     /// Unknown where it is a leaf without an index.
     [[nodiscard]] Next next(int way) const {
@@ -74,17 +115,18 @@ public:
         return word != 0 ? Next(word) : find_next(way);
     }
 
+    /// Of the root of a tree: what is derived of it as that.
+    [[nodiscard]] const FactSlot& root_fact() const { return root_fact_; }
+
 private:
     [[nodiscard]] Next find_next(int way) const;
-
-    // Of the last bits of a wall, and of rounding.
-    static constexpr double wall_error = 0x1p-49;
 
     // In the order of a heap; the last two bits are the axis. Where a leaf comes before the third
     // level, the walls below it are so far that all points are on the lower side.
     std::array<double, 7> walls_{};
     mutable std::array<std::atomic<std::uintptr_t>, 8> next_{};
     const CellNode& node_;
+    FactSlot root_fact_;
 };
 
 }  // namespace trisect::detail

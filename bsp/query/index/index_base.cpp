@@ -9,6 +9,7 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/query/index/branch_block.h>
+#include <trisect/bsp/query/index/coarse_map.h>
 #include <trisect/bsp/query/index/index_core.h>
 
 namespace trisect::detail {
@@ -109,6 +110,14 @@ const IndexedLeaf* IndexBase::find_only_leaf() const {
     const IndexedLeaf& leaf = indexed_leaf(node, Cell{});
     only_leaf_.store(&leaf, std::memory_order_release);
     return &leaf;
+}
+
+const CoarseMap& IndexBase::find_coarse_map() const {
+    const auto& map = static_cast<const CoarseMap&>(root_block_->root_fact().get_or([&] {
+        return std::make_unique<const CoarseMap>(*root_.node, DoubleBox{lo_, hi_});
+    }));
+    coarse_map_.store(&map, std::memory_order_release);
+    return map;
 }
 
 bool IndexBase::is_inside_beyond() const {

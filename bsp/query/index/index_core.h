@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@
 namespace trisect::detail {
 
 class BranchBlock;
+class CoarseMap;
 
 /// A view of a solid's cell tree, whose leaves get their index when a query first enters them.
 /// Costs what is new in the tree: bounds are facts of nodes.
@@ -44,10 +46,16 @@ public:
     [[nodiscard]] bool is_inside_beyond() const;
     /// Where the tree has inner nodes: the first block of a descent. Else null.
     [[nodiscard]] const BranchBlock* root_block() const { return root_block_; }
+    /// \pre is_bounded(), and the tree has inner nodes
+    [[nodiscard]] const CoarseMap& coarse_map() const {
+        const CoarseMap* const known = coarse_map_.load(std::memory_order_acquire);
+        return known != nullptr ? *known : find_coarse_map();
+    }
     [[nodiscard]] double build_seconds() const { return build_seconds_; }
 
 private:
     [[nodiscard]] const IndexedLeaf* find_only_leaf() const;
+    [[nodiscard]] const CoarseMap& find_coarse_map() const;
 
     Solid solid_;
     std::shared_ptr<const SolidState> state_;  // with the tree
@@ -57,6 +65,7 @@ private:
     bool bounded_ = true;
     const BranchBlock* root_block_ = nullptr;
     mutable std::atomic<const IndexedLeaf*> only_leaf_{nullptr};
+    mutable std::atomic<const CoarseMap*> coarse_map_{nullptr};
     mutable std::atomic<std::int8_t> beyond_{-1};  // -1: not known yet
     double build_seconds_ = 0;
 };
@@ -88,7 +97,13 @@ void for_leaves_at(const IndexBase& base, const IndexPoint& p, Visit&& visit);
 [[nodiscard]] Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                                        std::vector<PolygonId>& on);
 
-/// The same without a look at the solid's bounds.
+/// Of a point in the solid's box, in lattice units: whether it is inside, if it is so far from the
+/// boundary that the coarse map decides.
+/// \pre the index is bounded, and its tree has inner nodes.
+[[nodiscard]] std::optional<bool> far_side(const IndexBase& index,
+                                           const std::array<double, 3>& point);
+
+/// The same as locate_polygons without a look at the solid's bounds.
 [[nodiscard]] Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
                                         std::vector<PolygonId>& on);
 

@@ -88,11 +88,12 @@ struct IndexGrid {
         std::array<double, 3> at{};
     };
 
+    // What finds a point's cell comes first, in 64 bytes.
     std::array<double, 3> origin{};
-    std::array<double, 3> fine{1, 1, 1};
     std::array<double, 3> scale{1, 1, 1};  ///< 1 / fine, rounded
     std::array<std::uint32_t, 3> n{1, 1, 1};
     int levels = 0;
+    std::array<double, 3> fine{1, 1, 1};
 
     [[nodiscard]] std::size_t count() const { return std::size_t{n[0]} * n[1] * n[2]; }
     [[nodiscard]] std::size_t cell(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {

@@ -373,10 +373,7 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
     const int p_side = p.side_of(support);
     if (p_side == 0) return is_on(polygons, id, p) ? Passing::On : Passing::None;
     if (reference_side(r, support) == p_side) return Passing::None;
-    Vector3 way{};
-    for (std::size_t k = 0; k < 3; ++k) way[k] = r.c[k] - p[k];
-    const LineThrough line(p.approximate(), p.error(), way,
-                           p.error() + r.error + largest_component(way) * unit_roundoff);
+    const LineThrough line = line_between(p, r);
     if (const int through = line.of(polygons.approximate_corners(id)); through != 0) {
         ++detail::counters_of_thread<PredicateCounters>.filtered;
         if (through < 0) return Passing::None;
@@ -462,6 +459,13 @@ Triangle triangle(const IndexPolygons& polygons, IndexPolygons::Id id) {
 }
 
 }  // namespace
+
+LineThrough line_between(const IndexPoint& p, const Reference& r) {
+    Vector3 way{};
+    for (std::size_t k = 0; k < 3; ++k) way[k] = r.c[k] - p[k];
+    return {p.approximate(), p.error(), way,
+            p.error() + r.error + largest_component(way) * unit_roundoff};
+}
 
 Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p,
                 const Reference& r) {

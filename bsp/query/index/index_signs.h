@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/query/index/index_point.h>
 #include <trisect/bsp/query/index/index_polygons.h>
+#include <trisect/bsp/query/index/line_through.h>
 
 namespace trisect::detail {
 
@@ -43,6 +44,9 @@ enum class Passing : std::int8_t {
 /// \pre the reference is not on the polygon.
 [[nodiscard]] Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id,
                               const IndexPoint& point, const Reference& reference);
+
+/// The line from a point to a reference.
+[[nodiscard]] LineThrough line_between(const IndexPoint& point, const Reference& reference);
 
 /// Whether a point lies on a closed polygon.
 [[nodiscard]] bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id,

@@ -410,10 +410,12 @@ bool IndexedLeafBuilder::trace(const FinePoint& from, const FinePoint& to,
 }
 
 IndexedLeaf::IndexedLeaf(const CellNode& node, const detail::Cell& cell)
-    : polygons_(node.polygons(), cell),
+    : cells_(0),
+      polygons_(node.polygons(), cell),
       reference_(node.reference()),
-      winding_(node.winding() > 0 ? 1 : 0),
-      cells_(polygons_.size()) {}
+      winding_(node.winding() > 0 ? 1 : 0) {
+    cells_ = IndexCells(polygons_.size());
+}
 
 void IndexedLeaf::build() const {
     const std::lock_guard lock(dividing());

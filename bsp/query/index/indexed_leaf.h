@@ -31,11 +31,12 @@ struct IndexCells {
     /// For about so many polygons.
     explicit IndexCells(std::size_t polygons);
 
-    GrowingArray<std::uint32_t> slots;  // of bricks, see IndexSlot
-    GrowingArray<IndexBrick> bricks;
+    // In the order in which most points of small grids come to them.
     GrowingArray<IndexLeaf> leaves;
-    GrowingArray<Id> listed;
     GrowingArray<float> planes;
+    GrowingArray<IndexBrick> bricks;
+    GrowingArray<std::uint32_t> slots;  // of bricks, see IndexSlot
+    GrowingArray<Id> listed;
     /// Bytes that the leaves made so far may take together, if corners are what makes them larger.
     double room = 0;
 
@@ -57,7 +58,7 @@ class IndexDivision;
 /// splitting planes needs one cell only, and a ray those that it comes through up to rounding.
 ///
 /// Safe to use from many threads.
-class IndexedLeaf final : public NodeFact {
+class alignas(64) IndexedLeaf final : public NodeFact {
 public:
     using Id = IndexPolygons::Id;
 
@@ -126,6 +127,22 @@ public:
         const std::uint32_t n = 4 * l.count + (l.has_corners() ? LeafCorners::floats(l.count) : 0);
         for (std::uint32_t i = 0; i < n; i += 16) __builtin_prefetch(p + i);
     }
+    /// Asks for the memory in which a point finds its cell.
+    void prefetch() const {
+        const char* const first = reinterpret_cast<const char*>(this);
+        for (std::size_t line = 0; line < 3; ++line) __builtin_prefetch(first + 64 * line);
+    }
+    /// Asks for the memory that a point between the polygons needs next.
+    void prefetch_cells() const {
+        __builtin_prefetch(&cells_.leaves);
+        __builtin_prefetch(&cells_.bricks);
+    }
+    /// Asks for the slot of a grid's cell. \pre grid() != nullptr
+    void prefetch_root(const IndexGrid::Position& at) const {
+        const unsigned shift = grid_->shift();
+        __builtin_prefetch(
+            &roots_[grid_->cell(at.fine[0] >> shift, at.fine[1] >> shift, at.fine[2] >> shift)]);
+    }
     [[nodiscard]] const IndexBrick& brick(std::uint32_t slot) const {
         return cells_.bricks[IndexSlot::number(slot)];
     }
@@ -171,20 +188,22 @@ private:
     }
     [[nodiscard]] bool find_side(std::size_t side) const;
 
-    IndexPolygons polygons_;
-    FinePoint reference_;
-    std::int32_t winding_ = 0;
-    mutable std::atomic<bool> divided_{false};
-    // All that follows is made by build().
+    // Points meet the members in this order: the first 64 bytes are what decides beyond all
+    // polygons, the next what finds a cell.
+    //
     // Strictly beyond these, along their axis, the cell has no polygons; infinite where the cell
     // ends before. What is there: 0 outside, 1 inside, -1 not known yet; below and above by axis.
     std::array<double, 3> below_{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     std::array<double, 3> above_{HUGE_VAL, HUGE_VAL, HUGE_VAL};
     mutable std::array<std::atomic<std::int8_t>, 6> sides_{-1, -1, -1, -1, -1, -1};
+    mutable std::atomic<bool> divided_{false};  // all but the last three is made by build()
     std::optional<IndexGrid> grid_;
     mutable std::vector<std::uint32_t> roots_;  // slots of the grid's cells
     mutable IndexCells cells_;
     std::unique_ptr<IndexDivision> division_;
+    IndexPolygons polygons_;
+    FinePoint reference_;
+    std::int32_t winding_ = 0;
 };
 
 inline IndexedLeaf::Cell IndexedLeaf::cell_at(const IndexGrid::Position& at) const {

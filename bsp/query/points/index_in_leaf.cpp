@@ -138,9 +138,9 @@ Answer PointInLeaf::trace() {
         return answer(winding_ > 0);
     }
     unsure_ = apart;
+    opposite_ = (above_ & of_corner.below) | (below_ & of_corner.above);
     if (!leaf_->has_corners()) return Answer::Open;
     unsure_ = 0;
-    const std::uint64_t opposite = (above_ & of_corner.below) | (below_ & of_corner.above);
     const float* corners = index_->corners(*leaf_);
     LeafLine line(leaf_->step, place_);
     line.aim_at_corner(corner_);
@@ -149,7 +149,7 @@ Answer PointInLeaf::trace() {
         const std::uint64_t bit = left & ~(left - 1);
         const LineSide side = line.at(corners, i);
         if (side == LineSide::Beside) continue;
-        if (side == LineSide::Unsure || (opposite & bit) == 0) {
+        if (side == LineSide::Unsure || (opposite_ & bit) == 0) {
             unsure_ |= bit;
         } else {
             winding_ += (below_ & bit) != 0 ? 1 : -1;
@@ -202,11 +202,35 @@ bool PointInLeaf::finish(const IndexPoint& p, std::vector<PolygonId>& on) {
     }
     if (corner_ == no_corner) return trace_to_reference(p, on);
     ++index_counters().exact;
-    const Reference reference(corner_point());
-    for (; unsure_ != 0; unsure_ &= unsure_ - 1)
-        winding_ += passed(listed[lowest(unsure_)], p, reference, on);
+    winding_ += winding_past(unsure_, p, on);
     if ((above_ | below_) == all_) remember(*leaf_, above_, winding_ > 0);
     return winding_ > 0;
+}
+
+// The change of the winding number at some polygons on the way to the corner. Fragments have no
+// corners in the leaf; how the line runs past theirs in doubles takes a fraction of what exact
+// planes of support and edges would.
+int PointInLeaf::winding_past(std::uint64_t polygons, const IndexPoint& p,
+                              std::vector<PolygonId>& on) const {
+    const auto listed = index_->listed(*leaf_);
+    const Reference reference(corner_point());
+    const LineThrough line = line_between(p, reference);
+    int winding = 0;
+    for (; polygons != 0; polygons &= polygons - 1) {
+        const unsigned i = lowest(polygons);
+        const std::uint64_t bit = polygons & ~(polygons - 1);
+        const Id id = listed[i];
+        const int through = index_->polygons().is_triangle(id)
+                                ? 0
+                                : line.of(index_->polygons().approximate_corners(id));
+        if (through < 0) continue;
+        if (through > 0 && (opposite_ & bit) != 0) {
+            winding += (below_ & bit) != 0 ? 1 : -1;
+        } else {
+            winding += passed(id, p, reference, on);
+        }
+    }
+    return winding;
 }
 
 // The same plane by plane.

@@ -43,6 +43,8 @@ private:
     [[nodiscard]] std::uint64_t narrowed(std::uint64_t open) const;
     [[nodiscard]] int passed(Id id, const IndexPoint& p, const Reference& reference,
                              std::vector<PolygonId>& on) const;
+    [[nodiscard]] int winding_past(std::uint64_t polygons, const IndexPoint& p,
+                                   std::vector<PolygonId>& on) const;
     [[nodiscard]] FinePoint corner_point() const;
     [[nodiscard]] bool finish_many(const IndexPoint& p, std::vector<PolygonId>& on);
     [[nodiscard]] bool trace_to_reference(const IndexPoint& p, std::vector<PolygonId>& on) const;
@@ -59,9 +61,10 @@ private:
     std::uint64_t all_ = 0;
     std::uint64_t above_ = 0;  // planes that have the point surely below them, and so on
     std::uint64_t below_ = 0;
-    std::uint64_t near_ = 0;    // polygons that may contain the point
-    std::uint64_t unsure_ = 0;  // that the segment may meet
-    std::uint64_t on_ = 0;      // that contain the point
+    std::uint64_t opposite_ = 0;  // surely between the point and the corner
+    std::uint64_t near_ = 0;      // polygons that may contain the point
+    std::uint64_t unsure_ = 0;    // that the segment may meet
+    std::uint64_t on_ = 0;        // that contain the point
 };
 
 }  // namespace trisect::detail

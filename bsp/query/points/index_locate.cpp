@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <trisect/bsp/query/index/branch_block.h>
+#include <trisect/bsp/query/index/coarse_map.h>
 #include <trisect/bsp/query/index/index_core.h>
 #include <trisect/bsp/query/index/index_counters.h>
 #include <trisect/bsp/query/index/index_signs.h>
@@ -61,6 +62,7 @@ public:
             inside_ = *inside != place.turned;
             return;
         }
+        leaf.prefetch_cells();
         IndexGrid::Position at;
         IndexedLeaf::Cell cell;
         if (const IndexGrid* const grid = leaf.grid()) {
@@ -106,8 +108,9 @@ bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place)
         place.leaf = index.only_leaf();
         return place.leaf != nullptr;
     }
+    const WallPoint at(p);
     for (;;) {
-        const int way = block->way_of(p);
+        const int way = block->way_of(at);
         if (way < 0) return false;
         const BranchBlock::Next next = block->next(way);
         if (!next.is_known()) return false;
@@ -118,9 +121,11 @@ bool find_quickly(const IndexBase& index, const IndexPoint& p, LeafPlace& place)
         place.turned = place.turned != next.turned();
         if (next.is_leaf()) {
             place.leaf = &next.leaf();
+            place.leaf->prefetch();
             return true;
         }
         block = &next.block();
+        block->prefetch();
     }
 }
 
@@ -140,14 +145,33 @@ Location locate_in_leaves(const IndexBase& index, const IndexPoint& point,
     return found.inside() ? Location::Inside : Location::Outside;
 }
 
+std::optional<bool> far_side(const IndexBase& index, const std::array<double, 3>& point) {
+    const bool turned = index.root().complemented;
+    const CoarseMap::Side side = index.coarse_map().at(point, [&] {
+        std::vector<PolygonId> on;
+        return (locate_in_leaves(index, IndexPoint(point), on) == Location::Inside) != turned;
+    });
+    if (side == CoarseMap::Side::Open) return std::nullopt;
+    return (side == CoarseMap::Side::Inside) != turned;
+}
+
 Location locate_polygons(const IndexBase& index, const IndexPoint& point,
                          std::vector<PolygonId>& on) {
     // A single leaf has bounds of its own.
-    if (index.only_leaf() != nullptr || !is_beyond(index, point))
-        return locate_in_leaves(index, point, on);
+    if (index.only_leaf() != nullptr) return locate_in_leaves(index, point, on);
+    bool inside = false;
+    if (is_beyond(index, point)) {
+        inside = index.is_inside_beyond();
+    } else {
+        std::optional<bool> far;
+        if (index.is_bounded() && index.root_block() != nullptr && point.is_doubles())
+            far = far_side(index, point.approximate());
+        if (!far) return locate_in_leaves(index, point, on);
+        inside = *far;
+    }
     on.clear();
     ++index_counters().empty;
-    return index.is_inside_beyond() ? Location::Inside : Location::Outside;
+    return inside ? Location::Inside : Location::Outside;
 }
 
 }  // namespace trisect::detail
