@@ -66,6 +66,8 @@ public:
     [[nodiscard]] double turn_from(const ObbPose& other) const;
     /// How many units of A one unit of B is (at most, for maps that stretch unevenly).
     [[nodiscard]] float scale() const { return scale_; }
+    /// Whether the map is a similarity, as far as floats decide.
+    [[nodiscard]] bool is_rigid() const { return rigid_; }
 
     // The map in floats, as tests of planes need it (separating_planes.h).
     [[nodiscard]] float turned(std::size_t i, std::size_t j) const { return m_[i][j]; }

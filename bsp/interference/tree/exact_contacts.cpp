@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include <trisect/bsp/interference/relation/contact_cones.h>
+#include <trisect/bsp/interference/tree/point_gap.h>
 #include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
@@ -139,24 +140,32 @@ void ExactContacts::add_others() {
     }
 }
 
+// Doubles exclude nearly all.
+bool ExactContacts::may_contain(const ExactTriangles::Triangle& t, const Approximation& at) {
+    TriangleCorners corners;
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = t.corner[i].approximation().c;
+        error = std::max(error, t.corner[i].approximation().error);
+    }
+    return !is_certainly_beyond(corners, error, at.c, at.error);
+}
+
 void ExactContacts::add_if_there(MeetingTriangles& meeting, std::uint32_t place) {
     MeetingPlace& p = places_[place];
+    const ExactTriangles::Triangle& a = a_[meeting.a];
+    const ExactTriangles::Triangle& b = b_[meeting.b];
     const bool has_a = contains(p.a, meeting.a);
     const bool has_b = contains(p.b, meeting.b);
-    if (!has_a) {
-        const auto at = feature_at(a_[meeting.a].posed(), *p.exact);
-        if (!at) return;
-        if (!has_b) {
-            const auto at_b = feature_at(b_[meeting.b].posed(), moved(*p.exact, poses_.to_b));
-            if (!at_b) return;
-            p.b.push_back({meeting.b, *at_b});
-        }
-        p.a.push_back({meeting.a, *at});
-    } else if (!has_b) {
-        const auto at = feature_at(b_[meeting.b].posed(), moved(*p.exact, poses_.to_b));
-        if (!at) return;
-        p.b.push_back({meeting.b, *at});
-    }
+    const Approximation at{p.at, p.error};
+    if (!has_a && !may_contain(a, at)) return;
+    if (!has_b && poses_.to_b.has_doubles() && !may_contain(b, poses_.to_b.move(at))) return;
+    std::optional<Feature> in_a;
+    std::optional<Feature> in_b;
+    if (!has_a && !(in_a = feature_at(a.posed(), *p.exact))) return;
+    if (!has_b && !(in_b = feature_at(b.posed(), moved(*p.exact, poses_.to_b)))) return;
+    if (in_a) p.a.push_back({meeting.a, *in_a});
+    if (in_b) p.b.push_back({meeting.b, *in_b});
     meeting.others.push_back(place);
 }
 

@@ -73,6 +73,8 @@ private:
     [[nodiscard]] bool is_at(MeetingPlace& place, const Incidence& first, const Incidence& other);
     void unite(std::vector<Incidence>& all);
     void add_others();
+    [[nodiscard]] static bool may_contain(const ExactTriangles::Triangle& t,
+                                          const Approximation& at);
     void add_if_there(MeetingTriangles& meeting, std::uint32_t place);
     [[nodiscard]] BoundaryFlags flags_at(const MeetingPlace& place) const;
     [[nodiscard]] EntityName name_at(const MeetingPlace& place, bool of_a);

@@ -11,6 +11,7 @@
 
 #include <trisect/bsp/interference/tree/solid_sides.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <trisect/bsp/interference/relation/exact_place.h>
@@ -27,7 +28,15 @@ SolidSides::SolidSides(const SolidBoundary& a, const Pose& pose_a, const SolidBo
       pose_a_(pose_a),
       pose_other_(pose_of),
       map_(to_other),
-      pose_(of.boxes, a.boxes, to_other) {}
+      pose_(of.boxes, a.boxes, to_other) {
+    // How lengths change, if all do alike.
+    const auto square = [&](std::size_t j) {
+        return map_.m[0][j] * map_.m[0][j] + map_.m[1][j] * map_.m[1][j] +
+               map_.m[2][j] * map_.m[2][j];
+    };
+    is_rigid_ = pose_.is_rigid();
+    scale_ = 0.99 * std::sqrt(std::min({square(0), square(1), square(2)}));
+}
 
 void SolidSides::add(Location location) {
     if (location == Location::Inside) sides_.in = true;
@@ -100,12 +109,21 @@ void SolidSides::visit(ObbId box, Near near) {
     }
 }
 
-// All of the box is on one side; its centre is a point in doubles.
+// All of the box is on one side; its centre is a point in doubles. Where the box reaches farther
+// around it than the image of the centre is off, that image is in the image of the box as well.
 void SolidSides::add_box(ObbId box) {
     const OrientedBox b = a_.boxes.box(box);
     std::array<double, 3> center{};
     for (std::size_t k = 0; k < 3; ++k)
         center[k] = a_.boxes.origin[k] + static_cast<double>(b.center[k]) * a_.boxes.unit;
+    const std::array<double, 3> x = map_(center);
+    const double e = map_.error_below(a_.largest, 0);
+    const double least = static_cast<double>(std::min({b.half[0], b.half[1], b.half[2]}));
+    if (is_rigid_ && least * a_.boxes.unit * scale_ > 4 * e) {
+        if (is_beyond_bounds(x, 0)) return add(Location::Outside);
+        on_.clear();
+        return add(locate_in_leaves(other_.base(), IndexPoint(x), on_));
+    }
     if (const auto quick = quick_location(center, 0)) return add(*quick);
     ExactPlace exact;
     for (std::size_t k = 0; k < 3; ++k) exact.c[k] = ExactRational::from_double(center[k]);
@@ -135,12 +153,17 @@ void SolidSides::add_pieces(const LeafBoxes& boxes, bool exactly) {
     }
 }
 
+bool SolidSides::is_beyond_bounds(const std::array<double, 3>& x, double error) const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (x[k] - error > other_.hi[k] || x[k] + error < other_.lo[k]) return true;
+    return false;
+}
+
 std::optional<Location> SolidSides::quick_location(const std::array<double, 3>& point,
                                                    double error) {
     const std::array<double, 3> x = map_(point);
     const double e = map_.error_below(a_.largest, error);
-    for (std::size_t k = 0; k < 3; ++k)
-        if (x[k] - e > other_.hi[k] || x[k] + e < other_.lo[k]) return Location::Outside;
+    if (is_beyond_bounds(x, e)) return Location::Outside;
     if (is_near_other(x, e)) return std::nullopt;
     on_.clear();
     return locate_in_leaves(other_.base(), IndexPoint(x), on_);

@@ -53,6 +53,7 @@ private:
     void add(Location location);
     [[nodiscard]] std::optional<Location> quick_location(const std::array<double, 3>& point,
                                                          double error);
+    [[nodiscard]] bool is_beyond_bounds(const std::array<double, 3>& x, double error) const;
     [[nodiscard]] bool is_near_other(const std::array<double, 3>& point, double error) const;
     [[nodiscard]] Location exact_location(const ExactPlace& place);
 
@@ -62,6 +63,8 @@ private:
     const Pose& pose_other_;
     ApproximateMap map_;
     ObbPose pose_;  // of `a` in the other's boxes
+    bool is_rigid_ = false;
+    double scale_ = 0;  // a little less than the scale of the map
     std::optional<RelativePose> exact_;
     std::vector<ObbId> near_;
     std::vector<PolygonId> on_;
