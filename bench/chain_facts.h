@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/bsp/interference/tree/leaf_boxes.h>
 #include <trisect/bsp/query/index/fact_bytes.h>
 #include <trisect/bsp/query/index/index_core.h>
 #include <trisect/bsp/solid.h>
@@ -21,8 +22,8 @@ public:
         Weights weights;
         std::size_t added = 0;
         for_nodes(next, [&](const Node& node) {
-            // Facts of interference are to be added here.
-            const std::size_t bytes = trisect::detail::query_fact_bytes(node);
+            const std::size_t bytes =
+                trisect::detail::query_fact_bytes(node) + trisect::detail::boxes_fact_bytes(node);
             if (!weights.emplace(&node, bytes).second) return;
             const auto before = weights_.find(&node);
             const std::size_t old = before != weights_.end() ? before->second : 0;

@@ -9,7 +9,8 @@
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
 // points, one by one and as a batch, and a fresh index beside.
-// --interference: a holder beside each cut, by the solids themselves.
+// --interference: a holder above each cut, by the solids themselves: first placed anew each time,
+// then by a query that goes on. Above the cut its whole rim is equally near, beside it is not.
 // --rebuild: after every so many cuts also what making everything anew takes, CGAL and FCL beside
 // it; with --models an InterferenceModel, too.
 // --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
@@ -30,6 +31,7 @@
 
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/interference_query.h>
 #include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
@@ -117,7 +119,7 @@ public:
           rebuild_(ChainCuts::holder(), o.models) {
         if (o.refined) stock_.refine();
         (void)BrepIndex(stock_);
-        if (o.interference) (void)interfere(stock_, Pose(), holder_, Pose());
+        if (o.interference) query_.emplace(stock_, holder_);
         if (o.bytes) facts_.emplace(stock_);
     }
 
@@ -133,8 +135,8 @@ public:
         }
         counters_.parts.end();
         Series::print_head();
-        for (const Series* s :
-             {&cut_, &index_, &locate_, &ray_, &nearest_, &interfere_, &distance_})
+        for (const Series* s : {&cut_, &index_, &locate_, &ray_, &nearest_, &interfere_, &aside_,
+                                &distance_, &replace_, &query_relation_, &again_})
             s->print();
         rebuild_.print();
         print_bytes();
@@ -147,8 +149,18 @@ private:
     // little off the stock.
     [[nodiscard]] ChainQuestions questions_at(const Point3d& at) const {
         const double r = cuts_.radius();
+        // Turned about the axis that is most across it, by four radii of the cut.
+        std::size_t axis = 0;
+        for (std::size_t k = 1; k < 3; ++k)
+            if (std::fabs(at[k]) < std::fabs(at[axis])) axis = k;
+        const std::size_t u = (axis + 1) % 3;
+        const std::size_t v = (axis + 2) % 3;
+        Point3d aside = ChainCuts::times(at, 1.25 + 0.1 * r);
+        const double x = aside[u];
+        aside[u] = std::cos(4 * r) * x - std::sin(4 * r) * aside[v];
+        aside[v] = std::sin(4 * r) * x + std::cos(4 * r) * aside[v];
         return {ChainCuts::times(at, 1 - 0.9 * r), ChainCuts::times(at, 3),
-                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1.25 + 0.1 * r)};
+                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1.25 + 0.1 * r), aside};
     }
 
     void step(int i) {
@@ -166,17 +178,26 @@ private:
             sum_ += index->first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
         });
         nearest_.add(counters_, [&] { sum_ += index->distance(q.above) ? 1 : 0; });
-        if (options_.interference) ask_holder(Pose::from_translation(q.holder));
+        if (options_.interference)
+            ask_holder(Pose::from_translation(q.holder), Pose::from_translation(q.aside));
         if (facts_) added_.push_back(static_cast<double>(facts_->added_by(stock_)));
         if (options_.rebuild != 0 && i % options_.rebuild == 0) rebuild_.ask(stock_, q);
     }
 
-    void ask_holder(const Pose& pose) {
+    void ask_holder(const Pose& pose, const Pose& aside) {
         interfere_.add(counters_, [&] {
             sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
         });
+        aside_.add(counters_,
+                   [&] { sum_ += boundary_distance(stock_, Pose(), holder_, aside) ? 1 : 0; });
         distance_.add(counters_,
                       [&] { sum_ += boundary_distance(stock_, Pose(), holder_, pose) ? 1 : 0; });
+        replace_.add(counters_, [&] { query_->replace_a(stock_); });
+        query_relation_.add(
+            counters_, [&] { sum_ += static_cast<std::size_t>(query_->relation(Pose(), pose)); });
+        again_.add(counters_, [&] {
+            sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
+        });
     }
 
     void warm(int i) {
@@ -240,7 +261,12 @@ private:
     Series ray_{"first_facet"};
     Series nearest_{"distance"};
     Series interfere_{"interfere"};
-    Series distance_{"boundary_distance"};
+    Series aside_{"boundary_distance, beside the cut"};
+    Series distance_{"boundary_distance, the rim equally near"};
+    Series replace_{"query.replace_a"};
+    Series query_relation_{"query.relation after it"};
+    Series again_{"interfere again"};
+    std::optional<trisect::InterferenceQuery> query_;
 };
 
 }  // namespace

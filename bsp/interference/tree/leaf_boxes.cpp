@@ -121,6 +121,11 @@ const LeafBoxes& BoxedLeaf::boxes() const {
     return *boxes_;
 }
 
+std::size_t boxes_fact_bytes(const CellNode& node) {
+    const NodeFact* const fact = node.boxes_fact().get();
+    return fact != nullptr ? static_cast<const BoxedLeaf*>(fact)->bytes() : 0;
+}
+
 const BoxedLeaf& boxed_leaf(const CellNode& leaf, const Cell& cell) {
     return static_cast<const BoxedLeaf&>(leaf.boxes_fact().get_or([&] {
         ++boxes_counters().hulls;

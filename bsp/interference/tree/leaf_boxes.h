@@ -90,6 +90,10 @@ public:
 
     [[nodiscard]] const LeafHull& hull() const { return hull_; }
     [[nodiscard]] const LeafBoxes& boxes() const;
+    /// Of memory, the boxes included where they are there. Not while others make them.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(*this) + (boxes_ != nullptr ? boxes_->bytes() : 0);
+    }
 
 private:
     const CellNode& leaf_;
@@ -101,5 +105,7 @@ private:
 
 /// Made when it is first needed. \pre the leaf lists something and fills the cell
 [[nodiscard]] const BoxedLeaf& boxed_leaf(const CellNode& leaf, const Cell& cell);
+/// Of the boxes that hang on a node now.
+[[nodiscard]] std::size_t boxes_fact_bytes(const CellNode& node);
 
 }  // namespace trisect::detail
