@@ -8,7 +8,10 @@
 // With --fractions 1 each pair is compared a second time, one solid or both of them on lattices
 // whose units are 2^8, 2^24, 2^56 or 2^70 times as large: the same solids.
 //
-//     interference_campaign [--pairs 1000] [--seed 1] [--minutes 0] [--fractions 0]
+// With --solids 1 the solids' own trees answer instead, in cells of one to seven polygons, beside
+// models; and again after three cuts of the first solid, with what earlier questions prepared.
+//
+//     interference_campaign [--pairs 1000] [--seed 1] [--minutes 0] [--fractions 0] [--solids 0]
 
 #include <array>
 #include <chrono>
@@ -23,7 +26,7 @@
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/diagnostics.h>
 
-#include "support/interference_oracle.h"
+#include "support/solid_interference_oracle.h"
 
 namespace {
 
@@ -32,6 +35,7 @@ struct Options {
     std::uint64_t seed = 1;
     double minutes = 0;  // 0: no limit
     bool fractions = false;
+    bool solids = false;
 };
 
 // Of the units of both solids. The second form of a pair is drawn beside its scene, so that scenes
@@ -55,6 +59,8 @@ bool parse(int argc, char** argv, Options& o) {
             o.minutes = std::strtod(argv[i + 1], nullptr);
         else if (name == "--fractions")
             o.fractions = std::strtol(argv[i + 1], nullptr, 10) != 0;
+        else if (name == "--solids")
+            o.solids = std::strtol(argv[i + 1], nullptr, 10) != 0;
         else
             return false;
     }
@@ -74,7 +80,11 @@ int run(const Options& o) {
         reference::Random random(o.seed + done);
         const brute::Scene scene = brute::random_scene(random);
         trisect::Relation relation{};
-        std::string difference = brute::difference(scene, &relation);
+        const auto few = static_cast<std::uint32_t>(1 + (o.seed + done) % 7);
+        std::string difference = o.solids ? brute::difference_of_solids(scene, few, &relation)
+                                          : brute::difference(scene, &relation);
+        if (difference.empty() && o.solids)
+            difference = brute::difference_along_cuts(scene, few, random, 3);
         if (difference.empty() && o.fractions)
             difference = brute::difference_on_coarser_lattices(scene, coarser_units(o.seed + done));
         if (!difference.empty()) {
@@ -106,7 +116,8 @@ int main(int argc, char** argv) {
     if (!parse(argc, argv, options)) {
         std::fprintf(
             stderr,
-            "usage: interference_campaign [--pairs N] [--seed S] [--minutes M] [--fractions 1]\n");
+            "usage: interference_campaign [--pairs N] [--seed S] [--minutes M] [--fractions 1] "
+            "[--solids 1]\n");
         return 2;
     }
     try {

@@ -77,19 +77,34 @@ bool PolygonClipper::clip_by(std::size_t axis, double wall, double sign) {
     return true;
 }
 
-// Whether one of its edges is on a wall, which then has all of it on one side: this, since it is
-// listed here. Corners are on the wall there, which doubles do not see.
+// Whether one of its edges is on a wall, which then has all of it on one side. Corners are on the
+// wall there, which doubles do not see.
 bool PolygonClipper::ends_at(std::size_t axis, std::int64_t wall) const {
     return std::ranges::any_of(edges_, [&](const EdgeName& e) {
         return e.plane == PlaneName::splitter(static_cast<int>(axis), wall);
     });
 }
 
+// The part on the side of a wall where `sign` times the distance is negative.
+bool PolygonClipper::clip_by_wall(std::size_t axis, std::int64_t wall, double sign) {
+    const double position = rounded_position(wall);
+    if (!ends_at(axis, wall)) return clip_by(axis, position, sign);
+    for (const Corner& p : corners_) {
+        const double d = sign * (p.c[axis] - position);
+        const double e = p.error + last_place * (std::fabs(p.c[axis]) + 2 * std::fabs(position));
+        if (d < -e) return true;
+        if (d > e) {
+            corners_.clear();
+            return true;
+        }
+    }
+    return corners_.empty();
+}
+
 bool PolygonClipper::clip_by_walls() {
     const Cell& cell = polygons_.cell();
     for (std::size_t k = 0; k < 3; ++k) {
-        if (!ends_at(k, cell.hi[k]) && !clip_by(k, rounded_position(cell.hi[k]), 1)) return false;
-        if (!ends_at(k, cell.lo[k]) && !clip_by(k, rounded_position(cell.lo[k]), -1)) return false;
+        if (!clip_by_wall(k, cell.hi[k], 1) || !clip_by_wall(k, cell.lo[k], -1)) return false;
     }
     return true;
 }

@@ -44,6 +44,7 @@ private:
     void begin(IndexPolygons::Id id);
     [[nodiscard]] bool ends_at(std::size_t axis, std::int64_t wall) const;
     [[nodiscard]] bool clip_by_walls();
+    [[nodiscard]] bool clip_by_wall(std::size_t axis, std::int64_t wall, double sign);
     [[nodiscard]] bool clip_by(std::size_t axis, double wall, double sign);
     void take_exact(IndexPolygons::Id id);
 

@@ -127,25 +127,41 @@ private:
         return true;
     }
 
+    // In lattice units about the origin, as far as this is a matter of every corner.
     void find_reach() {
         lo_.fill(HUGE_VAL);
         hi_.fill(-HUGE_VAL);
         for_lists(leaf_, [&](const PolygonList& list) {
+            if (const Source* const source = list.whole_source();
+                source != nullptr && !source->is_half_space()) {
+                const LatticeMesh& mesh = source->mesh();
+                for (std::size_t i = 0; i < list.size(); ++i)
+                    for (const std::uint32_t corner : mesh.triangles[list[i].facet])
+                        take(mesh.points[corner].doubles());
+                return;
+            }
             for (const PolygonRef polygon : list) {
                 const CornersOf corners(polygon);
                 is_bounded_ = is_bounded_ && !corners.is_unbounded();
                 error_ = std::max(error_, corners.error());
-                for (std::size_t j = 0; j < corners.size(); ++j) {
-                    const Vector3 p = in_units(corners.at(j));
-                    largest_ = std::max(largest_, largest_component(p));
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const double c = dot(axis_[k], p);
-                        lo_[k] = std::min(lo_[k], c);
-                        hi_[k] = std::max(hi_[k], c);
-                    }
-                }
+                for (std::size_t j = 0; j < corners.size(); ++j) take(corners.at(j));
             }
         });
+        const double per_unit = 1 / hull_.unit;  // a power of two
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo_[k] *= per_unit;
+            hi_[k] *= per_unit;
+            // Axes are as good as orthonormal.
+            largest_ = std::max({largest_, 3 * std::fabs(lo_[k]), 3 * std::fabs(hi_[k])});
+        }
+    }
+    void take(const Vector3& corner) {
+        const Vector3 p = minus(corner, hull_.origin);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double c = (axis_[k][0] * p[0] + axis_[k][1] * p[1]) + axis_[k][2] * p[2];
+            lo_[k] = c < lo_[k] ? c : lo_[k];
+            hi_[k] = c > hi_[k] ? c : hi_[k];
+        }
     }
 
     void set_box() {

@@ -40,12 +40,11 @@ Box leaf_bounds(const CellNode& leaf) {
     return box;
 }
 
-const NodeBounds& keep_bounds(const CellNode& node, const Box& box) {
+const NodeBounds& keep_bounds(const CellNode& node, const CellNode& queried, const Box& box) {
     const auto make = [&] {
         auto fact = std::make_unique<NodeBounds>();
         fact->box = box;
-        const CellNode* const refinement = node.is_leaf() ? node.refinement() : nullptr;
-        fact->queried = refinement != nullptr ? refinement : &node;
+        fact->queried = &queried;
         return fact;
     };
     return static_cast<const NodeBounds&>(node.bounds_fact().get_or(make));
@@ -60,13 +59,24 @@ Solid resolved(const Solid& solid) {
 
 const NodeBounds& node_bounds(const CellNode& node) {
     if (const NodeBounds* const known = known_bounds(node)) return *known;
-    // Children first; nodes are put off until theirs are known.
+    // Children first, and refinements of leaves; nodes are put off until theirs are known.
     std::vector<const CellNode*> pending{&node};
     for (;;) {
         const CellNode& n = *pending.back();
         Box box;
+        const CellNode* queried = &n;
         if (n.is_leaf()) {
-            box = leaf_bounds(n);
+            if (const CellNode* const refinement = n.refinement()) {
+                const NodeBounds* const known = known_bounds(*refinement);
+                if (known == nullptr) {
+                    pending.push_back(refinement);
+                    continue;
+                }
+                queried = refinement;
+                box = known->box;
+            } else {
+                box = leaf_bounds(n);
+            }
         } else {
             const std::size_t before = pending.size();
             for (int i = 0; i < 2; ++i) {
@@ -79,7 +89,7 @@ const NodeBounds& node_bounds(const CellNode& node) {
             }
             if (pending.size() != before) continue;
         }
-        const NodeBounds& kept = keep_bounds(n, box);
+        const NodeBounds& kept = keep_bounds(n, *queried, box);
         pending.pop_back();
         if (pending.empty()) return kept;
     }
