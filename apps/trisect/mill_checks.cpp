@@ -42,7 +42,7 @@ const char* kind_word(EntityName::Kind kind) {
 }  // namespace
 
 MillChecks::MillChecks(const MillJob& job, const MillOptions& options)
-    : job_(job), touch_(options.touch) {
+    : job_(job), holder_parts_(job.holder_parts), touch_(options.touch) {
     bodies_[job.stock_source] = stock_name_;
     bodies_[job.holder.source] = job.holder.name;
     for (const MillBody& fixture : job.fixtures) bodies_[fixture.source] = fixture.name;
@@ -56,7 +56,7 @@ std::string MillChecks::face_name(const FaceSource& face) const {
     if (const auto body = bodies_.find(face.operand); body != bodies_.end())
         return fmt::format("{} face {}", body->second, face.face);
     if (const auto cut = cuts_.find(face.operand); cut != cuts_.end())
-        return fmt::format("face {} of the tool at step {}", face.face, cut->second + 1);
+        return fmt::format("a face cut at step {}", cut->second + 1);
     return fmt::format("{} face {}", holder_name, face.face);  // a hull of it between positions
 }
 
@@ -127,7 +127,7 @@ std::vector<Json> MillChecks::of_tool(std::size_t index, const SweptTool& tool,
     return out;
 }
 
-std::vector<Json> MillChecks::of_holder(std::size_t index, const Solid& stock) const {
+std::vector<Json> MillChecks::of_holder(std::size_t index, const Solid& stock) {
     std::vector<Json> out;
     const MillStep& step = job_.steps[index];
     const Pose pose = job_.pose_after(step);
@@ -138,8 +138,8 @@ std::vector<Json> MillChecks::of_holder(std::size_t index, const Solid& stock) c
                   index, touch_, out);
     };
     check_all(job_.holder.solid, pose);
-    if (out.empty() && job_.holder_parts && !step.is_placement)
-        check_all(job_.holder_parts->swept(step.orientation, step.from, step.to).solid, Pose());
+    if (out.empty() && holder_parts_ && !step.is_placement)
+        check_all(holder_parts_->swept(step.orientation, step.from, step.to, false).solid, Pose());
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include <trisect/bsp/solid.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -31,7 +32,7 @@ public:
     [[nodiscard]] std::vector<Json> of_tool(std::size_t index, const SweptTool& tool,
                                             const Solid& stock) const;
     /// The holder at the end of the step (between positions too, if requested), after the cut.
-    [[nodiscard]] std::vector<Json> of_holder(std::size_t index, const Solid& stock) const;
+    [[nodiscard]] std::vector<Json> of_holder(std::size_t index, const Solid& stock);
 
 private:
     struct Pair {
@@ -50,6 +51,7 @@ private:
     void add_place(const Pair& pair, Json& out) const;
 
     const MillJob& job_;
+    std::optional<MillTool> holder_parts_;
     bool touch_;
     std::string stock_name_ = "stock";
     std::unordered_map<std::uint32_t, std::string> bodies_;

@@ -138,7 +138,7 @@ std::vector<float> soup_of(const PolygonMesh& mesh) {
 
 PolygonMesh tool_mesh(const MillJob& job) {
     PolygonMesh out;
-    for (const LatticeMesh& part : job.tool->parts()) {
+    for (const LatticeMesh& part : job.tool->hulls()) {
         PolygonMesh mesh;
         for (const LatticePoint& p : part.points)
             mesh.points.push_back(job.grid.to_user(p.doubles()));

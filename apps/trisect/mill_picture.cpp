@@ -36,7 +36,8 @@ std::string picture_of_run(const MillJob& job, const MillRun& run) {
         const MillStep& last = job.steps[run.done() - 1];
         bodies.push_back(transformed(job.holder.solid, job.pose_after(last)));
         colors[job.holder.source] = MillColor::Holder;
-        bodies.push_back(job.tool->swept(last.orientation, last.to, last.to).solid);
+        MillTool tool = *job.tool;
+        bodies.push_back(tool.swept(last.orientation, last.to, last.to, false).solid);
     }
     const Solid all = bodies.size() == 1 ? bodies[0] : evaluate(Expression::any_of(bodies));
     std::vector<Point3d> corners = corners_of(all);

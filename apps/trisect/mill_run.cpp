@@ -29,10 +29,13 @@ auto timed(double& milliseconds, Work&& work) {
 }  // namespace
 
 MillRun::MillRun(const MillJob& job, const MillOptions& options)
-    : job_(job), checks_(job, options), stock_(job.stock) {}
+    : job_(job), tool_(*job.tool), checks_(job, options), stock_(job.stock) {}
 
-SweptTool MillRun::swept(const MillStep& step) const {
-    return job_.tool->swept(step.orientation, step.from, step.to);
+SweptTool MillRun::swept() {
+    const MillStep& step = job_.steps[done()];
+    // Where a step ended without a collision the tool is in what was removed, or in the air.
+    const bool is_clear = done() > 0 && !records_.back().has_collision;
+    return tool_.swept(step.orientation, step.from, step.to, is_clear);
 }
 
 Solid MillRun::cut(const SweptTool& tool) const {
@@ -41,7 +44,7 @@ Solid MillRun::cut(const SweptTool& tool) const {
 
 void MillRun::repeat(const MillRecord& record) {
     if (record.removed > 0) {
-        const SweptTool tool = swept(job_.steps[done()]);
+        const SweptTool tool = swept();
         stock_ = cut(tool);
         checks_.name_cut(tool, done());
     }
@@ -53,7 +56,7 @@ void MillRun::step() {
     const MillStep& step = job_.steps[index];
     MillRecord record;
     MillTimes& times = record.times;
-    const SweptTool tool = timed(times.sweep, [&] { return swept(step); });
+    const SweptTool tool = timed(times.sweep, [&] { return swept(); });
     std::vector<Json> found =
         timed(times.check, [&] { return checks_.of_tool(index, tool, stock_); });
     Solid left = stock_;

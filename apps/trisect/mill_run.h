@@ -51,10 +51,12 @@ public:
     [[nodiscard]] double removed() const;
 
 private:
-    [[nodiscard]] SweptTool swept(const MillStep& step) const;
+    /// Of the next step.
+    [[nodiscard]] SweptTool swept();
     [[nodiscard]] Solid cut(const SweptTool& tool) const;
 
     const MillJob& job_;
+    MillTool tool_;
     MillChecks checks_;
     Solid stock_;
     std::vector<MillRecord> records_;

@@ -97,10 +97,10 @@ MillTool::MillTool(const PolygonMesh& mesh, const std::string& name, MillGrid& g
                    const std::vector<std::array<double, 9>>& orientations) {
     const std::vector<PolygonMesh> shells = shells_of(mesh);
     for (const std::array<double, 9>& orientation : orientations) {
-        std::vector<LatticeMesh>& parts = parts_.emplace_back();
+        std::vector<Part>& parts = parts_.emplace_back();
         for (const PolygonMesh& shell : shells) {
-            parts.push_back(hull_of_shell(shell, orientation, grid));
-            const double whole = volume(parts.back());
+            parts.push_back({hull_of_shell(shell, orientation, grid), {}});
+            const double whole = volume(parts.back().mesh);
             const double added = 1 - signed_volume(shell) / whole;
             if (!(added <= most_added_volume))
                 throw UnsupportedError(fmt::format(
@@ -112,12 +112,31 @@ MillTool::MillTool(const PolygonMesh& mesh, const std::string& name, MillGrid& g
     }
 }
 
-SweptTool MillTool::swept(std::uint32_t orientation, const Point3d& from, const Point3d& to) const {
+std::vector<LatticeMesh> MillTool::hulls() const {
+    std::vector<LatticeMesh> out;
+    for (const Part& part : parts_.front()) out.push_back(part.mesh);
+    return out;
+}
+
+const LatticeMesh& MillTool::leading(Part& part, const std::array<double, 3>& by) {
+    constexpr std::size_t most_kept = 4096;
+    if (part.leading.size() == most_kept) part.leading.clear();
+    const std::vector<bool> key = leading_triangles(part.mesh, by);
+    auto known = part.leading.find(key);
+    if (known == part.leading.end())
+        known = part.leading.emplace(key, leading_part(part.mesh, by)).first;
+    return known->second;
+}
+
+SweptTool MillTool::swept(std::uint32_t orientation, const Point3d& from, const Point3d& to,
+                          bool is_clear) {
+    const std::array<double, 3> by{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    const bool moves = by != std::array<double, 3>{};
     SweptTool out;
     std::vector<Solid> solids;
-    for (const LatticeMesh& part : parts_.at(orientation)) {
-        const std::array<double, 3> way{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-        solids.push_back(Solid::from_lattice_mesh(trisect::swept(moved(part, from), way)));
+    for (Part& part : parts_.at(orientation)) {
+        const LatticeMesh& body = is_clear && moves ? leading(part, by) : part.mesh;
+        solids.push_back(Solid::from_lattice_mesh(trisect::swept(moved(body, from), by)));
         out.sources.push_back(solids.back().source_id());
     }
     out.solid = solids.size() == 1 ? solids.front() : evaluate(Expression::any_of(solids));

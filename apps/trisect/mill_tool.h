@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,16 +33,24 @@ public:
     MillTool(const PolygonMesh& mesh, const std::string& name, MillGrid& grid,
              const std::vector<std::array<double, 9>>& orientations);
 
-    /// From one place to another, in lattice units, exactly.
-    [[nodiscard]] SweptTool swept(std::uint32_t orientation, const Point3d& from,
-                                  const Point3d& to) const;
-    /// The triangles in the first orientation.
-    [[nodiscard]] const std::vector<LatticeMesh>& parts() const { return parts_.front(); }
+    /// From one place to another, in lattice units, exactly. Where nothing is left to meet at the
+    /// first place (`is_clear`), only the part of the tool that leads is swept: it meets the rest,
+    /// has half the triangles, and its bottom overlaps the floor that the last step cut by half.
+    [[nodiscard]] SweptTool swept(std::uint32_t orientation, const Point3d& from, const Point3d& to,
+                                  bool is_clear);
+    /// The hulls in the first orientation.
+    [[nodiscard]] std::vector<LatticeMesh> hulls() const;
     /// Largest part of a hull's volume that its shell has not.
     [[nodiscard]] double added_volume() const { return added_volume_; }
 
 private:
-    std::vector<std::vector<LatticeMesh>> parts_;  // by orientation
+    struct Part {
+        LatticeMesh mesh;
+        std::map<std::vector<bool>, LatticeMesh> leading;  // by leading_triangles()
+    };
+    [[nodiscard]] static const LatticeMesh& leading(Part& part, const std::array<double, 3>& by);
+
+    std::vector<std::vector<Part>> parts_;  // by orientation
     double added_volume_ = 0;
 };
 

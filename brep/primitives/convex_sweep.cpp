@@ -17,7 +17,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <trisect/kernel/error.h>
@@ -45,6 +46,8 @@ LatticePoint moved_point(const LatticePoint& p, const std::array<double, 3>& by)
 }
 
 using SweptTriangle = std::array<std::uint32_t, 3>;
+
+constexpr std::uint32_t none = 0xffffffff;
 
 // An edge of a triangle by its ends; edges of both directions are neighbours when sorted.
 struct SilhouetteEdge {
@@ -98,8 +101,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = 0xffffffff;
-
     std::uint32_t named(std::vector<std::uint32_t>& names, std::uint32_t v, const LatticePoint& p) {
         if (names[v] == none) {
             names[v] = static_cast<std::uint32_t>(out_.points.size());
@@ -136,6 +137,72 @@ private:
     LatticeMesh out_;
 };
 
+// The faces of a hull as outlines, cut into triangles anew. Strips from one end of a face to the
+// other, not fans: where translates of a face overlap in its plane, a triangle of a strip overlaps
+// few of the other strip, a triangle of a fan many of the other fan.
+class FacesOfHull {
+public:
+    FacesOfHull(std::span<const LatticePoint> points, Lattice lattice)
+        : points_(points), names_(points.size(), none) {
+        out_.lattice = lattice;
+    }
+
+    void add(const std::vector<SweptTriangle>& triangles) {
+        const std::vector<std::uint32_t> outline = corners_of(triangles);
+        std::size_t low = 0;
+        std::size_t high = outline.size() - 1;
+        for (bool at_low = true; high - low > 1; at_low = !at_low) {
+            const std::size_t middle = at_low ? low + 1 : high - 1;
+            add_triangle({outline[low], outline[middle], outline[high]});
+            (at_low ? low : high) = middle;
+        }
+        ++face_;
+    }
+    LatticeMesh mesh() { return std::move(out_); }
+
+private:
+    // Counter-clockwise, without those where the outline goes straight on.
+    [[nodiscard]] std::vector<std::uint32_t> corners_of(
+        const std::vector<SweptTriangle>& triangles) const {
+        std::map<std::uint32_t, std::uint32_t> next;
+        const std::vector<SilhouetteEdge> edges = sorted_edges(triangles);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const SilhouetteEdge& e = edges[i];
+            if (i + 1 < edges.size() && e.is_twin_of(edges[i + 1]))
+                ++i;
+            else
+                next[e.ascends ? e.low : e.high] = e.ascends ? e.high : e.low;
+        }
+        std::vector<std::uint32_t> out;
+        std::uint32_t at = next.begin()->first;
+        for (std::size_t i = 0; i < next.size(); ++i) {
+            const std::uint32_t middle = next.at(at);
+            if (!are_collinear(points_[at], points_[middle], points_[next.at(middle)]))
+                out.push_back(middle);
+            at = middle;
+        }
+        return out;
+    }
+    void add_triangle(const SweptTriangle& corners) {
+        SweptTriangle t{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::uint32_t& name = names_[corners[i]];
+            if (name == none) {
+                name = static_cast<std::uint32_t>(out_.points.size());
+                out_.points.push_back(points_[corners[i]]);
+            }
+            t[i] = name;
+        }
+        out_.triangles.push_back(t);
+        out_.face_of_triangle.push_back(face_);
+    }
+
+    std::span<const LatticePoint> points_;
+    std::vector<std::uint32_t> names_;  // in the result
+    std::uint32_t face_ = 0;
+    LatticeMesh out_;
+};
+
 // The beneath-beyond method: each point outside replaces the triangles that it sees by those
 // between it and their outline. A triangle whose plane holds the point is not seen; then no point
 // is on the line of an edge of the outline, which lies in the plane of a triangle that is seen, so
@@ -148,24 +215,15 @@ public:
     }
 
     LatticeMesh mesh(Lattice lattice) const {
-        LatticeMesh out;
-        out.lattice = lattice;
-        std::vector<std::uint32_t> names(points_.size(), 0xffffffff);
-        std::vector<const Facet*> first;  // of each face
-        for (const Facet& f : facets_) {
-            SweptTriangle t{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                std::uint32_t& name = names[f.corners[i]];
-                if (name == 0xffffffff) {
-                    name = static_cast<std::uint32_t>(out.points.size());
-                    out.points.push_back(points_[f.corners[i]]);
-                }
-                t[i] = name;
-            }
-            out.triangles.push_back(t);
-            out.face_of_triangle.push_back(face_of(f, first));
+        FacesOfHull faces(points_, lattice);
+        const std::vector<std::uint32_t> names = names_of_faces();
+        std::vector<std::vector<SweptTriangle>> triangles;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            if (names[f] == triangles.size()) triangles.emplace_back();
+            triangles[names[f]].push_back(facets_[f].corners);
         }
-        return out;
+        for (const auto& face : triangles) faces.add(face);
+        return faces.mesh();
     }
 
 private:
@@ -175,14 +233,32 @@ private:
         bool is_seen = false;
     };
 
-    static std::uint32_t face_of(const Facet& f, std::vector<const Facet*>& first) {
-        const auto same = [&](const Facet* g) { return is_same_plane(f.plane, g->plane); };
-        const auto found = std::find_if(first.begin(), first.end(), same);
-        if (found == first.end()) {
-            first.push_back(&f);
-            return static_cast<std::uint32_t>(first.size() - 1);
+    // For each facet the number of its face, in the order of first facets. Facets of one plane are
+    // connected by edges.
+    [[nodiscard]] std::vector<std::uint32_t> names_of_faces() const {
+        std::vector<SweptTriangle> all;
+        for (const Facet& f : facets_) all.push_back(f.corners);
+        const std::vector<SilhouetteEdge> edges = sorted_edges(all);
+        std::vector<std::uint32_t> root(facets_.size());
+        for (std::uint32_t f = 0; f < root.size(); ++f) root[f] = f;
+        const auto find = [&root](std::uint32_t f) {
+            while (root[f] != f) f = root[f] = root[root[f]];
+            return f;
+        };
+        for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
+            const std::uint32_t f = edges[i].triangle;
+            const std::uint32_t g = edges[i + 1].triangle;
+            if (is_same_plane(facets_[f].plane, facets_[g].plane)) root[find(f)] = find(g);
         }
-        return static_cast<std::uint32_t>(found - first.begin());
+        std::vector<std::uint32_t> number(root.size(), none);
+        std::vector<std::uint32_t> names;
+        std::uint32_t next = 0;
+        for (std::uint32_t f = 0; f < root.size(); ++f) {
+            std::uint32_t& n = number[find(f)];
+            if (n == none) n = next++;
+            names.push_back(n);
+        }
+        return names;
     }
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -252,6 +328,26 @@ bool is_convex(const LatticeMesh& mesh) {
 LatticeMesh swept(const LatticeMesh& convex, const std::array<double, 3>& by) {
     if (by == std::array<double, 3>{}) return convex;
     return Sweeper(convex, by).run();
+}
+
+std::vector<bool> leading_triangles(const LatticeMesh& convex, const std::array<double, 3>& by) {
+    std::vector<bool> out;
+    for (const auto& [a, b, c] : convex.triangles) {
+        const Plane plane = Plane::through(convex.points[a], convex.points[b], convex.points[c]);
+        out.push_back(side_of(moved_point(convex.points[a], by), plane) == Side::Above);
+    }
+    return out;
+}
+
+LatticeMesh leading_part(const LatticeMesh& convex, const std::array<double, 3>& by) {
+    const std::vector<bool> leads = leading_triangles(convex, by);
+    std::vector<LatticePoint> corners;
+    for (std::size_t t = 0; t < leads.size(); ++t)
+        if (leads[t])
+            for (const std::uint32_t c : convex.triangles[t]) corners.push_back(convex.points[c]);
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return hull_mesh(corners, convex.lattice);
 }
 
 LatticeMesh moved(const LatticeMesh& mesh, const std::array<double, 3>& by) {

@@ -18,6 +18,8 @@
 #include <trisect/brep/primitives/convex_sweep.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
@@ -135,6 +137,22 @@ TEST(ConvexSweep, FacesKeepTheirNumbers) {
     const auto most =
         *std::max_element(sweep.face_of_triangle.begin(), sweep.face_of_triangle.end());
     EXPECT_EQ(most, 5U + 6U);  // six edges of a cube are its outline
+}
+
+TEST(ConvexSweep, LeadingPartMeetsAllThatIsBeyondTheBody) {
+    std::mt19937 random(13);
+    for (int i = 0; i < 200; ++i) {
+        const LatticeMesh body = hull_mesh(random_points(random, 8 + i % 30, 4), {});
+        const auto step = [&] { return static_cast<double>(random() % 7) - 3; };
+        const Vector by{step(), i % 3 == 0 ? 0.0 : step(), i % 5 == 0 ? 1.0 : 1 + step()};
+        if (by == Vector{}) continue;
+        const LatticeMesh leading = leading_part(body, by);
+        EXPECT_TRUE(is_convex(leading));
+        // Body and swept part together are the swept body.
+        const Solid whole = Solid::from_lattice_mesh(swept(body, by));
+        const Solid beyond = Solid::from_lattice_mesh(swept(leading, by));
+        EXPECT_TRUE(evaluate(whole ^ (Solid::from_lattice_mesh(body) | beyond)).is_empty());
+    }
 }
 
 TEST(ConvexSweep, CoordinatesThatDoNotFitAreRefused) {
