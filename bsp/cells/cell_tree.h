@@ -272,6 +272,7 @@ public:
     /// What is derived from the node, see NodeFact.
     [[nodiscard]] const FactSlot& bounds_fact() const { return bounds_fact_; }
     [[nodiscard]] const FactSlot& index_fact() const { return index_fact_; }
+    [[nodiscard]] const FactSlot& boxes_fact() const { return boxes_fact_; }
 
     /// Of a leaf: the same cell with children, if someone has made them.
     [[nodiscard]] const CellNode* refinement() const {
@@ -305,6 +306,7 @@ private:
     std::uint64_t size_ = 0;
     FactSlot bounds_fact_;
     FactSlot index_fact_;
+    FactSlot boxes_fact_;
     mutable std::atomic<const CellNode*> refinement_{nullptr};
     mutable std::shared_ptr<const CellNode> kept_refinement_;
     mutable std::mutex refining_;

@@ -267,6 +267,8 @@ private:
 
 }  // namespace
 
+std::uint32_t ObbTree::open(ObbId id) const { return source->open(id); }
+
 ObbTree::ObbTree(std::span<const std::array<double, 3>> positions, double error,
                  std::span<const std::array<std::uint32_t, 3>> triangles, ObbTreeOptions options) {
     TRISECT_EXPECTS(options.leaf_triangles >= 1 && options.leaf_triangles <= ObbChild::max_leaf,

@@ -22,7 +22,8 @@ struct OrientedBox {
     std::array<float, 3> half{};
 };
 
-/// What is below a box: an inner node, or up to `max_leaf` triangles.
+/// What is below a box: an inner node, perhaps one that is still to be made (ObbSource), or up to
+/// `max_leaf` triangles.
 class ObbChild {
 public:
     static constexpr std::uint32_t max_leaf = 7;
@@ -32,6 +33,10 @@ public:
     [[nodiscard]] static ObbChild leaf(std::uint32_t first, std::uint32_t count) {
         return ObbChild(leaf_bit | first << 3 | count);
     }
+    /// A node that is still to be made. `what` is a number of its source, below 2^30.
+    [[nodiscard]] static ObbChild pending(std::uint32_t what) { return ObbChild(pending_bit | what); }
+    [[nodiscard]] bool is_pending() const { return (code_ & (leaf_bit | pending_bit)) == pending_bit; }
+    [[nodiscard]] std::uint32_t pending() const { return code_ & ~pending_bit; }
     [[nodiscard]] bool is_leaf() const { return (code_ & leaf_bit) != 0; }
     [[nodiscard]] std::uint32_t node() const { return code_; }
     /// A range of ObbTree::order.
@@ -40,6 +45,7 @@ public:
 
 private:
     static constexpr std::uint32_t leaf_bit = std::uint32_t{1} << 31;
+    static constexpr std::uint32_t pending_bit = std::uint32_t{1} << 30;
     explicit ObbChild(std::uint32_t code) : code_(code) {}
     std::uint32_t code_ = leaf_bit;
 };
@@ -78,7 +84,10 @@ struct ObbTreeOptions {
     std::uint32_t leaf_triangles = 1;  ///< at most ObbChild::max_leaf
 };
 
-/// Immutable once built. The box with id 0 is around everything; node 0 has no other.
+class ObbSource;
+
+/// Immutable once built, unless it has a source. The box with id 0 is around everything; node 0 has
+/// no other.
 ///
 /// Boxes are in units of `unit` about `origin`, so that the contents are within [-1, 1]^3.
 struct ObbTree {
@@ -88,7 +97,15 @@ struct ObbTree {
             std::span<const std::array<std::uint32_t, 3>> triangles, ObbTreeOptions options = {});
 
     [[nodiscard]] bool is_empty() const { return nodes.empty(); }
-    [[nodiscard]] ObbChild child(ObbId id) const { return nodes[id.node()].child[id.lane()]; }
+    /// A pending node is made now, which ends references to nodes.
+    [[nodiscard]] ObbChild child(ObbId id) const {
+        const ObbChild c = nodes[id.node()].child[id.lane()];
+        return c.is_pending() ? ObbChild::node(open(id)) : c;
+    }
+    /// Whether triangles are below, without making anything.
+    [[nodiscard]] bool is_leaf(ObbId id) const {
+        return nodes[id.node()].child[id.lane()].is_leaf();
+    }
     [[nodiscard]] OrientedBox box(ObbId id) const { return nodes[id.node()].box(id.lane()); }
     [[nodiscard]] std::size_t bytes() const {
         return nodes.size() * sizeof(ObbNode) + order.size() * 4 * sizeof(std::uint32_t);
@@ -103,12 +120,25 @@ struct ObbTree {
     double reach = 0;   ///< every box is within this distance of the origin, in units
     double radius = 0;  ///< and all that is in boxes within this one
     std::size_t depth = 0;
+    ObbSource* source = nullptr;  ///< of a tree that is made as walks come to its boxes
+
+private:
+    [[nodiscard]] std::uint32_t open(ObbId id) const;
+};
+
+/// Makes the nodes below boxes of a tree, one by one.
+class ObbSource {
+public:
+    virtual ~ObbSource() = default;
+    /// The number of the node that is below a box from now on, where one was pending. Nodes,
+    /// triangles and their positions may be appended to the tree.
+    virtual std::uint32_t open(ObbId id) = 0;
 };
 
 /// A boundary as walks see it.
 struct BoxedTriangles {
     const ObbTree* tree = nullptr;
-    std::span<const std::array<double, 3>> positions;
+    const std::vector<std::array<double, 3>>* positions = nullptr;
     double position_error = 0;
     double largest = 0;  ///< bound on the magnitude of a coordinate of a position
 };

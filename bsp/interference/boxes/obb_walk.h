@@ -69,22 +69,25 @@ public:
         while (!stack_.empty()) {
             const Pair pair = stack_.back();
             stack_.pop_back();
-            const ObbChild ca = a_.tree->child(pair.a);
-            const ObbChild cb = b_.tree->child(pair.b);
-            if (ca.is_leaf() && cb.is_leaf()) {
-                if (compare_leaves(ca, cb, visit)) return true;
-            } else if (ca.is_leaf() || (!cb.is_leaf() && b_is_larger(pair))) {
+            const bool leaf_a = a_.tree->is_leaf(pair.a);
+            const bool leaf_b = b_.tree->is_leaf(pair.b);
+            if (leaf_a && leaf_b) {
+                if (compare_leaves(a_.tree->child(pair.a), b_.tree->child(pair.b), visit))
+                    return true;
+            } else if (leaf_a || (!leaf_b && b_is_larger(pair))) {
                 check_stop();
                 ++counters_.node_tests;
-                unsigned hits = pose_.overlaps(a_.tree->box(pair.a), b_.tree->nodes[cb.node()]);
+                const std::uint32_t node = b_.tree->child(pair.b).node();
+                const unsigned hits = pose_.overlaps(a_.tree->box(pair.a), b_.tree->nodes[node]);
                 for (std::uint32_t k = 0; k < 4; ++k)
-                    if ((hits >> k & 1U) != 0) stack_.push_back({pair.a, ObbId::of(cb.node(), k)});
+                    if ((hits >> k & 1U) != 0) stack_.push_back({pair.a, ObbId::of(node, k)});
             } else {
                 check_stop();
                 ++counters_.node_tests;
-                unsigned hits = pose_.overlaps(a_.tree->nodes[ca.node()], b_.tree->box(pair.b));
+                const std::uint32_t node = a_.tree->child(pair.a).node();
+                const unsigned hits = pose_.overlaps(a_.tree->nodes[node], b_.tree->box(pair.b));
                 for (std::uint32_t k = 0; k < 4; ++k)
-                    if ((hits >> k & 1U) != 0) stack_.push_back({ObbId::of(ca.node(), k), pair.b});
+                    if ((hits >> k & 1U) != 0) stack_.push_back({ObbId::of(node, k), pair.b});
             }
         }
         return false;
@@ -106,11 +109,11 @@ private:
         for (std::uint32_t j = 0; j < cb.count(); ++j) {
             TriangleCorners q;
             for (std::size_t i = 0; i < 3; ++i)
-                q[i] = map_(b_.positions[b_.tree->corners[cb.first() + j][i]]);
+                q[i] = map_((*b_.positions)[b_.tree->corners[cb.first() + j][i]]);
             for (std::uint32_t k = 0; k < ca.count(); ++k) {
                 TriangleCorners p;
                 for (std::size_t i = 0; i < 3; ++i)
-                    p[i] = a_.positions[a_.tree->corners[ca.first() + k][i]];
+                    p[i] = (*a_.positions)[a_.tree->corners[ca.first() + k][i]];
                 ++counters_.triangle_pairs;
                 const PairVerdict verdict = compare_triangles(p, q, error_);
                 if (verdict == PairVerdict::Apart) {

@@ -65,8 +65,8 @@ void find_boxes_up_from(const ObbTree& t, ObbId id, std::vector<ObbId>& way) {
 }  // namespace
 
 CoherentWalk::Opens CoherentWalk::opens(ObbId a, ObbId b) const {
-    const bool leaf_a = a_->boxes.child(a).is_leaf();
-    const bool leaf_b = b_->boxes.child(b).is_leaf();
+    const bool leaf_a = a_->boxes.is_leaf(a);
+    const bool leaf_b = b_->boxes.is_leaf(b);
     if (leaf_a && leaf_b) return Opens::Neither;
     return leaf_a || (!leaf_b && pose_->scale() * size(b_->boxes, b) > size(a_->boxes, a))
                ? Opens::B

@@ -44,9 +44,11 @@ void DistanceSearch::push(float bound, ObbId a, ObbId b) {
 void DistanceSearch::expand(const Entry& e) {
     const ObbTree& ta = a_->boxes;
     const ObbTree& tb = b_->boxes;
-    const ObbChild ca = ta.child(e.a);
-    const ObbChild cb = tb.child(e.b);
-    if (ca.is_leaf() && cb.is_leaf()) {
+    const bool leaf_a = ta.is_leaf(e.a);
+    const bool leaf_b = tb.is_leaf(e.b);
+    if (leaf_a && leaf_b) {
+        const ObbChild ca = ta.child(e.a);
+        const ObbChild cb = tb.child(e.b);
         for (std::uint32_t j = 0; j < cb.count(); ++j)
             for (std::uint32_t i = 0; i < ca.count(); ++i) {
                 ++counters_.triangle_pairs;
@@ -59,18 +61,19 @@ void DistanceSearch::expand(const Entry& e) {
         return n.half[0][id.lane()] + n.half[1][id.lane()] + n.half[2][id.lane()];
     };
     const bool open_b =
-        ca.is_leaf() || (!cb.is_leaf() && pose_->scale() * size(tb, e.b) > size(ta, e.a));
+        leaf_a || (!leaf_b && pose_->scale() * size(tb, e.b) > size(ta, e.a));
     ++counters_.node_tests;
-    const Float4 gaps = open_b ? pose_->best_gaps(ta.box(e.a), tb.nodes[cb.node()])
-                               : pose_->best_gaps(ta.nodes[ca.node()], tb.box(e.b));
-    const ObbNode& opened = open_b ? tb.nodes[cb.node()] : ta.nodes[ca.node()];
+    const std::uint32_t node = open_b ? tb.child(e.b).node() : ta.child(e.a).node();
+    const ObbNode& opened = open_b ? tb.nodes[node] : ta.nodes[node];
+    const Float4 gaps = open_b ? pose_->best_gaps(ta.box(e.a), opened)
+                               : pose_->best_gaps(opened, tb.box(e.b));
     for (std::uint32_t k = 0; k < 4; ++k) {
         if (!(opened.half[0][k] >= 0)) continue;
         // The parents' bound holds as well.
         const float bound = std::max(e.bound, gaps[k]);
         const double least = unit_ * static_cast<double>(bound);
         if (least > upper_ || least >= limit_) continue;
-        push(bound, open_b ? e.a : ObbId::of(ca.node(), k), open_b ? ObbId::of(cb.node(), k) : e.b);
+        push(bound, open_b ? e.a : ObbId::of(node, k), open_b ? ObbId::of(node, k) : e.b);
     }
 }
 

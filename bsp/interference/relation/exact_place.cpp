@@ -82,12 +82,16 @@ std::array<ExactRational, 3> in_world(const ExactPlace& p, Lattice lattice, cons
 }
 
 ExactPlace place_of(const PosedModels& models, const MeetingPair& pair, const MeetingPoint& point) {
-    const PosedTriangle a = posed_triangle(models.a, pair.a);
-    const PosedTriangle b = posed_triangle(models.b, pair.b);
+    return place_of(posed_triangle(models.a, pair.a), posed_triangle(models.b, pair.b),
+                    models.poses, point);
+}
+
+ExactPlace place_of(const PosedTriangle& a, const PosedTriangle& b, const PosedPair& poses,
+                    const MeetingPoint& point) {
     const auto corner_a = [&](std::size_t i) { return exact_place(*a.corner[i % 3]); };
     const auto corner_b = [&](std::size_t i) { return exact_place(*b.corner[i % 3]); };
     const auto corner_b_moved = [&](std::size_t i) {
-        return moved(corner_b(i), models.poses.to_a);
+        return moved(corner_b(i), poses.to_a);
     };
     if (point.a.is_corner()) return corner_a(point.a.index());
     if (point.b.is_corner()) return corner_b_moved(point.b.index());
@@ -101,9 +105,9 @@ ExactPlace place_of(const PosedModels& models, const MeetingPair& pair, const Me
         return along(p, q, dot(cross(minus(r.c, p.c), v), uv) / dot(uv, uv));
     }
     if (point.a.is_side()) {  // through B's face: found in B's lattice, where its plane is
-        const ExactPlace p = moved(corner_a(point.a.index()), models.poses.to_b);
-        const ExactPlace q = moved(corner_a(point.a.index() + 1), models.poses.to_b);
-        return moved(on_plane(p, q, *b.plane), models.poses.to_a);
+        const ExactPlace p = moved(corner_a(point.a.index()), poses.to_b);
+        const ExactPlace q = moved(corner_a(point.a.index() + 1), poses.to_b);
+        return moved(on_plane(p, q, *b.plane), poses.to_a);
     }
     TRISECT_EXPECTS(point.b.is_side(), "the place of a point within two triangles");
     return on_plane(corner_b_moved(point.b.index()), corner_b_moved(point.b.index() + 1), *a.plane);
@@ -111,7 +115,10 @@ ExactPlace place_of(const PosedModels& models, const MeetingPair& pair, const Me
 
 std::optional<Feature> feature_at(const InterferenceModelData& model, std::uint32_t triangle,
                                   const ExactPlace& point) {
-    const PosedTriangle t = posed_triangle(model, triangle);
+    return feature_at(posed_triangle(model, triangle), point);
+}
+
+std::optional<Feature> feature_at(const PosedTriangle& t, const ExactPlace& point) {
     // A quick look at the box: rounding is monotone.
     for (std::size_t k = 0; k < 3; ++k) {
         const double x = point.c[k].to_double();

@@ -34,7 +34,12 @@ struct ExactPlace {
 [[nodiscard]] ExactPlace place_of(const PosedModels& models, const MeetingPair& pair,
                                   const MeetingPoint& point);
 
+[[nodiscard]] ExactPlace place_of(const PosedTriangle& a, const PosedTriangle& b,
+                                  const PosedPair& poses, const MeetingPoint& point);
+
 /// The feature of a triangle that a point in its solid's lattice is on, if it is in the triangle.
+[[nodiscard]] std::optional<Feature> feature_at(const PosedTriangle& triangle,
+                                                const ExactPlace& point);
 [[nodiscard]] std::optional<Feature> feature_at(const InterferenceModelData& model,
                                                 std::uint32_t triangle, const ExactPlace& point);
 

@@ -122,6 +122,7 @@ InterferenceModelData::InterferenceModelData(const Brep& b) : brep(b) { build();
 
 void InterferenceModelData::build() {
     const auto start = std::chrono::steady_clock::now();
+    lattice = brep.lattice();
     first_triangle.reserve(brep.faces().size() + 1);
     for (const FaceId f : brep.faces()) {
         check_stop();

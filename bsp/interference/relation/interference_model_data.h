@@ -16,6 +16,7 @@
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/interference/boxes/obb_tree.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
 #include <trisect/bsp/solid.h>
 
@@ -35,7 +36,7 @@ struct ModelTriangle {
 void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles);
 
 /// Immutable once built, except for the index, which is made on first use.
-struct InterferenceModelData {
+struct InterferenceModelData final : Boundary {
     explicit InterferenceModelData(const Solid& s);
     explicit InterferenceModelData(const BrepIndex& i);
     /// Of a boundary alone. `index()` may not be called.
@@ -49,26 +50,13 @@ struct InterferenceModelData {
     /// Triangles of face f: first_triangle[f] .. first_triangle[f + 1].
     std::vector<std::uint32_t> first_triangle{0};
 
-    /// For each vertex, in lattice units: its coordinates are within `position_error` of these.
-    std::vector<std::array<double, 3>> positions;
-    /// 0 where all vertices are lattice points, whose coordinates are doubles.
-    double position_error = 0;
-    /// The largest magnitude of a coordinate of a position.
-    double largest = 0;
-    /// Whether all vertices are lattice points.
+    /// Whether all vertices are lattice points: then `position_error` is 0 and bounds are exact.
     bool all_lattice = true;
-    /// Bounds of the solid, exact where all vertices are lattice points, otherwise outward; in
-    /// lattice units. Of an empty model lo = hi = 0.
-    std::array<double, 3> lo{};
-    std::array<double, 3> hi{};
 
     /// The smallest id of all vertices at the same place as the vertex, for each vertex.
     std::vector<VertexId> place;
     /// A vertex of each shell.
     std::vector<VertexId> shell_vertex;
-
-    /// Oriented boxes around the triangles; named by their numbers in `triangles`.
-    ObbTree boxes;
 
     double brep_seconds = 0;
     double triangulate_seconds = 0;
@@ -83,15 +71,15 @@ struct InterferenceModelData {
                                             first_triangle[f.index + 1] - first_triangle[f.index]);
     }
     [[nodiscard]] ShellId shell_of(const ModelTriangle& t) const { return brep.shell(t.face); }
-    /// For walks. \pre not empty
-    [[nodiscard]] BoxedTriangles boxed() const {
-        return {&boxes, positions, position_error, largest};
+    [[nodiscard]] TriangleCorners corners_of(std::uint32_t triangle) const override {
+        const ModelTriangle& t = triangles[triangle];
+        return {position(t.vertex[0]), position(t.vertex[1]), position(t.vertex[2])};
     }
     /// Safe to call from several threads.
     [[nodiscard]] const BrepIndex& index() const;
     /// Balls inside, made after some questions, since making them takes as long as many of these;
     /// null before. Safe to call from several threads. \pre the index may be used
-    [[nodiscard]] const InsideBalls* balls_in_time() const;
+    [[nodiscard]] const InsideBalls* balls_in_time() const override;
     /// The same, made at once.
     [[nodiscard]] const InsideBalls& balls() const;
     /// Whether the boundary touches itself anywhere but in the copies of vertices and edges that
@@ -102,7 +90,7 @@ struct InterferenceModelData {
     /// of two solids cross, the solids overlap. Where one is not clear they need not: an edge of
     /// the same boundary may lie in it just there, with the solid on both sides. Found out when
     /// used and kept; some microseconds. Safe to call from several threads. In self_contact.cpp.
-    [[nodiscard]] bool is_clear(std::uint32_t triangle) const;
+    [[nodiscard]] bool is_clear(std::uint32_t triangle) const override;
     [[nodiscard]] std::size_t bytes() const;
 
 private:

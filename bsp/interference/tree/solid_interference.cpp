@@ -6,6 +6,8 @@
 
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/interference/tree/solid_boundary.h>
+#include <trisect/bsp/interference/tree/solid_pair.h>
 
 namespace trisect {
 
@@ -24,16 +26,9 @@ EntityName name_of(const BoundaryEntity& entity, const Brep& brep) {
 
 SolidInterference interfere(const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
                             const SolidInterferenceOptions& options) {
-    const InterferenceModel model_a(a);
-    const InterferenceModel model_b(b);
-    const InterferenceResult r =
-        interfere(model_a, pose_a, model_b, pose_b, {.contacts = options.contacts});
-    SolidInterference out{r.relation, {}};
-    for (const Contact& c : r.contacts)
-        out.contacts.push_back({name_of(c.a, model_a.brep()), name_of(c.b, model_b.brep()),
-                                c.dimension, c.opposite});
-    std::ranges::sort(out.contacts);
-    return out;
+    const detail::SolidBoundary boundary_a(a);
+    const detail::SolidBoundary boundary_b(b);
+    return detail::relation_of(boundary_a, pose_a, boundary_b, pose_b, options);
 }
 
 std::optional<NamedDistance> boundary_distance(const Solid& a, const Pose& pose_a, const Solid& b,

@@ -46,7 +46,7 @@ struct Soup {
         }
         tree = ObbTree(positions, 0, triangles, {leaf});
     }
-    [[nodiscard]] BoxedTriangles boxed() const { return {&tree, positions, 0, largest}; }
+    [[nodiscard]] BoxedTriangles boxed() const { return {&tree, &positions, 0, largest}; }
 };
 
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Both planes meet in a line, which runs through each triangle from one of its sides to another.
+// Where the two intervals overlap is the common segment; its ends are the second and third of their
+// four ends along the line.
+//
+// An end is x = a + t (b - a) on a side ab of one triangle, t = v / (v - w), v and w the values of a
+// and b at the other one's plane, each off by less than B (error_bounds.h). With |v - w| > 64 B, t
+// is off by less than 2.1 B / |v - w| + 4 u. The line's direction is that of the longer chord. Ends
+// that are as near to each other as they are off may be taken for each other, which moves the
+// middle by a few times that.
+
+#include <trisect/bsp/interference/boxes/crossing_place.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
+
+namespace trisect::detail {
+
+namespace {
+
+struct End {
+    Vector3 at{};
+    double along = 0;
+};
+
+// The two places where a triangle passes through the plane of the other one.
+class Chord {
+public:
+    Chord(const TriangleCorners& t, const TriangleCorners& other, double g, double error) {
+        const Vector3 n = cross(minus(other[1], other[0]), minus(other[2], other[0]));
+        const double bound = difference_determinant_bound(g, 2 * error);
+        std::array<double, 3> value{};
+        for (std::size_t i = 0; i < 3; ++i) value[i] = dot(n, minus(t[i], other[0]));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const int from = certain_sign(value[i], bound);
+            const int to = certain_sign(value[j], bound);
+            if (from == 0 || to == 0) return;
+            if (from == to) continue;
+            const double way = std::fabs(value[i] - value[j]);
+            if (!(way > 64 * bound) || count_ == 2) return;
+            const double s = std::fabs(value[i]) / way;
+            const Vector3 side = minus(t[j], t[i]);
+            const double length = largest_component(side);
+            for (std::size_t k = 0; k < 3; ++k) ends_[count_].at[k] = t[i][k] + s * side[k];
+            const double size = largest_component(t[i]) + length;
+            error_ = std::max(error_, bound_slack * (length * (2.1 * bound / way + 4 * unit_roundoff) +
+                                                     error + 4 * unit_roundoff * size));
+            ++count_;
+        }
+        is_good_ = count_ == 2;
+    }
+    [[nodiscard]] bool is_good() const { return is_good_; }
+    [[nodiscard]] const std::array<End, 2>& ends() const { return ends_; }
+    [[nodiscard]] double error() const { return error_; }
+
+private:
+    std::array<End, 2> ends_{};
+    std::size_t count_ = 0;
+    double error_ = 0;
+    bool is_good_ = false;
+};
+
+}  // namespace
+
+std::optional<CrossingPlace> crossing_place(const TriangleCorners& p, const TriangleCorners& q,
+                                            double error) {
+    double g = 0;
+    for (const auto& a : p)
+        for (const auto& b : q) g = std::max(g, largest_component(minus(a, b)));
+    g = std::max({2 * g, largest_component(minus(p[1], p[0])), largest_component(minus(p[2], p[0]))});
+    const Chord of_p(p, q, g, error);
+    const Chord of_q(q, p, g, error);
+    if (!of_p.is_good() || !of_q.is_good()) return std::nullopt;
+    std::array<End, 4> ends{of_p.ends()[0], of_p.ends()[1], of_q.ends()[0], of_q.ends()[1]};
+    const auto way = [](const Chord& c) { return minus(c.ends()[1].at, c.ends()[0].at); };
+    const Vector3 along_p = way(of_p);
+    const Vector3 along_q = way(of_q);
+    const Vector3& line = dot(along_p, along_p) > dot(along_q, along_q) ? along_p : along_q;
+    for (End& e : ends) e.along = dot(line, minus(e.at, ends[0].at));
+    std::ranges::sort(ends, {}, &End::along);
+    const double end_error = std::max(of_p.error(), of_q.error());
+    const Vector3 segment = minus(ends[2].at, ends[1].at);
+    // A segment that may be none has no inside.
+    if (!(largest_component(segment) > 32 * end_error)) return std::nullopt;
+    CrossingPlace place;
+    for (std::size_t k = 0; k < 3; ++k) place.at[k] = ends[1].at[k] + 0.5 * segment[k];
+    place.error = 8 * end_error;
+    return place;
+}
+
+}  // namespace trisect::detail

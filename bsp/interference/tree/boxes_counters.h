@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// BoxesCounters: how many leaves of cell trees got boxes.
+#pragma once
+
+#include <cstdint>
+
+#include <trisect/kernel/counters.h>
+
+namespace trisect::detail {
+
+/// Of this thread.
+struct BoxesCounters {
+    std::uint64_t leaves = 0;
+    std::uint64_t triangles = 0;  ///< in these leaves
+    std::uint64_t nodes = 0;      ///< of trees of solids, put together for questions
+
+    BoxesCounters& operator+=(const BoxesCounters& o) {
+        leaves += o.leaves;
+        triangles += o.triangles;
+        nodes += o.nodes;
+        return *this;
+    }
+    BoxesCounters& operator-=(const BoxesCounters& o) {
+        leaves -= o.leaves;
+        triangles -= o.triangles;
+        nodes -= o.nodes;
+        return *this;
+    }
+};
+
+[[nodiscard]] inline BoxesCounters& boxes_counters() { return counters_of_thread<BoxesCounters>; }
+
+}  // namespace trisect::detail

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// ExactContacts: where polygons of two placed solids meet, exactly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <trisect/bsp/interference/boxes/moved_triangle_pair.h>
+#include <trisect/bsp/interference/relation/boundary_flags.h>
+#include <trisect/bsp/interference/relation/exact_place.h>
+#include <trisect/bsp/interference/solid_interference.h>
+#include <trisect/bsp/interference/tree/exact_triangles.h>
+#include <trisect/kernel/pose/relative_pose.h>
+
+namespace trisect::detail {
+
+/// A triangle that contains a point, and the feature of it that the point is on.
+struct TriangleAt {
+    std::uint32_t triangle = 0;
+    Feature feature;
+};
+
+/// A point that both boundaries contain, with all triangles that contain it.
+struct MeetingPlace {
+    std::array<double, 3> at{};  ///< in A's lattice, within `error` in each coordinate
+    double error = 0;
+    std::optional<ExactPlace> exact;
+    std::vector<TriangleAt> a;
+    std::vector<TriangleAt> b;
+};
+
+/// Two triangles that meet.
+struct MeetingTriangles {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+    TriangleContact contact;
+    std::array<std::uint32_t, 6> places{};  ///< of the contact's points
+    std::vector<std::uint32_t> others;      ///< further places that both contain
+};
+
+/// For one question. Polygons come in pairs: all that may have a common point must come before
+/// `find_places`.
+class ExactContacts {
+public:
+    /// `poses` must outlive this.
+    explicit ExactContacts(const PosedPair& poses) : poses_(poses), test_(poses) {}
+
+    /// Compares two polygons, once for a pair.
+    void compare(const PolygonId& a, const PolygonId& b);
+    /// Puts together what meets at a point.
+    void find_places();
+
+    /// From areas and from the cones at all places; until the relation is decided. A place costs
+    /// some microseconds. \pre find_places()
+    [[nodiscard]] BoundaryFlags flags();
+    /// In ascending order. \pre find_places()
+    [[nodiscard]] std::vector<NamedContact> contacts();
+
+private:
+    struct Incidence {
+        std::array<double, 3> at{};
+        double error = 0;
+        std::uint32_t meeting = 0;
+        std::uint8_t point = 0;
+    };
+
+    [[nodiscard]] Incidence incidence(std::uint32_t meeting, std::uint8_t point) const;
+    [[nodiscard]] ExactPlace exact_place_of(const Incidence& i) const;
+    [[nodiscard]] const ExactPlace& exact(MeetingPlace& place, const Incidence& of);
+    [[nodiscard]] bool is_at(MeetingPlace& place, const Incidence& first, const Incidence& other);
+    void unite(std::vector<Incidence>& all);
+    void add_others();
+    void add_if_there(MeetingTriangles& meeting, std::uint32_t place);
+    [[nodiscard]] BoundaryFlags flags_at(const MeetingPlace& place) const;
+    [[nodiscard]] EntityName name_at(const MeetingPlace& place, bool of_a);
+    void add_segments(const MeetingTriangles& m, std::vector<NamedContact>& out);
+    void add_segment(const MeetingTriangles& m, std::uint32_t from, std::uint32_t to,
+                     std::vector<NamedContact>& out);
+    [[nodiscard]] std::vector<PolygonId> common_polygons(std::uint32_t p, std::uint32_t q,
+                                                         bool of_a) const;
+
+    const PosedPair& poses_;
+    TrianglePairTest test_;
+    ExactTriangles a_;
+    ExactTriangles b_;
+    FlatMap compared_;
+    std::vector<MeetingTriangles> meetings_;
+    std::vector<MeetingPlace> places_;  // by their first coordinates
+    double largest_error_ = 0;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A facet that reaches into several cells is in the boxes of each of them by its part there. Its
+// box as a whole may be much larger than the cell, and what of it is beyond may have been cut away.
+
+#include <trisect/bsp/interference/tree/leaf_boxes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <trisect/bsp/interference/tree/boxes_counters.h>
+#include <trisect/bsp/interference/tree/clipped_polygon.h>
+#include <trisect/bsp/interference/tree/point_gap.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/stop_scope.h>
+
+namespace trisect::detail {
+
+LeafBoxes::LeafBoxes(const IndexedLeaf& leaf) : leaf_(leaf) {
+    check_stop(1 + leaf.polygons().size());
+    if (const Source* const mesh = leaf.polygons().only_source())
+        take_mesh(*mesh);
+    else
+        take_polygons();
+}
+
+// Of a mesh that nothing happened to, points and triangles are those of the source.
+void LeafBoxes::take_mesh(const Source& source) {
+    const LatticeMesh& mesh = source.mesh();
+    positions_.reserve(mesh.points.size());
+    for (const LatticePoint& p : mesh.points) positions_.push_back(p.doubles());
+    std::vector<std::array<std::uint32_t, 3>> corners(source.facet_count());
+    for (std::uint32_t t = 0; t < corners.size(); ++t)
+        for (int i = 0; i < 3; ++i)
+            corners[t][static_cast<std::size_t>(i)] = source.corner_index(t, i);
+    tree_ = ObbTree(positions_, 0, corners);
+}
+
+void LeafBoxes::take_polygons() {
+    const IndexPolygons& all = polygons();
+    double largest = 0;
+    for (Id id = 0; id < all.size(); ++id) {
+        const DoubleBox box = all.is_unbounded(id) ? all.bounds(all.cell().lattice_box())
+                                                   : all.bounds(id);
+        for (std::size_t k = 0; k < 3; ++k)
+            largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
+    }
+    PolygonClipper clipper(all, clipped_error * largest);
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (Id id = 0; id < all.size(); ++id) {
+        const ClippedPolygon& part = clipper.clip(id);
+        if (part.is_empty()) continue;
+        error_ = std::max(error_, part.error);
+        const auto first = static_cast<std::uint32_t>(positions_.size());
+        positions_.insert(positions_.end(), part.corners.begin(), part.corners.end());
+        for (std::uint32_t i = 2; i < part.corners.size(); ++i) {
+            corners.push_back({first, first + i - 1, first + i});
+            polygon_.push_back(id);
+        }
+    }
+    tree_ = ObbTree(positions_, error_, corners);
+}
+
+bool LeafBoxes::is_alone_at(Id polygon, const std::array<double, 3>& point, double reach) const {
+    const Cell& cell = polygons().cell();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double slack = reach + last_place * (std::fabs(point[k]) + 2 * reach);
+        const double lo = rounded_position(cell.lo[k]);
+        const double hi = rounded_position(cell.hi[k]);
+        if (!(point[k] - slack > lo + last_place * std::fabs(lo)) ||
+            !(point[k] + slack < hi - last_place * std::fabs(hi)))
+            return false;
+    }
+    bool is_alone = true;
+    for_triangles_near(tree_, point, reach, [&](std::uint32_t place) {
+        if (polygon_of(place) == polygon) return false;
+        is_alone = is_certainly_beyond(corners_of(place), error_, point, reach);
+        return !is_alone;
+    });
+    return is_alone;
+}
+
+std::size_t LeafBoxes::bytes() const {
+    return sizeof(*this) + positions_.capacity() * sizeof(positions_[0]) +
+           polygon_.capacity() * sizeof(Id) + tree_.bytes() +
+           tree_.parent.capacity() * sizeof(std::uint32_t) +
+           pieces_.capacity() * sizeof(BoundaryPoint);
+}
+
+const LeafBoxes& leaf_boxes(const CellNode& leaf, const Cell& cell) {
+    if (const NodeFact* const there = leaf.boxes_fact().get())
+        return static_cast<const LeafBoxes&>(*there);
+    const IndexedLeaf& index = listed_leaf(leaf, cell);
+    return static_cast<const LeafBoxes&>(leaf.boxes_fact().get_or([&] {
+        auto made = std::make_unique<const LeafBoxes>(index);
+        BoxesCounters& counters = boxes_counters();
+        ++counters.leaves;
+        counters.triangles += made->triangle_count();
+        return made;
+    }));
+}
+
+}  // namespace trisect::detail

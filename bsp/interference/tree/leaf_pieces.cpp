@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Connected pieces of the boundary in a cell: polygons with a common corner in the open cell hang
+// together there. Corners are compared as exact coordinates, where they are doubles; those that
+// operations made are left out, so some pieces are found in parts. More points than pieces do no
+// harm (see solid_sides.h).
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <trisect/bsp/interference/tree/leaf_boxes.h>
+
+namespace trisect::detail {
+
+namespace {
+
+class Pieces {
+public:
+    explicit Pieces(std::size_t count) : above_(count) {
+        std::iota(above_.begin(), above_.end(), std::uint32_t{0});
+    }
+    [[nodiscard]] std::uint32_t of(std::uint32_t i) {
+        while (above_[i] != i) i = above_[i] = above_[above_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j) { above_[std::max(of(i), of(j))] = std::min(of(i), of(j)); }
+
+private:
+    std::vector<std::uint32_t> above_;
+};
+
+// By the numbers of corners, which are good for the whole mesh.
+std::vector<BoundaryPoint> pieces_of_mesh(const Source& source) {
+    const auto points = static_cast<std::uint32_t>(source.mesh().points.size());
+    Pieces pieces(points);
+    for (std::uint32_t t = 0; t < source.facet_count(); ++t)
+        for (int i = 1; i < 3; ++i) pieces.join(source.corner_index(t, 0), source.corner_index(t, i));
+    std::vector<BoundaryPoint> out;
+    std::vector<bool> done(points, false);
+    for (std::uint32_t t = 0; t < source.facet_count(); ++t) {
+        const std::uint32_t piece = pieces.of(source.corner_index(t, 0));
+        if (done[piece]) continue;
+        done[piece] = true;
+        out.push_back({t, 0, source.corner(t, 0).doubles()});
+    }
+    return out;
+}
+
+struct CornerOfPolygon {
+    std::array<double, 3> at{};
+    std::uint32_t polygon = 0;
+    std::uint8_t corner = BoundaryPoint::none;
+    friend bool operator<(const CornerOfPolygon& a, const CornerOfPolygon& b) {
+        return std::tie(a.at, a.polygon) < std::tie(b.at, b.polygon);
+    }
+};
+
+}  // namespace
+
+std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
+    const IndexPolygons& all = polygons();
+    if (const Source* const mesh = all.only_source()) return pieces_of_mesh(*mesh);
+    std::vector<BoundaryPoint> found(all.size());
+    std::vector<bool> enters(all.size(), false);
+    for (std::uint32_t place = 0; place < triangle_count(); ++place) {
+        const Id id = polygon_of(place);
+        // The first triangle of a fan begins with the first corner.
+        if (!enters[id]) found[id] = {id, BoundaryPoint::none, positions_[tree_.corners[place][0]]};
+        enters[id] = true;
+    }
+    std::vector<CornerOfPolygon> corners;
+    const Cell& cell = all.cell();
+    for (Id id = 0; id < all.size(); ++id) {
+        if (!enters[id]) continue;
+        if (all.is_triangle(id)) {
+            for (int i = 0; i < 3; ++i)
+                if (!all.reaches_out(id) || cell.contains(Box::of(all.corner(id, i))))
+                    corners.push_back(
+                        {all.corner(id, i).doubles(), id, static_cast<std::uint8_t>(i)});
+        } else {
+            for (const Approximation& a : all.approximate_corners(id)) {
+                if (a.error != 0) continue;
+                const LatticePoint p{Coordinate(a.c[0]), Coordinate(a.c[1]), Coordinate(a.c[2])};
+                if (!all.reaches_out(id) || cell.contains(Box::of(p)))
+                    corners.push_back({a.c, id, BoundaryPoint::none});
+            }
+        }
+    }
+    std::sort(corners.begin(), corners.end());
+    Pieces pieces(all.size());
+    for (std::size_t i = 1; i < corners.size(); ++i)
+        if (corners[i].at == corners[i - 1].at)
+            pieces.join(corners[i].polygon, corners[i - 1].polygon);
+    for (const CornerOfPolygon& c : corners)
+        if (c.corner != BoundaryPoint::none && pieces.of(c.polygon) == c.polygon)
+            found[c.polygon] = {c.polygon, c.corner, c.at};
+    std::vector<BoundaryPoint> out;
+    for (Id id = 0; id < all.size(); ++id)
+        if (enters[id] && pieces.of(id) == id) out.push_back(found[id]);
+    return out;
+}
+
+std::span<const BoundaryPoint> LeafBoxes::pieces() const {
+    std::call_once(pieces_once_, [this] { pieces_ = find_pieces(); });
+    return pieces_;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boxes of inner nodes are what their bounds say (index_core.h), cut off at the walls of their
+// cells: those of a node are the union of its children's, exactly, whatever happened before. So a
+// solid has the same tree however it was made, and nothing must be fitted again.
+//
+// Facts of nodes are not in floats about some origin: they would have to be made anew for each
+// solid that is larger than the last one. A node's four boxes become floats when a walk opens it,
+// which takes a third of the time of its first test.
+//
+// A box of a leaf, in units l about p, has in units v about q the centre c l/v + (p - q)/v. That is
+// computed within 2^-50 and rounded to floats, by at most 2^-24 of coordinates below 4. The boxes'
+// halves grow by 2^-21, which pays for both along any axis.
+
+#include <trisect/bsp/interference/tree/solid_boundary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <trisect/bsp/interference/tree/boxes_counters.h>
+#include <trisect/bsp/interference/tree/clipped_polygon.h>
+#include <trisect/bsp/query/index/index_cells.h>
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/number/error_bounds.h>
+
+namespace trisect::detail {
+
+namespace {
+
+float rounded_up(double v) {
+    const auto f = static_cast<float>(v);
+    return static_cast<double>(f) < v ? std::nextafter(f, std::numeric_limits<float>::infinity())
+                                      : f;
+}
+
+void close_lanes(ObbNode& n) {
+    for (Float4& h : n.half) h = all_lanes(-1e30F);
+}
+
+bool is_empty(const DoubleBox& b) {
+    return b.lo[0] > b.hi[0] || b.lo[1] > b.hi[1] || b.lo[2] > b.hi[2];
+}
+
+}  // namespace
+
+SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
+    lattice = base_.lattice();
+    const CellNode& root = refined(*base_.root().node);
+    if (root.size() == 0) {
+        if (base_.solid().is_whole_space())
+            throw UnsupportedError("interference of an unbounded solid");
+        return;
+    }
+    find_bounds();
+    if (base_.is_inside_beyond() || !(largest < 0x1p60))
+        throw UnsupportedError("interference of an unbounded solid");
+    set_frame();
+    parts_.reserve(64);
+    part_of_.reserve(256);
+    boxes.nodes.reserve(64);
+    boxes.parent.reserve(64);
+    inner_.reserve(128);
+    boxes.source = this;
+    parts_.push_back(part(root, Cell{}, base_.root().complemented));
+    const std::uint32_t node = add_node(ObbId{});
+    put_box(node, 0, parts_[0].box);
+    part_of_[0] = 0;
+    boxes.nodes[node].child[0] = ObbChild::pending(0);
+}
+
+// Of a node: its bounds in its cell.
+SolidBoundary::Part SolidBoundary::part(const CellNode& node, const Cell& cell,
+                                        bool turned) const {
+    Part p{{&node, cell, turned}, {}};
+    const Box& bounds = bounds_of(node);
+    const DoubleBox walls = box_of(cell);
+    const bool whole = state_of(base_.solid())->whole;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double room = whole ? 0 : 1;
+        p.box.lo[k] = std::max(static_cast<double>(bounds.lo[k]) - room,
+                               walls.lo[k] - last_place * std::fabs(walls.lo[k]));
+        p.box.hi[k] = std::min(static_cast<double>(bounds.hi[k]) + room,
+                               walls.hi[k] + last_place * std::fabs(walls.hi[k]));
+    }
+    return p;
+}
+
+// Where half-spaces are listed as whole planes, bounds of nodes say nothing and those of cells do.
+void SolidBoundary::find_bounds() {
+    DoubleBox all;
+    all.lo.fill(HUGE_VAL);
+    all.hi.fill(-HUGE_VAL);
+    const auto add = [&all](const DoubleBox& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            all.lo[k] = std::min(all.lo[k], b.lo[k]);
+            all.hi[k] = std::max(all.hi[k], b.hi[k]);
+        }
+    };
+    if (base_.is_bounded()) {
+        add(part(refined(*base_.root().node), Cell{}, false).box);
+    } else {
+        for_tree_leaves(
+            base_, [](const DoubleBox&) { return true; },
+            [&](const LeafInTree& leaf) {
+                if (leaf.node.size() == 0) return;
+                const DoubleBox box = part(leaf.node, leaf.cell, false).box;
+                if (!detail::is_empty(box)) add(box);
+            });
+    }
+    lo = all.lo;
+    hi = all.hi;
+    for (std::size_t k = 0; k < 3; ++k)
+        largest = std::max({largest, std::fabs(lo[k]), std::fabs(hi[k])});
+    // Those of leaves are smaller, or the same.
+    const CellNode& root = refined(*base_.root().node);
+    const bool is_mesh =
+        root.is_leaf() && leaf_boxes(root, Cell{}).polygons().only_source() != nullptr;
+    position_error = is_mesh ? 0 : clipped_error * largest;
+}
+
+void SolidBoundary::set_frame() {
+    double extent = 0;
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double e = hi[k] - lo[k];
+        boxes.origin[k] = lo[k] + 0.5 * e;
+        extent = std::max(extent, e);
+        square += 0.25 * e * e;
+    }
+    boxes.unit = extent > 0 ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
+    boxes.radius = bound_slack * (std::sqrt(square) + 2 * position_error) / boxes.unit + 0x1p-40;
+    // Boxes that stick out farther are replaced by others.
+    boxes.reach = 1.5 * boxes.radius;
+}
+
+std::uint32_t SolidBoundary::add_node(ObbId above) {
+    const auto node = static_cast<std::uint32_t>(boxes.nodes.size());
+    close_lanes(boxes.nodes.emplace_back());
+    boxes.parent.push_back(above.index);
+    part_of_.resize(part_of_.size() + 4, none);
+    ++boxes_counters().nodes;
+    return node;
+}
+
+// Along the axes. The half pays for the rounding of the centre, and for what is between the two
+// sets that a box stands for.
+void SolidBoundary::put_box(std::uint32_t node, std::uint32_t lane, const DoubleBox& box) {
+    ObbNode& n = boxes.nodes[node];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double a = (box.lo[k] - boxes.origin[k]) / boxes.unit;
+        const double b = (box.hi[k] - boxes.origin[k]) / boxes.unit;
+        const auto center = static_cast<float>(0.5 * (a + b));
+        const double c = static_cast<double>(center);
+        const double half = std::max(b - c, c - a) + position_error / boxes.unit + 0x1p-45;
+        n.center[k][lane] = center;
+        n.half[k][lane] = rounded_up(half * (1 + 0x1p-20));
+        for (std::size_t j = 0; j < 3; ++j) n.axis[k][j][lane] = k == j ? 1.0F : 0.0F;
+    }
+}
+
+// False when it sticks out too far.
+bool SolidBoundary::put_box(std::uint32_t node, std::uint32_t lane, const ObbTree& tree,
+                            const OrientedBox& box) {
+    const double scale = tree.unit / boxes.unit;
+    std::array<double, 3> center{};
+    std::array<float, 3> half{};
+    double from_origin = 0;
+    double diagonal = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        center[k] = (tree.origin[k] - boxes.origin[k]) / boxes.unit +
+                    static_cast<double>(box.center[k]) * scale;
+        half[k] = rounded_up((static_cast<double>(box.half[k]) * scale + 0x1p-21) * (1 + 0x1p-22));
+        from_origin += center[k] * center[k];
+        diagonal += static_cast<double>(half[k]) * static_cast<double>(half[k]);
+    }
+    if (!(bound_slack * (std::sqrt(from_origin) + std::sqrt(diagonal)) < boxes.reach)) return false;
+    ObbNode& n = boxes.nodes[node];
+    for (std::size_t k = 0; k < 3; ++k) {
+        n.center[k][lane] = static_cast<float>(center[k]);
+        n.half[k][lane] = half[k];
+        for (std::size_t j = 0; j < 3; ++j) n.axis[k][j][lane] = box.axis[k][j];
+    }
+    return true;
+}
+
+std::uint32_t SolidBoundary::open(ObbId id) {
+    const std::uint32_t what = boxes.nodes[id.node()].child[id.lane()].pending();
+    const std::uint32_t node = add_node(id);
+    if (const std::uint32_t p = part_of_[id.index]; p != none) {
+        const Part part = parts_[p];
+        if (part.at.node->is_leaf())
+            open_leaf(part, node);
+        else
+            open_cells(part, node);
+    } else {
+        open_inner(inner_[what], node);
+    }
+    boxes.nodes[id.node()].child[id.lane()] = ObbChild::node(node);
+    return node;
+}
+
+// Up to four nodes of the tree below, each time those of the largest one.
+void SolidBoundary::open_cells(const Part& above, std::uint32_t node) {
+    std::array<LeafAt, 4> below;
+    std::size_t count = 0;
+    const auto add_children = [&](const LeafAt& at, std::size_t place) {
+        bool first = true;
+        for (int i = 0; i < 2; ++i) {
+            const CellNode& n = *at.node;
+            const CellRef& child = n.child(i);
+            const CellNode& c = refined(*child.node);
+            if (c.size() == 0) continue;
+            const Cell cell = i == 0 ? at.cell.below(n.axis(), n.splitter())
+                                     : at.cell.above(n.axis(), n.splitter());
+            below[first ? place : count] = {&c, cell, at.turned != child.complemented};
+            if (!first || place == count) ++count;
+            first = false;
+        }
+    };
+    add_children(above.at, 0);
+    while (count < 4) {
+        std::size_t most = 4;
+        for (std::size_t i = 0; i < count; ++i)
+            if (!below[i].node->is_leaf() &&
+                (most == 4 || below[i].node->size() > below[most].node->size()))
+                most = i;
+        if (most == 4) break;
+        const LeafAt opened = below[most];
+        add_children(opened, most);
+    }
+    std::uint32_t lane = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Part p = part(*below[i].node, below[i].cell, below[i].turned);
+        if (detail::is_empty(p.box)) continue;
+        part_of_[ObbId::of(node, lane).index] = static_cast<std::uint32_t>(parts_.size());
+        parts_.push_back(p);
+        put_box(node, lane, p.box);
+        boxes.nodes[node].child[lane] = ObbChild::pending(0);
+        ++lane;
+    }
+}
+
+// The leaf's root, of one box, is left out where there is something below it.
+void SolidBoundary::open_leaf(const Part& part, std::uint32_t node) {
+    const LeafBoxes& leaf = part.at.boxes();
+    if (leaf.tree().is_empty()) return;
+    const auto number = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back({&leaf, part.at.turned});
+    const ObbChild root = leaf.tree().nodes[0].child[0];
+    open_inner({number, root.is_leaf() ? 0 : root.node()}, node);
+}
+
+void SolidBoundary::open_inner(const Inner& inner, std::uint32_t node) {
+    const LeafBoxes& leaf = *leaves_[inner.leaf].boxes;
+    const ObbTree& tree = leaf.tree();
+    const ObbNode& from = tree.nodes[inner.node];
+    for (std::uint32_t lane = 0; lane < 4; ++lane) {
+        if (!(from.half[0][lane] >= 0)) continue;
+        if (!put_box(node, lane, tree, from.box(lane))) {
+            DoubleBox all;
+            all.lo = lo;
+            all.hi = hi;
+            put_box(node, lane, all);
+        }
+        const ObbChild child = from.child[lane];
+        if (!child.is_leaf()) {
+            boxes.nodes[node].child[lane] =
+                ObbChild::pending(static_cast<std::uint32_t>(inner_.size()));
+            inner_.push_back({inner.leaf, child.node()});
+            continue;
+        }
+        const auto first = static_cast<std::uint32_t>(boxes.order.size());
+        boxes.nodes[node].child[lane] = ObbChild::leaf(first, child.count());
+        for (std::uint32_t i = 0; i < child.count(); ++i) {
+            const std::uint32_t place = child.first() + i;
+            const auto at = static_cast<std::uint32_t>(positions.size());
+            for (const auto& corner : leaf.corners_of(place)) positions.push_back(corner);
+            boxes.corners.push_back({at, at + 1, at + 2});
+            boxes.order.push_back(first + i);
+            leaf_of_.push_back(inner.leaf);
+            place_of_.push_back(place);
+        }
+    }
+}
+
+std::uint32_t SolidBoundary::open_all() const {
+    std::vector<ObbId> open{ObbId{}};
+    while (!open.empty()) {
+        const ObbId id = open.back();
+        open.pop_back();
+        if (boxes.is_leaf(id)) continue;
+        const std::uint32_t node = boxes.child(id).node();
+        for (std::uint32_t k = 0; k < 4; ++k)
+            if (boxes.nodes[node].half[0][k] >= 0) open.push_back(ObbId::of(node, k));
+    }
+    return static_cast<std::uint32_t>(boxes.order.size());
+}
+
+SolidBoundary::Origin SolidBoundary::origin(std::uint32_t triangle) const {
+    const OpenedLeaf& leaf = leaves_[leaf_of_[triangle]];
+    return {leaf.boxes, place_of_[triangle], leaf.turned};
+}
+
+const SolidBoundary::LeafAt* SolidBoundary::leaf_below(ObbId id) const {
+    const LeafAt& at = parts_[part_of_[id.index]].at;
+    return at.node->is_leaf() ? &at : nullptr;
+}
+
+bool SolidBoundary::is_alone_at(std::uint32_t triangle, const std::array<double, 3>& point,
+                                double reach) const {
+    const Origin at = origin(triangle);
+    return at.leaf->is_alone_at(at.leaf->polygon_of(at.place), point, reach);
+}
+
+}  // namespace trisect::detail
