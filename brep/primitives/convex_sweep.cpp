@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -203,14 +204,39 @@ private:
     LatticeMesh out_;
 };
 
+// Four points that are not in one plane; nothing when all are.
+std::optional<std::array<std::uint32_t, 4>> tetrahedron_of(std::span<const LatticePoint> points) {
+    std::array<std::uint32_t, 4> out{};
+    const auto find = [&](std::size_t k, const auto& condition) {
+        for (std::uint32_t p = 0; p < points.size(); ++p)
+            if (condition(points[p])) {
+                out[k] = p;
+                return true;
+            }
+        return false;
+    };
+    if (points.empty()) return std::nullopt;
+    const LatticePoint& a = points[0];
+    if (!find(1, [&](const LatticePoint& p) { return p != a; })) return std::nullopt;
+    const LatticePoint& b = points[out[1]];
+    if (!find(2, [&](const LatticePoint& p) { return !are_collinear(a, b, p); }))
+        return std::nullopt;
+    const Plane base = Plane::through(a, b, points[out[2]]);
+    if (!find(3, [&](const LatticePoint& p) { return side_of(p, base) != Side::On; }))
+        return std::nullopt;
+    return out;
+}
+
 // The beneath-beyond method: each point outside replaces the triangles that it sees by those
 // between it and their outline. A triangle whose plane holds the point is not seen; then no point
 // is on the line of an edge of the outline, which lies in the plane of a triangle that is seen, so
 // no triangle is degenerate.
 class HullMaker {
 public:
-    explicit HullMaker(std::span<const LatticePoint> points) : points_(points) {
-        start();
+    /// `first`: four points that are not in one plane
+    HullMaker(std::span<const LatticePoint> points, const std::array<std::uint32_t, 4>& first)
+        : points_(points) {
+        start(first);
         for (std::uint32_t p = 0; p < points.size(); ++p) add_point(p);
     }
 
@@ -264,21 +290,9 @@ private:
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         facets_.push_back({{a, b, c}, Plane::through(points_[a], points_[b], points_[c])});
     }
-    template <class Condition>
-    std::uint32_t first_that(const Condition& condition) {
-        for (std::uint32_t p = 0; p < points_.size(); ++p)
-            if (condition(p)) return p;
-        throw UsageError("a convex hull needs points that are not in one plane");
-    }
-    void start() {
-        const std::uint32_t a = first_that([](std::uint32_t) { return true; });
-        const std::uint32_t b =
-            first_that([&](std::uint32_t p) { return points_[p] != points_[a]; });
-        const std::uint32_t c = first_that(
-            [&](std::uint32_t p) { return !are_collinear(points_[a], points_[b], points_[p]); });
+    void start(const std::array<std::uint32_t, 4>& first) {
+        const auto [a, b, c, d] = first;
         const Plane base = Plane::through(points_[a], points_[b], points_[c]);
-        const std::uint32_t d =
-            first_that([&](std::uint32_t p) { return side_of(points_[p], base) != Side::On; });
         const bool below = side_of(points_[d], base) == Side::Below;
         const std::uint32_t u = below ? b : c;
         const std::uint32_t v = below ? c : b;
@@ -313,7 +327,9 @@ private:
 }  // namespace
 
 LatticeMesh hull_mesh(std::span<const LatticePoint> points, Lattice lattice) {
-    return HullMaker(points).mesh(lattice);
+    const auto first = tetrahedron_of(points);
+    if (!first) throw UsageError("a convex hull needs points that are not in one plane");
+    return HullMaker(points, *first).mesh(lattice);
 }
 
 bool is_convex(const LatticeMesh& mesh) {
@@ -347,6 +363,7 @@ LatticeMesh leading_part(const LatticeMesh& convex, const std::array<double, 3>&
             for (const std::uint32_t c : convex.triangles[t]) corners.push_back(convex.points[c]);
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    if (!tetrahedron_of(corners)) return convex;
     return hull_mesh(corners, convex.lattice);
 }
 

@@ -34,7 +34,8 @@ namespace trisect {
 
 /// The hull of all triangles of a convex mesh that look along the vector. What a body meets on its
 /// way beyond where it stands, swept(convex, by) less convex, is met by this part of it, which has
-/// about half the triangles. Triangles parallel to the vector do not count. O(n f) as hull_mesh.
+/// about half the triangles. Triangles parallel to the vector do not count. The mesh itself where
+/// all of these lie in one plane. O(n f) as hull_mesh.
 /// \pre as swept(); the vector is not zero
 [[nodiscard]] LatticeMesh leading_part(const LatticeMesh& convex, const std::array<double, 3>& by);
 
