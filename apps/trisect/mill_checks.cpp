@@ -57,15 +57,21 @@ std::string MillChecks::face_name(const FaceSource& face) const {
         return fmt::format("{} face {}", body->second, face.face);
     if (const auto cut = cuts_.find(face.operand); cut != cuts_.end())
         return fmt::format("a face cut at step {}", cut->second + 1);
-    return fmt::format("{} face {}", holder_name, face.face);  // a hull of it between positions
+    return "a swept face";  // of the tool on a rapid move, or of the holder
 }
 
 Json MillChecks::entity_json(const EntityName& entity) const {
     Json out;
     out["kind"] = kind_word(entity.kind);
     out["faces"] = Json::array();
-    for (std::size_t i = 0; i < entity.face_count; ++i)
-        out["faces"].push_back(face_name(entity.faces.at(i)));
+    std::string name;
+    for (std::size_t i = 0; i < entity.face_count; ++i) {
+        const std::string face = face_name(entity.faces.at(i));
+        name += (i == 0 ? "" : " and ") + face;
+        out["faces"].push_back(face);
+    }
+    if (entity.face_count > 1) name = fmt::format("{} of {}", kind_word(entity.kind), name);
+    out["name"] = name;
     return out;
 }
 
@@ -132,16 +138,29 @@ std::vector<Json> MillChecks::of_holder(std::size_t index, const Solid& stock) {
     std::vector<Json> out;
     const MillStep& step = job_.steps[index];
     const Pose pose = job_.pose_after(step);
-    const auto check_all = [&](const Solid& holder, const Pose& at) {
-        check({"holder in stock", holder_name, holder, at, stock_name_, stock}, index, touch_, out);
-        for (const MillBody& fixture : job_.fixtures)
-            check({"holder in fixture", holder_name, holder, at, fixture.name, fixture.solid},
-                  index, touch_, out);
-    };
-    check_all(job_.holder.solid, pose);
-    if (out.empty() && holder_parts_ && !step.is_placement)
-        check_all(holder_parts_->swept(step.orientation, step.from, step.to, false).solid, Pose());
+    check({"holder in stock", holder_name, job_.holder.solid, pose, stock_name_, stock}, index,
+          touch_, out);
+    for (const MillBody& fixture : job_.fixtures)
+        check({"holder in fixture", holder_name, job_.holder.solid, pose, fixture.name,
+               fixture.solid},
+              index, touch_, out);
+    if (out.empty() && holder_parts_ && !step.is_placement) check_way(index, stock, out);
     return out;
+}
+
+void MillChecks::check_way(std::size_t index, const Solid& stock, std::vector<Json>& out) {
+    const MillStep& step = job_.steps[index];
+    const Pose here;
+    // Clear or not at its beginning, that was found by the step before.
+    for (const Solid& way :
+         holder_parts_->swept_shells(step.orientation, step.from, step.to, index > 0)) {
+        check({"holder through stock", holder_name, way, here, stock_name_, stock}, index, false,
+              out);
+        for (const MillBody& fixture : job_.fixtures)
+            check({"holder through fixture", holder_name, way, here, fixture.name, fixture.solid},
+                  index, false, out);
+        if (!out.empty()) return;
+    }
 }
 
 std::string collision_text(const Json& c, std::size_t step_count) {
@@ -158,14 +177,9 @@ std::string collision_text(const Json& c, std::size_t step_count) {
     if (c.contains("place")) out += ", they meet around " + point(c["place"]);
     if (c.contains("common_volume"))
         out += ", common volume " + number_text(c["common_volume"].get<double>());
-    const auto faces = [](const Json& entity) {
-        std::string text;
-        for (const Json& f : entity["faces"])
-            text += (text.empty() ? "" : " and ") + f.get<std::string>();
-        return text;
-    };
     for (const Json& contact : c["contacts"])
-        out += fmt::format("\n  {} meets {}", faces(contact["a"]), faces(contact["b"]));
+        out += fmt::format("\n  {} meets {}", contact["a"]["name"].get<std::string>(),
+                           contact["b"]["name"].get<std::string>());
     const auto more = c["contact_count"].get<std::size_t>() - c["contacts"].size();
     if (more > 0) out += fmt::format("\n  and {} more contacts", more);
     return out + "\n";

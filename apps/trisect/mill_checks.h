@@ -31,10 +31,13 @@ public:
     /// was before.
     [[nodiscard]] std::vector<Json> of_tool(std::size_t index, const SweptTool& tool,
                                             const Solid& stock) const;
-    /// The holder at the end of the step (between positions too, if requested), after the cut.
+    /// The holder at the end of the step and between its ends, after the cut.
     [[nodiscard]] std::vector<Json> of_holder(std::size_t index, const Solid& stock);
 
 private:
+    /// Of the holder between the ends of a step.
+    void check_way(std::size_t index, const Solid& stock, std::vector<Json>& out);
+
     struct Pair {
         const char* kind;
         const char* name_a;

@@ -278,6 +278,8 @@ void add_mill_outputs(CLI::App& command, MillOptions& o) {
 }
 
 void check_mill_options(const Session& session, const MillOptions& o) {
+    for (const std::string& name : {o.stock, o.tool, o.holder})
+        if (name == "-") throw UsageError("mill reads its meshes from files");
     if (o.path == "-")
         for (const std::string& name : {o.checkpoint, o.resume})
             if (!name.empty()) throw UsageError("a path from the standard input cannot be resumed");
@@ -325,8 +327,8 @@ void add_mill_command(CLI::App& app, MillOptions& o) {
             "tool corners and positions are multiples of 2^E (default: some 30 bits of the extent)")
         ->type_name("E");
     command->add_flag("--touch", o.touch, "contact of the holder, and with fixtures, counts too");
-    command->add_flag("--between", o.between,
-                      "check the holder (of convex shells) between positions too");
+    command->add_flag("!--ends-only", o.between,
+                      "check the holder at the ends of moves only; else it is of convex shells");
     command->add_flag("--keep-going", o.keep_going, "list all collisions");
     add_mill_outputs(*command, o);
     add_operand_options(*command, o.operands);

@@ -99,6 +99,22 @@ MillBody body_of(const Session& session, std::string name, const Operand& operan
     return {std::move(name), resolved(session, operand.solid, options), operand.solid.source_id()};
 }
 
+/// The mesh as it is in the file: where shells overlap they are not joined.
+PolygonMesh shells_in(const Session& session, const std::string& name, const Operand& operand) {
+    return has_exact_boundary(name) ? operand.solid.to_mesh() : read_input(session, name);
+}
+
+MillTool swept_holder(const Session& session, const MillOptions& options, const Operand& operand,
+                      MillJob& job) {
+    const PolygonMesh mesh = shells_in(session, options.holder, operand);
+    try {
+        return MillTool(mesh, options.holder, job.grid, job.path.orientations);
+    } catch (const UnsupportedError& e) {
+        throw UnsupportedError(std::string(e.what()) +
+                               " (--ends-only checks the holder at the ends of moves alone)");
+    }
+}
+
 void make_steps(MillJob& job, const MillOptions& options) {
     Point3d at{};
     double time = 0;
@@ -156,7 +172,7 @@ MillJob read_mill_job(Session& session, const MillOptions& options) {
     const std::vector<Operand> operands = read_operands(session, names, options.operands);
     for (const Operand& operand : operands) job.facts["inputs"].push_back(operand.facts);
     job.stock_bounds = bounds(operands[0].solid);
-    const PolygonMesh tool = resolved(session, operands[1].solid, options.operands).to_mesh();
+    const PolygonMesh tool = shells_in(session, options.tool, operands[1]);
     const int wanted = options.grid.value_or(MillGrid::exponent_for(largest_of(job, tool)));
     const Solid stock = stock_on_grid(session, options, operands[0], wanted);
     job.stock_source = stock.source_id();
@@ -166,9 +182,7 @@ MillJob read_mill_job(Session& session, const MillOptions& options) {
     job.grid = MillGrid(stock.lattice(), wanted);
     job.tool.emplace(tool, options.tool, job.grid, job.path.orientations);
     job.holder = body_of(session, "holder", operands[2], options.operands);
-    if (options.between)
-        job.holder_parts.emplace(job.holder.solid.to_mesh(), options.holder, job.grid,
-                                 job.path.orientations);
+    if (options.between) job.holder_parts = swept_holder(session, options, operands[2], job);
     for (std::size_t i = 0; i < options.fixtures.size(); ++i)
         job.fixtures.push_back(
             body_of(session, options.fixtures[i], operands[3 + i], options.operands));

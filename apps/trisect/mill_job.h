@@ -46,7 +46,7 @@ struct MillJob {
     MillGrid grid{Lattice{}, 0};
     std::optional<MillTool> tool;
     MillBody holder;
-    /// For checks between positions; empty otherwise.
+    /// For checks between the ends of moves; empty otherwise.
     std::optional<MillTool> holder_parts;
     std::vector<MillBody> fixtures;
     ToolPath path;

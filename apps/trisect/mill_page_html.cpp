@@ -281,7 +281,7 @@ function draw_graph() {
   }
   const most = columns.reduce((a, b) => Math.max(a, b), 1e-300);
   context.fillStyle = "#7f9dc4";
-  columns.forEach((v, x) => context.fillRect(x, graph.height * (1 - v / most), 1, graph.height));
+  columns.forEach((v, x) => context.fillRect(x, graph.height * (1 - Math.sqrt(v / most)), 1, graph.height));
   context.fillStyle = "#d22";
   for (const c of facts.collisions)
     context.fillRect(c.step / scene.count * graph.width - 1, 0, 3, graph.height);
@@ -299,8 +299,7 @@ function list_collisions() {
   for (const c of facts.collisions.slice(0, 50)) {
     const contact = c.contacts[0];
     add(`step ${c.step}, line ${c.line}, ${c.time.toFixed(1)} s: ${c.kind} (${c.b}, ` +
-      `${c.relation})` + (contact ? `\n${contact.a.faces.join(" and ")} meets ` +
-      `${contact.b.faces.join(" and ")}` : ""), "hit").onclick = () => set_step(c.step);
+      `${c.relation})` + (contact ? `\n${contact.a.name} meets ${contact.b.name}` : ""), "hit").onclick = () => set_step(c.step);
   }
 }
 function listen() {

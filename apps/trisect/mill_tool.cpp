@@ -103,10 +103,11 @@ MillTool::MillTool(const PolygonMesh& mesh, const std::string& name, MillGrid& g
             const double whole = volume(parts.back().mesh);
             const double added = 1 - signed_volume(shell) / whole;
             if (!(added <= most_added_volume))
-                throw UnsupportedError(fmt::format(
-                    "{}: a shell is not convex (its hull has {:.3g} % more volume): a tool is made "
-                    "of convex shells, which may touch or overlap",
-                    name, 100 * added / std::max(1 - added, 1e-9)));
+                throw UnsupportedError(
+                    fmt::format("{}: a shell is not convex (its hull has {:.3g} % more volume); "
+                                "what is swept is "
+                                "made of convex shells, which may touch or overlap",
+                                name, 100 * added / std::max(1 - added, 1e-9)));
             added_volume_ = std::max(added_volume_, added);
         }
     }
@@ -128,17 +129,23 @@ const LatticeMesh& MillTool::leading(Part& part, const std::array<double, 3>& by
     return known->second;
 }
 
-SweptTool MillTool::swept(std::uint32_t orientation, const Point3d& from, const Point3d& to,
-                          bool is_clear) {
+std::vector<Solid> MillTool::swept_shells(std::uint32_t orientation, const Point3d& from,
+                                          const Point3d& to, bool is_clear) {
     const std::array<double, 3> by{to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     const bool moves = by != std::array<double, 3>{};
-    SweptTool out;
-    std::vector<Solid> solids;
+    std::vector<Solid> out;
     for (Part& part : parts_.at(orientation)) {
         const LatticeMesh& body = is_clear && moves ? leading(part, by) : part.mesh;
-        solids.push_back(Solid::from_lattice_mesh(trisect::swept(moved(body, from), by)));
-        out.sources.push_back(solids.back().source_id());
+        out.push_back(Solid::from_lattice_mesh(trisect::swept(moved(body, from), by)));
     }
+    return out;
+}
+
+SweptTool MillTool::swept(std::uint32_t orientation, const Point3d& from, const Point3d& to,
+                          bool is_clear) {
+    SweptTool out;
+    const std::vector<Solid> solids = swept_shells(orientation, from, to, is_clear);
+    for (const Solid& solid : solids) out.sources.push_back(solid.source_id());
     out.solid = solids.size() == 1 ? solids.front() : evaluate(Expression::any_of(solids));
     return out;
 }

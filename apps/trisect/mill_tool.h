@@ -38,6 +38,9 @@ public:
     /// has half the triangles, and its bottom overlaps the floor that the last step cut by half.
     [[nodiscard]] SweptTool swept(std::uint32_t orientation, const Point3d& from, const Point3d& to,
                                   bool is_clear);
+    /// The same, each shell for itself.
+    [[nodiscard]] std::vector<Solid> swept_shells(std::uint32_t orientation, const Point3d& from,
+                                                  const Point3d& to, bool is_clear);
     /// The hulls in the first orientation.
     [[nodiscard]] std::vector<LatticeMesh> hulls() const;
     /// Largest part of a hull's volume that its shell has not.

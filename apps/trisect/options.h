@@ -158,7 +158,7 @@ struct MillOptions {
     double feed = 1000;       ///< before the first one of the path, a minute
     double rapid_feed = 10000;
     bool touch = false;       ///< contact of the holder, and with fixtures, counts too
-    bool between = false;     ///< check the holder between positions too
+    bool between = true;      ///< check the holder between the ends of moves too
     bool keep_going = false;  ///< after a collision
     std::string output;       ///< files; empty: none
     std::string page;
