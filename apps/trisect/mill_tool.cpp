@@ -18,10 +18,10 @@ namespace {
 
 constexpr double most_added_volume = 1e-5;
 
-/// Sets of corners, joined along faces.
-class CornerSets {
+/// Sets of faces, joined along edges.
+class FaceSets {
 public:
-    explicit CornerSets(std::size_t count) : parent_(count) {
+    explicit FaceSets(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), 0U);
     }
     std::uint32_t find(std::uint32_t v) {
@@ -79,13 +79,24 @@ LatticeMesh hull_of_shell(const PolygonMesh& shell, const std::array<double, 9>&
 
 std::vector<PolygonMesh> shells_of(const PolygonMesh& mesh) {
     const std::vector<std::uint32_t> first = first_of_value(mesh.points);
-    CornerSets sets(mesh.points.size());
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
-        for (const std::uint32_t c : mesh.face(f)) sets.join(first[c], first[mesh.face(f)[0]]);
+    // Faces by directed edge. Where shells touch in an edge it has several faces on each side, and
+    // joins none.
+    std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> faces;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const auto c = mesh.face(f);
+        for (std::size_t i = 0; i < c.size(); ++i)
+            faces[{first[c[i]], first[c[(i + 1) % c.size()]]}].push_back(f);
+    }
+    FaceSets sets(mesh.face_count());
+    for (const auto& [edge, here] : faces) {
+        const auto there = faces.find({edge[1], edge[0]});
+        if (here.size() == 1 && there != faces.end() && there->second.size() == 1)
+            sets.join(here[0], there->second[0]);
+    }
     std::map<std::uint32_t, PolygonMesh> shells;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        PolygonMesh& shell = shells[sets.find(first[mesh.face(f)[0]])];
-        shell.points = mesh.points;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        PolygonMesh& shell = shells[sets.find(f)];
+        if (shell.points.empty()) shell.points = mesh.points;
         shell.add_face(mesh.face(f));
     }
     std::vector<PolygonMesh> out;

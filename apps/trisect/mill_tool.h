@@ -57,7 +57,8 @@ private:
     double added_volume_ = 0;
 };
 
-/// The connected parts of a mesh, by corners of equal value.
+/// The parts of a mesh that are connected by edges, with corners of equal value joined. Shells that
+/// touch are apart.
 [[nodiscard]] std::vector<PolygonMesh> shells_of(const PolygonMesh& mesh);
 
 }  // namespace trisect::app
