@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
+#include <trisect/bsp/solid.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -34,22 +35,34 @@ struct InterferenceQueryCounters {
 /// sequence of poses is right; those that change little are cheap: the work follows from how far
 /// the bodies have moved against the gaps between their parts, not from their size.
 ///
-/// An object is for one thread; any number of them may share models. One that was moved from can
-/// only be assigned to or ended.
+/// Of solids it walks their own trees (solid_interference.h), and goes on from where it was when
+/// one of them is replaced by what a cut left of it.
+///
+/// An object is for one thread; any number of them may share models and solids. One that was moved
+/// from can only be assigned to or ended.
 class InterferenceQuery {
 public:
     InterferenceQuery(const InterferenceModel& a, const InterferenceModel& b);
+    /// \throw UnsupportedError when a solid is unbounded; what evaluate() throws, for a solid that
+    /// must be resolved.
+    InterferenceQuery(const Solid& a, const Solid& b);
     ~InterferenceQuery();
     InterferenceQuery(InterferenceQuery&&) noexcept;
     InterferenceQuery& operator=(InterferenceQuery&&) noexcept;
 
     /// Relation of A under its pose to B under its pose. \throw what interfere() throws.
     [[nodiscard]] Relation relation(const Pose& pose_a, const Pose& pose_b);
+    /// Goes on with another solid in the place of one. What is known about parts that both solids
+    /// share is kept: after a small cut nearly all. \throw UsageError for a query of models; as the
+    /// constructor, which changes nothing.
+    void replace_a(const Solid& a);
+    void replace_b(const Solid& b);
     /// The next question starts from the roots.
     void forget();
 
+    class State;
+
 private:
-    struct State;
     std::unique_ptr<State> state_;
 };
 

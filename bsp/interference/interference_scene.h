@@ -12,6 +12,7 @@
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/joint.h>
+#include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect {
@@ -67,6 +68,8 @@ struct ScenePair {
     BodyId b;                                ///< its index is greater
     Relation relation = Relation::Disjoint;  ///< of a to b: Inside means that a is inside b
     std::vector<Contact> contacts;           ///< where requested; `a` is the first solid
+    /// The same, instead, where one of the bodies is a Solid.
+    std::vector<NamedContact> named_contacts;
 };
 
 /// What queries of scenes did (kernel/diagnostics.h).
@@ -84,9 +87,11 @@ struct SceneCounters {
     SceneCounters& operator-=(const SceneCounters& o);
 };
 
-/// Bodies, each a model under a pose. A pose is exact (Pose); so every relation returned is that of
-/// the solids as they are placed, for flush parts too. Boxes around the bodies, rounded outwards,
-/// only exclude pairs.
+/// Bodies, each a model or a solid under a pose. A solid needs no model to be made, and goes on as
+/// what a cut leaves of it (replace): what is known about pairs with it is kept.
+///
+/// A pose is exact (Pose); so every relation returned is that of the solids as they are placed, for
+/// flush parts too. Boxes around the bodies, rounded outwards, only exclude pairs.
 ///
 /// A link is a body that another one carries through a joint: its pose is the product of the
 /// carrier's pose, the mount and the motion of the joint, exactly. So along a chain bits add up:
@@ -111,6 +116,13 @@ public:
     /// it, when its pose does not fit.
     BodyId add_link(BodyId carrier, const InterferenceModel& model, const Joint& joint,
                     const LinkOptions& options = {});
+    /// Bodies that are solids, on their own trees (solid_interference.h). \throw as the functions
+    /// above; UnsupportedError when the solid is unbounded.
+    BodyId add(const Solid& solid, const Pose& pose = {}, const CollisionFilter& filter = {});
+    BodyId add_link(BodyId carrier, const Solid& solid, const Joint& joint,
+                    const LinkOptions& options = {});
+    /// Puts a solid in the place of a body's, or of its model. Costs what is new in the solid.
+    void replace(BodyId body, const Solid& solid);
     /// \throw UsageError when it carries a link.
     void remove(BodyId body);
 
@@ -133,7 +145,9 @@ public:
     [[nodiscard]] std::size_t size() const;
     /// In the order of their indices.
     [[nodiscard]] std::vector<BodyId> bodies() const;
+    /// \throw UsageError for a body that is a solid.
     [[nodiscard]] const InterferenceModel& model(BodyId body) const;
+    [[nodiscard]] const Solid& solid(BodyId body) const;
     [[nodiscard]] const Pose& pose(BodyId body) const;
     [[nodiscard]] const Joint& joint(BodyId link) const;
     [[nodiscard]] Ratio joint_value(BodyId link) const;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/exact_rational.h>
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/solid.h>
@@ -75,7 +76,9 @@ struct SolidInterference {
                                           const Pose& pose_b,
                                           const SolidInterferenceOptions& options = {});
 
-/// BoundaryDistance with names: lower <= distance <= upper, in the user's units.
+/// The distance of two boundaries, in the user's units: lower <= distance <= upper, exactly, as
+/// BoundaryDistance. The entities are those of a pair of points that is nearly as close, as far as
+/// doubles say; other pairs may be equally close.
 struct NamedDistance {
     double lower = 0;
     double upper = 0;
@@ -88,6 +91,12 @@ struct NamedDistance {
 /// The distance of the boundaries; nothing when one of the solids is empty. \throw as interfere
 [[nodiscard]] std::optional<NamedDistance> boundary_distance(const Solid& a, const Pose& pose_a,
                                                              const Solid& b, const Pose& pose_b);
+
+/// The square of the distance, exactly. \throw as interfere
+[[nodiscard]] std::optional<ExactRational> exact_squared_distance(const Solid& a,
+                                                                  const Pose& pose_a,
+                                                                  const Solid& b,
+                                                                  const Pose& pose_b);
 
 /// Whether the distance of the boundaries is less than `distance`, exactly; false when one is
 /// empty. \throw UsageError for a distance that is not finite or negative, and as interfere

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solids.h"
 
+#include <cmath>
+
+#include <trisect/brep/primitives/sphere.h>
+
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/box.h>
 
 namespace solids {
+
+trisect::Solid ball(double radius, std::uint32_t level, const trisect::Point3d& at, double unit) {
+    trisect::PolygonMesh mesh = trisect::make_icosphere(radius, level);
+    for (trisect::Point3d& p : mesh.points)
+        for (std::size_t k = 0; k < 3; ++k) p[k] = std::round((p[k] + at[k]) / unit) * unit;
+    return trisect::Solid::from_mesh(mesh);
+}
 
 using trisect::Expression;
 using trisect::Point3d;

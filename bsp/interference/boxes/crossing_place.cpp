@@ -4,10 +4,10 @@
 // Where the two intervals overlap is the common segment; its ends are the second and third of their
 // four ends along the line.
 //
-// An end is x = a + t (b - a) on a side ab of one triangle, t = v / (v - w), v and w the values of a
-// and b at the other one's plane, each off by less than B (error_bounds.h). With |v - w| > 64 B, t
-// is off by less than 2.1 B / |v - w| + 4 u. The line's direction is that of the longer chord. Ends
-// that are as near to each other as they are off may be taken for each other, which moves the
+// An end is x = a + t (b - a) on a side ab of one triangle, t = v / (v - w), v and w the values of
+// a and b at the other one's plane, each off by less than B (error_bounds.h). With |v - w| > 64 B,
+// t is off by less than 2.1 B / |v - w| + 4 u. The line's direction is that of the longer chord.
+// Ends that are as near to each other as they are off may be taken for each other, which moves the
 // middle by a few times that.
 
 #include <trisect/bsp/interference/boxes/crossing_place.h>
@@ -48,8 +48,9 @@ public:
             const double length = largest_component(side);
             for (std::size_t k = 0; k < 3; ++k) ends_[count_].at[k] = t[i][k] + s * side[k];
             const double size = largest_component(t[i]) + length;
-            error_ = std::max(error_, bound_slack * (length * (2.1 * bound / way + 4 * unit_roundoff) +
-                                                     error + 4 * unit_roundoff * size));
+            error_ =
+                std::max(error_, bound_slack * (length * (2.1 * bound / way + 4 * unit_roundoff) +
+                                                error + 4 * unit_roundoff * size));
             ++count_;
         }
         is_good_ = count_ == 2;
@@ -72,7 +73,8 @@ std::optional<CrossingPlace> crossing_place(const TriangleCorners& p, const Tria
     double g = 0;
     for (const auto& a : p)
         for (const auto& b : q) g = std::max(g, largest_component(minus(a, b)));
-    g = std::max({2 * g, largest_component(minus(p[1], p[0])), largest_component(minus(p[2], p[0]))});
+    g = std::max(
+        {2 * g, largest_component(minus(p[1], p[0])), largest_component(minus(p[2], p[0]))});
     const Chord of_p(p, q, g, error);
     const Chord of_q(q, p, g, error);
     if (!of_p.is_good() || !of_q.is_good()) return std::nullopt;

@@ -34,8 +34,12 @@ public:
         return ObbChild(leaf_bit | first << 3 | count);
     }
     /// A node that is still to be made. `what` is a number of its source, below 2^30.
-    [[nodiscard]] static ObbChild pending(std::uint32_t what) { return ObbChild(pending_bit | what); }
-    [[nodiscard]] bool is_pending() const { return (code_ & (leaf_bit | pending_bit)) == pending_bit; }
+    [[nodiscard]] static ObbChild pending(std::uint32_t what) {
+        return ObbChild(pending_bit | what);
+    }
+    [[nodiscard]] bool is_pending() const {
+        return (code_ & (leaf_bit | pending_bit)) == pending_bit;
+    }
     [[nodiscard]] std::uint32_t pending() const { return code_ & ~pending_bit; }
     [[nodiscard]] bool is_leaf() const { return (code_ & leaf_bit) != 0; }
     [[nodiscard]] std::uint32_t node() const { return code_; }
@@ -133,6 +137,23 @@ public:
     /// The number of the node that is below a box from now on, where one was pending. Nodes,
     /// triangles and their positions may be appended to the tree.
     virtual std::uint32_t open(ObbId id) = 0;
+};
+
+/// Which boxes of a tree are other ones than before.
+class ChangedBoxes {
+public:
+    /// Of a tree with so many nodes.
+    explicit ChangedBoxes(std::size_t nodes) : gone_(nodes, false), other_(4 * nodes, false) {}
+    void set_gone(std::uint32_t node) { gone_[node] = true; }
+    void set_other(ObbId id) { other_[id.index] = true; }
+    /// Whether the box is no more.
+    [[nodiscard]] bool is_gone(ObbId id) const { return gone_[id.node()]; }
+    /// Whether it is around something else.
+    [[nodiscard]] bool is_other(ObbId id) const { return other_[id.index]; }
+
+private:
+    std::vector<bool> gone_;
+    std::vector<bool> other_;
 };
 
 /// A boundary as walks see it.

@@ -41,6 +41,7 @@
 
 #include <trisect/bsp/interference/boxes/triangle_distance.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
+#include <trisect/bsp/interference/relation/crossings_tell.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/infinity.h>
@@ -82,14 +83,14 @@ void CoherentWalk::move_corners(std::uint32_t i, std::uint32_t j, TriangleCorner
     }
 }
 
-// Crossing ones that are not clear decide nothing.
+// Crossing ones beside which there may be something else decide nothing.
 PairVerdict CoherentWalk::compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
                                   TriangleCorners& q) {
     move_corners(i, j, p, q);
     ++counters_.triangle_pairs;
     PairVerdict verdict = compare_triangles(p, q, error_);
     if (verdict == PairVerdict::Crossing &&
-        !(a_->is_clear(a_->boxes.order[i]) && b_->is_clear(b_->boxes.order[j])))
+        !crossing_tells(*a_, a_->boxes.order[i], *b_, b_->boxes.order[j], map_))
         verdict = PairVerdict::Unknown;
     switch (verdict) {
         case PairVerdict::Apart:
@@ -540,6 +541,39 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
         if (const double left = (due_.first() - odometer_) * slightly_less; left > step_)
             reserve_ = left * a_->boxes.unit;
     return found;
+}
+
+// What names boxes that are no more goes, and what names others is due at once.
+void CoherentWalk::a_has_changed(const ChangedBoxes& changed) {
+    if (witness_ && changed.is_gone(witness_->a)) witness_.reset();
+    forget_changed(changed, &Visit::a);
+}
+
+void CoherentWalk::b_has_changed(const ChangedBoxes& changed) {
+    if (witness_ && changed.is_gone(witness_->b)) witness_.reset();
+    forget_changed(changed, &Visit::b);
+}
+
+void CoherentWalk::forget_changed(const ChangedBoxes& changed, ObbId Visit::*box) {
+    balls_.reset();
+    last_from_front_ = false;
+    unmoved_ = false;
+    if (!front_pose_) return;
+    for (std::uint32_t v = 0; v < visits_.size(); ++v) {
+        const ObbId own = visits_[v].*box;
+        if (!visits_[v].in_use || changed.is_gone(own) || !changed.is_other(own)) continue;
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const unsigned bit = 1U << k;
+            if ((visits_[v].open & bit) == 0) continue;
+            const std::uint32_t below = visits_[v].below[k];
+            if (!changed.is_gone(visits_[below].*box)) continue;
+            remove(below);
+            visits_[v].open = static_cast<std::uint8_t>(visits_[v].open & ~bit);
+        }
+        planes_[v].forget();
+        visits_[v].has_plane = false;
+        due_.set(v, odometer_);
+    }
 }
 
 void CoherentWalk::forget() {

@@ -14,19 +14,19 @@
 #include <trisect/bsp/interference/boxes/obb_pose.h>
 #include <trisect/bsp/interference/boxes/obb_walk.h>
 #include <trisect/bsp/interference/coherent/separating_planes.h>
+#include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
-#include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/support/due_list.h>
 
 namespace trisect::detail {
 
 /// Keeps, between questions, a crossing pair of triangles and the front of the last walk that found
-/// the boundaries apart. Every answer is as good as that of a fresh walk. For one thread; models
-/// must outlive it.
+/// the boundaries apart. Every answer is as good as that of a fresh walk. For one thread;
+/// boundaries must outlive it.
 class CoherentWalk {
 public:
-    /// \pre both models have triangles
-    CoherentWalk(const InterferenceModelData& a, const InterferenceModelData& b) : a_(&a), b_(&b) {}
+    /// \pre both have triangles
+    CoherentWalk(const Boundary& a, const Boundary& b) : a_(&a), b_(&b) {}
 
     enum class Answer : std::uint8_t {
         Crossing,  ///< certainly an edge passes through a clear face, or balls prove Overlapping
@@ -42,6 +42,9 @@ public:
     /// The last answer stays what it is while no point of B moves by as much, in lattice units of
     /// A. Mostly 0 when it is not worth it.
     [[nodiscard]] double reserve() const { return reserve_; }
+    /// A has other boxes from now on, the rest of them being what they were.
+    void a_has_changed(const ChangedBoxes& changed);
+    void b_has_changed(const ChangedBoxes& changed);
     void forget();
 
     [[nodiscard]] const WalkCounters& counters() const { return counters_; }
@@ -69,6 +72,7 @@ private:
     };
     static constexpr std::uint32_t none = 0xffffffffU;
     [[nodiscard]] Opens opens(ObbId a, ObbId b) const;
+    void forget_changed(const ChangedBoxes& changed, ObbId Visit::*box);
     [[nodiscard]] PairVerdict compare(std::uint32_t i, std::uint32_t j, TriangleCorners& p,
                                       TriangleCorners& q);
 
@@ -104,8 +108,8 @@ private:
     Answer renew_front();
     Answer answer() const { return unknown_ == 0 ? Answer::Apart : Answer::Unknown; }
 
-    const InterferenceModelData* a_;
-    const InterferenceModelData* b_;
+    const Boundary* a_;
+    const Boundary* b_;
     ApproximateMap map_;
     std::optional<ObbPose> pose_;
     double error_ = 0;

@@ -2,6 +2,7 @@
 
 #include <trisect/bsp/interference/interference_query.h>
 
+#include <memory>
 #include <optional>
 
 #include <trisect/bsp/interference/coherent/coherent_walk.h>
@@ -9,11 +10,15 @@
 #include <trisect/bsp/interference/relation/boundary_flags.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
+#include <trisect/bsp/interference/tree/solid_boundary.h>
+#include <trisect/bsp/interference/tree/solid_pair.h>
 #include <trisect/kernel/diagnostics.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect {
 
 using detail::CoherentWalk;
+using detail::SolidBoundary;
 
 namespace {
 
@@ -23,29 +28,136 @@ InterferenceQueryCounters& counters() {
 
 }  // namespace
 
-struct InterferenceQuery::State {
-    State(const InterferenceModel& one, const InterferenceModel& other)
-        : a(one),
-          b(other),
-          walk(detail::data_of(a), detail::data_of(b)),
-          reserve(detail::data_of(a), detail::data_of(b)) {}
+// Two boundaries, and what depends on what they are of.
+class InterferenceQuery::State {
+public:
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    virtual ~State() = default;
 
     [[nodiscard]] Relation ask(const Pose& pose_a, const Pose& pose_b);
+    virtual void replace_a(const Solid& a) = 0;
+    virtual void replace_b(const Solid& b) = 0;
+    void forget() {
+        if (walk) walk->forget();
+        last_apart.reset();
+        if (reserve) reserve->clear();
+    }
+
+protected:
+    // Empty where a solid is.
+    void begin(const detail::Boundary& a, const detail::Boundary& b) {
+        a_ = &a;
+        b_ = &b;
+        last_apart.reset();
+        walk.emplace(a, b);
+        reserve.emplace(a, b);
+    }
+    void end() {
+        walk.reset();
+        reserve.reset();
+    }
+    // Whatever the walk says.
+    [[nodiscard]] virtual Relation exact(const Pose& pose_a, const Pose& pose_b) = 0;
+    // Of boundaries that are apart, if that is quickly found out.
+    [[nodiscard]] virtual std::optional<Relation> apart(const Pose& pose_a, const Pose& pose_b,
+                                                        const detail::ApproximateMap& map) = 0;
+
+    std::optional<CoherentWalk> walk;
+    std::optional<Relation> last_apart;  // the relation, when the walk's last answer was apart
+    std::optional<detail::MotionBound> reserve;
+
+private:
     [[nodiscard]] Relation ask_walk(const Pose& pose_a, const Pose& pose_b);
     [[nodiscard]] CoherentWalk::Answer walk_to(const detail::ApproximateMap& map);
+    [[nodiscard]] Relation ask_exactly(const Pose& pose_a, const Pose& pose_b) {
+        ++counters().exact;
+        last_apart.reset();
+        return exact(pose_a, pose_b);
+    }
 
-    InterferenceModel a;
-    InterferenceModel b;
-    CoherentWalk walk;
-    std::optional<Relation> last_apart;  // the relation, when the walk's last answer was apart
-    detail::MotionBound reserve;
-    Relation reserved = Relation::Disjoint;  // the relation that it is for
+    const detail::Boundary* a_ = nullptr;
+    const detail::Boundary* b_ = nullptr;
+    Relation reserved = Relation::Disjoint;  // the relation that the reserve is for
 };
+
+namespace {
+
+class ModelQuery final : public InterferenceQuery::State {
+public:
+    ModelQuery(const InterferenceModel& a, const InterferenceModel& b) : a_(a), b_(b) {
+        if (!a.is_empty() && !b.is_empty()) begin(detail::data_of(a_), detail::data_of(b_));
+    }
+    void replace_a(const Solid& /*a*/) override { refuse(); }
+    void replace_b(const Solid& /*b*/) override { refuse(); }
+
+private:
+    [[noreturn]] static void refuse() {
+        throw UsageError("a query of models cannot go on with another solid");
+    }
+    [[nodiscard]] Relation exact(const Pose& pose_a, const Pose& pose_b) override {
+        return interfere(a_, pose_a, b_, pose_b).relation;
+    }
+    [[nodiscard]] std::optional<Relation> apart(const Pose& pose_a, const Pose& pose_b,
+                                                const detail::ApproximateMap& map) override {
+        return detail::relation_of_apart(detail::data_of(a_), pose_a, detail::data_of(b_), pose_b,
+                                         map);
+    }
+
+    InterferenceModel a_;
+    InterferenceModel b_;
+};
+
+class SolidQuery final : public InterferenceQuery::State {
+public:
+    SolidQuery(const Solid& a, const Solid& b)
+        : a_(std::make_unique<SolidBoundary>(a)), b_(std::make_unique<SolidBoundary>(b)) {
+        begin_anew();
+    }
+    void replace_a(const Solid& a) override {
+        replace(a_, a, [this](const detail::ChangedBoxes& c) { walk->a_has_changed(c); });
+    }
+    void replace_b(const Solid& b) override {
+        replace(b_, b, [this](const detail::ChangedBoxes& c) { walk->b_has_changed(c); });
+    }
+
+private:
+    void replace(std::unique_ptr<SolidBoundary>& boundary, const Solid& solid, const auto& note) {
+        if (const auto changed = boundary->replace(solid)) {
+            last_apart.reset();
+            if (!walk) return;
+            note(*changed);
+            reserve->clear();
+            return;
+        }
+        boundary = std::make_unique<SolidBoundary>(solid);
+        begin_anew();
+    }
+    void begin_anew() {
+        if (a_->is_empty() || b_->is_empty())
+            end();
+        else
+            begin(*a_, *b_);
+    }
+    [[nodiscard]] Relation exact(const Pose& pose_a, const Pose& pose_b) override {
+        return detail::relation_of(*a_, pose_a, *b_, pose_b, {}).relation;
+    }
+    [[nodiscard]] std::optional<Relation> apart(const Pose& pose_a, const Pose& pose_b,
+                                                const detail::ApproximateMap& /*map*/) override {
+        return detail::relation_of_apart(*a_, pose_a, *b_, pose_b);
+    }
+
+    std::unique_ptr<SolidBoundary> a_;
+    std::unique_ptr<SolidBoundary> b_;
+};
+
+}  // namespace
 
 Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
     ++counters().asked;
-    if (a.is_empty() || b.is_empty()) return Relation::Disjoint;
-    if (reserve.covers(pose_a, pose_b)) {
+    if (!walk) return Relation::Disjoint;
+    if (reserve->covers(pose_a, pose_b)) {
         ++counters().kept;
         return reserved;
     }
@@ -53,34 +165,32 @@ Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
 }
 
 CoherentWalk::Answer InterferenceQuery::State::walk_to(const detail::ApproximateMap& map) {
-    const detail::WalkCounters before = walk.counters();
-    const std::uint64_t fresh_walks = walk.fresh_walks();
-    const std::uint64_t resumed_fronts = walk.resumed_fronts();
-    const CoherentWalk::Answer answer = walk.ask(map);
-    const detail::WalkCounters& after = walk.counters();
+    const detail::WalkCounters before = walk->counters();
+    const std::uint64_t fresh_walks = walk->fresh_walks();
+    const std::uint64_t resumed_fronts = walk->resumed_fronts();
+    const CoherentWalk::Answer answer = walk->ask(map);
+    const detail::WalkCounters& after = walk->counters();
     InterferenceQueryCounters& c = counters();
     c.node_tests += after.node_tests - before.node_tests;
     c.plane_tests += after.plane_tests - before.plane_tests;
     c.triangle_pairs += after.triangle_pairs - before.triangle_pairs;
     c.by_balls += after.by_balls - before.by_balls;
-    c.fresh_walks += walk.fresh_walks() - fresh_walks;
-    c.resumed_fronts += walk.resumed_fronts() - resumed_fronts;
+    c.fresh_walks += walk->fresh_walks() - fresh_walks;
+    c.resumed_fronts += walk->resumed_fronts() - resumed_fronts;
     return answer;
 }
 
 Relation InterferenceQuery::State::ask_walk(const Pose& pose_a, const Pose& pose_b) {
-    reserve.clear();
-    const auto map = detail::approximate_map(pose_a, a.lattice(), pose_b, b.lattice());
+    reserve->clear();
+    const auto map = detail::approximate_map(pose_a, a_->lattice, pose_b, b_->lattice);
     if (!map.is_usable()) {
-        ++counters().exact;
-        walk.forget();
-        last_apart.reset();
-        return interfere(a, pose_a, b, pose_b).relation;
+        walk->forget();
+        return ask_exactly(pose_a, pose_b);
     }
     const CoherentWalk::Answer answer = walk_to(map);
     const auto keep = [&](Relation relation) {
         reserved = relation;
-        if (walk.reserve() > 0) reserve.set(pose_a, pose_b, map, walk.reserve());
+        if (walk->reserve() > 0) reserve->set(pose_a, pose_b, map, walk->reserve());
         return relation;
     };
     if (answer == CoherentWalk::Answer::Crossing) {
@@ -88,23 +198,21 @@ Relation InterferenceQuery::State::ask_walk(const Pose& pose_a, const Pose& pose
         return keep(Relation::Overlapping);
     }
     if (answer == CoherentWalk::Answer::Apart) {
-        if (walk.is_far()) {
+        if (walk->is_far())
             last_apart = Relation::Disjoint;
-        } else if (last_apart && walk.is_unmoved()) {
+        else if (last_apart && walk->is_unmoved())
             ++counters().kept;
-        } else {
-            last_apart = detail::relation_of_apart(detail::data_of(a), pose_a, detail::data_of(b),
-                                                   pose_b, map);
-        }
+        else
+            last_apart = apart(pose_a, pose_b, map);
         if (last_apart) return keep(*last_apart);
     }
-    ++counters().exact;
-    last_apart.reset();
-    return interfere(a, pose_a, b, pose_b).relation;
+    return ask_exactly(pose_a, pose_b);
 }
 
 InterferenceQuery::InterferenceQuery(const InterferenceModel& a, const InterferenceModel& b)
-    : state_(std::make_unique<State>(a, b)) {}
+    : state_(std::make_unique<ModelQuery>(a, b)) {}
+InterferenceQuery::InterferenceQuery(const Solid& a, const Solid& b)
+    : state_(std::make_unique<SolidQuery>(a, b)) {}
 InterferenceQuery::~InterferenceQuery() = default;
 InterferenceQuery::InterferenceQuery(InterferenceQuery&&) noexcept = default;
 InterferenceQuery& InterferenceQuery::operator=(InterferenceQuery&&) noexcept = default;
@@ -112,11 +220,9 @@ InterferenceQuery& InterferenceQuery::operator=(InterferenceQuery&&) noexcept = 
 Relation InterferenceQuery::relation(const Pose& pose_a, const Pose& pose_b) {
     return state_->ask(pose_a, pose_b);
 }
-void InterferenceQuery::forget() {
-    state_->walk.forget();
-    state_->last_apart.reset();
-    state_->reserve.clear();
-}
+void InterferenceQuery::replace_a(const Solid& a) { state_->replace_a(a); }
+void InterferenceQuery::replace_b(const Solid& b) { state_->replace_b(b); }
+void InterferenceQuery::forget() { state_->forget(); }
 
 InterferenceQueryCounters& InterferenceQueryCounters::operator+=(
     const InterferenceQueryCounters& o) {

@@ -86,30 +86,31 @@ MotionBound::Difference MotionBound::difference(const Rows& now, const Rows& bef
     return d;
 }
 
-MotionBound::Body MotionBound::body_of(const InterferenceModelData& model) {
+MotionBound::Body MotionBound::body_of(const Boundary& boundary) {
     Body r;
-    const int exponent = model.brep.lattice().exponent;
-    for (std::size_t k = 0; k < 3; ++k) r.center[k] = std::ldexp(model.boxes.origin[k], exponent);
-    r.radius = std::ldexp(model.boxes.radius * model.boxes.unit, exponent);
+    const int exponent = boundary.lattice.exponent;
+    for (std::size_t k = 0; k < 3; ++k)
+        r.center[k] = std::ldexp(boundary.boxes.origin[k], exponent);
+    r.radius = std::ldexp(boundary.boxes.radius * boundary.boxes.unit, exponent);
     return r;
 }
 
-MotionBound::MotionBound(const InterferenceModelData& a, const InterferenceModelData& b)
-    : a_(&a), b_model_(&b), b_(body_of(b)) {}
+MotionBound::MotionBound(const Boundary& a, const Boundary& b)
+    : a_(&a), b_boundary_(&b), b_(body_of(b)) {}
 
 void MotionBound::set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a, double reserve) {
-    const double unit = std::ldexp(1.0, a_->brep.lattice().exponent);
+    const double unit = std::ldexp(1.0, a_->lattice.exponent);
     if (stretch_ == 0 || rows_a_ != a.approximate()) {
         rows_a_ = a.approximate();
         stretch_ = stretch_of_inverse(rows_a_);
     }
     rows_b_ = b.approximate();
     // The map goes from lattice to lattice.
-    const std::array<double, 3> center = b_to_a(b_model_->boxes.origin);
+    const std::array<double, 3> center = b_to_a(b_boundary_->boxes.origin);
     std::array<double, 12> matrix{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) matrix[4 * i + k] = b_to_a.m[i][k];
-    b_in_a_.radius = unit * norm(matrix) * b_model_->boxes.radius * b_model_->boxes.unit;
+    b_in_a_.radius = unit * norm(matrix) * b_boundary_->boxes.radius * b_boundary_->boxes.unit;
     double size = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         b_in_a_.center[i] = unit * center[i];

@@ -7,7 +7,7 @@
 #include <array>
 
 #include <trisect/bsp/interference/boxes/approximate_map.h>
-#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::detail {
@@ -16,8 +16,8 @@ namespace trisect::detail {
 /// known about them may be wrong. Asking takes no inverse and no product of poses, some 20 ns.
 class MotionBound {
 public:
-    /// Models must outlive it.
-    MotionBound(const InterferenceModelData& a, const InterferenceModelData& b);
+    /// Boundaries must outlive it.
+    MotionBound(const Boundary& a, const Boundary& b);
 
     /// `reserve` in lattice units of A; `b_to_a` is the map of these poses.
     void set(const Pose& a, const Pose& b, const ApproximateMap& b_to_a, double reserve);
@@ -33,13 +33,13 @@ private:
         std::array<double, 3> center{};
         double radius = 0;
     };
-    [[nodiscard]] static Body body_of(const InterferenceModelData& model);
+    [[nodiscard]] static Body body_of(const Boundary& model);
 
     struct Difference;
     [[nodiscard]] static Difference difference(const Rows& now, const Rows& before);
 
-    const InterferenceModelData* a_;
-    const InterferenceModelData* b_model_;
+    const Boundary* a_;
+    const Boundary* b_boundary_;
     Body b_;         // in the user's units, like all that follows
     Body b_in_a_;    // where B was
     Rows rows_a_{};  // the poses

@@ -3,11 +3,11 @@
 // At a point within both triangles, with nothing else of the boundaries around it, these are two
 // planes that cross: each boundary passes from the inside of the other solid to its outside.
 //
-// The point is found in A's lattice. In B's it is x = N (p - t), N the inverse of the map's matrix in
-// doubles. Whatever N is, the image of x in A is some r from p, and a map that differs from the exact
-// one by E takes points that are R apart in B to points at least R / |N| (1 - |I - N M|) apart; with
-// I - N M below 2^-10, exact points within r + E + error of p in A are within 2 |N| (r + E + error)
-// of x.
+// The point is found in A's lattice. In B's it is x = N (p - t), N the inverse of the map's matrix
+// in doubles. Whatever N is, the image of x in A is some r from p, and a map that differs from the
+// exact one by E takes points that are R apart in B to points at least R / |N| (1 - |I - N M|)
+// apart; with I - N M below 2^-10, exact points within r + E + error of p in A are within 2 |N| (r
+// + E + error) of x.
 
 #include <trisect/bsp/interference/relation/crossings_tell.h>
 
@@ -64,7 +64,8 @@ std::optional<PointInB> point_in_b(const CrossingPlace& place, const Approximate
     const double residual = largest_component(minus(to_a(x.at), place.at));
     const double error =
         to_a.error_below(std::max(largest_of_b, largest_component(x.at)), 0) + residual;
-    x.reach = 2 * bound_slack * size * (error + place.error + unit_roundoff * largest_component(place.at));
+    x.reach = 2 * bound_slack * size *
+              (error + place.error + unit_roundoff * largest_component(place.at));
     return x;
 }
 
@@ -75,8 +76,7 @@ bool crossing_tells(const Boundary& a, std::uint32_t i, const Boundary& b, std::
     if (a.is_clear(i) && b.is_clear(j)) return true;
     TriangleCorners q = b.corners_of(j);
     for (auto& corner : q) corner = to_a(corner);
-    const double error =
-        std::max(a.position_error, to_a.error_below(b.largest, b.position_error));
+    const double error = std::max(a.position_error, to_a.error_below(b.largest, b.position_error));
     const auto place = crossing_place(a.corners_of(i), q, error);
     if (!place || !a.is_alone_at(i, place->at, place->error)) return false;
     const auto in_b = point_in_b(*place, to_a, b.largest);

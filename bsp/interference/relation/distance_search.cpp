@@ -23,8 +23,8 @@ struct ByBound {
 
 }  // namespace
 
-DistanceSearch::DistanceSearch(const InterferenceModelData& a, const Pose& pose_a,
-                               const InterferenceModelData& b, const Pose& pose_b)
+DistanceSearch::DistanceSearch(const Boundary& a, const Pose& pose_a, const Boundary& b,
+                               const Pose& pose_b)
     : a_(&a), b_(&b), pairs_(PairDistance(a, pose_a, b, pose_b)) {
     pose_.emplace(a.boxes, b.boxes, pairs_->map());
     unit_ = a.boxes.unit * pairs_->least_stretch() * (1 - 0x1p-20);
@@ -60,13 +60,12 @@ void DistanceSearch::expand(const Entry& e) {
         const ObbNode& n = t.nodes[id.node()];
         return n.half[0][id.lane()] + n.half[1][id.lane()] + n.half[2][id.lane()];
     };
-    const bool open_b =
-        leaf_a || (!leaf_b && pose_->scale() * size(tb, e.b) > size(ta, e.a));
+    const bool open_b = leaf_a || (!leaf_b && pose_->scale() * size(tb, e.b) > size(ta, e.a));
     ++counters_.node_tests;
     const std::uint32_t node = open_b ? tb.child(e.b).node() : ta.child(e.a).node();
     const ObbNode& opened = open_b ? tb.nodes[node] : ta.nodes[node];
-    const Float4 gaps = open_b ? pose_->best_gaps(ta.box(e.a), opened)
-                               : pose_->best_gaps(opened, tb.box(e.b));
+    const Float4 gaps =
+        open_b ? pose_->best_gaps(ta.box(e.a), opened) : pose_->best_gaps(opened, tb.box(e.b));
     for (std::uint32_t k = 0; k < 4; ++k) {
         if (!(opened.half[0][k] >= 0)) continue;
         // The parents' bound holds as well.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <trisect/bsp/interference/boxes/obb_pose.h>
-#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>
 #include <trisect/kernel/pose.h>
 
@@ -27,8 +27,7 @@ struct DistanceCounters {
 class DistanceSearch {
 public:
     /// \pre both models have triangles.
-    DistanceSearch(const InterferenceModelData& a, const Pose& pose_a,
-                   const InterferenceModelData& b, const Pose& pose_b);
+    DistanceSearch(const Boundary& a, const Pose& pose_a, const Boundary& b, const Pose& pose_b);
 
     using Candidate = DistanceCandidate;
     /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
@@ -59,8 +58,8 @@ private:
     void push(float bound, ObbId a, ObbId b);
     void finish();
 
-    const InterferenceModelData* a_;
-    const InterferenceModelData* b_;
+    const Boundary* a_;
+    const Boundary* b_;
     std::optional<PairDistance> pairs_;
     std::optional<ObbPose> pose_;
     double unit_ = 0;  // gaps of boxes to lower bounds in the world

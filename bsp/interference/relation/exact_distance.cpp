@@ -94,11 +94,10 @@ std::optional<OfPoint> point_and_inside(const RationalVector& x, const ExactCorn
     return OfPoint{height * height / nn, *feature};
 }
 
-ExactCorners corners(const InterferenceModelData& m, const Pose& pose, std::uint32_t triangle) {
+ExactCorners corners(const PlacedTriangle& t) {
     ExactCorners r;
     for (std::size_t i = 0; i < 3; ++i)
-        r[i] = in_world(exact_place(m.brep.point(m.triangles[triangle].vertex[i])),
-                        m.brep.lattice(), pose);
+        r[i] = in_world(exact_place(*t.triangle.corner[i]), t.lattice, t.pose);
     return r;
 }
 
@@ -109,8 +108,13 @@ ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
                            const Pose& pose_b, std::uint32_t triangle_b) {
     ObbWalk::Stack stack;
     if (BoundaryPairs(a, pose_a, b, pose_b, stack).exact(triangle_a, triangle_b).meets()) return {};
-    const ExactCorners p = corners(a, pose_a, triangle_a);
-    const ExactCorners q = corners(b, pose_b, triangle_b);
+    return exact_closest_apart({posed_triangle(a, triangle_a), a.lattice, pose_a},
+                               {posed_triangle(b, triangle_b), b.lattice, pose_b});
+}
+
+ExactClosest exact_closest_apart(const PlacedTriangle& a, const PlacedTriangle& b) {
+    const ExactCorners p = corners(a);
+    const ExactCorners q = corners(b);
     Least least;
     for (std::size_t i = 0; i < 3; ++i) {
         const Feature corner = Feature::corner(i);

@@ -90,9 +90,7 @@ ExactPlace place_of(const PosedTriangle& a, const PosedTriangle& b, const PosedP
                     const MeetingPoint& point) {
     const auto corner_a = [&](std::size_t i) { return exact_place(*a.corner[i % 3]); };
     const auto corner_b = [&](std::size_t i) { return exact_place(*b.corner[i % 3]); };
-    const auto corner_b_moved = [&](std::size_t i) {
-        return moved(corner_b(i), poses.to_a);
-    };
+    const auto corner_b_moved = [&](std::size_t i) { return moved(corner_b(i), poses.to_a); };
     if (point.a.is_corner()) return corner_a(point.a.index());
     if (point.b.is_corner()) return corner_b_moved(point.b.index());
     if (point.a.is_side() && point.b.is_side()) {

@@ -182,8 +182,7 @@ constexpr double ball_slack = 0x1p-22;
 // By how much at least a point of A is outside the box around the image of B's bounds; not positive
 // when none may be. A's bounds are exact or outward by twice the error of positions and two
 // roundings.
-double sticks_out(const InterferenceModelData& a, const InterferenceModelData& b,
-                  const ApproximateMap& to_a, double error) {
+double sticks_out(const Boundary& a, const Boundary& b, const ApproximateMap& to_a, double error) {
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         double middle = to_a.t[i];
@@ -202,8 +201,8 @@ double sticks_out(const InterferenceModelData& a, const InterferenceModelData& b
 }
 
 // By how much at least one of the farthest points of B is outside the bounds of A.
-double has_point_outside(const InsideBalls& b, const InterferenceModelData& a,
-                         const ApproximateMap& to_a, double error) {
+double has_point_outside(const InsideBalls& b, const Boundary& a, const ApproximateMap& to_a,
+                         double error) {
     double most = 0;
     for (const Vector3& p : b.extremes()) {
         const Vector3 x = to_a(p);
@@ -226,8 +225,7 @@ double depth_of(double radius, double other, double distance) {
 
 // Balls inside both have common points. When each solid has a point that is not in the other one
 // they overlap, and do so until something has moved by as much as they stick out.
-std::optional<Relation> overlap_if_both_stick_out(const InterferenceModelData& a,
-                                                  const InterferenceModelData& b,
+std::optional<Relation> overlap_if_both_stick_out(const Boundary& a, const Boundary& b,
                                                   const InsideBalls& balls_b,
                                                   const ApproximateMap& to_a, double depth,
                                                   double* reserve) {
@@ -325,17 +323,15 @@ void InsideBalls::add(const Vector3& center, double radius) {
     ++size_;
 }
 
-std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
-                                          const InsideBalls& balls_a,
-                                          const InterferenceModelData& b,
-                                          const InsideBalls& balls_b, const ApproximateMap& to_a,
-                                          double* reserve) {
+std::optional<Relation> relation_by_balls(const Boundary& a, const InsideBalls& balls_a,
+                                          const Boundary& b, const InsideBalls& balls_b,
+                                          const ApproximateMap& to_a, double* reserve) {
     const std::optional<double> scale = similarity(to_a);
     if (!scale) return std::nullopt;
     // Of a moved point, as a distance.
     const double error = to_a.error_below(b.largest, b.position_error);
     const double way_error = 2 * error + 0x1p-48 * a.largest;
-    const auto whole = [](const InterferenceModelData& m) {
+    const auto whole = [](const Boundary& m) {
         return bound_slack * (m.boxes.radius * m.boxes.unit);
     };
     const Vector3 middle_of_b = to_a(b.boxes.origin);
@@ -388,11 +384,10 @@ std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
     return overlap_if_both_stick_out(a, b, balls_b, to_a, deepest, reserve);
 }
 
-std::optional<Relation> relation_by_ball_pair(const InterferenceModelData& a,
-                                              const InsideBall& in_a,
-                                              const InterferenceModelData& b,
-                                              const InsideBalls& balls_b, const InsideBall& in_b,
-                                              const ApproximateMap& to_a, double* reserve) {
+std::optional<Relation> relation_by_ball_pair(const Boundary& a, const InsideBall& in_a,
+                                              const Boundary& b, const InsideBalls& balls_b,
+                                              const InsideBall& in_b, const ApproximateMap& to_a,
+                                              double* reserve) {
     const std::optional<double> scale = similarity(to_a);
     if (!scale) return std::nullopt;
     const double error = to_a.error_below(b.largest, b.position_error);

@@ -18,6 +18,7 @@
 
 namespace trisect::detail {
 
+class Boundary;
 struct InterferenceModelData;
 
 /// Its interior is within the solid; in lattice units.
@@ -51,10 +52,8 @@ public:
     [[nodiscard]] const std::array<std::array<double, 3>, 6>& extremes() const { return extremes_; }
 
 private:
-    friend std::optional<Relation> relation_by_balls(const InterferenceModelData& a,
-                                                     const InsideBalls& balls_a,
-                                                     const InterferenceModelData& b,
-                                                     const InsideBalls& balls_b,
+    friend std::optional<Relation> relation_by_balls(const Boundary& a, const InsideBalls& balls_a,
+                                                     const Boundary& b, const InsideBalls& balls_b,
                                                      const ApproximateMap& to_a, double* reserve);
     void add(const std::array<double, 3>& center, double radius);
     void find_large_ones(const InterferenceModelData& model);
@@ -79,14 +78,13 @@ private:
 /// `reserve`: the answer stays right while no point of B is moved by as much, in lattice units of
 /// A.
 [[nodiscard]] std::optional<Relation> relation_by_balls(
-    const InterferenceModelData& a, const InsideBalls& balls_a, const InterferenceModelData& b,
-    const InsideBalls& balls_b, const ApproximateMap& to_a, double* reserve = nullptr);
+    const Boundary& a, const InsideBalls& balls_a, const Boundary& b, const InsideBalls& balls_b,
+    const ApproximateMap& to_a, double* reserve = nullptr);
 
 /// The same by one ball of each solid: Overlapping or nothing.
 [[nodiscard]] std::optional<Relation> relation_by_ball_pair(
-    const InterferenceModelData& a, const InsideBall& in_a, const InterferenceModelData& b,
-    const InsideBalls& balls_b, const InsideBall& in_b, const ApproximateMap& to_a,
-    double* reserve);
+    const Boundary& a, const InsideBall& in_a, const Boundary& b, const InsideBalls& balls_b,
+    const InsideBall& in_b, const ApproximateMap& to_a, double* reserve);
 
 /// The two of some balls of A and of B that reach into each other farthest, if any do, as far as
 /// doubles decide: worth a test. Of balls of radius 0 none.

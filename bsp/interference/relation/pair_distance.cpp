@@ -47,12 +47,11 @@ double least_stretch_of(const std::array<Vector3, 3>& l) {
 
 }  // namespace
 
-PairDistance::PairDistance(const InterferenceModelData& a, const Pose& pose_a,
-                           const InterferenceModelData& b, const Pose& pose_b)
-    : a_(&a), b_(&b), map_(approximate_map(pose_a, a.brep.lattice(), pose_b, b.brep.lattice())) {
+PairDistance::PairDistance(const Boundary& a, const Pose& pose_a, const Boundary& b,
+                           const Pose& pose_b)
+    : a_(&a), b_(&b), map_(approximate_map(pose_a, a.lattice, pose_b, b.lattice)) {
     if (!map_.is_usable()) {
-        const RelativePose exact =
-            relative_pose(pose_a, a.brep.lattice(), pose_b, b.brep.lattice());
+        const RelativePose exact = relative_pose(pose_a, a.lattice, pose_b, b.lattice);
         if (exact.has_doubles()) map_ = approximate_map(exact);
         if (!map_.is_usable()) throw LimitError("distances need poses within the range of doubles");
     }
@@ -60,7 +59,7 @@ PairDistance::PairDistance(const InterferenceModelData& a, const Pose& pose_a,
     for (std::size_t i = 0; i < 3; ++i) {
         double row = 0;
         for (std::size_t j = 0; j < 3; ++j) {
-            stretch_[i][j] = std::ldexp(m[4 * i + j], a.brep.lattice().exponent);
+            stretch_[i][j] = std::ldexp(m[4 * i + j], a.lattice.exponent);
             row += std::abs(stretch_[i][j]);
         }
         row_ = std::max(row_, row * (1 + 0x1p-48));
@@ -70,12 +69,9 @@ PairDistance::PairDistance(const InterferenceModelData& a, const Pose& pose_a,
 }
 
 DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double nearest) const {
-    TriangleCorners p;
-    TriangleCorners q;
-    for (std::size_t k = 0; k < 3; ++k) {
-        p[k] = a_->position(a_->triangles[i].vertex[k]);
-        q[k] = map_(b_->position(b_->triangles[j].vertex[k]));
-    }
+    const TriangleCorners p = a_->corners_of(i);
+    TriangleCorners q = b_->corners_of(j);
+    for (auto& corner : q) corner = map_(corner);
     const Vector3 r = p[0];
     double g = 0;
     const auto placed = [&](const Vector3& x) {

@@ -26,12 +26,11 @@ struct DistanceCandidate {
     bool crossing = false;  ///< certainly: the distance is 0
 };
 
-/// Compares triangles of posed models in doubles. Models must outlive it.
+/// Compares triangles of posed boundaries in doubles. Boundaries must outlive it.
 class PairDistance {
 public:
     /// \throw LimitError when the poses are beyond the range of doubles.
-    PairDistance(const InterferenceModelData& a, const Pose& pose_a, const InterferenceModelData& b,
-                 const Pose& pose_b);
+    PairDistance(const Boundary& a, const Pose& pose_a, const Boundary& b, const Pose& pose_b);
 
     /// What is certainly farther than `nearest` gets an infinite upper bound and no closest points.
     [[nodiscard]] DistanceCandidate compare(std::uint32_t a, std::uint32_t b, double nearest) const;
@@ -41,8 +40,8 @@ public:
     [[nodiscard]] double least_stretch() const { return least_stretch_; }
 
 private:
-    const InterferenceModelData* a_;
-    const InterferenceModelData* b_;
+    const Boundary* a_;
+    const Boundary* b_;
     ApproximateMap map_;
     std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
     double row_ = 0;                                  // largest sum of a row's magnitudes
@@ -66,5 +65,14 @@ struct ExactClosest {
 [[nodiscard]] ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
                                          std::uint32_t triangle_a, const InterferenceModelData& b,
                                          const Pose& pose_b, std::uint32_t triangle_b);
+
+/// A triangle of a posed solid.
+struct PlacedTriangle {
+    PosedTriangle triangle;
+    Lattice lattice;
+    const Pose& pose;
+};
+/// The same of triangles that have no common point.
+[[nodiscard]] ExactClosest exact_closest_apart(const PlacedTriangle& a, const PlacedTriangle& b);
 
 }  // namespace trisect::detail

@@ -78,6 +78,11 @@ BodyBounds::BodyBounds(const InterferenceModelData& model) {
     }
 }
 
+BodyBounds::BodyBounds(const SolidBoundary& solid) {
+    for (const DoubleBox& box : solid.outline(grid_side * grid_side * grid_side))
+        parts_.push_back(part_of({box.lo, box.hi}, solid.lattice, solid.position_error));
+}
+
 BodyBox BodyBounds::under(const std::array<double, 12>& m) const {
     BodyBox out = nothing();
     for (std::size_t i = 0; i < 3; ++i) {

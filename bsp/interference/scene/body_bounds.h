@@ -8,16 +8,19 @@
 
 #include <trisect/bsp/interference/boxes/broad_phase.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/tree/solid_boundary.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::detail {
 
-/// Some boxes, in the body's own coordinates, that contain all vertices of a model. Value type.
+/// Some boxes, in the body's own coordinates, that contain all of its boundary. Value type.
 class BodyBounds {
 public:
     /// Of a model that is not empty. O(n).
     explicit BodyBounds(const InterferenceModelData& model);
+    /// Of a solid that is not empty.
+    explicit BodyBounds(const SolidBoundary& solid);
 
     /// Contains the body under the pose: every rounding is outwards. Unbounded where the numbers
     /// leave the doubles. At most 64 boxes are looked at, whatever the size of the model.

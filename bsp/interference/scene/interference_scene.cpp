@@ -21,6 +21,7 @@
 #include <string>
 #include <utility>
 
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/interference/boxes/broad_phase.h>
 #include <trisect/bsp/interference/interference_query.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
@@ -130,10 +131,14 @@ private:
         bool has_contacts = false;
         Relation relation = Relation::Disjoint;
         std::vector<Contact> contacts;
+        std::vector<NamedContact> named_contacts;
         /// Of large models only, and those for which it was made; it keeps them alive.
         std::unique_ptr<InterferenceQuery> query;
         const detail::InterferenceModelData* query_a = nullptr;
         const detail::InterferenceModelData* query_b = nullptr;
+        /// Those of a query of solids.
+        Solid solid_a;
+        Solid solid_b;
         std::exception_ptr error;
     };
 
@@ -227,15 +232,22 @@ private:
 
     static void relate(Answer& answer, const SceneBody& a, const SceneBody& b,
                        const SceneQueryOptions& options);
+    static void relate_solids(Answer& answer, const SceneBody& a, const SceneBody& b,
+                              const SceneQueryOptions& options);
     [[nodiscard]] static Relation relation(Answer& answer, const SceneBody& a, const SceneBody& b);
 
     [[nodiscard]] std::vector<ScenePair> answers(bool contacts) const {
         std::vector<ScenePair> out;
         for (const Answer& answer : answers_) {
             if (answer.relation == Relation::Disjoint) continue;
-            out.push_back(
-                {bodies.id(answer.pair.first), bodies.id(answer.pair.second), answer.relation, {}});
-            if (contacts) out.back().contacts = answer.contacts;
+            out.push_back({bodies.id(answer.pair.first),
+                           bodies.id(answer.pair.second),
+                           answer.relation,
+                           {},
+                           {}});
+            if (!contacts) continue;
+            out.back().contacts = answer.contacts;
+            out.back().named_contacts = answer.named_contacts;
         }
         return out;
     }
@@ -250,12 +262,40 @@ private:
 void Scene::Implementation::relate(Answer& answer, const SceneBody& a, const SceneBody& b,
                                    const SceneQueryOptions& options) {
     answer.contacts.clear();
+    answer.named_contacts.clear();
+    if (a.solid || b.solid) return relate_solids(answer, a, b, options);
     answer.relation = relation(answer, a, b);
     // Only boundaries that meet have contacts, and most do not.
     if (!options.contacts || answer.relation == Relation::Disjoint) return;
     InterferenceOptions query;
     query.contacts = true;
     answer.contacts = interfere(a.model, a.pose, b.model, b.pose, query).contacts;
+}
+
+// Goes on with the query of the last solids in these slots.
+void Scene::Implementation::relate_solids(Answer& answer, const SceneBody& a, const SceneBody& b,
+                                          const SceneQueryOptions& options) {
+    const auto& solid_of = [](const SceneBody& body) -> const Solid& {
+        return body.solid ? *body.solid : body.model.solid();
+    };
+    const Solid& solid_a = solid_of(a);
+    const Solid& solid_b = solid_of(b);
+    const auto are_same = [](const Solid& s, const Solid& t) {
+        return detail::state_of(s) == detail::state_of(t);
+    };
+    if (!answer.query || answer.query_a != nullptr) {
+        answer.query = std::make_unique<InterferenceQuery>(solid_a, solid_b);
+        answer.query_a = answer.query_b = nullptr;
+    } else {
+        if (!are_same(answer.solid_a, solid_a)) answer.query->replace_a(solid_a);
+        if (!are_same(answer.solid_b, solid_b)) answer.query->replace_b(solid_b);
+    }
+    answer.solid_a = solid_a;
+    answer.solid_b = solid_b;
+    answer.relation = answer.query->relation(a.pose, b.pose);
+    if (!options.contacts || answer.relation == Relation::Disjoint) return;
+    answer.named_contacts =
+        interfere(solid_a, a.pose, solid_b, b.pose, {.contacts = true}).contacts;
 }
 
 Relation Scene::Implementation::relation(Answer& answer, const SceneBody& a, const SceneBody& b) {
@@ -286,6 +326,19 @@ BodyId Scene::add_link(BodyId carrier, const InterferenceModel& model, const Joi
     return implementation_->bodies.add_link(carrier, model, joint, options);
 }
 
+BodyId Scene::add(const Solid& solid, const Pose& pose, const CollisionFilter& filter) {
+    return implementation_->bodies.add(solid, pose, filter);
+}
+
+BodyId Scene::add_link(BodyId carrier, const Solid& solid, const Joint& joint,
+                       const LinkOptions& options) {
+    return implementation_->bodies.add_link(carrier, solid, joint, options);
+}
+
+void Scene::replace(BodyId body, const Solid& solid) {
+    implementation_->bodies.replace(body, solid);
+}
+
 void Scene::remove(BodyId body) { implementation_->bodies.remove(body); }
 
 void Scene::set_pose(BodyId body, const Pose& pose) {
@@ -314,7 +367,14 @@ std::size_t Scene::size() const { return implementation_->bodies.size(); }
 std::vector<BodyId> Scene::bodies() const { return implementation_->bodies.all(); }
 
 const InterferenceModel& Scene::model(BodyId body) const {
-    return implementation_->bodies.at(body).model;
+    const SceneBody& b = implementation_->bodies.at(body);
+    if (b.solid) throw UsageError("the body is a solid without a model");
+    return b.model;
+}
+
+const Solid& Scene::solid(BodyId body) const {
+    const SceneBody& b = implementation_->bodies.at(body);
+    return b.solid ? *b.solid : b.model.solid();
 }
 
 const Pose& Scene::pose(BodyId body) const { return implementation_->bodies.at(body).pose; }

@@ -64,7 +64,7 @@ std::vector<BodyId> SceneBodies::all() const {
 }
 
 BodyId SceneBodies::put(SceneBody body) {
-    if (!body.model.is_empty()) body.bounds.emplace(detail::data_of(body.model));
+    if (!body.solid && !body.model.is_empty()) body.bounds.emplace(detail::data_of(body.model));
     body.placement = ++placements_;
     if (free_.empty()) {
         free_.reserve(slots_.size() + 1);  // so that remove() cannot fail
@@ -89,11 +89,46 @@ BodyId SceneBodies::add(const InterferenceModel& model, const Pose& pose,
     return put(std::move(body));
 }
 
+BodyId SceneBodies::add(const Solid& solid, const Pose& pose, const CollisionFilter& filter) {
+    SceneBody body;
+    take(body, solid);
+    body.pose = pose;
+    body.filter = filter;
+    return put(std::move(body));
+}
+
+void SceneBodies::take(SceneBody& body, const Solid& solid) {
+    const detail::SolidBoundary boundary(solid);
+    std::optional<BodyBounds> bounds;
+    if (!boundary.is_empty()) bounds.emplace(boundary);
+    body.solid = boundary.base().solid();
+    body.bounds = std::move(bounds);
+    body.model = InterferenceModel();
+}
+
+void SceneBodies::replace(BodyId id, const Solid& solid) {
+    SceneBody& body = slots_[slot(id)].body;
+    take(body, solid);
+    body.placement = ++placements_;
+}
+
 BodyId SceneBodies::add_link(BodyId carrier, const InterferenceModel& model, const Joint& joint,
                              const LinkOptions& options) {
-    const std::uint32_t c = slot(carrier);
     SceneBody body;
     body.model = model;
+    return put_link(carrier, std::move(body), joint, options);
+}
+
+BodyId SceneBodies::add_link(BodyId carrier, const Solid& solid, const Joint& joint,
+                             const LinkOptions& options) {
+    SceneBody body;
+    take(body, solid);
+    return put_link(carrier, std::move(body), joint, options);
+}
+
+BodyId SceneBodies::put_link(BodyId carrier, SceneBody body, const Joint& joint,
+                             const LinkOptions& options) {
+    const std::uint32_t c = slot(carrier);
     body.filter = options.filter;
     body.carrier = c;
     body.meets_carrier = options.meets_carrier;

@@ -17,7 +17,8 @@
 namespace trisect::detail {
 
 struct SceneBody {
-    InterferenceModel model;
+    InterferenceModel model;           ///< unless it is a solid
+    std::optional<Solid> solid;        ///< free of self-intersection
     std::optional<BodyBounds> bounds;  ///< none for the empty solid
     Pose pose;
     /// Another number after every change of the pose; never the same for two bodies.
@@ -42,6 +43,11 @@ public:
     BodyId add(const InterferenceModel& model, const Pose& pose, const CollisionFilter& filter);
     BodyId add_link(BodyId carrier, const InterferenceModel& model, const Joint& joint,
                     const LinkOptions& options);
+    BodyId add(const Solid& solid, const Pose& pose, const CollisionFilter& filter);
+    BodyId add_link(BodyId carrier, const Solid& solid, const Joint& joint,
+                    const LinkOptions& options);
+    /// The body is that solid from now on.
+    void replace(BodyId body, const Solid& solid);
     void remove(BodyId body);
     void set_pose(BodyId body, const Pose& pose);
     void set_joints(std::span<const Scene::JointValue> values);
@@ -75,6 +81,8 @@ private:
     [[nodiscard]] std::uint32_t slot(BodyId body) const;
     [[nodiscard]] std::uint32_t link_slot(BodyId link) const;
     BodyId put(SceneBody body);
+    BodyId put_link(BodyId carrier, SceneBody body, const Joint& joint, const LinkOptions& options);
+    static void take(SceneBody& body, const Solid& solid);
     [[nodiscard]] std::vector<std::uint32_t> carriers_first(std::vector<std::uint32_t> roots) const;
     void take_over(const Placed& placed);
 

@@ -11,17 +11,20 @@ namespace trisect::detail {
 
 /// Of this thread.
 struct BoxesCounters {
-    std::uint64_t leaves = 0;
+    std::uint64_t hulls = 0;      ///< of leaves
+    std::uint64_t leaves = 0;     ///< with boxes of their triangles
     std::uint64_t triangles = 0;  ///< in these leaves
     std::uint64_t nodes = 0;      ///< of trees of solids, put together for questions
 
     BoxesCounters& operator+=(const BoxesCounters& o) {
+        hulls += o.hulls;
         leaves += o.leaves;
         triangles += o.triangles;
         nodes += o.nodes;
         return *this;
     }
     BoxesCounters& operator-=(const BoxesCounters& o) {
+        hulls -= o.hulls;
         leaves -= o.leaves;
         triangles -= o.triangles;
         nodes -= o.nodes;

@@ -5,9 +5,9 @@
 // open is clipped exactly.
 //
 // A side from u, inside, to v, outside, meets a wall at u + t (v - u), t = d_u / (d_u - d_v), d the
-// distances to the wall. With d_u and d_v known within e and f, and D = d_u - d_v > 64 (e + f), t is
-// off by at most 1.1 (e + f) / D + 4 u; the point by |v - u| times that, by what its ends are off,
-// and by three roundings.
+// distances to the wall. With d_u and d_v known within e and f, and D = d_u - d_v > 64 (e + f), t
+// is off by at most 1.1 (e + f) / D + 4 u; the point by |v - u| times that, by what its ends are
+// off, and by three roundings.
 
 #include <trisect/bsp/interference/tree/clipped_polygon.h>
 
@@ -20,6 +20,7 @@ namespace trisect::detail {
 
 void PolygonClipper::begin(IndexPolygons::Id id) {
     corners_.clear();
+    edges_ = polygons_.edge_names(id);
     if (polygons_.is_triangle(id)) {
         for (int i = 0; i < 3; ++i) corners_.push_back({polygons_.corner(id, i).doubles(), 0});
         return;
@@ -76,11 +77,19 @@ bool PolygonClipper::clip_by(std::size_t axis, double wall, double sign) {
     return true;
 }
 
+// Whether one of its edges is on a wall, which then has all of it on one side: this, since it is
+// listed here. Corners are on the wall there, which doubles do not see.
+bool PolygonClipper::ends_at(std::size_t axis, std::int64_t wall) const {
+    return std::ranges::any_of(edges_, [&](const EdgeName& e) {
+        return e.plane == PlaneName::splitter(static_cast<int>(axis), wall);
+    });
+}
+
 bool PolygonClipper::clip_by_walls() {
     const Cell& cell = polygons_.cell();
     for (std::size_t k = 0; k < 3; ++k) {
-        if (!clip_by(k, rounded_position(cell.hi[k]), 1)) return false;
-        if (!clip_by(k, rounded_position(cell.lo[k]), -1)) return false;
+        if (!ends_at(k, cell.hi[k]) && !clip_by(k, rounded_position(cell.hi[k]), 1)) return false;
+        if (!ends_at(k, cell.lo[k]) && !clip_by(k, rounded_position(cell.lo[k]), -1)) return false;
     }
     return true;
 }

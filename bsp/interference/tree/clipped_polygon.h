@@ -4,6 +4,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/query/index/index_polygons.h>
@@ -40,12 +42,14 @@ private:
     };
 
     void begin(IndexPolygons::Id id);
+    [[nodiscard]] bool ends_at(std::size_t axis, std::int64_t wall) const;
     [[nodiscard]] bool clip_by_walls();
     [[nodiscard]] bool clip_by(std::size_t axis, double wall, double sign);
     void take_exact(IndexPolygons::Id id);
 
     const IndexPolygons& polygons_;
     double most_error_;
+    std::span<const EdgeName> edges_;  // of a fragment
     std::vector<Corner> corners_;
     std::vector<Corner> next_;
     ClippedPolygon result_;

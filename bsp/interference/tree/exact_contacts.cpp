@@ -3,12 +3,12 @@
 // Triangles here are parts of polygons in cells: sides may be walls of cells, or diagonals, and a
 // point on one of those is nothing special of the boundary. So no name of a side counts. What meets
 // at a point is put together by the point itself: doubles distinguish most of them, rationals the
-// rest. All triangles that contain a common point of the boundaries are in pairs that meet there, so
-// the set at each point is complete, and the cones there (contact_cones.h) need nothing else.
+// rest. All triangles that contain a common point of the boundaries are in pairs that meet there,
+// so the set at each point is complete, and the cones there (contact_cones.h) need nothing else.
 //
-// Every piece of either boundary that touches the other one has such a point in its closure, because
-// the contact set is a complex of points, segments and polygons; the corners of the triangles'
-// intersections are among its vertices.
+// Every piece of either boundary that touches the other one has such a point in its closure,
+// because the contact set is a complex of points, segments and polygons; the corners of the
+// triangles' intersections are among its vertices.
 
 #include <trisect/bsp/interference/tree/exact_contacts.h>
 
@@ -147,8 +147,7 @@ void ExactContacts::add_if_there(MeetingTriangles& meeting, std::uint32_t place)
         const auto at = feature_at(a_[meeting.a].posed(), *p.exact);
         if (!at) return;
         if (!has_b) {
-            const auto at_b =
-                feature_at(b_[meeting.b].posed(), moved(*p.exact, poses_.to_b));
+            const auto at_b = feature_at(b_[meeting.b].posed(), moved(*p.exact, poses_.to_b));
             if (!at_b) return;
             p.b.push_back({meeting.b, *at_b});
         }

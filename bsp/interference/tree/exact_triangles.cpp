@@ -9,8 +9,7 @@ namespace trisect::detail {
 
 std::uint32_t ExactTriangles::number_of(const PolygonId& polygon) {
     const Key128 key{reinterpret_cast<std::uintptr_t>(polygon.leaf), polygon.number};
-    const auto [number, is_new] =
-        numbers_.insert(key, static_cast<std::int32_t>(polygons_.size()));
+    const auto [number, is_new] = numbers_.insert(key, static_cast<std::int32_t>(polygons_.size()));
     if (is_new) polygons_.push_back({polygon, false, {}});
     return static_cast<std::uint32_t>(number);
 }

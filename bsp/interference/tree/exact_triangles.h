@@ -21,7 +21,7 @@ namespace trisect::detail {
 class ExactTriangles {
 public:
     struct Triangle {
-        std::array<Point, 3> corner;  ///< counter-clockwise seen from outside
+        std::array<Point, 3> corner;   ///< counter-clockwise seen from outside
         const Plane* plane = nullptr;  ///< outward
         std::uint32_t polygon = 0;     ///< a number of this
         std::array<double, 3> lo{};    ///< bounds, outward
@@ -38,7 +38,9 @@ public:
 
     /// Of a polygon, the number that it has from now on.
     [[nodiscard]] std::uint32_t number_of(const PolygonId& polygon);
-    [[nodiscard]] const PolygonId& polygon(std::uint32_t number) const { return polygons_[number].id; }
+    [[nodiscard]] const PolygonId& polygon(std::uint32_t number) const {
+        return polygons_[number].id;
+    }
     /// Made at the first call for a polygon.
     [[nodiscard]] Range triangles_of(std::uint32_t polygon);
     /// Stays where it is.

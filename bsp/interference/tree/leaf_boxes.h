@@ -6,13 +6,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/interference/boxes/obb_tree.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
+#include <trisect/bsp/interference/tree/leaf_hull.h>
+#include <trisect/bsp/interference/tree/leaf_tree.h>
 #include <trisect/bsp/query/index/indexed_leaf.h>
+#include <trisect/bsp/query/index/polygon_id.h>
 
 namespace trisect::detail {
 
@@ -25,10 +28,10 @@ struct BoundaryPoint {
     static constexpr std::uint8_t none = 3;
 };
 
-/// A fact of a leaf of the cell tree: its polygons, clipped to its cell, as triangles. In the open
-/// cell these are the boundary; so the triangles of all leaves of a tree are all of it, and have at
-/// most points of their sides in common.
-class LeafBoxes final : public NodeFact {
+/// The polygons of a leaf of the cell tree, clipped to its cell, as triangles. In the open cell
+/// these are the boundary; so the triangles of all leaves of a tree are all of it, and have at most
+/// points of their sides in common. Threads may share it.
+class LeafBoxes {
 public:
     using Id = IndexPolygons::Id;
 
@@ -38,24 +41,26 @@ public:
     [[nodiscard]] const IndexedLeaf& leaf() const { return leaf_; }
     [[nodiscard]] const IndexPolygons& polygons() const { return leaf_.polygons(); }
     /// Empty when no polygon enters the cell.
-    [[nodiscard]] const ObbTree& tree() const { return tree_; }
+    [[nodiscard]] const LeafTree& tree() const { return *tree_; }
     [[nodiscard]] const std::vector<std::array<double, 3>>& positions() const { return positions_; }
     /// Of a position; at most clipped_error times the largest coordinate of the leaf's polygons.
     [[nodiscard]] double error() const { return error_; }
-    [[nodiscard]] std::size_t triangle_count() const { return tree_.order.size(); }
-    /// By the number of a triangle in the order of the tree.
-    [[nodiscard]] Id polygon_of(std::uint32_t place) const {
-        const std::uint32_t t = tree_.order[place];
-        return polygon_.empty() ? t : polygon_[t];
+    [[nodiscard]] std::uint32_t triangle_count() const { return tree_->size(); }
+    [[nodiscard]] Id polygon_of(std::uint32_t triangle) const {
+        return polygon_.empty() ? triangle : polygon_[triangle];
     }
-    [[nodiscard]] TriangleCorners corners_of(std::uint32_t place) const {
-        const auto& c = tree_.corners[place];
+    [[nodiscard]] TriangleCorners corners_of(std::uint32_t triangle) const {
+        const auto& c = tree_->corners(triangle);
         return {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
     }
     /// Whether nothing but one polygon is within `reach`, in each coordinate, of a point, and that
     /// certainly; false near the walls of the cell.
     [[nodiscard]] bool is_alone_at(Id polygon, const std::array<double, 3>& point,
                                    double reach) const;
+    /// The polygons that doubles do not show to be farther than `reach`, in each coordinate, from
+    /// a point.
+    [[nodiscard]] std::vector<PolygonId> polygons_near(const std::array<double, 3>& point,
+                                                       double reach, bool turned) const;
     /// A point of each connected piece of the boundary in the cell; of some pieces several. Made at
     /// the first call.
     [[nodiscard]] std::span<const BoundaryPoint> pieces() const;
@@ -64,18 +69,37 @@ public:
 private:
     void take_mesh(const Source& source);
     void take_polygons();
+    [[nodiscard]] double most_error() const;
     [[nodiscard]] std::vector<BoundaryPoint> find_pieces() const;
 
     const IndexedLeaf& leaf_;
     std::vector<std::array<double, 3>> positions_;
     std::vector<Id> polygon_;  // of triangles; none where the triangles are the polygons
     double error_ = 0;
-    ObbTree tree_;
+    std::unique_ptr<const LeafTree> tree_;
     mutable std::once_flag pieces_once_;
     mutable std::vector<BoundaryPoint> pieces_;
 };
 
+/// A fact of a leaf of the cell tree: its hull, and its boxes from when they are first needed.
+class BoxedLeaf final : public NodeFact {
+public:
+    /// `leaf` must outlive this, and fills the cell.
+    BoxedLeaf(const CellNode& leaf, const Cell& cell)
+        : leaf_(leaf), cell_(cell), hull_(hull_of(leaf)) {}
+
+    [[nodiscard]] const LeafHull& hull() const { return hull_; }
+    [[nodiscard]] const LeafBoxes& boxes() const;
+
+private:
+    const CellNode& leaf_;
+    Cell cell_;
+    LeafHull hull_;
+    mutable std::once_flag once_;
+    mutable std::unique_ptr<const LeafBoxes> boxes_;
+};
+
 /// Made when it is first needed. \pre the leaf lists something and fills the cell
-[[nodiscard]] const LeafBoxes& leaf_boxes(const CellNode& leaf, const Cell& cell);
+[[nodiscard]] const BoxedLeaf& boxed_leaf(const CellNode& leaf, const Cell& cell);
 
 }  // namespace trisect::detail

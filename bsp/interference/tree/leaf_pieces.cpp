@@ -24,7 +24,9 @@ public:
         while (above_[i] != i) i = above_[i] = above_[above_[i]];
         return i;
     }
-    void join(std::uint32_t i, std::uint32_t j) { above_[std::max(of(i), of(j))] = std::min(of(i), of(j)); }
+    void join(std::uint32_t i, std::uint32_t j) {
+        above_[std::max(of(i), of(j))] = std::min(of(i), of(j));
+    }
 
 private:
     std::vector<std::uint32_t> above_;
@@ -35,7 +37,8 @@ std::vector<BoundaryPoint> pieces_of_mesh(const Source& source) {
     const auto points = static_cast<std::uint32_t>(source.mesh().points.size());
     Pieces pieces(points);
     for (std::uint32_t t = 0; t < source.facet_count(); ++t)
-        for (int i = 1; i < 3; ++i) pieces.join(source.corner_index(t, 0), source.corner_index(t, i));
+        for (int i = 1; i < 3; ++i)
+            pieces.join(source.corner_index(t, 0), source.corner_index(t, i));
     std::vector<BoundaryPoint> out;
     std::vector<bool> done(points, false);
     for (std::uint32_t t = 0; t < source.facet_count(); ++t) {
@@ -63,10 +66,9 @@ std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
     if (const Source* const mesh = all.only_source()) return pieces_of_mesh(*mesh);
     std::vector<BoundaryPoint> found(all.size());
     std::vector<bool> enters(all.size(), false);
-    for (std::uint32_t place = 0; place < triangle_count(); ++place) {
-        const Id id = polygon_of(place);
-        // The first triangle of a fan begins with the first corner.
-        if (!enters[id]) found[id] = {id, BoundaryPoint::none, positions_[tree_.corners[place][0]]};
+    for (std::uint32_t t = 0; t < triangle_count(); ++t) {
+        const Id id = polygon_of(t);
+        if (!enters[id]) found[id] = {id, BoundaryPoint::none, corners_of(t)[0]};
         enters[id] = true;
     }
     std::vector<CornerOfPolygon> corners;

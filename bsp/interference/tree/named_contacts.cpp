@@ -10,28 +10,13 @@
 #include <tuple>
 
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
+#include <trisect/bsp/interference/tree/entity_names.h>
 #include <trisect/bsp/interference/tree/exact_contacts.h>
 #include <trisect/bsp/query/index/index_core.h>
 
 namespace trisect::detail {
 
 namespace {
-
-EntityName name_of(const Place& place) {
-    EntityName name;
-    name.kind = place.location == Location::OnFace   ? EntityName::Kind::Face
-                : place.location == Location::OnEdge ? EntityName::Kind::Edge
-                                                     : EntityName::Kind::Vertex;
-    name.face_count = place.face_count;
-    for (std::size_t i = 0; i < place.face_count; ++i) {
-        std::size_t at = i;
-        for (; at > 0 && place.faces[i] < name.faces[at - 1]; --at)
-            name.faces[at] = name.faces[at - 1];
-        name.faces[at] = place.faces[i];
-    }
-    name.corner = place.corner;
-    return name;
-}
 
 std::vector<PolygonId> polygons_of(const ExactTriangles& triangles,
                                    const std::vector<TriangleAt>& at) {

@@ -18,8 +18,8 @@ bool is_certainly_beyond(const TriangleCorners& triangle, double error,
                          const std::array<double, 3>& point, double reach) {
     const std::array<Vector3, 3> way{minus(point, triangle[0]), minus(point, triangle[1]),
                                      minus(point, triangle[2])};
-    const double g = std::max(
-        {largest_component(way[0]), largest_component(way[1]), largest_component(way[2])});
+    const double g =
+        std::max({largest_component(way[0]), largest_component(way[1]), largest_component(way[2])});
     const double slack = bound_slack * 3 * (error + reach) + 0x1p-48 * g;
     const auto parts = [&](const Vector3& d) {
         const std::array<double, 3> v{dot(d, way[0]), dot(d, way[1]), dot(d, way[2])};
@@ -32,8 +32,7 @@ bool is_certainly_beyond(const TriangleCorners& triangle, double error,
         axis[k] = 1;
         if (parts(axis)) return true;
     }
-    const Vector3 normal =
-        cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
+    const Vector3 normal = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
     if (parts(normal)) return true;
     for (std::size_t i = 0; i < 3; ++i)
         if (parts(cross(normal, minus(triangle[(i + 1) % 3], triangle[i])))) return true;

@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/interference/boxes/obb_tree.h>
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
+#include <trisect/bsp/interference/tree/leaf_tree.h>
 
 namespace trisect::detail {
 
@@ -18,44 +19,59 @@ namespace trisect::detail {
 [[nodiscard]] bool is_certainly_beyond(const TriangleCorners& triangle, double error,
                                        const std::array<double, 3>& point, double reach);
 
-/// Calls visit(place) for triangles of a tree, by their places in its order, in whose boxes is a
-/// point within `reach` of the given one in each coordinate; until it returns true. Returns whether
-/// it was stopped. In the proof of quick_relation.cpp `reach` is the error. \pre no node is pending
-template <class Visit>
-bool for_triangles_near(const ObbTree& tree, const std::array<double, 3>& point, double reach,
-                        const Visit& visit) {
-    if (tree.is_empty()) return false;
-    std::array<float, 3> x{};
-    double size = tree.reach;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double c = (point[k] - tree.origin[k]) / tree.unit;
-        x[k] = static_cast<float>(c);
-        size += std::fabs(c);
+/// A point with a reach against boxes, as far as floats decide: see quick_relation.cpp, where the
+/// reach is an error.
+class PointInBoxes {
+public:
+    /// Boxes in units about an origin, within `extent` of it.
+    PointInBoxes(const std::array<double, 3>& point, double reach,
+                 const std::array<double, 3>& origin, double unit, double extent) {
+        double size = extent;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double c = (point[k] - origin[k]) / unit;
+            x_[k] = all_lanes(static_cast<float>(c));
+            size += std::fabs(c);
+        }
+        in_range_ = size < 1e30;
+        margin_ = all_lanes(static_cast<float>(0x1p-20 * size + 2.0001 * reach / unit));
     }
-    const bool in_range = size < 1e30;
-    const Float4 margin = all_lanes(static_cast<float>(0x1p-20 * size + 2.0001 * reach / tree.unit));
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-        const ObbNode& n = tree.nodes[stack.back()];
-        stack.pop_back();
+    /// The lanes in whose boxes may be a point within the reach, in each coordinate.
+    [[nodiscard]] unsigned near(const ObbNode& n) const {
         Mask4 away = n.half[0] < all_lanes(0);
         std::array<Float4, 3> d;
-        for (std::size_t k = 0; k < 3; ++k) d[k] = all_lanes(x[k]) - n.center[k];
-        for (std::size_t i = 0; i < 3 && in_range; ++i)
+        for (std::size_t k = 0; k < 3; ++k) d[k] = x_[k] - n.center[k];
+        for (std::size_t i = 0; i < 3 && in_range_; ++i)
             away |= magnitude((n.axis[i][0] * d[0] + n.axis[i][1] * d[1]) + n.axis[i][2] * d[2]) >
-                    n.half[i] + margin;
-        const unsigned near = ~bits_of(away) & 15U;
+                    n.half[i] + margin_;
+        return ~bits_of(away) & 15U;
+    }
+
+private:
+    std::array<Float4, 3> x_{};
+    Float4 margin_{};
+    bool in_range_ = true;
+};
+
+/// Calls visit(triangle) for triangles in whose boxes is a point within `reach` of the given one,
+/// in each coordinate; until it returns true.
+template <class Visit>
+void for_triangles_near(const LeafTree& tree, const std::array<double, 3>& point, double reach,
+                        const Visit& visit) {
+    if (tree.size() == 0) return;
+    const PointInBoxes at(point, reach, tree.origin(), tree.unit(), 4 * tree.radius());
+    std::vector<const LeafTree::Node*> stack{&tree.root()};
+    while (!stack.empty()) {
+        const LeafTree::Node& n = *stack.back();
+        stack.pop_back();
+        const unsigned near = at.near(n.boxes());
         for (std::uint32_t k = 0; k < 4; ++k) {
             if ((near >> k & 1U) == 0) continue;
-            if (!n.child[k].is_leaf()) {
-                stack.push_back(n.child[k].node());
-                continue;
-            }
-            for (std::uint32_t i = 0; i < n.child[k].count(); ++i)
-                if (visit(n.child[k].first() + i)) return true;
+            if (!n.is_leaf(k))
+                stack.push_back(&tree.below(n, k));
+            else if (visit(tree.triangle(n, k)))
+                return;
         }
     }
-    return false;
 }
 
 }  // namespace trisect::detail

@@ -44,16 +44,16 @@ bool is_empty(const DoubleBox& b) {
 
 }  // namespace
 
-SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
-    lattice = base_.lattice();
-    const CellNode& root = refined(*base_.root().node);
+SolidBoundary::SolidBoundary(const Solid& solid) : base_(std::make_unique<const IndexBase>(solid)) {
+    lattice = base_->lattice();
+    const CellNode& root = refined(*base_->root().node);
     if (root.size() == 0) {
-        if (base_.solid().is_whole_space())
+        if (base_->solid().is_whole_space())
             throw UnsupportedError("interference of an unbounded solid");
         return;
     }
     find_bounds();
-    if (base_.is_inside_beyond() || !(largest < 0x1p60))
+    if (base_->is_inside_beyond() || !(largest < 0x1p60))
         throw UnsupportedError("interference of an unbounded solid");
     set_frame();
     parts_.reserve(64);
@@ -62,7 +62,7 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
     boxes.parent.reserve(64);
     inner_.reserve(128);
     boxes.source = this;
-    parts_.push_back(part(root, Cell{}, base_.root().complemented));
+    parts_.push_back(part(root, Cell{}, base_->root().complemented));
     const std::uint32_t node = add_node(ObbId{});
     put_box(node, 0, parts_[0].box);
     part_of_[0] = 0;
@@ -70,12 +70,12 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(solid) {
 }
 
 // Of a node: its bounds in its cell.
-SolidBoundary::Part SolidBoundary::part(const CellNode& node, const Cell& cell,
-                                        bool turned) const {
-    Part p{{&node, cell, turned}, {}};
+SolidBoundary::Part SolidBoundary::part(const IndexBase& base, const CellNode& node,
+                                        const Cell& cell, bool turned) {
+    Part p{{&node, cell, turned}, {}, false};
     const Box& bounds = bounds_of(node);
     const DoubleBox walls = box_of(cell);
-    const bool whole = state_of(base_.solid())->whole;
+    const bool whole = state_of(base.solid())->whole;
     for (std::size_t k = 0; k < 3; ++k) {
         const double room = whole ? 0 : 1;
         p.box.lo[k] = std::max(static_cast<double>(bounds.lo[k]) - room,
@@ -97,11 +97,11 @@ void SolidBoundary::find_bounds() {
             all.hi[k] = std::max(all.hi[k], b.hi[k]);
         }
     };
-    if (base_.is_bounded()) {
-        add(part(refined(*base_.root().node), Cell{}, false).box);
+    if (base_->is_bounded()) {
+        add(part(refined(*base_->root().node), Cell{}, false).box);
     } else {
         for_tree_leaves(
-            base_, [](const DoubleBox&) { return true; },
+            *base_, [](const DoubleBox&) { return true; },
             [&](const LeafInTree& leaf) {
                 if (leaf.node.size() == 0) return;
                 const DoubleBox box = part(leaf.node, leaf.cell, false).box;
@@ -113,9 +113,9 @@ void SolidBoundary::find_bounds() {
     for (std::size_t k = 0; k < 3; ++k)
         largest = std::max({largest, std::fabs(lo[k]), std::fabs(hi[k])});
     // Those of leaves are smaller, or the same.
-    const CellNode& root = refined(*base_.root().node);
+    const CellNode& root = refined(*base_->root().node);
     const bool is_mesh =
-        root.is_leaf() && leaf_boxes(root, Cell{}).polygons().only_source() != nullptr;
+        root.is_leaf() && boxed_leaf(root, Cell{}).boxes().polygons().only_source() != nullptr;
     position_error = is_mesh ? 0 : clipped_error * largest;
 }
 
@@ -160,16 +160,17 @@ void SolidBoundary::put_box(std::uint32_t node, std::uint32_t lane, const Double
 }
 
 // False when it sticks out too far.
-bool SolidBoundary::put_box(std::uint32_t node, std::uint32_t lane, const ObbTree& tree,
+bool SolidBoundary::put_box(std::uint32_t node, std::uint32_t lane,
+                            const std::array<double, 3>& origin, double unit,
                             const OrientedBox& box) {
-    const double scale = tree.unit / boxes.unit;
+    const double scale = unit / boxes.unit;
     std::array<double, 3> center{};
     std::array<float, 3> half{};
     double from_origin = 0;
     double diagonal = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        center[k] = (tree.origin[k] - boxes.origin[k]) / boxes.unit +
-                    static_cast<double>(box.center[k]) * scale;
+        center[k] =
+            (origin[k] - boxes.origin[k]) / boxes.unit + static_cast<double>(box.center[k]) * scale;
         half[k] = rounded_up((static_cast<double>(box.half[k]) * scale + 0x1p-21) * (1 + 0x1p-22));
         from_origin += center[k] * center[k];
         diagonal += static_cast<double>(half[k]) * static_cast<double>(half[k]);
@@ -189,12 +190,16 @@ std::uint32_t SolidBoundary::open(ObbId id) {
     const std::uint32_t node = add_node(id);
     if (const std::uint32_t p = part_of_[id.index]; p != none) {
         const Part part = parts_[p];
-        if (part.at.node->is_leaf())
+        if (part.is_hull)
             open_leaf(part, node);
+        else if (part.at.node->is_leaf())
+            open_hull(part, node);
         else
             open_cells(part, node);
     } else {
-        open_inner(inner_[what], node);
+        const Inner inner = inner_[what];
+        take_node(inner.leaf, leaves_[inner.leaf].boxes->tree().below(*inner.node, inner.lane),
+                  node);
     }
     boxes.nodes[id.node()].child[id.lane()] = ObbChild::node(node);
     return node;
@@ -241,47 +246,48 @@ void SolidBoundary::open_cells(const Part& above, std::uint32_t node) {
     }
 }
 
-// The leaf's root, of one box, is left out where there is something below it.
-void SolidBoundary::open_leaf(const Part& part, std::uint32_t node) {
-    const LeafBoxes& leaf = part.at.boxes();
-    if (leaf.tree().is_empty()) return;
-    const auto number = static_cast<std::uint32_t>(leaves_.size());
-    leaves_.push_back({&leaf, part.at.turned});
-    const ObbChild root = leaf.tree().nodes[0].child[0];
-    open_inner({number, root.is_leaf() ? 0 : root.node()}, node);
+// A tighter box for a leaf, before its triangles are made.
+void SolidBoundary::open_hull(const Part& part, std::uint32_t node) {
+    const LeafHull& hull = part.at.boxed().hull();
+    if (!hull.is_known || !put_box(node, 0, hull.origin, hull.unit, hull.box))
+        put_box(node, 0, part.box);
+    part_of_[ObbId::of(node, 0).index] = static_cast<std::uint32_t>(parts_.size());
+    parts_.push_back({part.at, part.box, true});
+    boxes.nodes[node].child[0] = ObbChild::pending(0);
 }
 
-void SolidBoundary::open_inner(const Inner& inner, std::uint32_t node) {
-    const LeafBoxes& leaf = *leaves_[inner.leaf].boxes;
-    const ObbTree& tree = leaf.tree();
-    const ObbNode& from = tree.nodes[inner.node];
-    for (std::uint32_t lane = 0; lane < 4; ++lane) {
-        if (!(from.half[0][lane] >= 0)) continue;
-        if (!put_box(node, lane, tree, from.box(lane))) {
-            DoubleBox all;
-            all.lo = lo;
-            all.hi = hi;
-            put_box(node, lane, all);
-        }
-        const ObbChild child = from.child[lane];
-        if (!child.is_leaf()) {
+void SolidBoundary::open_leaf(const Part& part, std::uint32_t node) {
+    const LeafBoxes& leaf = part.at.boxed().boxes();
+    if (leaf.tree().size() == 0) return;
+    const auto number = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back({&leaf, part.at.turned});
+    take_node(number, leaf.tree().root(), node);
+}
+
+void SolidBoundary::take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node) {
+    const LeafTree& tree = leaves_[leaf].boxes->tree();
+    for (std::uint32_t lane = 0; lane < 4 && from.is_used(lane); ++lane) {
+        if (!put_box(node, lane, tree.origin(), tree.unit(), from.boxes().box(lane)))
+            put_box(node, lane, {lo, hi});
+        if (from.is_leaf(lane)) {
+            boxes.nodes[node].child[lane] =
+                ObbChild::leaf(static_cast<std::uint32_t>(boxes.order.size()), 1);
+            add_triangle(leaf, tree.triangle(from, lane));
+        } else {
             boxes.nodes[node].child[lane] =
                 ObbChild::pending(static_cast<std::uint32_t>(inner_.size()));
-            inner_.push_back({inner.leaf, child.node()});
-            continue;
-        }
-        const auto first = static_cast<std::uint32_t>(boxes.order.size());
-        boxes.nodes[node].child[lane] = ObbChild::leaf(first, child.count());
-        for (std::uint32_t i = 0; i < child.count(); ++i) {
-            const std::uint32_t place = child.first() + i;
-            const auto at = static_cast<std::uint32_t>(positions.size());
-            for (const auto& corner : leaf.corners_of(place)) positions.push_back(corner);
-            boxes.corners.push_back({at, at + 1, at + 2});
-            boxes.order.push_back(first + i);
-            leaf_of_.push_back(inner.leaf);
-            place_of_.push_back(place);
+            inner_.push_back({leaf, &from, lane});
         }
     }
+}
+
+void SolidBoundary::add_triangle(std::uint32_t leaf, std::uint32_t triangle) {
+    const auto at = static_cast<std::uint32_t>(positions.size());
+    for (const auto& corner : leaves_[leaf].boxes->corners_of(triangle))
+        positions.push_back(corner);
+    boxes.corners.push_back({at, at + 1, at + 2});
+    boxes.order.push_back(static_cast<std::uint32_t>(triangle_of_.size()));
+    triangle_of_.push_back({leaf, triangle});
 }
 
 std::uint32_t SolidBoundary::open_all() const {
@@ -298,19 +304,14 @@ std::uint32_t SolidBoundary::open_all() const {
 }
 
 SolidBoundary::Origin SolidBoundary::origin(std::uint32_t triangle) const {
-    const OpenedLeaf& leaf = leaves_[leaf_of_[triangle]];
-    return {leaf.boxes, place_of_[triangle], leaf.turned};
-}
-
-const SolidBoundary::LeafAt* SolidBoundary::leaf_below(ObbId id) const {
-    const LeafAt& at = parts_[part_of_[id.index]].at;
-    return at.node->is_leaf() ? &at : nullptr;
+    const TriangleOf& t = triangle_of_[triangle];
+    return {leaves_[t.leaf].boxes, t.triangle, leaves_[t.leaf].turned};
 }
 
 bool SolidBoundary::is_alone_at(std::uint32_t triangle, const std::array<double, 3>& point,
                                 double reach) const {
     const Origin at = origin(triangle);
-    return at.leaf->is_alone_at(at.leaf->polygon_of(at.place), point, reach);
+    return at.leaf->is_alone_at(at.leaf->polygon_of(at.triangle), point, reach);
 }
 
 }  // namespace trisect::detail

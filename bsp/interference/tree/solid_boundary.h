@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include <trisect/bsp/interference/relation/boundary.h>
@@ -24,17 +26,23 @@ public:
     /// that must be resolved.
     explicit SolidBoundary(const Solid& solid);
 
-    [[nodiscard]] const IndexBase& base() const { return base_; }
+    /// Goes on with another solid, keeping the boxes of all nodes that both have: nearly all after
+    /// a cut. Which boxes are other ones; or nothing, and nothing has changed, where a new boundary
+    /// should be made: for a solid that is empty or not within the bounds of this one, or on
+    /// another lattice, and when too much has been replaced.
+    [[nodiscard]] std::optional<ChangedBoxes> replace(const Solid& solid);
+
+    [[nodiscard]] const IndexBase& base() const { return *base_; }
     [[nodiscard]] bool is_empty() const { return boxes.is_empty(); }
 
     /// Where a triangle is from.
     struct Origin {
         const LeafBoxes* leaf = nullptr;
-        std::uint32_t place = 0;  ///< in the order of the leaf's tree
-        bool turned = false;      ///< the leaf is read as that of a complement
+        std::uint32_t triangle = 0;  ///< of the leaf
+        bool turned = false;         ///< the leaf is read as that of a complement
 
         [[nodiscard]] PolygonId polygon() const {
-            return {&leaf->leaf(), leaf->polygon_of(place), turned};
+            return {&leaf->leaf(), leaf->polygon_of(triangle), turned};
         }
     };
     [[nodiscard]] Origin origin(std::uint32_t triangle) const;
@@ -47,6 +55,10 @@ public:
     [[nodiscard]] bool is_alone_at(std::uint32_t triangle, const std::array<double, 3>& point,
                                    double reach) const override;
 
+    /// Boxes that contain the boundary, `most` of them or fewer; of a solid whose tree is one leaf,
+    /// those of its points in the cells of a grid. O(most), or O(n) for the latter.
+    [[nodiscard]] std::vector<DoubleBox> outline(std::size_t most) const;
+
     /// The numbers of all triangles, every node being made now: [0, what is returned).
     [[nodiscard]] std::uint32_t open_all() const;
 
@@ -55,26 +67,27 @@ public:
         const CellNode* node = nullptr;
         Cell cell;
         bool turned = false;
-        [[nodiscard]] const LeafBoxes& boxes() const { return leaf_boxes(*node, cell); }
+        [[nodiscard]] const BoxedLeaf& boxed() const { return boxed_leaf(*node, cell); }
     };
-    /// What is below a box: the one leaf of the cell tree, or null where there is an inner node of
-    /// it. \pre the box is one of the upper ones
-    [[nodiscard]] const LeafAt* leaf_below(ObbId id) const;
-    /// Whether the box is that of a node of the cell tree.
-    [[nodiscard]] bool is_upper(ObbId id) const { return part_of_[id.index] != none; }
+    /// The leaf of which a box is the hull; null for boxes above. \pre one of these
+    [[nodiscard]] const LeafAt* leaf_of_hull(ObbId id) const {
+        const Part& p = parts_[part_of_[id.index]];
+        return p.is_hull ? &p.at : nullptr;
+    }
 
 private:
     // A node of the cell tree.
     struct Part {
         LeafAt at;  // or an inner node
         DoubleBox box;
+        bool is_hull = false;  // of a leaf, after its bounds
     };
-    // Of a leaf's tree, below a box that is still closed.
+    // What is below a box of a leaf that is still closed.
     struct Inner {
         std::uint32_t leaf = 0;  // of leaves_
-        std::uint32_t node = 0;
+        const LeafTree::Node* node = nullptr;
+        std::uint32_t lane = 0;
     };
-    // Triangles from `first` on are of this leaf.
     struct OpenedLeaf {
         const LeafBoxes* boxes = nullptr;
         bool turned = false;
@@ -84,22 +97,36 @@ private:
     std::uint32_t open(ObbId id) override;
     void find_bounds();
     void set_frame();
-    [[nodiscard]] Part part(const CellNode& node, const Cell& cell, bool turned) const;
+    [[nodiscard]] static Part part(const IndexBase& base, const CellNode& node, const Cell& cell,
+                                   bool turned);
+    [[nodiscard]] Part part(const CellNode& node, const Cell& cell, bool turned) const {
+        return part(*base_, node, cell, turned);
+    }
+    void update(ObbId id, const Part& next, ChangedBoxes& changed);
+    [[nodiscard]] bool update_cells(std::uint32_t node, const Part& next, ChangedBoxes& changed);
+    void drop(std::uint32_t node, ChangedBoxes& changed);
     [[nodiscard]] std::uint32_t add_node(ObbId above);
     void open_cells(const Part& part, std::uint32_t node);
+    void open_hull(const Part& part, std::uint32_t node);
     void open_leaf(const Part& part, std::uint32_t node);
-    void open_inner(const Inner& inner, std::uint32_t node);
+    void take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node);
     void put_box(std::uint32_t node, std::uint32_t lane, const DoubleBox& box);
-    [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane, const ObbTree& tree,
+    [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane,
+                               const std::array<double, 3>& origin, double unit,
                                const OrientedBox& box);
+    void add_triangle(std::uint32_t leaf, std::uint32_t triangle);
 
-    IndexBase base_;
+    std::unique_ptr<const IndexBase> base_;
+    std::uint32_t dropped_ = 0;  // nodes that are no more
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_;  // of parts_, by the index of an ObbId; or none
     std::vector<OpenedLeaf> leaves_;
-    std::vector<Inner> inner_;            // what is pending below boxes of leaves
-    std::vector<std::uint32_t> leaf_of_;  // of leaves_, by triangle
-    std::vector<std::uint32_t> place_of_;  // in the leaf's tree, by triangle
+    std::vector<Inner> inner_;  // what is pending below boxes of leaves
+    struct TriangleOf {
+        std::uint32_t leaf = 0;  // of leaves_
+        std::uint32_t triangle = 0;
+    };
+    std::vector<TriangleOf> triangle_of_;  // of leaves, by the numbers here
 };
 
 }  // namespace trisect::detail

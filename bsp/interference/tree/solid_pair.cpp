@@ -28,11 +28,9 @@ public:
               const Pose& pose_b)
         : a_(a), pose_a_(pose_a), b_(b), pose_b_(pose_b) {
         to_a_ = approximate_map(pose_a, a.lattice, pose_b, b.lattice);
-        if (!to_a_.is_usable() && poses().to_a.has_doubles())
-            to_a_ = approximate_map(poses().to_a);
+        if (!to_a_.is_usable() && poses().to_a.has_doubles()) to_a_ = approximate_map(poses().to_a);
         to_b_ = approximate_map(pose_b, b.lattice, pose_a, a.lattice);
-        if (!to_b_.is_usable() && poses().to_b.has_doubles())
-            to_b_ = approximate_map(poses().to_b);
+        if (!to_b_.is_usable() && poses().to_b.has_doubles()) to_b_ = approximate_map(poses().to_b);
         in_doubles_ = to_a_.is_usable() && to_b_.is_usable();
     }
     [[nodiscard]] SolidInterference relate(bool contacts, WalkCounters* counters) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// No component is ever traced. A box of `a` that is apart from the other boundary lies wholly on one
-// side of it, so any point of the box says where all that is in it is. Boxes that are not apart are
-// divided down to leaves of the cell tree, and there each connected piece has a point of its own
-// (leaf_pieces.cpp). So every component has been seen, most of them many times, and at most the
+// No component is ever traced. A box of `a` that is apart from the other boundary lies wholly on
+// one side of it, so any point of the box says where all that is in it is. Boxes that are not apart
+// are divided down to leaves of the cell tree, and there each connected piece has a point of its
+// own (leaf_pieces.cpp). So every component has been seen, most of them many times, and at most the
 // leaves near the other boundary are looked into.
 //
 // A place in doubles, off by e, is on the same side as the exact one when no box of the other
@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include <trisect/bsp/interference/relation/exact_place.h>
+#include <trisect/bsp/interference/tree/point_gap.h>
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/kernel/number/error_bounds.h>
 
@@ -73,8 +74,8 @@ void SolidSides::visit_lane(ObbId lane, Near near) {
     const Near close = refined(lane, near);
     if (close.begin == close.end)
         add_box(lane);
-    else if (const SolidBoundary::LeafAt* const leaf = a_.leaf_below(lane))
-        add_pieces(leaf->boxes(), false);
+    else if (const SolidBoundary::LeafAt* const leaf = a_.leaf_of_hull(lane))
+        add_pieces(leaf->boxed().boxes(), false);
     else
         visit(lane, close);
     near_.resize(before);
@@ -115,7 +116,7 @@ Sides SolidSides::find_exactly() {
     for_tree_leaves(
         a_.base(), [this](const DoubleBox&) { return !sides_.are_both(); },
         [this](const LeafInTree& leaf) {
-            if (leaf.node.size() != 0) add_pieces(leaf_boxes(leaf.node, leaf.cell), true);
+            if (leaf.node.size() != 0) add_pieces(boxed_leaf(leaf.node, leaf.cell).boxes(), true);
         });
     return sides_;
 }
@@ -145,34 +146,14 @@ std::optional<Location> SolidSides::quick_location(const std::array<double, 3>& 
     return locate_in_leaves(other_.base(), IndexPoint(x), on_);
 }
 
-// As far as floats decide.
 bool SolidSides::is_near_other(const std::array<double, 3>& point, double error) const {
     const ObbTree& tree = other_.boxes;
-    std::array<float, 3> x{};
-    double size = tree.reach;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double c = (point[k] - tree.origin[k]) / tree.unit;
-        x[k] = static_cast<float>(c);
-        size += std::fabs(c);
-    }
-    if (!(size < 1e30)) return true;
-    const Float4 margin =
-        all_lanes(static_cast<float>(0x1p-20 * size + 2.0001 * error / tree.unit));
+    const PointInBoxes at(point, error, tree.origin, tree.unit, tree.reach);
     std::vector<std::uint32_t> stack{0};
     while (!stack.empty()) {
         const std::uint32_t node = stack.back();
         stack.pop_back();
-        unsigned near = 0;
-        {
-            const ObbNode& n = tree.nodes[node];
-            Mask4 away = n.half[0] < all_lanes(0);
-            std::array<Float4, 3> d;
-            for (std::size_t k = 0; k < 3; ++k) d[k] = all_lanes(x[k]) - n.center[k];
-            for (std::size_t i = 0; i < 3; ++i)
-                away |= magnitude((n.axis[i][0] * d[0] + n.axis[i][1] * d[1]) +
-                                  n.axis[i][2] * d[2]) > n.half[i] + margin;
-            near = ~bits_of(away) & 15U;
-        }
+        const unsigned near = at.near(tree.nodes[node]);
         for (std::uint32_t k = 0; k < 4; ++k) {
             if ((near >> k & 1U) == 0) continue;
             const ObbId lane = ObbId::of(node, k);
@@ -184,8 +165,7 @@ bool SolidSides::is_near_other(const std::array<double, 3>& point, double error)
 }
 
 Location SolidSides::exact_location(const ExactPlace& place) {
-    if (!exact_)
-        exact_.emplace(relative_pose(pose_other_, other_.lattice, pose_a_, a_.lattice));
+    if (!exact_) exact_.emplace(relative_pose(pose_other_, other_.lattice, pose_a_, a_.lattice));
     on_.clear();
     return locate_in_leaves(other_.base(), IndexPoint(moved(place, *exact_).c), on_);
 }

@@ -95,6 +95,11 @@ public:
         const Fragment* const f = convex(id).fragment;
         return f != nullptr ? f->vertices() : std::span<const Approximation>{};
     }
+    /// Of its edges, in the order of its corners; none of what is a whole facet.
+    [[nodiscard]] std::span<const EdgeName> edge_names(Id id) const {
+        if (is_triangle(id) || convex(id).fragment == nullptr) return {};
+        return convex(id).fragment->edges();
+    }
     /// Contains the polygon, in lattice units; of triangles, no more.
     [[nodiscard]] DoubleBox bounds(Id id) const {
         return is_triangle(id) ? triangle_bounds(id) : bounds(convex(id).box);
