@@ -41,6 +41,7 @@ struct Request {
     RenderOptions render;
     TreeOptions tree;
     InterfereOptions interfere;
+    MillOptions mill;
     FurtherCommand* further = nullptr;
     std::string further_name;
 };
@@ -175,6 +176,7 @@ void declare(CLI::App& app, Request& request) {
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
     add_interfere_command(app, request.interfere);
+    add_mill_command(app, request.mill);
     if (request.further != nullptr) request.further_name = request.further->declare(app).get_name();
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
@@ -197,6 +199,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);
     if (name == "interfere") return run_interfere(session, request.interfere);
+    if (name == "mill") return run_mill(session, request.mill);
     if (name == request.further_name) return request.further->run(session);
     BooleanOptions options = request.boolean;
     options.operation = name;
@@ -208,7 +211,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
 std::vector<std::string> prepared_arguments(int argc, char** argv) {
     static constexpr std::string_view numeric[] = {"--translate", "--rotate", "--scale",
                                                    "--lattice",   "--plane",  "--section",
-                                                   "--view",      "--point"};
+                                                   "--view",      "--point",  "--grid"};
     std::vector<std::string> arguments;
     for (int i = 1; i < argc; ++i) {
         std::string argument = argv[i];

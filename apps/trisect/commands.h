@@ -56,6 +56,9 @@ void add_tree_command(CLI::App& app, TreeOptions& options);
 void add_interfere_command(CLI::App& app, InterfereOptions& options);
 [[nodiscard]] Outcome run_interfere(Session& session, const InterfereOptions& options);
 
+void add_mill_command(CLI::App& app, MillOptions& options);
+[[nodiscard]] Outcome run_mill(Session& session, const MillOptions& options);
+
 /// --assume-embedded and --winding.
 void add_operand_options(CLI::App& command, OperandOptions& options);
 

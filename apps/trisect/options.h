@@ -146,6 +146,31 @@ struct InterfereOptions {
     std::optional<double> nearer_than;
 };
 
+struct MillOptions {
+    std::string stock;
+    std::string tool;
+    std::string holder;
+    std::vector<std::string> fixtures;
+    std::string path;
+    OperandOptions operands;
+    std::optional<int> grid;  ///< exponent of the unit of tool positions
+    double chord = 0.01;      ///< how far chords may be from their arcs
+    double feed = 1000;       ///< before the first one of the path, a minute
+    double rapid_feed = 10000;
+    bool touch = false;       ///< contact of the holder, and with fixtures, counts too
+    bool between = true;      ///< check the holder between the ends of moves too
+    bool keep_going = false;  ///< after a collision
+    std::string output;       ///< files; empty: none
+    std::string page;
+    std::string picture;
+    std::string log;
+    std::string checkpoint;
+    std::string resume;
+    double checkpoint_seconds = 2;
+    std::uint64_t frames = 60;            ///< of the page
+    std::uint64_t page_bytes = 60 << 20;  ///< the page has fewer frames if it would be larger
+};
+
 struct ConvertOptions {
     std::string input;
     std::string output;

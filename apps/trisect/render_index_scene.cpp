@@ -71,7 +71,12 @@ std::size_t IndexScene::Hash::operator()(const Key& key) const {
 }
 
 IndexScene::IndexScene(BrepIndex index, const QueriedSet& set, double diameter)
-    : index_(std::move(index)), set_(set), diameter_(diameter) {}
+    : IndexScene(
+          std::move(index), [&set](std::uint32_t source) { return set.operand_number(source); },
+          diameter) {}
+
+IndexScene::IndexScene(BrepIndex index, ColorOf color, double diameter)
+    : index_(std::move(index)), color_(std::move(color)), diameter_(diameter) {}
 
 SurfaceHit IndexScene::first_hit(const ViewRay& ray) const {
     const auto hit =
@@ -94,7 +99,7 @@ std::vector<Look> IndexScene::looks() const {
     for (const auto& [key, number] : numbers_) {
         Look& look = looks[number];
         look.normal = unit_normal(key.plane);
-        const auto operand = set_.operand_number(key.operand);
+        const auto operand = color_(key.operand);
         look.color = static_cast<std::uint16_t>(operand.value_or(0));
         look.is_section = !operand.has_value();
         candidates.push_back(candidate_of(key.plane, number));

@@ -19,9 +19,13 @@ namespace trisect::app {
 
 class IndexScene final : public Scene {
 public:
+    /// The number of a colour for FaceSource::operand; none: the face is a section.
+    using ColorOf = std::function<std::optional<std::size_t>(std::uint32_t)>;
+
     /// Faces get the colour of the operand they come from; those that no operand brought are a
     /// section. `set` must outlive the scene.
     IndexScene(BrepIndex index, const QueriedSet& set, double diameter);
+    IndexScene(BrepIndex index, ColorOf color, double diameter);
 
     [[nodiscard]] SurfaceHit first_hit(const ViewRay& ray) const override;
     [[nodiscard]] std::vector<Look> looks() const override;
@@ -39,7 +43,7 @@ private:
     };
 
     BrepIndex index_;
-    const QueriedSet& set_;
+    ColorOf color_;
     double diameter_;
     mutable tbb::concurrent_unordered_map<Key, std::uint32_t, Hash> numbers_;
     mutable std::atomic<std::uint32_t> next_ = 0;
