@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact relation, contacts and distance of two placed solids, by their own trees.
+// Exact relation, contacts and distance of two placed solids.
 //
-// No model is made before: oriented boxes of triangles are kept in the leaves of the solids' cell
+// By their own trees; no model is made before. Oriented boxes of triangles are kept in the leaves of the solids' cell
 // trees, when a question first enters them, and shared by all solids that share these leaves. So a
 // solid that was just cut is as good as any other one.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BoxesCounters: how many leaves of cell trees got boxes.
+// BoxesCounters: counts of the boxes that questions made.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trisect::detail {
 
-/// Of this thread.
+/// Leaves of cell trees that got boxes, and nodes.
 struct BoxesCounters {
     std::uint64_t hulls = 0;      ///< of leaves
     std::uint64_t leaves = 0;     ///< with boxes of their triangles

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ExactContacts: where polygons of two placed solids meet, exactly.
+// ExactContacts: exact contacts of polygons of two placed solids.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ struct Branch {
     DoubleBox box;  // as far as it is in the node's cell
 };
 
-// Bounds that nobody has needed yet are not made for this: they would be those of all nodes below.
+// Bounds that were not needed yet are not made for this: they would be those of all nodes below.
 bool may_have_polygons(const CellNode& node, const DoubleBox& box) {
     constexpr std::int64_t around = 3;  // positions are rounded
     if (node.size() == 0) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CoarseMap: the parts of a tree's box that are inside or outside as a whole.
+// CoarseMap: parts of a tree's box without boundary.
 #pragma once
 
 #include <array>

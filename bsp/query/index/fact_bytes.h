@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What facts of nodes take.
+// Memory of the facts of nodes.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BatchInGrid: many points of a solid whose tree is one leaf, with a grid.
+// BatchInGrid: location of many points in the grid of one leaf.
 #pragma once
 
 #include <algorithm>

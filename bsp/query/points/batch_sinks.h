@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What becomes of the answers of a batch of points.
+// Sinks for the answers of batches of points.
 #pragma once
 
 #include <cstdint>
