@@ -69,6 +69,8 @@ public:
         bool turned = false;
         [[nodiscard]] const BoxedLeaf& boxed() const { return boxed_leaf(*node, cell); }
     };
+    /// The node of the cell tree that a box is around. \pre one of the upper boxes
+    [[nodiscard]] const LeafAt& node_of(ObbId id) const { return parts_[part_of_[id.index]].at; }
     /// The leaf of which a box is the hull; null for boxes above. \pre one of these
     [[nodiscard]] const LeafAt* leaf_of_hull(ObbId id) const {
         const Part& p = parts_[part_of_[id.index]];

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // No component is ever traced. A box of `a` that is apart from the other boundary lies wholly on
-// one side of it, so any point of the box says where all that is in it is. Boxes that are not apart
-// are divided down to leaves of the cell tree, and there each connected piece has a point of its
-// own (leaf_pieces.cpp). So every component has been seen, most of them many times, and at most the
-// leaves near the other boundary are looked into.
+// one side of it, so any point of the box says where all that is in it is. That is a statement
+// about the boundary only if there is some of it in the box: bounds are those of what leaves list,
+// which need not enter their cells. So the first box on each side must prove it. Boxes that are not
+// apart are divided down to leaves of the cell tree, and there each connected piece has a point of
+// its own (leaf_pieces.cpp). So every component has been seen, most of them many times, and at most
+// the leaves near the other boundary are looked into.
 //
 // A place in doubles, off by e, is on the same side as the exact one when no box of the other
 // boundary is within e of it, as in quick_relation.cpp.
@@ -109,9 +111,66 @@ void SolidSides::visit(ObbId box, Near near) {
     }
 }
 
+namespace {
+
+// A corner of a polygon that lies in its leaf's cell as a whole, and so is boundary.
+std::optional<Approximation> corner_inside(const SolidBoundary::LeafAt& leaf) {
+    if (leaf.node->deferred() != nullptr) return std::nullopt;
+    for (const PolygonRef p : leaf.node->polygons()) {
+        if (p.fragment != nullptr) {
+            if (leaf.cell.contains(p.box())) return p.fragment->vertices().front();
+        } else if (!p.source->is_half_space() && leaf.cell.contains(p.box())) {
+            return Approximation{p.source->corner(p.facet, 0).doubles(), 0};
+        }
+    }
+    return std::nullopt;
+}
+
+// Whether there is boundary in the cell of a node, certainly.
+bool has_boundary(const SolidBoundary::LeafAt& from) {
+    std::vector<SolidBoundary::LeafAt> open{from};
+    while (!open.empty()) {
+        const SolidBoundary::LeafAt at = open.back();
+        open.pop_back();
+        const CellNode& n = *at.node;
+        if (n.size() == 0) continue;
+        if (n.is_leaf()) {
+            if (corner_inside(at) || at.boxed().boxes().triangle_count() != 0) return true;
+            continue;
+        }
+        for (int i = 1; i >= 0; --i) {
+            const CellRef& child = n.child(i);
+            open.push_back({&refined(*child.node),
+                            i == 0 ? at.cell.below(n.axis(), n.splitter())
+                                   : at.cell.above(n.axis(), n.splitter()),
+                            at.turned != child.complemented});
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void SolidSides::add_box(ObbId box) {
+    if (const SolidBoundary::LeafAt* const leaf = a_.leaf_of_hull(box)) return add_hull(*leaf);
+    const Location location = location_of_box(box);
+    const bool is_known = location == Location::Inside    ? sides_.in
+                          : location == Location::Outside ? sides_.out
+                                                          : true;
+    if (!is_known && has_boundary(a_.node_of(box))) add(location);
+}
+
+// Apart from the boxes that meet the leaf's bounds, which a hull may stick out of: no point of the
+// hull will do, but every one of the boundary does.
+void SolidSides::add_hull(const SolidBoundary::LeafAt& leaf) {
+    if (const auto corner = corner_inside(leaf))
+        if (const auto quick = quick_location(corner->c, corner->error)) return add(*quick);
+    add_pieces(leaf.boxed().boxes(), false);
+}
+
 // All of the box is on one side; its centre is a point in doubles. Where the box reaches farther
 // around it than the image of the centre is off, that image is in the image of the box as well.
-void SolidSides::add_box(ObbId box) {
+Location SolidSides::location_of_box(ObbId box) {
     const OrientedBox b = a_.boxes.box(box);
     std::array<double, 3> center{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -120,14 +179,14 @@ void SolidSides::add_box(ObbId box) {
     const double e = map_.error_below(a_.largest, 0);
     const double least = static_cast<double>(std::min({b.half[0], b.half[1], b.half[2]}));
     if (is_rigid_ && least * a_.boxes.unit * scale_ > 4 * e) {
-        if (is_beyond_bounds(x, 0)) return add(Location::Outside);
+        if (is_beyond_bounds(x, 0)) return Location::Outside;
         on_.clear();
-        return add(locate_in_leaves(other_.base(), IndexPoint(x), on_));
+        return locate_in_leaves(other_.base(), IndexPoint(x), on_);
     }
-    if (const auto quick = quick_location(center, 0)) return add(*quick);
+    if (const auto quick = quick_location(center, 0)) return *quick;
     ExactPlace exact;
     for (std::size_t k = 0; k < 3; ++k) exact.c[k] = ExactRational::from_double(center[k]);
-    add(exact_location(exact));
+    return exact_location(exact);
 }
 
 Sides SolidSides::find_exactly() {

@@ -50,6 +50,8 @@ private:
     [[nodiscard]] Near refined(ObbId box, Near near);
     void add_pieces(const LeafBoxes& boxes, bool exactly);
     void add_box(ObbId box);
+    void add_hull(const SolidBoundary::LeafAt& leaf);
+    [[nodiscard]] Location location_of_box(ObbId box);
     void add(Location location);
     [[nodiscard]] std::optional<Location> quick_location(const std::array<double, 3>& point,
                                                          double error);

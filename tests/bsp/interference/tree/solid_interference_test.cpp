@@ -42,4 +42,15 @@ TEST(SolidInterference, AlongCutsOfRandomSolidsIsThatOfModels) {
     }
 }
 
+// The hull of a leaf reaches beyond the leaf's bounds, with its centre in the other solid, while
+// the boundary in the leaf is outside.
+TEST(SolidInterference, CentresOfHullsSayNothing) {
+    constexpr std::uint64_t seed = 20263293;
+    reference::Random random(seed);
+    const brute::Scene scene = brute::random_scene(random);
+    EXPECT_EQ(
+        brute::difference_along_cuts(scene, static_cast<std::uint32_t>(1 + seed % 7), random, 3),
+        "");
+}
+
 }  // namespace
