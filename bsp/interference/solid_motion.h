@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <trisect/brep/algebraic_number.h>
+#include <trisect/bsp/interference/enclosed_contact.h>
+#include <trisect/bsp/interference/enclosed_motion.h>
 #include <trisect/bsp/interference/first_contact.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/motion.h>
@@ -52,5 +54,32 @@ struct NamedFirstContact {
 [[nodiscard]] NamedFirstContact first_contact(const Solid& a, const Motion& motion_a,
                                               const Solid& b, const Motion& motion_b,
                                               const FirstContactOptions& options = {});
+
+/// As EnclosedContact, with names of entities.
+struct NamedEnclosedContact {
+    using Outcome = EnclosedContact::Outcome;
+
+    Outcome outcome = Outcome::None;
+    /// Proved: no common point at any time before this one.
+    double free_until = 0;
+    /// Proved: at this time the solids have a point in common.
+    std::optional<double> contact_by;
+    /// Whether contact_by - free_until is at most the width requested.
+    bool is_narrow = false;
+    /// The times before contact_by, or before the end, of which nothing is proved; ascending.
+    std::vector<TimeSpan> undecided;
+    /// Where faces certainly pass through each other at contact_by: one pair of faces. Empty when a
+    /// point inside both solids proves the contact.
+    std::vector<NamedWitness> witnesses;
+};
+
+/// The first contact of two solids in enclosed motion, over the whole time: proved as for
+/// InterferenceModels of the solids (enclosed_contact.h), though ranges may end at other times.
+///
+/// Cost: as that of first_contact, for each range of time.
+/// \throw as there, and UnsupportedError when a solid is unbounded; what evaluate() throws.
+[[nodiscard]] NamedEnclosedContact enclosed_first_contact(
+    const Solid& a, const EnclosedMotion& motion_a, const Solid& b, const EnclosedMotion& motion_b,
+    const EnclosedContactOptions& options = {});
 
 }  // namespace trisect
