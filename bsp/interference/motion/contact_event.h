@@ -8,19 +8,21 @@
 #include <optional>
 #include <vector>
 
-#include <trisect/brep/brep.h>
 #include <trisect/brep/number/real_root.h>
+#include <trisect/bsp/interference/boxes/moved_triangle_pair.h>
 
 namespace trisect::detail {
 
-/// A vertex, an edge or (with neither) a face. `face` is a face at the feature in any case.
+/// A part of a triangle of an EventModel.
 struct ContactFeature {
-    VertexId vertex;
-    EdgeId edge;
-    FaceId face;
+    std::uint32_t triangle = 0;
+    Feature feature;
 };
 
+/// A vertex that arrives in a triangle, or two edges that cross.
 struct FeaturePair {
+    enum class Kind : std::uint8_t { VertexOfA, VertexOfB, Edges };
+    Kind kind = Kind::Edges;
     ContactFeature a;
     ContactFeature b;
 };

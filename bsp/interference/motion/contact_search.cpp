@@ -29,8 +29,8 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
                            EarliestEvents& events) {
     if (over.from > events.latest() || over.to < events.earliest()) return;
     ++counters_.intervals;
-    const SweptMap swept = swept_map(over, b_.data().lo, b_.data().hi);
-    const ObbPose pose(a_.data().boxes, b_.data().boxes, swept.map, swept.sweep);
+    const SweptMap swept = swept_map(over, b_.boundary().lo, b_.boundary().hi);
+    const ObbPose pose(a_.boundary().boxes, b_.boundary().boxes, swept.map, swept.sweep);
     if (pose.is_apart()) return;
     Pairs leaves;
     Pairs coarse;
@@ -63,21 +63,37 @@ void ContactSearch::search(const BallMotion& over, const Pairs& front, int depth
 }
 
 void ContactSearch::solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events) {
-    const ObbTree& ta = a_.data().boxes;
-    const ObbTree& tb = b_.data().boxes;
     // What a triangle of B does on its way is worked out once for all its partners.
     std::sort(leaves.begin(), leaves.end(), [](const SweptWalk::Pair& p, const SweptWalk::Pair& q) {
         return p.b.index != q.b.index ? p.b.index < q.b.index : p.a.index < q.a.index;
     });
+    find_parts(leaves);
+    for (const PartPair& p : parts_) {
+        const EventModel::Range of_b = b_.triangles_of(p.b);
+        const EventModel::Range of_a = a_.triangles_of(p.a);
+        for (std::uint32_t j = of_b.begin; j < of_b.end; ++j)
+            for (std::uint32_t i = of_a.begin; i < of_a.end; ++i) {
+                ++counters_.triangle_pairs;
+                pairs_.find(i, j, over, events);
+            }
+    }
+}
+
+void ContactSearch::find_parts(const Pairs& leaves) {
+    const ObbTree& ta = a_.boundary().boxes;
+    const ObbTree& tb = b_.boundary().boxes;
+    parts_.clear();
     for (const SweptWalk::Pair& p : leaves) {
         const ObbChild la = ta.child(p.a);
         const ObbChild lb = tb.child(p.b);
         for (std::uint32_t j = 0; j < lb.count(); ++j)
-            for (std::uint32_t i = 0; i < la.count(); ++i) {
-                ++counters_.triangle_pairs;
-                pairs_.find(ta.order[la.first() + i], tb.order[lb.first() + j], over, events);
-            }
+            for (std::uint32_t i = 0; i < la.count(); ++i)
+                parts_.push_back(
+                    {b_.part_of(tb.order[lb.first() + j]), a_.part_of(ta.order[la.first() + i])});
     }
+    if (!a_.has_common_parts() && !b_.has_common_parts()) return;
+    std::sort(parts_.begin(), parts_.end());
+    parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
 }
 
 }  // namespace trisect::detail

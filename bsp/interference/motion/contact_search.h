@@ -4,6 +4,7 @@
 // It halves the interval of the parameter and walks down two trees of boxes.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -26,13 +27,12 @@ class ContactSearch {
 public:
     /// `parting`, if given, leaves out what moves apart: for the first contact of solids that are
     /// apart at the beginning.
-    ContactSearch(const EventModel& a, const EventModel& b, PairEvents& pairs,
-                  RecedingFaces* parting = nullptr)
+    ContactSearch(EventModel& a, EventModel& b, PairEvents& pairs, RecedingFaces* parting = nullptr)
         : a_(a),
           b_(b),
           pairs_(pairs),
           separating_(parting),
-          walk_(a.data().boxes, b.data().boxes) {}
+          walk_(a.boundary().boxes, b.boundary().boxes) {}
 
     /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
     void run(const BallMotion& over, EarliestEvents& events);
@@ -48,12 +48,20 @@ private:
 
     void search(const BallMotion& over, const Pairs& front, int depth, EarliestEvents& events);
     void solve(const BallMotion& over, Pairs& leaves, EarliestEvents& events);
+    void find_parts(const Pairs& leaves);
 
-    const EventModel& a_;
-    const EventModel& b_;
+    EventModel& a_;
+    EventModel& b_;
     PairEvents& pairs_;
     RecedingFaces* separating_;
     SweptWalk walk_;
+    // The second solid's first, for the order.
+    struct PartPair {
+        std::uint32_t b = 0;
+        std::uint32_t a = 0;
+        friend constexpr auto operator<=>(const PartPair&, const PartPair&) = default;
+    };
+    std::vector<PartPair> parts_;  // of `solve`
     SearchCounters counters_;
 };
 

@@ -134,7 +134,7 @@ bool FacingCones::Cone::is_all_along(const std::array<double, 3>& v, double slac
     return along * cosine - across * sine > slack + rounding * std::sqrt(square);
 }
 
-FacingCones::FacingCones(const EventModel& model)
+FacingCones::FacingCones(const ModelEvents& model)
     : model_(&model), place_(4 * model.data().boxes.nodes.size()), cones_(1) {}
 
 const FacingCones::Cone& FacingCones::of(ObbId box) {

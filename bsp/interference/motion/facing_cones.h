@@ -10,7 +10,7 @@
 
 #include <trisect/bsp/interference/boxes/obb_tree.h>
 #include <trisect/bsp/interference/motion/ball_motion.h>
-#include <trisect/bsp/interference/motion/pair_events.h>
+#include <trisect/bsp/interference/motion/event_model.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 
 namespace trisect::detail {
@@ -32,7 +32,7 @@ public:
     };
 
     /// The model must outlive it.
-    explicit FacingCones(const EventModel& model);
+    explicit FacingCones(const ModelEvents& model);
     [[nodiscard]] const Cone& of(ObbId box);
 
 private:
@@ -41,7 +41,7 @@ private:
     void append_normals(std::uint32_t triangle);
     void append_normal(FaceId face);
 
-    const EventModel* model_;
+    const ModelEvents* model_;
     std::vector<std::uint32_t> place_;  // of a box's cone, 0 for none yet
     std::vector<Cone> cones_;
     std::vector<Normal> normals_;  // scratch
@@ -51,7 +51,7 @@ private:
 class RecedingFaces {
 public:
     /// `model_b` is the model of the cones of B.
-    RecedingFaces(FacingCones& a, FacingCones& b, const EventModel& model_b)
+    RecedingFaces(FacingCones& a, FacingCones& b, const ModelEvents& model_b)
         : cones_a_(a), cones_b_(b), b_(model_b) {}
 
     void set(const BallMotion& over, const SweptMap& swept);
@@ -74,7 +74,7 @@ private:
 
     FacingCones& cones_a_;
     FacingCones& cones_b_;
-    const EventModel& b_;
+    const ModelEvents& b_;
     // The velocity of a point p of B, times a positive number: turn_ p + way_, within `error_`.
     std::array<std::array<double, 3>, 3> turn_{};
     std::array<double, 3> way_{};

@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <utility>
 
-#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/moving_points.h>
 #include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/number/vector3.h>
@@ -51,11 +50,7 @@ Ball height_over(const BallMotion::Maps& m, const BallPlane& plane, const BallVe
            (m.plane_offset * plane.offset - dot(m.plane_shift, plane.normal));
 }
 
-using BallCorners = std::array<BallVector, 3>;
-
-BallCorners corners_of(const EventModel& model, const ModelTriangle& t) {
-    return {model.position(t.vertex[0]), model.position(t.vertex[1]), model.position(t.vertex[2])};
-}
+using BallCorners = EventModel::Corners;
 
 // The plane through side i and the normal; inside is above.
 BallPlane side_plane(const BallCorners& c, const BallVector& normal, std::size_t i) {
@@ -70,130 +65,7 @@ std::size_t dominant_axis(const BallVector& v) {
     return axis;
 }
 
-// Points as integers over one common weight.
-struct ExactPoints {
-    std::vector<std::array<mpz_class, 3>> xyz;
-    mpz_class weight = 1;
-
-    void add(const Point& p) {
-        if (p.is_lattice() && p.lattice().is_whole()) {
-            const auto x = to_integers(p.lattice());
-            xyz.push_back({to_gmp(x[0]) * weight, to_gmp(x[1]) * weight, to_gmp(x[2]) * weight});
-            return;
-        }
-        const HomogeneousPoint h = p.homogeneous();
-        const mpz_class w = to_gmp(h.w);
-        for (auto& v : xyz)
-            for (mpz_class& c : v) c *= w;
-        xyz.push_back(
-            {to_gmp(h.xyz[0]) * weight, to_gmp(h.xyz[1]) * weight, to_gmp(h.xyz[2]) * weight});
-        weight *= w;
-    }
-};
-
-using MpzVector = std::array<mpz_class, 3>;
-
-MpzVector difference(const MpzVector& a, const MpzVector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-PolynomialVector constant(const MpzVector& v) {
-    return {IntegerPolynomial(v[0]), IntegerPolynomial(v[1]), IntegerPolynomial(v[2])};
-}
-
-PolynomialVector times(const PolynomialMatrix& m, const MpzVector& v) {
-    PolynomialVector r;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) r[i].add_multiple(m[i][j], v[j]);
-    return r;
-}
-
-IntegerPolynomial combined(const PolynomialVector& a, const MpzVector& b) {
-    IntegerPolynomial r;
-    for (std::size_t i = 0; i < 3; ++i) r.add_multiple(a[i], b[i]);
-    return r;
-}
-
-MpzVector exact_normal(const Plane& p) {
-    return {to_gmp(p.normal(0)), to_gmp(p.normal(1)), to_gmp(p.normal(2))};
-}
-
-// Paths of points of B, and of points of A, over the common weight.
-PolynomialVector moving_path(const RelativeMotion& motion, const ExactPoints& points,
-                             std::size_t i) {
-    PolynomialVector r = times(motion.point.matrix, points.xyz[i]);
-    for (std::size_t k = 0; k < 3; ++k) r[k].add_multiple(motion.point.shift[k], points.weight);
-    return r;
-}
-
-PolynomialVector resting_path(const RelativeMotion& motion, const ExactPoints& points,
-                              std::size_t i) {
-    PolynomialVector r;
-    for (std::size_t k = 0; k < 3; ++k) r[k].add_multiple(motion.point.weight, points.xyz[i][k]);
-    return r;
-}
-
-struct MovingVertexAndTriangle {
-    PolynomialVector point;
-    MovingTriangle triangle;
-};
-
-// Point 0 against the triangle of points 1 to 3.
-MovingVertexAndTriangle vertex_and_triangle(const RelativeMotion& motion, const ExactPoints& points,
-                                            bool triangle_moves) {
-    MovingVertexAndTriangle r;
-    r.point = triangle_moves ? resting_path(motion, points, 0) : moving_path(motion, points, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-        r.triangle.corners[i] = triangle_moves ? moving_path(motion, points, i + 1)
-                                               : resting_path(motion, points, i + 1);
-        const MpzVector d = difference(points.xyz[next_of_three(i) + 1], points.xyz[i + 1]);
-        r.triangle.directions[i] = triangle_moves ? times(motion.point.matrix, d) : constant(d);
-    }
-    return r;
-}
-
-ContactFeature feature_on(const ModelTriangle& t, const std::array<int, 3>& sides) {
-    ContactFeature f;
-    f.face = t.face;
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (sides[i] != 0) continue;
-        if (sides[next_of_three(i)] == 0) {
-            f.vertex = t.vertex[next_of_three(i)];
-            return f;
-        }
-        if (sides[next_of_three(next_of_three(i))] != 0) f.edge = t.edge[i];
-    }
-    return f;
-}
-
-ContactFeature corner(const ModelTriangle& t, std::size_t i) { return {t.vertex[i], {}, t.face}; }
-ContactFeature side(const ModelTriangle& t, std::size_t i) { return {{}, t.edge[i], t.face}; }
-
 }  // namespace
-
-EventModel::EventModel(const InterferenceModelData& data) : data_(&data) {
-    owned_.resize(data.triangles.size());
-    std::vector<bool> vertex_done(data.positions.size());
-    std::vector<bool> edge_done(data.brep.edges().size());
-    for (std::size_t t = 0; t < data.triangles.size(); ++t) {
-        const ModelTriangle& triangle = data.triangles[t];
-        for (std::size_t i = 0; i < 3; ++i) {
-            const VertexId v = triangle.vertex[i];
-            const EdgeId e = triangle.edge[i];
-            if (!vertex_done[v.index]) owned_[t] |= static_cast<std::uint8_t>(1U << i);
-            vertex_done[v.index] = true;
-            if (!e.is_valid()) continue;
-            if (!edge_done[e.index]) owned_[t] |= static_cast<std::uint8_t>(1U << (3 + i));
-            edge_done[e.index] = true;
-        }
-    }
-}
-
-BallVector EventModel::position(VertexId v) const {
-    const std::array<double, 3>& p = data_->position(v);
-    const double e = data_->position_error;
-    return {Ball(p[0], e), Ball(p[1], e), Ball(p[2], e)};
-}
 
 // The coplanarity and the conditions of meeting over one interval.
 struct PairEvents::Scalars {
@@ -219,7 +91,7 @@ struct PairEvents::Scalars {
 struct PairEvents::Moved {
     using Path = std::array<BallVector, BallPolynomial::max_degree + 1>;
 
-    std::uint32_t triangle = EntityId<void>::none;
+    std::uint32_t triangle = 0xffffffffU;
     double from = 0;
     double to = 0;
     BallCorners at_rest;
@@ -238,8 +110,8 @@ struct PairEvents::Resting {
     BallVector normal;
     Ball offset;
 
-    Resting(const EventModel& model, const ModelTriangle& t) : corner(corners_of(model, t)) {
-        const Plane& plane = model.data().brep.plane(t.face);
+    Resting(const EventModel& model, std::uint32_t t) : corner(model.corners(t)) {
+        const Plane& plane = model.plane(t);
         normal = normal_ball(plane);
         offset = Ball::rounded(plane.approx_offset());
     }
@@ -256,9 +128,8 @@ const PairEvents::Moved& PairEvents::moved(std::uint32_t triangle_b, const BallM
     r.triangle = triangle_b;
     r.from = over.from;
     r.to = over.to;
-    const ModelTriangle& t = b_.triangle(triangle_b);
-    const Plane& plane = b_.data().brep.plane(t.face);
-    r.at_rest = corners_of(b_, t);
+    const Plane& plane = b_.plane(triangle_b);
+    r.at_rest = b_.corners(triangle_b);
     r.normal_at_rest = normal_ball(plane);
     const Ball offset = Ball::rounded(plane.approx_offset());
     for (std::size_t k = 0; k <= over.degree; ++k) {
@@ -272,7 +143,7 @@ const PairEvents::Moved& PairEvents::moved(std::uint32_t triangle_b, const BallM
         for (std::size_t k = 0; k <= over.degree; ++k) {
             const BallMotion::Maps& m = over.maps[k];
             r.corner[i][k] = moved_point(m, r.at_rest[i]);
-            if (!t.edge[i].is_valid()) continue;
+            if (!b_.owns_edge(triangle_b, i)) continue;
             r.direction[i][k] = m.line_direction * u;
             r.moment[i][k] = m.line_moment * moment + m.line_lever * u;
         }
@@ -284,7 +155,7 @@ void PairEvents::find(std::uint32_t triangle_a, std::uint32_t triangle_b, const 
                       EarliestEvents& events) {
     if (over.from > events.latest()) return;
     const Moved& b = moved(triangle_b, over);
-    const Resting a(a_, a_.triangle(triangle_a));
+    const Resting a(a_, triangle_a);
 
     // All corners of one for good on one side of the plane of the other: nothing can happen.
     std::array<BallPolynomial, 3> b_over_a;
@@ -329,20 +200,6 @@ void PairEvents::find(std::uint32_t triangle_a, std::uint32_t triangle_b, const 
         for (std::size_t j = 0; j < 3; ++j)
             if (b_.owns_edge(triangle_b, j))
                 edges({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, a, over, events);
-    }
-}
-
-void PairEvents::find_exactly(std::uint32_t triangle_a, std::uint32_t triangle_b,
-                              const TimeInterval& interval, EarliestEvents& events) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (b_.owns_vertex(triangle_b, i))
-            decide({Kind::VertexFace, triangle_a, triangle_b, 0, i}, interval, events);
-        if (a_.owns_vertex(triangle_a, i))
-            decide({Kind::FaceVertex, triangle_a, triangle_b, i, 0}, interval, events);
-        if (!a_.owns_edge(triangle_a, i)) continue;
-        for (std::size_t j = 0; j < 3; ++j)
-            if (b_.owns_edge(triangle_b, j))
-                decide({Kind::EdgeEdge, triangle_a, triangle_b, i, j}, interval, events);
     }
 }
 
@@ -451,99 +308,6 @@ void PairEvents::narrow(const Features& f, const BallMotion& over, const Scalars
         decide_left();
     else if (!any)
         ++detail::counters_of_thread<MotionCounters>.filtered;
-}
-
-IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
-    const ModelTriangle& ta = a_.triangle(f.triangle_a);
-    const ModelTriangle& tb = b_.triangle(f.triangle_b);
-    const Brep& brep_a = a_.data().brep;
-    const Brep& brep_b = b_.data().brep;
-    ExactPoints points;
-    if (f.kind == Kind::VertexFace) {
-        points.add(brep_b.point(tb.vertex[f.j]));
-        const Plane& plane = brep_a.plane(ta.face);
-        IntegerPolynomial r = combined(moving_path(motion_, points, 0), exact_normal(plane));
-        r.add_multiple(motion_.point.weight, to_gmp(plane.offset()) * points.weight);
-        return r;
-    }
-    if (f.kind == Kind::FaceVertex) {
-        points.add(brep_a.point(ta.vertex[f.i]));
-        const Plane& plane = brep_b.plane(tb.face);
-        const MpzVector normal = exact_normal(plane);
-        IntegerPolynomial r = combined(times(motion_.plane_normal, normal), points.xyz[0]);
-        IntegerPolynomial offset = motion_.plane_offset * to_gmp(plane.offset());
-        offset -= combined(motion_.plane_shift, normal);
-        r.add_multiple(offset, points.weight);
-        return r;
-    }
-    points.add(brep_a.point(ta.vertex[f.i]));
-    points.add(brep_a.point(ta.vertex[next_of_three(f.i)]));
-    ExactPoints of_b;
-    of_b.add(brep_b.point(tb.vertex[f.j]));
-    of_b.add(brep_b.point(tb.vertex[next_of_three(f.j)]));
-    // The line through x / w and y / w: direction w (y - x), moment x × y, both times 1 / w^2.
-    const auto direction = [](const ExactPoints& p) {
-        MpzVector u = difference(p.xyz[1], p.xyz[0]);
-        for (mpz_class& c : u) c *= p.weight;
-        return u;
-    };
-    const MpzVector ub = direction(of_b);
-    const MpzVector mb = cross(of_b.xyz[0], of_b.xyz[1]);
-    PolynomialVector moment = times(motion_.line_moment, mb);
-    const PolynomialVector lever = times(motion_.line_lever, ub);
-    for (std::size_t i = 0; i < 3; ++i) moment[i] += lever[i];
-    return combined(moment, direction(points)) +
-           combined(times(motion_.line_direction, ub), cross(points.xyz[0], points.xyz[1]));
-}
-
-void PairEvents::decide(const Features& f, const TimeInterval& interval, EarliestEvents& events) {
-    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
-    ++counters.exact;
-    const IntegerPolynomial p = coplanarity_of(f);
-    if (p.is_zero()) {
-        ++counters.coplanar;
-        return;
-    }
-    for (RealRoot& s : isolate_roots(p, interval.from, interval.to)) add_if_they_meet(f, s, events);
-}
-
-void PairEvents::add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents& events) {
-    const ModelTriangle& ta = a_.triangle(f.triangle_a);
-    const ModelTriangle& tb = b_.triangle(f.triangle_b);
-    const auto add_points = [](ExactPoints& points, const EventModel& model,
-                               const ModelTriangle& t) {
-        for (const VertexId v : t.vertex) points.add(model.data().brep.point(v));
-    };
-    ExactPoints points;
-    FeaturePair pair;
-    if (f.kind == Kind::EdgeEdge) {
-        const Brep& brep_a = a_.data().brep;
-        const Brep& brep_b = b_.data().brep;
-        points.add(brep_a.point(ta.vertex[f.i]));
-        points.add(brep_a.point(ta.vertex[next_of_three(f.i)]));
-        points.add(brep_b.point(tb.vertex[f.j]));
-        points.add(brep_b.point(tb.vertex[next_of_three(f.j)]));
-        const MovingEdge a{{resting_path(motion_, points, 0), resting_path(motion_, points, 1)},
-                           constant(difference(points.xyz[1], points.xyz[0]))};
-        const MovingEdge b{{moving_path(motion_, points, 2), moving_path(motion_, points, 3)},
-                           times(motion_.point.matrix, difference(points.xyz[3], points.xyz[2]))};
-        if (!cross_within_at(s, a, b)) return;
-        pair = {side(ta, f.i), side(tb, f.j)};
-    } else {
-        const bool of_b = f.kind == Kind::VertexFace;
-        const ModelTriangle& tv = of_b ? tb : ta;
-        const ModelTriangle& tf = of_b ? ta : tb;
-        const std::size_t i = of_b ? f.j : f.i;
-        points.add((of_b ? b_ : a_).data().brep.point(tv.vertex[i]));
-        add_points(points, of_b ? a_ : b_, tf);
-        const MovingVertexAndTriangle m = vertex_and_triangle(motion_, points, !of_b);
-        const std::array<int, 3> sides = sides_at(s, m.point, m.triangle);
-        if (std::any_of(sides.begin(), sides.end(), [](int v) { return v < 0; })) return;
-        pair = of_b ? FeaturePair{feature_on(tf, sides), corner(tv, i)}
-                    : FeaturePair{corner(tv, i), feature_on(tf, sides)};
-    }
-    ++detail::counters_of_thread<MotionCounters>.contacts;
-    events.add(s, pair);
 }
 
 }  // namespace trisect::detail

@@ -4,41 +4,17 @@
 // They are computed in doubles first, and exactly where these cannot decide.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include <trisect/bsp/interference/motion/ball_motion.h>
 #include <trisect/bsp/interference/motion/contact_event.h>
+#include <trisect/bsp/interference/motion/event_model.h>
 #include <trisect/bsp/interference/motion/feature_contact.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
-#include <trisect/bsp/interference/relation/interference_model_data.h>
 
 namespace trisect::detail {
-
-/// A model as events see it: every vertex and every edge belongs to one of its triangles, so that
-/// a pair of features is looked at with one pair of triangles only.
-class EventModel {
-public:
-    explicit EventModel(const InterferenceModelData& data);
-
-    [[nodiscard]] const InterferenceModelData& data() const { return *data_; }
-    [[nodiscard]] const ModelTriangle& triangle(std::uint32_t t) const {
-        return data_->triangles[t];
-    }
-    [[nodiscard]] bool owns_vertex(std::uint32_t t, std::size_t i) const {
-        return (owned_[t] >> i & 1U) != 0;
-    }
-    [[nodiscard]] bool owns_edge(std::uint32_t t, std::size_t i) const {
-        return (owned_[t] >> (3 + i) & 1U) != 0;
-    }
-    [[nodiscard]] BallVector position(VertexId v) const;
-
-private:
-    const InterferenceModelData* data_;
-    std::vector<std::uint8_t> owned_;
-};
 
 /// Events are isolated times of contact: a vertex on a closed triangle, or the interiors of two
 /// edges crossing, when they have not been coplanar for good. Those are enough. Where solids begin
@@ -83,6 +59,7 @@ private:
     void edges(const Features& f, const Resting& a, const BallMotion& over, EarliestEvents& events);
     void narrow(const Features& f, const BallMotion& over, const Scalars& scalars,
                 EarliestEvents& events);
+    // The exact stage, in exact_pair_events.cpp.
     void decide(const Features& f, const TimeInterval& interval, EarliestEvents& events);
     [[nodiscard]] IntegerPolynomial coplanarity_of(const Features& f) const;
     void add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents& events);

@@ -41,12 +41,10 @@ Vector3 unit_or_zero(const Vector3& v) {
 
 bool SweptSeparation::are_apart(std::uint32_t triangle_a, std::uint32_t triangle_b) {
     if (moved_ != triangle_b) move(triangle_b);
-    TriangleCorners p;
+    const TriangleCorners p = a_.corners_of(triangle_a);
     std::array<BallVector, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = a_.position(a_.triangles[triangle_a].vertex[i]);
+    for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) corners[i][k] = Ball(p[i][k], a_.position_error);
-    }
     const TriangleCorners& q = in_the_middle_;
     const ClosestPoints closest = closest_points(p, q);
     const Vector3 way = weighted(q, closest.on_q) - weighted(p, closest.on_p);
@@ -62,8 +60,9 @@ bool SweptSeparation::are_apart(std::uint32_t triangle_a, std::uint32_t triangle
 
 void SweptSeparation::move(std::uint32_t triangle_b) {
     moved_ = triangle_b;
+    const TriangleCorners at_rest = b_.corners_of(triangle_b);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vector3& x = b_.position(b_.triangles[triangle_b].vertex[i]);
+        const Vector3& x = at_rest[i];
         in_the_middle_[i] = middle_.map(x);
         const double e = b_.position_error;
         const BallVector ball{Ball(x[0], e), Ball(x[1], e), Ball(x[2], e)};

@@ -9,15 +9,15 @@
 #include <trisect/bsp/interference/boxes/triangle_filter.h>
 #include <trisect/bsp/interference/motion/ball_motion.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
-#include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/interference/relation/boundary.h>
 
 namespace trisect::detail {
 
 class SweptSeparation {
 public:
     /// During the interval of `over`; `middle` is its swept map. All must outlive this.
-    SweptSeparation(const InterferenceModelData& a, const InterferenceModelData& b,
-                    const BallMotion& over, const SweptMap& middle, double margin)
+    SweptSeparation(const Boundary& a, const Boundary& b, const BallMotion& over,
+                    const SweptMap& middle, double margin)
         : a_(a), b_(b), over_(over), middle_(middle), margin_(margin) {}
 
     /// Whether the triangles are certainly farther than the margin from each other all the time, in
@@ -31,12 +31,12 @@ private:
     [[nodiscard]] bool is_separated_along(const std::array<double, 3>& direction,
                                           const std::array<BallVector, 3>& corners) const;
 
-    const InterferenceModelData& a_;
-    const InterferenceModelData& b_;
+    const Boundary& a_;
+    const Boundary& b_;
     const BallMotion& over_;
     const SweptMap& middle_;
     double margin_;
-    std::uint32_t moved_ = EntityId<void>::none;
+    std::uint32_t moved_ = 0xffffffffU;
     std::array<Path, 3> paths_;
     TriangleCorners in_the_middle_{};
 };

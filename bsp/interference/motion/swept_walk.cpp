@@ -150,8 +150,8 @@ SweptWalk::Pairs SweptWalk::meeting(const ObbPose& pose, const Pairs& front) {
 
 void SweptWalk::divide(const ObbPose& pose, double sweep, const Pair& p, Pairs& stack,
                        Pairs& leaves, Pairs& coarse) {
-    const bool a_is_leaf = a_.child(p.a).is_leaf();
-    const bool b_is_leaf = b_.child(p.b).is_leaf();
+    const bool a_is_leaf = a_.is_leaf(p.a);
+    const bool b_is_leaf = b_.is_leaf(p.b);
     if (a_is_leaf && b_is_leaf) {
         leaves.push_back(p);
         return;

@@ -10,11 +10,14 @@
 #include <cstdint>
 #include <vector>
 
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/first_contact.h>
+#include <trisect/bsp/interference/solid_motion.h>
 
 #include "engines/engines.h"
 #include "reference/random_solids.h"
 #include "support/models.h"
+#include "support/solids.h"
 
 namespace {
 
@@ -58,6 +61,27 @@ TEST(MotionsOfDegreeTen, BlocksFaceToFaceEdgeToEdgeAndCornerToCorner) {
     EXPECT_TRUE(found({2, 0, 0}, {-1, 0, 0}).exists());      // at the end
     EXPECT_FALSE(found({2, 2, 0}, {-1024, 0, 0}).exists());  // past it
     EXPECT_TRUE(found({2, 1, 0}, {-1024, 0, 0}).exists());   // grazing
+}
+
+// On their own trees, in cells of few polygons.
+TEST(MotionsOfDegreeTen, OfSolids) {
+    trisect::EvaluateOptions options;
+    options.leaf_polygons = 3;
+    const trisect::Solid notched = evaluate(trisect::Expression(solids::box(0, 4)) -
+                                                trisect::Expression(solids::box(-1, 1, 1, 2, 3, 3)),
+                                            options);
+    const trisect::Solid pin = solids::box(0, 1);
+    const auto found = [&](const std::array<double, 3>& from) {
+        const Motion motion = shifted(from, {4096, 0, 0}, degree);
+        const auto c = first_contact(notched, Motion(), pin, motion);
+        EXPECT_EQ(c.time, first_contact(InterferenceModel(notched), Motion(),
+                                        InterferenceModel(pin), motion)
+                              .time);
+        return c;
+    };
+    EXPECT_EQ(found({-3, 1.5, 1.5}).time, AlgebraicNumber(ExactRational(1).scaled(-1)));
+    EXPECT_FALSE(found({-5, 0, 0}).witnesses.empty());
+    EXPECT_FALSE(found({-5, 9, 0}).exists());
 }
 
 TEST(MotionsOfDegreeTen, MeetAtTheTenthRootOfTheTimeOfStraightOnes) {
