@@ -33,25 +33,17 @@ public:
     Chord(const TriangleCorners& t, const TriangleCorners& other, double g, double error) {
         const Vector3 n = cross(minus(other[1], other[0]), minus(other[2], other[0]));
         const double bound = difference_determinant_bound(g, 2 * error);
-        std::array<double, 3> value{};
-        for (std::size_t i = 0; i < 3; ++i) value[i] = dot(n, minus(t[i], other[0]));
+        std::array<int, 3> side{};
+        for (std::size_t i = 0; i < 3; ++i)
+            side[i] = certain_sign(dot(n, minus(t[i], other[0])), bound);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
-            const int from = certain_sign(value[i], bound);
-            const int to = certain_sign(value[j], bound);
-            if (from == 0 || to == 0) return;
-            if (from == to) continue;
-            const double way = std::fabs(value[i] - value[j]);
-            if (!(way > 64 * bound) || count_ == 2) return;
-            const double s = std::fabs(value[i]) / way;
-            const Vector3 side = minus(t[j], t[i]);
-            const double length = largest_component(side);
-            for (std::size_t k = 0; k < 3; ++k) ends_[count_].at[k] = t[i][k] + s * side[k];
-            const double size = largest_component(t[i]) + length;
-            error_ =
-                std::max(error_, bound_slack * (length * (2.1 * bound / way + 4 * unit_roundoff) +
-                                                error + 4 * unit_roundoff * size));
-            ++count_;
+            if (side[i] == 0 || side[j] == 0) return;
+            if (side[i] == side[j]) continue;
+            const auto end = side_in_plane(t[i], t[j], other, g, error);
+            if (!end || count_ == 2) return;
+            ends_[count_++].at = end->at;
+            error_ = std::max(error_, end->error);
         }
         is_good_ = count_ == 2;
     }
@@ -67,6 +59,24 @@ private:
 };
 
 }  // namespace
+
+std::optional<CrossingPlace> side_in_plane(const Vector3& p, const Vector3& q,
+                                           const TriangleCorners& t, double g, double error) {
+    const Vector3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const double bound = difference_determinant_bound(g, 2 * error);
+    const double from = dot(n, minus(p, t[0]));
+    const double way = from - dot(n, minus(q, t[0]));
+    if (!(std::fabs(way) > 64 * bound)) return std::nullopt;
+    const double s = from / way;
+    if (!(s > -1 && s < 2)) return std::nullopt;
+    const Vector3 side = minus(q, p);
+    const double length = largest_component(side);
+    CrossingPlace place;
+    for (std::size_t k = 0; k < 3; ++k) place.at[k] = p[k] + s * side[k];
+    place.error = bound_slack * (length * (4.2 * bound / std::fabs(way) + 4 * unit_roundoff) +
+                                 3 * error + 4 * unit_roundoff * (largest_component(p) + length));
+    return place;
+}
 
 std::optional<CrossingPlace> crossing_place(const TriangleCorners& p, const TriangleCorners& q,
                                             double error) {

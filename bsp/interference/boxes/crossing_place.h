@@ -17,6 +17,14 @@ struct CrossingPlace {
     double error = 0;
 };
 
+/// Where the line of a side, from p to q, meets the plane of a triangle. `error` bounds the error
+/// of a coordinate of each point, `g` differences between points of both. Nothing where doubles put
+/// it badly.
+[[nodiscard]] std::optional<CrossingPlace> side_in_plane(const std::array<double, 3>& p,
+                                                         const std::array<double, 3>& q,
+                                                         const TriangleCorners& t, double g,
+                                                         double error);
+
 /// About the middle of the common segment. `error` bounds the error of a coordinate of each of p
 /// and q. Nothing where doubles put it badly. \pre the triangles certainly cross
 [[nodiscard]] std::optional<CrossingPlace> crossing_place(const TriangleCorners& p,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Triangles here are parts of polygons in cells: sides may be walls of cells, or diagonals, and a
-// point on one of those is nothing special of the boundary. So no name of a side counts. What meets
-// at a point is put together by the point itself: doubles distinguish most of them, rationals the
-// rest. All triangles that contain a common point of the boundaries are in pairs that meet there,
-// so the set at each point is complete, and the cones there (contact_cones.h) need nothing else.
+// point on one of those is nothing special of the boundary. So what meets at a point is put
+// together by the point itself: by the corners of the features that meet, where these are doubles;
+// then doubles distinguish most points, and rationals the rest. All triangles that contain a common
+// point of the boundaries are in pairs that meet there, so the set at each point is complete, and
+// the cones there (contact_cones.h) need nothing else.
 //
 // Every piece of either boundary that touches the other one has such a point in its closure,
 // because the contact set is a complex of points, segments and polygons; the corners of the
@@ -14,10 +15,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include <trisect/bsp/interference/boxes/crossing_place.h>
 #include <trisect/bsp/interference/relation/contact_cones.h>
 #include <trisect/bsp/interference/tree/point_gap.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
@@ -46,76 +51,159 @@ void ExactContacts::compare(const PolygonId& a, const PolygonId& b) {
         }
 }
 
-ExactPlace ExactContacts::exact_place_of(const Incidence& i) const {
-    const MeetingTriangles& m = meetings_[i.meeting];
-    return place_of(a_[m.a].posed(), b_[m.b].posed(), poses_, m.contact.points[i.point]);
+namespace {
+
+// Writes the ends of a side, the smaller one first; false when they are not known in doubles.
+bool put_side(const ExactTriangles::Triangle& t, std::size_t side, PlaceName& name,
+              std::size_t first) {
+    const Approximation& p = t.corner[side].approximation();
+    const Approximation& q = t.corner[(side + 1) % 3].approximation();
+    if (p.error != 0 || q.error != 0) return false;
+    const auto& [low, high] = std::minmax(p.c, q.c);
+    std::ranges::copy(low, name.corners.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::copy(high, name.corners.begin() + static_cast<std::ptrdiff_t>(first) + 3);
+    return true;
 }
 
-ExactContacts::Incidence ExactContacts::incidence(std::uint32_t meeting, std::uint8_t point) const {
+bool put_corner(const ExactTriangles::Triangle& t, std::size_t corner, PlaceName& name) {
+    const Approximation& p = t.corner[corner].approximation();
+    if (p.error != 0) return false;
+    std::ranges::copy(p.c, name.corners.begin());
+    return true;
+}
+
+}  // namespace
+
+PlaceName ExactContacts::place_name(std::uint32_t meeting, std::uint8_t point) const {
     const MeetingTriangles& m = meetings_[meeting];
     const MeetingPoint& p = m.contact.points[point];
-    Incidence out{{}, 0, meeting, point};
-    std::optional<Approximation> known;
-    if (p.a.is_corner())
-        known = a_[m.a].corner[p.a.index()].approximation();
-    else if (p.b.is_corner() && poses_.to_a.has_doubles())
-        known = poses_.to_a.move(b_[m.b].corner[p.b.index()].approximation());
-    if (known) {
-        out.at = known->c;
-        out.error = known->error;
-        return out;
+    const ExactTriangles::Triangle& a = a_[m.a];
+    const ExactTriangles::Triangle& b = b_[m.b];
+    enum Kind : std::uint8_t { None, CornerOfA, CornerOfB, Sides, SideOfA, SideOfB };
+    PlaceName name;
+    Kind kind = None;
+    if (p.a.is_corner()) {
+        if (put_corner(a, p.a.index(), name)) kind = CornerOfA;
+    } else if (p.b.is_corner()) {
+        if (put_corner(b, p.b.index(), name)) kind = CornerOfB;
+    } else if (p.a.is_side() && p.b.is_side()) {
+        if (put_side(a, p.a.index(), name, 0) && put_side(b, p.b.index(), name, 6)) kind = Sides;
+    } else if (p.a.is_side()) {
+        name.polygon = b.polygon;
+        if (put_side(a, p.a.index(), name, 0)) kind = SideOfA;
+    } else {
+        name.polygon = a.polygon;
+        if (put_side(b, p.b.index(), name, 0)) kind = SideOfB;
     }
-    const ExactPlace place = exact_place_of(out);
-    for (std::size_t k = 0; k < 3; ++k) {
-        out.at[k] = place.c[k].to_double();
-        out.error = std::max(out.error, std::nextafter(unit_roundoff * std::fabs(out.at[k]), 1.0));
-    }
-    return out;
+    name.kind = kind;
+    return name;
 }
 
-const ExactPlace& ExactContacts::exact(MeetingPlace& place, const Incidence& of) {
-    if (!place.exact) place.exact = exact_place_of(of);
+// In A's lattice.
+std::optional<Approximation> ExactContacts::approximate(const MeetingTriangles& m,
+                                                        const MeetingPoint& p) const {
+    const ExactTriangles::Triangle& a = a_[m.a];
+    const ExactTriangles::Triangle& b = b_[m.b];
+    if (p.a.is_corner()) return a.corner[p.a.index()].approximation();
+    if (!poses_.to_a.has_doubles()) return std::nullopt;
+    if (p.b.is_corner()) return poses_.to_a.move(b.corner[p.b.index()].approximation());
+    TriangleCorners of_a;
+    TriangleCorners of_b;
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Approximation& x = a.corner[i].approximation();
+        const Approximation y = poses_.to_a.move(b.corner[i].approximation());
+        of_a[i] = x.c;
+        of_b[i] = y.c;
+        error = std::max({error, x.error, y.error});
+    }
+    double g = 0;
+    for (const auto& x : of_a)
+        for (const auto& y : of_b) g = std::max(g, largest_component(minus(x, y)));
+    const bool side_of_a = p.a.is_side();
+    const TriangleCorners& t = side_of_a ? of_a : of_b;
+    const std::size_t i = side_of_a ? p.a.index() : p.b.index();
+    const auto place = side_in_plane(t[i], t[(i + 1) % 3], side_of_a ? of_b : of_a, 2 * g, error);
+    if (!place) return std::nullopt;
+    return Approximation{place->at, place->error};
+}
+
+MeetingPlace ExactContacts::place_at(std::uint32_t meeting, std::uint8_t point) {
+    const MeetingTriangles& m = meetings_[meeting];
+    MeetingPlace place{{}, 0, meeting, point};
+    if (const auto known = approximate(m, m.contact.points[point])) {
+        place.at = known->c;
+        place.error = known->error;
+        return place;
+    }
+    const ExactPlace& at = exact(place);
+    for (std::size_t k = 0; k < 3; ++k) {
+        place.at[k] = at.c[k].to_double();
+        place.error =
+            std::max(place.error, std::nextafter(unit_roundoff * std::fabs(place.at[k]), 1.0));
+    }
+    return place;
+}
+
+const ExactPlace& ExactContacts::exact(MeetingPlace& place) const {
+    if (!place.exact) {
+        const MeetingTriangles& m = meetings_[place.meeting];
+        place.exact =
+            place_of(a_[m.a].posed(), b_[m.b].posed(), poses_, m.contact.points[place.point]);
+    }
     return *place.exact;
 }
 
-bool ExactContacts::is_at(MeetingPlace& place, const Incidence& first, const Incidence& other) {
+bool ExactContacts::are_same(MeetingPlace& p, MeetingPlace& q) const {
     for (std::size_t k = 0; k < 3; ++k)
-        if (std::fabs(place.at[k] - other.at[k]) > 1.001 * (place.error + other.error))
-            return false;
-    if (place.error == 0 && other.error == 0) return true;
-    return exact(place, first) == exact_place_of(other);
+        if (std::fabs(p.at[k] - q.at[k]) > 1.001 * (p.error + q.error)) return false;
+    if (p.error == 0 && q.error == 0) return true;
+    return exact(p) == exact(q);
 }
 
-// Incidences by their first coordinates; each one goes to a place that is there, or is a new one.
-void ExactContacts::unite(std::vector<Incidence>& all) {
-    std::ranges::sort(all, [](const Incidence& p, const Incidence& q) {
-        return std::tie(p.at[0], p.meeting, p.point) < std::tie(q.at[0], q.meeting, q.point);
-    });
-    for (const Incidence& i : all) largest_error_ = std::max(largest_error_, i.error);
-    std::vector<std::uint32_t> first;  // incidence of each place
-    std::size_t low = 0;               // places below are too far
-    for (std::uint32_t n = 0; n < all.size(); ++n) {
-        const Incidence& i = all[n];
-        while (low < places_.size() && i.at[0] - places_[low].at[0] > 2.01 * largest_error_) ++low;
-        std::size_t at = low;
-        while (at < places_.size() && !is_at(places_[at], all[first[at]], i)) ++at;
-        if (at == places_.size()) {
-            places_.push_back({i.at, i.error, {}, {}, {}});
-            first.push_back(n);
-        }
-        MeetingTriangles& m = meetings_[i.meeting];
-        m.places[i.point] = static_cast<std::uint32_t>(at);
-        add_once(places_[at].a, m.a, m.contact.points[i.point].a);
-        add_once(places_[at].b, m.b, m.contact.points[i.point].b);
+// Of incidences in the order of their names: a place for each name, by first coordinates, and one
+// of all that are the same point.
+void ExactContacts::unite(const std::vector<Incidence>& all) {
+    struct Named {
+        MeetingPlace place;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+    };
+    std::vector<Named> named;
+    for (std::size_t i = 0; i < all.size();) {
+        std::size_t end = i + 1;
+        while (end < all.size() && all[i].name.kind != 0 && all[end].name == all[i].name) ++end;
+        named.push_back({place_at(all[i].meeting, all[i].point), i, end});
+        largest_error_ = std::max(largest_error_, named.back().place.error);
+        i = end;
     }
-    for (std::size_t p = 0; p < places_.size(); ++p) (void)exact(places_[p], all[first[p]]);
+    std::ranges::sort(named, [](const Named& p, const Named& q) {
+        return std::tie(p.place.at[0], p.begin) < std::tie(q.place.at[0], q.begin);
+    });
+    std::size_t low = 0;  // places below are too far
+    for (Named& n : named) {
+        while (low < places_.size() && n.place.at[0] - places_[low].at[0] > 2.01 * largest_error_)
+            ++low;
+        std::size_t at = low;
+        while (at < places_.size() && !are_same(places_[at], n.place)) ++at;
+        if (at == places_.size()) places_.push_back(std::move(n.place));
+        for (std::size_t i = n.begin; i < n.end; ++i) {
+            MeetingTriangles& m = meetings_[all[i].meeting];
+            m.places[all[i].point] = static_cast<std::uint32_t>(at);
+            add_once(places_[at].a, m.a, m.contact.points[all[i].point].a);
+            add_once(places_[at].b, m.b, m.contact.points[all[i].point].b);
+        }
+    }
 }
 
 void ExactContacts::find_places() {
     std::vector<Incidence> all;
     for (std::uint32_t m = 0; m < meetings_.size(); ++m)
         for (std::uint8_t k = 0; k < meetings_[m].contact.count; ++k)
-            all.push_back(incidence(m, k));
+            all.push_back({place_name(m, k), m, k});
+    std::ranges::sort(all, [](const Incidence& p, const Incidence& q) {
+        return std::tie(p.name, p.meeting, p.point) < std::tie(q.name, q.meeting, q.point);
+    });
     unite(all);
     add_others();
 }
@@ -162,8 +250,8 @@ void ExactContacts::add_if_there(MeetingTriangles& meeting, std::uint32_t place)
     if (!has_b && poses_.to_b.has_doubles() && !may_contain(b, poses_.to_b.move(at))) return;
     std::optional<Feature> in_a;
     std::optional<Feature> in_b;
-    if (!has_a && !(in_a = feature_at(a.posed(), *p.exact))) return;
-    if (!has_b && !(in_b = feature_at(b.posed(), moved(*p.exact, poses_.to_b)))) return;
+    if (!has_a && !(in_a = feature_at(a.posed(), exact(p)))) return;
+    if (!has_b && !(in_b = feature_at(b.posed(), moved(exact(p), poses_.to_b)))) return;
     if (in_a) p.a.push_back({meeting.a, *in_a});
     if (in_b) p.b.push_back({meeting.b, *in_b});
     meeting.others.push_back(place);

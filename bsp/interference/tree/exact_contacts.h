@@ -27,9 +27,11 @@ struct TriangleAt {
 struct MeetingPlace {
     std::array<double, 3> at{};  ///< in A's lattice, within `error` in each coordinate
     double error = 0;
-    std::optional<ExactPlace> exact;
-    std::vector<TriangleAt> a;
-    std::vector<TriangleAt> b;
+    std::uint32_t meeting = 0;  ///< two triangles that meet there,
+    std::uint8_t point = 0;     ///< in this point of their contact
+    std::optional<ExactPlace> exact{};
+    std::vector<TriangleAt> a{};
+    std::vector<TriangleAt> b{};
 };
 
 /// Two triangles that meet.
@@ -39,6 +41,15 @@ struct MeetingTriangles {
     TriangleContact contact;
     std::array<std::uint32_t, 6> places{};  ///< of the contact's points
     std::vector<std::uint32_t> others;      ///< further places that both contain
+};
+
+/// Where two features meet, by the corners of the features that are known in doubles: a corner, a
+/// side and a polygon, or two sides.
+struct PlaceName {
+    std::uint8_t kind = 0;  ///< 0: no name
+    std::uint32_t polygon = 0;
+    std::array<double, 12> corners{};
+    friend auto operator<=>(const PlaceName&, const PlaceName&) = default;
 };
 
 /// For one question. Polygons come in pairs: all that may have a common point must come before
@@ -60,24 +71,26 @@ public:
     [[nodiscard]] std::vector<NamedContact> contacts();
 
 private:
+    // A point of a contact, with a name: equal names are equal points.
     struct Incidence {
-        std::array<double, 3> at{};
-        double error = 0;
+        PlaceName name;
         std::uint32_t meeting = 0;
         std::uint8_t point = 0;
     };
 
-    [[nodiscard]] Incidence incidence(std::uint32_t meeting, std::uint8_t point) const;
-    [[nodiscard]] ExactPlace exact_place_of(const Incidence& i) const;
-    [[nodiscard]] const ExactPlace& exact(MeetingPlace& place, const Incidence& of);
-    [[nodiscard]] bool is_at(MeetingPlace& place, const Incidence& first, const Incidence& other);
-    void unite(std::vector<Incidence>& all);
+    [[nodiscard]] PlaceName place_name(std::uint32_t meeting, std::uint8_t point) const;
+    [[nodiscard]] MeetingPlace place_at(std::uint32_t meeting, std::uint8_t point);
+    [[nodiscard]] std::optional<Approximation> approximate(const MeetingTriangles& m,
+                                                           const MeetingPoint& p) const;
+    [[nodiscard]] const ExactPlace& exact(MeetingPlace& place) const;
+    [[nodiscard]] bool are_same(MeetingPlace& p, MeetingPlace& q) const;
+    void unite(const std::vector<Incidence>& all);
     void add_others();
     [[nodiscard]] static bool may_contain(const ExactTriangles::Triangle& t,
                                           const Approximation& at);
     void add_if_there(MeetingTriangles& meeting, std::uint32_t place);
     [[nodiscard]] BoundaryFlags flags_at(const MeetingPlace& place) const;
-    [[nodiscard]] EntityName name_at(const MeetingPlace& place, bool of_a);
+    [[nodiscard]] EntityName name_at(MeetingPlace& place, bool of_a) const;
     void add_segments(const MeetingTriangles& m, std::vector<NamedContact>& out);
     void add_segment(const MeetingTriangles& m, std::uint32_t from, std::uint32_t to,
                      std::vector<NamedContact>& out);

@@ -37,9 +37,17 @@ bool are_on_one_line(const ExactPlace& p, const ExactPlace& q, const ExactPlace&
 
 }  // namespace
 
-EntityName ExactContacts::name_at(const MeetingPlace& place, bool of_a) {
+// A corner of a source is looked for at vertices alone.
+EntityName ExactContacts::name_at(MeetingPlace& place, bool of_a) const {
     std::vector<PolygonId> on = of_a ? polygons_of(a_, place.a) : polygons_of(b_, place.b);
-    const ExactPlace at = of_a ? *place.exact : moved(*place.exact, poses_.to_b);
+    if (const EntityName name = name_of(place_on(on)); name.kind != EntityName::Kind::Vertex)
+        return name;
+    const ExactTriangles& triangles = of_a ? a_ : b_;
+    for (const TriangleAt& t : of_a ? place.a : place.b)
+        if (t.feature.is_corner())
+            return name_of(
+                place_on(on, IndexPoint(triangles[t.triangle].corner[t.feature.index()])));
+    const ExactPlace at = of_a ? exact(place) : moved(exact(place), poses_.to_b);
     return name_of(place_on(on, IndexPoint(at.c)));
 }
 
@@ -59,9 +67,9 @@ void ExactContacts::add_segment(const MeetingTriangles& m, std::uint32_t from, s
                                 std::vector<NamedContact>& out) {
     std::vector<std::uint32_t> on{from, to};
     const auto between = [&](std::uint32_t p) {
-        const ExactPlace& x = *places_[p].exact;
-        const ExactPlace& a = *places_[from].exact;
-        const ExactPlace& b = *places_[to].exact;
+        const ExactPlace& x = exact(places_[p]);
+        const ExactPlace& a = exact(places_[from]);
+        const ExactPlace& b = exact(places_[to]);
         const auto& [low, high] = std::minmax(a, b);
         return low < x && x < high && are_on_one_line(a, b, x);
     };
@@ -70,9 +78,10 @@ void ExactContacts::add_segment(const MeetingTriangles& m, std::uint32_t from, s
             on.push_back(m.places[k]);
     for (const std::uint32_t p : m.others)
         if (between(p)) on.push_back(p);
-    std::ranges::sort(on, [this](std::uint32_t p, std::uint32_t q) {
-        return *places_[p].exact < *places_[q].exact;
-    });
+    if (on.size() > 2)
+        std::ranges::sort(on, [this](std::uint32_t p, std::uint32_t q) {
+            return exact(places_[p]) < exact(places_[q]);
+        });
     for (std::size_t i = 1; i < on.size(); ++i) {
         std::vector<PolygonId> on_a = common_polygons(on[i - 1], on[i], true);
         std::vector<PolygonId> on_b = common_polygons(on[i - 1], on[i], false);
@@ -94,7 +103,7 @@ void ExactContacts::add_segments(const MeetingTriangles& m, std::vector<NamedCon
 
 std::vector<NamedContact> ExactContacts::contacts() {
     std::vector<NamedContact> all;
-    for (const MeetingPlace& p : places_) {
+    for (MeetingPlace& p : places_) {
         const NamedContact c{name_at(p, true), name_at(p, false), 0, false};
         // Insides of faces have more than a point in common, here under the names of other faces in
         // the same planes.
