@@ -2,9 +2,9 @@
 //
 // Exact relation, contacts and distance of two placed solids.
 //
-// By their own trees; no model is made before. Oriented boxes of triangles are kept in the leaves of the solids' cell
-// trees, when a question first enters them, and shared by all solids that share these leaves. So a
-// solid that was just cut is as good as any other one.
+// By their own trees; no model is made before. Oriented boxes of triangles are kept in the leaves
+// of the solids' cell trees, when a question first enters them, and shared by all solids that share
+// these leaves. So a solid that was just cut is as good as any other one.
 #pragma once
 
 #include <array>
