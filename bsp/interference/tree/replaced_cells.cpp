@@ -20,10 +20,6 @@ bool contains(const Cell& a, const Cell& b) {
     return true;
 }
 
-bool is_empty(const DoubleBox& b) {
-    return b.lo[0] > b.hi[0] || b.lo[1] > b.hi[1] || b.lo[2] > b.hi[2];
-}
-
 // Room before everything is made anew, in nodes.
 constexpr std::uint32_t few_dropped = 4096;
 
@@ -80,14 +76,14 @@ bool SolidBoundary::update_cells(std::uint32_t node, const Part& next, ChangedBo
         if (const int lane = lane_of([&](const Cell& c) { return are_equal(c, at.cell); });
             lane >= 0) {
             const Part p = part(*at.node, at.cell, at.turned);
-            if (at.node->size() == 0 || detail::is_empty(p.box)) return false;
+            if (at.node->size() == 0 || p.is_empty()) return false;
             found.emplace_back(ObbId::of(node, static_cast<std::uint32_t>(lane)), p);
             continue;
         }
         if (at.node->size() == 0) continue;
         if (at.node->is_leaf() ||
             lane_of([&](const Cell& c) { return contains(at.cell, c); }) < 0) {
-            if (!detail::is_empty(part(*at.node, at.cell, at.turned).box)) return false;
+            if (!part(*at.node, at.cell, at.turned).is_empty()) return false;
             continue;
         }
         for (int i = 0; i < 2; ++i) {

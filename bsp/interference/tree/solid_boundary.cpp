@@ -38,10 +38,6 @@ void close_lanes(ObbNode& n) {
     for (Float4& h : n.half) h = all_lanes(-1e30F);
 }
 
-bool is_empty(const DoubleBox& b) {
-    return b.lo[0] > b.hi[0] || b.lo[1] > b.hi[1] || b.lo[2] > b.hi[2];
-}
-
 }  // namespace
 
 SolidBoundary::SolidBoundary(const Solid& solid) : base_(std::make_unique<const IndexBase>(solid)) {
@@ -104,8 +100,8 @@ void SolidBoundary::find_bounds() {
             *base_, [](const DoubleBox&) { return true; },
             [&](const LeafInTree& leaf) {
                 if (leaf.node.size() == 0) return;
-                const DoubleBox box = part(leaf.node, leaf.cell, false).box;
-                if (!detail::is_empty(box)) add(box);
+                const Part p = part(leaf.node, leaf.cell, false);
+                if (!p.is_empty()) add(p.box);
             });
     }
     lo = all.lo;
@@ -237,7 +233,7 @@ void SolidBoundary::open_cells(const Part& above, std::uint32_t node) {
     std::uint32_t lane = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Part p = part(*below[i].node, below[i].cell, below[i].turned);
-        if (detail::is_empty(p.box)) continue;
+        if (p.is_empty()) continue;
         part_of_[ObbId::of(node, lane).index] = static_cast<std::uint32_t>(parts_.size());
         parts_.push_back(p);
         put_box(node, lane, p.box);

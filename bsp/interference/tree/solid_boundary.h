@@ -83,6 +83,9 @@ private:
         LeafAt at;  // or an inner node
         DoubleBox box;
         bool is_hull = false;  // of a leaf, after its bounds
+        [[nodiscard]] bool is_empty() const {
+            return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
+        }
     };
     // What is below a box of a leaf that is still closed.
     struct Inner {

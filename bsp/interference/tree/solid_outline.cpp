@@ -72,8 +72,7 @@ std::vector<DoubleBox> SolidBoundary::outline(std::size_t most) const {
     }
     std::vector<DoubleBox> out;
     for (const Part& p : heap)
-        if (p.box.lo[0] <= p.box.hi[0] && p.box.lo[1] <= p.box.hi[1] && p.box.lo[2] <= p.box.hi[2])
-            out.push_back(p.box);
+        if (!p.is_empty()) out.push_back(p.box);
     return out;
 }
 
