@@ -40,9 +40,9 @@ public:
     virtual void replace_a(const Solid& a) = 0;
     virtual void replace_b(const Solid& b) = 0;
     void forget() {
-        if (walk) walk->forget();
-        last_apart.reset();
-        if (reserve) reserve->clear();
+        if (walk_) walk_->forget();
+        last_apart_.reset();
+        if (reserve_) reserve_->clear();
     }
 
 protected:
@@ -50,13 +50,13 @@ protected:
     void begin(const detail::Boundary& a, const detail::Boundary& b) {
         a_ = &a;
         b_ = &b;
-        last_apart.reset();
-        walk.emplace(a, b);
-        reserve.emplace(a, b);
+        last_apart_.reset();
+        walk_.emplace(a, b);
+        reserve_.emplace(a, b);
     }
     void end() {
-        walk.reset();
-        reserve.reset();
+        walk_.reset();
+        reserve_.reset();
     }
     // Whatever the walk says.
     [[nodiscard]] virtual Relation exact(const Pose& pose_a, const Pose& pose_b) = 0;
@@ -64,22 +64,22 @@ protected:
     [[nodiscard]] virtual std::optional<Relation> apart(const Pose& pose_a, const Pose& pose_b,
                                                         const detail::ApproximateMap& map) = 0;
 
-    std::optional<CoherentWalk> walk;
-    std::optional<Relation> last_apart;  // the relation, when the walk's last answer was apart
-    std::optional<detail::MotionBound> reserve;
+    std::optional<CoherentWalk> walk_;
+    std::optional<Relation> last_apart_;  // the relation, when the walk's last answer was apart
+    std::optional<detail::MotionBound> reserve_;
 
 private:
     [[nodiscard]] Relation ask_walk(const Pose& pose_a, const Pose& pose_b);
     [[nodiscard]] CoherentWalk::Answer walk_to(const detail::ApproximateMap& map);
     [[nodiscard]] Relation ask_exactly(const Pose& pose_a, const Pose& pose_b) {
         ++counters().exact;
-        last_apart.reset();
+        last_apart_.reset();
         return exact(pose_a, pose_b);
     }
 
     const detail::Boundary* a_ = nullptr;
     const detail::Boundary* b_ = nullptr;
-    Relation reserved = Relation::Disjoint;  // the relation that the reserve is for
+    Relation reserved_ = Relation::Disjoint;  // the relation that the reserve is for
 };
 
 namespace {
@@ -116,19 +116,19 @@ public:
         begin_anew();
     }
     void replace_a(const Solid& a) override {
-        replace(a_, a, [this](const detail::ChangedBoxes& c) { walk->a_has_changed(c); });
+        replace(a_, a, [this](const detail::ChangedBoxes& c) { walk_->a_has_changed(c); });
     }
     void replace_b(const Solid& b) override {
-        replace(b_, b, [this](const detail::ChangedBoxes& c) { walk->b_has_changed(c); });
+        replace(b_, b, [this](const detail::ChangedBoxes& c) { walk_->b_has_changed(c); });
     }
 
 private:
     void replace(std::unique_ptr<SolidBoundary>& boundary, const Solid& solid, const auto& note) {
         if (const auto changed = boundary->replace(solid)) {
-            last_apart.reset();
-            if (!walk) return;
+            last_apart_.reset();
+            if (!walk_) return;
             note(*changed);
-            reserve->clear();
+            reserve_->clear();
             return;
         }
         boundary = std::make_unique<SolidBoundary>(solid);
@@ -156,55 +156,55 @@ private:
 
 Relation InterferenceQuery::State::ask(const Pose& pose_a, const Pose& pose_b) {
     ++counters().asked;
-    if (!walk) return Relation::Disjoint;
-    if (reserve->covers(pose_a, pose_b)) {
+    if (!walk_) return Relation::Disjoint;
+    if (reserve_->covers(pose_a, pose_b)) {
         ++counters().kept;
-        return reserved;
+        return reserved_;
     }
     return ask_walk(pose_a, pose_b);
 }
 
 CoherentWalk::Answer InterferenceQuery::State::walk_to(const detail::ApproximateMap& map) {
-    const detail::WalkCounters before = walk->counters();
-    const std::uint64_t fresh_walks = walk->fresh_walks();
-    const std::uint64_t resumed_fronts = walk->resumed_fronts();
-    const CoherentWalk::Answer answer = walk->ask(map);
-    const detail::WalkCounters& after = walk->counters();
+    const detail::WalkCounters before = walk_->counters();
+    const std::uint64_t fresh_walks = walk_->fresh_walks();
+    const std::uint64_t resumed_fronts = walk_->resumed_fronts();
+    const CoherentWalk::Answer answer = walk_->ask(map);
+    const detail::WalkCounters& after = walk_->counters();
     InterferenceQueryCounters& c = counters();
     c.node_tests += after.node_tests - before.node_tests;
     c.plane_tests += after.plane_tests - before.plane_tests;
     c.triangle_pairs += after.triangle_pairs - before.triangle_pairs;
     c.by_balls += after.by_balls - before.by_balls;
-    c.fresh_walks += walk->fresh_walks() - fresh_walks;
-    c.resumed_fronts += walk->resumed_fronts() - resumed_fronts;
+    c.fresh_walks += walk_->fresh_walks() - fresh_walks;
+    c.resumed_fronts += walk_->resumed_fronts() - resumed_fronts;
     return answer;
 }
 
 Relation InterferenceQuery::State::ask_walk(const Pose& pose_a, const Pose& pose_b) {
-    reserve->clear();
+    reserve_->clear();
     const auto map = detail::approximate_map(pose_a, a_->lattice, pose_b, b_->lattice);
     if (!map.is_usable()) {
-        walk->forget();
+        walk_->forget();
         return ask_exactly(pose_a, pose_b);
     }
     const CoherentWalk::Answer answer = walk_to(map);
     const auto keep = [&](Relation relation) {
-        reserved = relation;
-        if (walk->reserve() > 0) reserve->set(pose_a, pose_b, map, walk->reserve());
+        reserved_ = relation;
+        if (walk_->reserve() > 0) reserve_->set(pose_a, pose_b, map, walk_->reserve());
         return relation;
     };
     if (answer == CoherentWalk::Answer::Crossing) {
-        last_apart.reset();
+        last_apart_.reset();
         return keep(Relation::Overlapping);
     }
     if (answer == CoherentWalk::Answer::Apart) {
-        if (walk->is_far())
-            last_apart = Relation::Disjoint;
-        else if (last_apart && walk->is_unmoved())
+        if (walk_->is_far())
+            last_apart_ = Relation::Disjoint;
+        else if (last_apart_ && walk_->is_unmoved())
             ++counters().kept;
         else
-            last_apart = apart(pose_a, pose_b, map);
-        if (last_apart) return keep(*last_apart);
+            last_apart_ = apart(pose_a, pose_b, map);
+        if (last_apart_) return keep(*last_apart_);
     }
     return ask_exactly(pose_a, pose_b);
 }
