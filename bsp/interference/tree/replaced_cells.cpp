@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include <trisect/bsp/interference/tree/clipped_polygon.h>
 #include <trisect/bsp/interference/tree/solid_boundary.h>
 
 namespace trisect::detail {
@@ -34,6 +35,8 @@ std::optional<ChangedBoxes> SolidBoundary::replace(const Solid& solid) {
     const Part all = part(*next, root, Cell{}, next->root().complemented);
     for (std::size_t k = 0; k < 3; ++k)
         if (all.box.lo[k] < lo[k] || all.box.hi[k] > hi[k]) return std::nullopt;
+    // What was the mesh of a source may be clipped from now on.
+    position_error = clipped_error * largest;
     // The old tree lives until all is compared.
     const std::unique_ptr<const IndexBase> before = std::exchange(base_, std::move(next));
     ChangedBoxes changed(boxes.nodes.size());

@@ -125,7 +125,8 @@ void SolidBoundary::set_frame() {
         square += 0.25 * e * e;
     }
     boxes.unit = extent > 0 ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
-    boxes.radius = bound_slack * (std::sqrt(square) + 2 * position_error) / boxes.unit + 0x1p-40;
+    boxes.radius =
+        bound_slack * (std::sqrt(square) + 2 * clipped_error * largest) / boxes.unit + 0x1p-40;
     // Boxes that stick out farther are replaced by others.
     boxes.reach = 1.5 * boxes.radius;
 }

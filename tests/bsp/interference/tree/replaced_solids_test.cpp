@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -17,6 +18,7 @@
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/tree/boxes_counters.h>
+#include <trisect/bsp/interference/tree/solid_boundary.h>
 #include <trisect/kernel/diagnostics.h>
 
 #include "reference/random_solids.h"
@@ -154,6 +156,22 @@ TEST(ReplacedSolids, CavitiesAndIslandsCutLoose) {
     EXPECT_GT(seen[Relation::Contains] + seen[Relation::Overlapping], 3);
     cut(solids::box(-1, 33));
     EXPECT_TRUE(part.is_empty());
+}
+
+// A fresh mesh has its corners in doubles; what a cut leaves of it has not.
+TEST(ReplacedSolids, ErrorsOfPositionsHoldAfterTheFirstCut) {
+    const Solid mesh = solids::ball(1, 4);
+    trisect::detail::SolidBoundary boundary(mesh);
+    EXPECT_EQ(boundary.position_error, 0);
+    const Solid cut =
+        evaluate(Expression(mesh) - Expression(solids::ball(0.3, 3, {0.6, 0.6, 0.3})));
+    ASSERT_TRUE(boundary.replace(cut).has_value());
+    const std::uint32_t triangles = boundary.open_all();
+    double most = 0;
+    for (std::uint32_t t = 0; t < triangles; ++t)
+        most = std::max(most, boundary.origin(t).leaf->error());
+    EXPECT_GT(most, 0);
+    EXPECT_LE(most, boundary.position_error);
 }
 
 TEST(ReplacedSolids, LookAtWhatIsNewOnly) {
