@@ -5,6 +5,8 @@
 // how bad it is.
 #include "mill_checks.h"
 
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
@@ -13,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "values.h"
 
@@ -26,6 +29,22 @@ const char* const holder_name = "holder";
 
 bool is_overlap(Relation relation) {
     return relation != Relation::Disjoint && relation != Relation::Touching;
+}
+
+/// What a solid has in the other one's box, or a little more; on the first one's lattice.
+Solid part_near(const Solid& of, const Solid& other) {
+    const auto box = bounds(other.to_mesh());
+    if (!box) return Solid();
+    const double unit = std::ldexp(1.0, of.lattice().exponent);
+    Point3d low = box->lo;
+    Point3d high = box->hi;
+    for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = unit * (std::floor(low[k] / unit) - 1);
+        high[k] = unit * (std::ceil(high[k] / unit) + 1);
+    }
+    ImportOptions options;
+    options.lattice = of.lattice();
+    return evaluate(of & Solid::from_lattice_mesh(import_mesh(make_box(low, high), options).mesh));
 }
 
 /// The centroid in doubles: the exact one of many corners takes seconds.
@@ -100,7 +119,8 @@ Json MillChecks::entity_json(const EntityName& entity) const {
 
 void MillChecks::add_place(const Pair& pair, Json& out) const {
     const Solid placed = transformed(pair.a, pair.pose_a);
-    const Solid common = evaluate(placed & pair.b);
+    // The two may have different lattices, and a whole stock takes seconds to move to another one.
+    const Solid common = evaluate(placed & part_near(pair.b, placed));
     const PolygonMesh mesh = common.to_mesh();
     if (const auto box = bounds(mesh)) {
         out["common_volume"] = volume(common);
