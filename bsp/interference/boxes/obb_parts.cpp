@@ -33,11 +33,17 @@
 
 namespace trisect::detail {
 
+namespace {
+
+constexpr std::uint32_t few_samples = 24;
+
+}  // namespace
+
 ObbParts::ObbParts(std::span<const std::array<double, 3>> positions, double error,
                    std::vector<std::array<std::uint32_t, 3>> triangles)
     : corners_(std::move(triangles)) {
     set_unit(positions);
-    slack_ = 0x1p-48 + 2 * (0x1p-50 + error / unit_);
+    slack_ = slack_of(error, unit_);
     points_.reserve(positions.size());
     for (const Vector3& p : positions) {
         Vector3 q = minus(p, origin_);
@@ -45,6 +51,17 @@ ObbParts::ObbParts(std::span<const std::array<double, 3>> positions, double erro
         points_.push_back(q);
         radius_ = std::max(radius_, bound_slack * std::sqrt(dot(q, q)) + slack_);
     }
+    set_items();
+}
+
+ObbParts::ObbParts(std::vector<Vector3> corners, double slack)
+    : slack_(slack), samples_(few_samples), points_(std::move(corners)) {
+    corners_.resize(points_.size() / 3);
+    for (std::uint32_t t = 0; t < corners_.size(); ++t) corners_[t] = {3 * t, 3 * t + 1, 3 * t + 2};
+    set_items();
+}
+
+void ObbParts::set_items() {
     items_.resize(corners_.size());
     for (std::uint32_t t = 0; t < corners_.size(); ++t) {
         items_[t].triangle = t;
@@ -79,7 +96,8 @@ ObbParts::Part ObbParts::part(std::uint32_t begin, std::uint32_t end) const {
         return part;
     }
     AreaMoments m;
-    for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t step = 1 + (end - begin - 1) / samples_;
+    for (std::uint32_t i = begin; i < end; i += step) {
         const std::uint32_t t = items_[i].triangle;
         m.add(corner(t, 0), corner(t, 1), corner(t, 2));
     }

@@ -32,6 +32,14 @@ public:
     /// `triangles` index `positions`, which are within `error` of the exact points; not none.
     ObbParts(std::span<const std::array<double, 3>> positions, double error,
              std::vector<std::array<std::uint32_t, 3>> triangles);
+    /// Three corners for each triangle, one after the other, in units already; halves of boxes grow
+    /// by `slack`. Frames are those of some of the triangles, as any frame will do. There is no
+    /// origin, unit or radius.
+    ObbParts(std::vector<Vector3> corners, double slack);
+    /// What halves of boxes in such units must grow by.
+    [[nodiscard]] static double slack_of(double error, double unit) {
+        return 0x1p-48 + 2 * (0x1p-50 + error / unit);
+    }
 
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(items_.size()); }
     [[nodiscard]] const std::array<double, 3>& origin() const { return origin_; }
@@ -40,6 +48,7 @@ public:
     [[nodiscard]] double radius() const { return radius_; }
 
     [[nodiscard]] Part whole() const { return part(0, size()); }
+    [[nodiscard]] Part part(std::uint32_t begin, std::uint32_t end) const;
     /// Four parts, or fewer where there are not as many with more than `leaf` triangles to divide:
     /// how many.
     [[nodiscard]] std::size_t divide(const Part& part, std::uint32_t leaf,
@@ -66,10 +75,10 @@ private:
     };
 
     void set_unit(std::span<const Vector3> positions);
+    void set_items();
     [[nodiscard]] const Vector3& corner(std::uint32_t t, std::size_t i) const {
         return points_[corners_[t][i]];
     }
-    [[nodiscard]] Part part(std::uint32_t begin, std::uint32_t end) const;
     [[nodiscard]] std::array<Part, 2> halves(const Part& part);
     [[nodiscard]] static float along(const std::array<float, 3>& u, const Item& i) {
         return u[0] * i.center[0] + u[1] * i.center[1] + u[2] * i.center[2];
@@ -79,6 +88,7 @@ private:
     double unit_ = 1;
     double radius_ = 0;
     double slack_ = 0;
+    std::uint32_t samples_ = 0xffffffffU;  // triangles that a frame is made of
     std::vector<std::array<std::uint32_t, 3>> corners_;
     std::vector<Vector3> points_;
     std::vector<Item> items_;

@@ -19,23 +19,31 @@
 namespace trisect::detail {
 
 LeafBoxes::LeafBoxes(const IndexedLeaf& leaf) : leaf_(leaf) {
-    check_stop(1 + leaf.polygons().size());
-    if (const Source* const mesh = leaf.polygons().only_source())
-        take_mesh(*mesh);
-    else
-        take_polygons();
+    const IndexPolygons& all = leaf.polygons();
+    check_stop(1 + all.size());
+    if (all.only_source() == nullptr) take_polygons();
+    const std::size_t count = is_whole_ ? all.size() : triangle_.size();
+    tree_ = std::make_unique<const LeafTree>(*this, static_cast<std::uint32_t>(count),
+                                             bounds(static_cast<std::uint32_t>(count)));
 }
 
-// Of a mesh that nothing happened to, points and triangles are those of the source.
-void LeafBoxes::take_mesh(const Source& source) {
-    const LatticeMesh& mesh = source.mesh();
-    positions_.reserve(mesh.points.size());
-    for (const LatticePoint& p : mesh.points) positions_.push_back(p.doubles());
-    std::vector<std::array<std::uint32_t, 3>> corners(source.facet_count());
-    for (std::uint32_t t = 0; t < corners.size(); ++t)
-        for (int i = 0; i < 3; ++i)
-            corners[t][static_cast<std::size_t>(i)] = source.corner_index(t, i);
-    tree_ = std::make_unique<const LeafTree>(positions_, 0, std::move(corners));
+TriangleCorners LeafBoxes::corners_of(std::uint32_t triangle) const {
+    if (!is_whole_ && triangle_[triangle].clipped != whole)
+        return clipped_[triangle_[triangle].clipped];
+    const IndexPolygons& all = polygons();
+    const Id id = polygon_of(triangle);
+    const Source& source = all.source(id);
+    const std::uint32_t f = all.facet(id);
+    return {source.corner(f, 0).doubles(), source.corner(f, 1).doubles(),
+            source.corner(f, 2).doubles()};
+}
+
+void LeafBoxes::put_corners(std::span<const std::uint32_t> triangles,
+                            std::span<std::array<double, 3>> corners) const {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const TriangleCorners c = corners_of(triangles[i]);
+        for (std::size_t k = 0; k < 3; ++k) corners[3 * i + k] = c[k];
+    }
 }
 
 double LeafBoxes::most_error() const {
@@ -53,25 +61,43 @@ double LeafBoxes::most_error() const {
 void LeafBoxes::take_polygons() {
     const IndexPolygons& all = polygons();
     PolygonClipper clipper(all, most_error());
-    std::vector<std::array<std::uint32_t, 3>> corners;
-    positions_.reserve(3 * std::size_t{all.size()} + 16);
-    corners.reserve(all.size() + 16);
-    polygon_.reserve(all.size() + 16);
+    triangle_.reserve(all.size() + all.size() / 4 + 16);
     for (Id id = 0; id < all.size(); ++id) {
-        const auto first = static_cast<std::uint32_t>(positions_.size());
         if (all.is_triangle(id) && !all.reaches_out(id)) {
-            for (int i = 0; i < 3; ++i) positions_.push_back(all.corner(id, i).doubles());
-        } else {
-            const ClippedPolygon& part = clipper.clip(id);
-            error_ = std::max(error_, part.error);
-            positions_.insert(positions_.end(), part.corners.begin(), part.corners.end());
+            triangle_.push_back({id, whole});
+            continue;
         }
-        for (auto i = first + 2; i < positions_.size(); ++i) {
-            corners.push_back({first, i - 1, i});
-            polygon_.push_back(id);
+        is_whole_ = false;
+        const ClippedPolygon& part = clipper.clip(id);
+        error_ = std::max(error_, part.error);
+        for (std::size_t i = 2; i < part.corners.size(); ++i) {
+            triangle_.push_back({id, static_cast<std::uint32_t>(clipped_.size())});
+            clipped_.push_back({part.corners[0], part.corners[i - 1], part.corners[i]});
         }
     }
-    tree_ = std::make_unique<const LeafTree>(positions_, error_, std::move(corners));
+    if (is_whole_) triangle_.clear();
+    triangle_.shrink_to_fit();
+    clipped_.shrink_to_fit();
+}
+
+LeafTree::Bounds LeafBoxes::bounds(std::uint32_t count) const {
+    LeafTree::Bounds b;
+    b.lo.fill(HUGE_VAL);
+    b.hi.fill(-HUGE_VAL);
+    b.error = error_;
+    const auto take = [&b](const std::array<double, 3>& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            b.lo[k] = std::min(b.lo[k], p[k]);
+            b.hi[k] = std::max(b.hi[k], p[k]);
+        }
+    };
+    if (const Source* const mesh = polygons().only_source()) {
+        for (const LatticePoint& p : mesh->mesh().points) take(p.doubles());
+        return b;
+    }
+    for (std::uint32_t t = 0; t < count; ++t)
+        for (const auto& corner : corners_of(t)) take(corner);
+    return b;
 }
 
 bool LeafBoxes::is_alone_at(Id polygon, const std::array<double, 3>& point, double reach) const {
@@ -106,8 +132,8 @@ std::vector<PolygonId> LeafBoxes::polygons_near(const std::array<double, 3>& poi
 }
 
 std::size_t LeafBoxes::bytes() const {
-    return sizeof(*this) + positions_.capacity() * sizeof(positions_[0]) +
-           polygon_.capacity() * sizeof(Id) + tree_->bytes() +
+    return sizeof(*this) + clipped_.capacity() * sizeof(clipped_[0]) +
+           triangle_.capacity() * sizeof(Triangle) + tree_->bytes() +
            pieces_.capacity() * sizeof(BoundaryPoint);
 }
 

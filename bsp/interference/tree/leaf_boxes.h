@@ -31,7 +31,10 @@ struct BoundaryPoint {
 /// The polygons of a leaf of the cell tree, clipped to its cell, as triangles. In the open cell
 /// these are the boundary; so the triangles of all leaves of a tree are all of it, and have at most
 /// points of their sides in common. Threads may share it.
-class LeafBoxes {
+///
+/// Whole triangles of sources are not copied. 12 bytes a triangle, 72 more for one that was
+/// clipped, and the boxes.
+class LeafBoxes final : public LeafTriangles {
 public:
     using Id = IndexPolygons::Id;
 
@@ -42,17 +45,13 @@ public:
     [[nodiscard]] const IndexPolygons& polygons() const { return leaf_.polygons(); }
     /// Empty when no polygon enters the cell.
     [[nodiscard]] const LeafTree& tree() const { return *tree_; }
-    [[nodiscard]] const std::vector<std::array<double, 3>>& positions() const { return positions_; }
-    /// Of a position; at most clipped_error times the largest coordinate of the leaf's polygons.
+    /// Of a corner; at most clipped_error times the largest coordinate of the leaf's polygons.
     [[nodiscard]] double error() const { return error_; }
     [[nodiscard]] std::uint32_t triangle_count() const { return tree_->size(); }
     [[nodiscard]] Id polygon_of(std::uint32_t triangle) const {
-        return polygon_.empty() ? triangle : polygon_[triangle];
+        return is_whole_ ? triangle : triangle_[triangle].polygon;
     }
-    [[nodiscard]] TriangleCorners corners_of(std::uint32_t triangle) const {
-        const auto& c = tree_->corners(triangle);
-        return {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
-    }
+    [[nodiscard]] TriangleCorners corners_of(std::uint32_t triangle) const;
     /// Whether nothing but one polygon is within `reach`, in each coordinate, of a point, and that
     /// certainly; false near the walls of the cell.
     [[nodiscard]] bool is_alone_at(Id polygon, const std::array<double, 3>& point,
@@ -67,14 +66,23 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    void take_mesh(const Source& source);
+    struct Triangle {
+        Id polygon = 0;
+        std::uint32_t clipped = whole;  // of clipped_
+    };
+    static constexpr std::uint32_t whole = 0xffffffffU;
+
+    void put_corners(std::span<const std::uint32_t> triangles,
+                     std::span<std::array<double, 3>> corners) const override;
     void take_polygons();
     [[nodiscard]] double most_error() const;
+    [[nodiscard]] LeafTree::Bounds bounds(std::uint32_t count) const;
     [[nodiscard]] std::vector<BoundaryPoint> find_pieces() const;
 
     const IndexedLeaf& leaf_;
-    std::vector<std::array<double, 3>> positions_;
-    std::vector<Id> polygon_;  // of triangles; none where the triangles are the polygons
+    bool is_whole_ = true;            // the triangles are the polygons
+    std::vector<Triangle> triangle_;  // if not
+    std::vector<TriangleCorners> clipped_;
     double error_ = 0;
     std::unique_ptr<const LeafTree> tree_;
     mutable std::once_flag pieces_once_;

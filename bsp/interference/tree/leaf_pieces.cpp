@@ -6,6 +6,7 @@
 // harm (see solid_sides.h).
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -50,13 +51,43 @@ std::vector<BoundaryPoint> pieces_of_mesh(const Source& source) {
     return out;
 }
 
-struct CornerOfPolygon {
-    std::array<double, 3> at{};
-    std::uint32_t polygon = 0;
-    std::uint8_t corner = BoundaryPoint::none;
-    friend bool operator<(const CornerOfPolygon& a, const CornerOfPolygon& b) {
-        return std::tie(a.at, a.polygon) < std::tie(b.at, b.polygon);
+// The first polygon with a corner at each place, in an open table.
+class FirstAt {
+public:
+    explicit FirstAt(std::size_t corners) : slots_(std::bit_ceil(2 * corners + 1), none) {
+        entries_.reserve(corners);
     }
+    /// The polygon that came first with this corner, maybe this one.
+    std::uint32_t insert(const std::array<double, 3>& at, std::uint32_t polygon) {
+        std::size_t slot = hash(at);
+        for (;; ++slot) {
+            slot &= slots_.size() - 1;
+            if (slots_[slot] == none) break;
+            const Entry& e = entries_[slots_[slot]];
+            if (e.at == at) return e.polygon;
+        }
+        slots_[slot] = static_cast<std::uint32_t>(entries_.size());
+        entries_.push_back({at, polygon});
+        return polygon;
+    }
+
+private:
+    struct Entry {
+        std::array<double, 3> at{};
+        std::uint32_t polygon = 0;
+    };
+    static constexpr std::uint32_t none = 0xffffffffU;
+
+    // Equal numbers have equal hashes: + 0.0 makes the two zeros one.
+    [[nodiscard]] static std::size_t hash(const std::array<double, 3>& at) {
+        std::uint64_t h = 0;
+        for (const double c : at)
+            h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15U;
+        return static_cast<std::size_t>(h >> 32U);
+    }
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> slots_;
 };
 
 }  // namespace
@@ -71,32 +102,30 @@ std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
         if (!enters[id]) found[id] = {id, BoundaryPoint::none, corners_of(t)[0]};
         enters[id] = true;
     }
-    std::vector<CornerOfPolygon> corners;
+    // A corner of its source, of each polygon that has one in the cell.
+    std::vector<bool> has_corner(all.size(), false);
+    Pieces pieces(all.size());
+    FirstAt first(3 * std::size_t{all.size()});
     const Cell& cell = all.cell();
     for (Id id = 0; id < all.size(); ++id) {
         if (!enters[id]) continue;
         if (all.is_triangle(id)) {
-            for (int i = 0; i < 3; ++i)
-                if (!all.reaches_out(id) || cell.contains(Box::of(all.corner(id, i))))
-                    corners.push_back(
-                        {all.corner(id, i).doubles(), id, static_cast<std::uint8_t>(i)});
+            for (int i = 0; i < 3; ++i) {
+                if (all.reaches_out(id) && !cell.contains(Box::of(all.corner(id, i)))) continue;
+                const std::array<double, 3> at = all.corner(id, i).doubles();
+                pieces.join(id, first.insert(at, id));
+                if (!has_corner[id]) found[id] = {id, static_cast<std::uint8_t>(i), at};
+                has_corner[id] = true;
+            }
         } else {
             for (const Approximation& a : all.approximate_corners(id)) {
                 if (a.error != 0) continue;
                 const LatticePoint p{Coordinate(a.c[0]), Coordinate(a.c[1]), Coordinate(a.c[2])};
                 if (!all.reaches_out(id) || cell.contains(Box::of(p)))
-                    corners.push_back({a.c, id, BoundaryPoint::none});
+                    pieces.join(id, first.insert(a.c, id));
             }
         }
     }
-    std::sort(corners.begin(), corners.end());
-    Pieces pieces(all.size());
-    for (std::size_t i = 1; i < corners.size(); ++i)
-        if (corners[i].at == corners[i - 1].at)
-            pieces.join(corners[i].polygon, corners[i - 1].polygon);
-    for (const CornerOfPolygon& c : corners)
-        if (c.corner != BoundaryPoint::none && pieces.of(c.polygon) == c.polygon)
-            found[c.polygon] = {c.polygon, c.corner, c.at};
     std::vector<BoundaryPoint> out;
     for (Id id = 0; id < all.size(); ++id)
         if (enters[id] && pieces.of(id) == id) out.push_back(found[id]);
@@ -104,7 +133,10 @@ std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
 }
 
 std::span<const BoundaryPoint> LeafBoxes::pieces() const {
-    std::call_once(pieces_once_, [this] { pieces_ = find_pieces(); });
+    std::call_once(pieces_once_, [this] {
+        pieces_ = find_pieces();
+        pieces_.shrink_to_fit();
+    });
     return pieces_;
 }
 

@@ -2,28 +2,60 @@
 
 #include <trisect/bsp/interference/tree/leaf_tree.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
 
-LeafTree::LeafTree(std::span<const std::array<double, 3>> positions, double error,
-                   std::vector<std::array<std::uint32_t, 3>> triangles) {
-    if (!triangles.empty()) parts_ = ObbParts(positions, error, std::move(triangles));
+LeafTree::LeafTree(const LeafTriangles& triangles, std::uint32_t count, const Bounds& bounds)
+    : triangles_(triangles), order_(count) {
+    std::iota(order_.begin(), order_.end(), std::uint32_t{0});
+    if (count == 0) return;
+    double extent = 0;
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double e = bounds.hi[k] - bounds.lo[k];
+        origin_[k] = bounds.lo[k] + 0.5 * e;
+        extent = std::max(extent, e);
+        square += 0.25 * e * e;
+    }
+    unit_ = extent > 0 ? std::ldexp(1.0, std::ilogb(extent)) : 1.0;
+    slack_ = ObbParts::slack_of(bounds.error, unit_);
+    radius_ = bound_slack * std::sqrt(square) / unit_ + slack_;
 }
 
-const LeafTree::Node& LeafTree::divide(const ObbParts::Part& part) const {
-    check_stop(part.size());
+ObbParts LeafTree::parts_of(std::span<const std::uint32_t> triangles) const {
+    std::vector<Vector3> corners(3 * triangles.size());
+    triangles_.put_corners(triangles, corners);
+    const double per_unit = 1 / unit_;  // a power of two
+    for (Vector3& c : corners)
+        for (std::size_t k = 0; k < 3; ++k) c[k] = (c[k] - origin_[k]) * per_unit;
+    return ObbParts(std::move(corners), slack_);
+}
+
+const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
+                                       const AreaFrame* frame) const {
+    check_stop(size);
+    const std::span<std::uint32_t> range = std::span(order_).subspan(begin, size);
+    ObbParts all = parts_of(range);
     std::array<ObbParts::Part, 4> parts;
-    const std::size_t count = parts_.divide(part, 1, parts);
+    const std::size_t count =
+        all.divide(frame != nullptr ? ObbParts::Part{0, size, *frame} : all.whole(), 1, parts);
     auto node = std::make_unique<Node>();
     close_lanes(node->boxes_, count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        parts_.put(parts[i], node->boxes_, i);
-        node->begin_[i] = parts[i].begin;
+        all.put(parts[i], node->boxes_, i);
+        node->begin_[i] = begin + parts[i].begin;
         node->size_[i] = parts[i].size();
     }
+    std::vector<std::uint32_t> order(size);
+    for (std::uint32_t i = 0; i < size; ++i) order[i] = range[all.triangle(i)];
+    std::ranges::copy(order, range.begin());
     nodes_.push_back(std::move(node));
     return *nodes_.back();
 }
@@ -32,7 +64,7 @@ const LeafTree::Node& LeafTree::root() const {
     if (const Node* const known = root_.load(std::memory_order_acquire)) return *known;
     const std::lock_guard lock(dividing_);
     if (const Node* const known = root_.load(std::memory_order_relaxed)) return *known;
-    const Node& made = divide(parts_.whole());
+    const Node& made = divide(0, size(), nullptr);
     root_.store(&made, std::memory_order_release);
     return made;
 }
@@ -41,18 +73,26 @@ const LeafTree::Node& LeafTree::root() const {
 const LeafTree::Node& LeafTree::make_below(const Node& node, std::uint32_t lane) const {
     const std::lock_guard lock(dividing_);
     if (const Node* const known = node.below_[lane].load(std::memory_order_relaxed)) return *known;
-    ObbParts::Part part{node.begin_[lane], node.begin_[lane] + node.size_[lane], {}};
+    AreaFrame frame;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k)
-            part.frame.axis[i][k] = static_cast<double>(node.boxes_.axis[i][k][lane]);
-    const Node& made = divide(part);
+            frame.axis[i][k] = static_cast<double>(node.boxes_.axis[i][k][lane]);
+    const Node& made = divide(node.begin_[lane], node.size_[lane], &frame);
     node.below_[lane].store(&made, std::memory_order_release);
     return made;
 }
 
+ObbNode LeafTree::boxes_of(std::span<const std::uint32_t> triangles) const {
+    const ObbParts all = parts_of(triangles);
+    ObbNode node;
+    close_lanes(node, triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) all.put(all.part(i, i + 1), node, i);
+    return node;
+}
+
 std::size_t LeafTree::bytes() const {
     const std::lock_guard lock(dividing_);
-    return parts_.bytes() + nodes_.size() * (sizeof(Node) + sizeof(void*));
+    return order_.capacity() * sizeof(order_[0]) + nodes_.size() * (sizeof(Node) + sizeof(void*));
 }
 
 }  // namespace trisect::detail

@@ -9,25 +9,41 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/interference/boxes/obb_parts.h>
 #include <trisect/bsp/interference/boxes/obb_tree.h>
+#include <trisect/bsp/interference/boxes/triangle_filter.h>
 
 namespace trisect::detail {
 
-/// The boxes are those of an ObbTree over the same triangles, one triangle a leaf. Threads may
-/// share it. Building one takes some ten nanoseconds a triangle; making the node below a box of n
-/// triangles about 0.2 us times n, once.
+/// The corners of the triangles of a LeafTree.
+class LeafTriangles {
+public:
+    virtual ~LeafTriangles() = default;
+    /// Three for each triangle.
+    virtual void put_corners(std::span<const std::uint32_t> triangles,
+                             std::span<std::array<double, 3>> corners) const = 0;
+};
+
+/// The boxes are those of an ObbTree over the same triangles, as far as some of the triangles show
+/// the directions of all. Four bytes a triangle are kept, and the nodes that walks came to; corners
+/// are taken from where they are. The lowest boxes, of up to `few` triangles together, are made
+/// anew each time. Threads may share it. Making the node below a box of n triangles takes about
+/// 0.2 us times n, once.
 class LeafTree {
 public:
-    /// Up to four boxes. Of a lane with one triangle nothing is below.
+    static constexpr std::uint32_t few = 4;
+
+    /// Up to four boxes.
     class Node {
     public:
         /// Without children.
         [[nodiscard]] const ObbNode& boxes() const { return boxes_; }
         [[nodiscard]] bool is_used(std::uint32_t lane) const { return size_[lane] != 0; }
-        [[nodiscard]] bool is_leaf(std::uint32_t lane) const { return size_[lane] == 1; }
+        /// Whether a lane has so few triangles that no node is below.
+        [[nodiscard]] bool has_few(std::uint32_t lane) const { return size_[lane] <= few; }
 
     private:
         friend class LeafTree;
@@ -37,39 +53,51 @@ public:
         mutable std::array<std::atomic<const Node*>, 4> below_{};
     };
 
-    LeafTree() = default;
-    /// As ObbParts, but without triangles it is empty.
-    LeafTree(std::span<const std::array<double, 3>> positions, double error,
-             std::vector<std::array<std::uint32_t, 3>> triangles);
+    /// Contains all triangles, with coordinates that are within an error of the exact ones.
+    struct Bounds {
+        std::array<double, 3> lo{};
+        std::array<double, 3> hi{};
+        double error = 0;
+    };
 
-    [[nodiscard]] std::uint32_t size() const { return parts_.size(); }
-    [[nodiscard]] const std::array<double, 3>& origin() const { return parts_.origin(); }
-    [[nodiscard]] double unit() const { return parts_.unit(); }
-    [[nodiscard]] double radius() const { return parts_.radius(); }
+    /// `triangles` must outlive this.
+    LeafTree(const LeafTriangles& triangles, std::uint32_t count, const Bounds& bounds);
+
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
+    [[nodiscard]] const std::array<double, 3>& origin() const { return origin_; }
+    [[nodiscard]] double unit() const { return unit_; }
+    [[nodiscard]] double radius() const { return radius_; }
     /// Boxes that together contain all triangles. \pre size() != 0
     [[nodiscard]] const Node& root() const;
-    /// \pre the lane is used and no leaf
+    /// \pre the lane is used and has more than a few triangles
     [[nodiscard]] const Node& below(const Node& node, std::uint32_t lane) const {
         const Node* const known = node.below_[lane].load(std::memory_order_acquire);
         return known != nullptr ? *known : make_below(node, lane);
     }
-    /// \pre is_leaf(lane)
-    [[nodiscard]] std::uint32_t triangle(const Node& node, std::uint32_t lane) const {
-        return parts_.triangle(node.begin_[lane]);
+    /// \pre the lane has few
+    [[nodiscard]] std::span<const std::uint32_t> triangles(const Node& node,
+                                                           std::uint32_t lane) const {
+        return {order_.data() + node.begin_[lane], node.size_[lane]};
     }
-    [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::uint32_t triangle) const {
-        return parts_.corners(triangle);
-    }
+    /// A box for each of these.
+    [[nodiscard]] ObbNode boxes_of(std::span<const std::uint32_t> triangles) const;
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     [[nodiscard]] const Node& make_below(const Node& node, std::uint32_t lane) const;
-    [[nodiscard]] const Node& divide(const ObbParts::Part& part) const;
+    [[nodiscard]] const Node& divide(std::uint32_t begin, std::uint32_t size,
+                                     const AreaFrame* frame) const;
+    [[nodiscard]] ObbParts parts_of(std::span<const std::uint32_t> triangles) const;
 
-    // Nodes are made under the lock. Within the range of a lane that has a node below, what is not
-    // yet divided is permuted then; ranges of one triangle stay.
+    const LeafTriangles& triangles_;
+    std::array<double, 3> origin_{};
+    double unit_ = 1;
+    double radius_ = 0;
+    double slack_ = 0;
+    // Nodes are made under the lock. Within the range of a lane that gets a node, the order changes
+    // then; ranges of few triangles stay.
     mutable std::mutex dividing_;
-    mutable ObbParts parts_;
+    mutable std::vector<std::uint32_t> order_;
     mutable std::vector<std::unique_ptr<const Node>> nodes_;
     mutable std::atomic<const Node*> root_{nullptr};
 };

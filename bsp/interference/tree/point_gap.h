@@ -52,8 +52,8 @@ private:
     bool in_range_ = true;
 };
 
-/// Calls visit(triangle) for triangles in whose boxes is a point within `reach` of the given one,
-/// in each coordinate; until it returns true.
+/// Calls visit(triangle) for triangles in whose boxes, or those of a few of them, is a point within
+/// `reach` of the given one, in each coordinate; until it returns true.
 template <class Visit>
 void for_triangles_near(const LeafTree& tree, const std::array<double, 3>& point, double reach,
                         const Visit& visit) {
@@ -66,10 +66,12 @@ void for_triangles_near(const LeafTree& tree, const std::array<double, 3>& point
         const unsigned near = at.near(n.boxes());
         for (std::uint32_t k = 0; k < 4; ++k) {
             if ((near >> k & 1U) == 0) continue;
-            if (!n.is_leaf(k))
+            if (!n.has_few(k)) {
                 stack.push_back(&tree.below(n, k));
-            else if (visit(tree.triangle(n, k)))
-                return;
+                continue;
+            }
+            for (const std::uint32_t triangle : tree.triangles(n, k))
+                if (visit(triangle)) return;
         }
     }
 }

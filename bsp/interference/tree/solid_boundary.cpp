@@ -195,8 +195,11 @@ std::uint32_t SolidBoundary::open(ObbId id) {
             open_cells(part, node);
     } else {
         const Inner inner = inner_[what];
-        take_node(inner.leaf, leaves_[inner.leaf].boxes->tree().below(*inner.node, inner.lane),
-                  node);
+        const LeafTree& tree = leaves_[inner.leaf].boxes->tree();
+        if (inner.node->has_few(inner.lane))
+            take_few(inner.leaf, tree.triangles(*inner.node, inner.lane), node);
+        else
+            take_node(inner.leaf, tree.below(*inner.node, inner.lane), node);
     }
     boxes.nodes[id.node()].child[id.lane()] = ObbChild::node(node);
     return node;
@@ -261,15 +264,18 @@ void SolidBoundary::open_leaf(const Part& part, std::uint32_t node) {
     take_node(number, leaf.tree().root(), node);
 }
 
+void SolidBoundary::put_lane(const LeafTree& tree, const ObbNode& from, std::uint32_t node,
+                             std::uint32_t lane) {
+    if (!put_box(node, lane, tree.origin(), tree.unit(), from.box(lane)))
+        put_box(node, lane, {lo, hi});
+}
+
 void SolidBoundary::take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node) {
     const LeafTree& tree = leaves_[leaf].boxes->tree();
     for (std::uint32_t lane = 0; lane < 4 && from.is_used(lane); ++lane) {
-        if (!put_box(node, lane, tree.origin(), tree.unit(), from.boxes().box(lane)))
-            put_box(node, lane, {lo, hi});
-        if (from.is_leaf(lane)) {
-            boxes.nodes[node].child[lane] =
-                ObbChild::leaf(static_cast<std::uint32_t>(boxes.order.size()), 1);
-            add_triangle(leaf, tree.triangle(from, lane));
+        put_lane(tree, from.boxes(), node, lane);
+        if (from.has_few(lane) && tree.triangles(from, lane).size() == 1) {
+            boxes.nodes[node].child[lane] = add_triangle(leaf, tree.triangles(from, lane)[0]);
         } else {
             boxes.nodes[node].child[lane] =
                 ObbChild::pending(static_cast<std::uint32_t>(inner_.size()));
@@ -278,13 +284,25 @@ void SolidBoundary::take_node(std::uint32_t leaf, const LeafTree::Node& from, st
     }
 }
 
-void SolidBoundary::add_triangle(std::uint32_t leaf, std::uint32_t triangle) {
+void SolidBoundary::take_few(std::uint32_t leaf, std::span<const std::uint32_t> triangles,
+                             std::uint32_t node) {
+    const LeafTree& tree = leaves_[leaf].boxes->tree();
+    const ObbNode each = tree.boxes_of(triangles);
+    for (std::uint32_t lane = 0; lane < triangles.size(); ++lane) {
+        put_lane(tree, each, node, lane);
+        boxes.nodes[node].child[lane] = add_triangle(leaf, triangles[lane]);
+    }
+}
+
+ObbChild SolidBoundary::add_triangle(std::uint32_t leaf, std::uint32_t triangle) {
     const auto at = static_cast<std::uint32_t>(positions.size());
     for (const auto& corner : leaves_[leaf].boxes->corners_of(triangle))
         positions.push_back(corner);
     boxes.corners.push_back({at, at + 1, at + 2});
-    boxes.order.push_back(static_cast<std::uint32_t>(triangle_of_.size()));
+    const auto number = static_cast<std::uint32_t>(triangle_of_.size());
+    boxes.order.push_back(number);
     triangle_of_.push_back({leaf, triangle});
+    return ObbChild::leaf(number, 1);
 }
 
 std::uint32_t SolidBoundary::open_all() const {

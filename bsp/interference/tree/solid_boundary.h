@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/interference/relation/boundary.h>
@@ -115,11 +116,14 @@ private:
     void open_hull(const Part& part, std::uint32_t node);
     void open_leaf(const Part& part, std::uint32_t node);
     void take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node);
+    void take_few(std::uint32_t leaf, std::span<const std::uint32_t> triangles, std::uint32_t node);
+    void put_lane(const LeafTree& tree, const ObbNode& from, std::uint32_t node,
+                  std::uint32_t lane);
     void put_box(std::uint32_t node, std::uint32_t lane, const DoubleBox& box);
     [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane,
                                const std::array<double, 3>& origin, double unit,
                                const OrientedBox& box);
-    void add_triangle(std::uint32_t leaf, std::uint32_t triangle);
+    [[nodiscard]] ObbChild add_triangle(std::uint32_t leaf, std::uint32_t triangle);
 
     std::unique_ptr<const IndexBase> base_;
     std::uint32_t dropped_ = 0;  // nodes that are no more

@@ -9,6 +9,17 @@ namespace trisect::detail {
 
 namespace {
 
+// Calls visit(p) for all corners, of a mesh once each.
+template <class Visit>
+void for_corners(const LeafBoxes& leaf, const Visit& visit) {
+    if (const Source* const mesh = leaf.polygons().only_source()) {
+        for (const LatticePoint& p : mesh->mesh().points) visit(p.doubles());
+        return;
+    }
+    for (std::uint32_t t = 0; t < leaf.triangle_count(); ++t)
+        for (const auto& p : leaf.corners_of(t)) visit(p);
+}
+
 // Tight boxes of points, cell by cell of a grid over all of them.
 std::vector<DoubleBox> outline_of(const LeafBoxes& leaf, std::size_t side) {
     DoubleBox nothing;
@@ -21,9 +32,9 @@ std::vector<DoubleBox> outline_of(const LeafBoxes& leaf, std::size_t side) {
         }
     };
     DoubleBox all = nothing;
-    for (const auto& p : leaf.positions()) add(all, p);
+    for_corners(leaf, [&](const std::array<double, 3>& p) { add(all, p); });
     std::vector<DoubleBox> cells(side * side * side, nothing);
-    for (const auto& p : leaf.positions()) {
+    for_corners(leaf, [&](const std::array<double, 3>& p) {
         std::size_t cell = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double extent = all.hi[k] - all.lo[k];
@@ -33,7 +44,7 @@ std::vector<DoubleBox> outline_of(const LeafBoxes& leaf, std::size_t side) {
                    static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
         }
         add(cells[cell], p);
-    }
+    });
     std::erase_if(cells, [](const DoubleBox& b) { return b.lo[0] > b.hi[0]; });
     return cells;
 }
