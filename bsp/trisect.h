@@ -48,6 +48,7 @@
 #include <trisect/bsp/interference/refusal.h>
 #include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/interference/solid_motion.h>
+#include <trisect/bsp/interference/solid_regions.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>

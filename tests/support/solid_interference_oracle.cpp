@@ -35,12 +35,6 @@ EvaluateOptions in_cells_of(std::uint32_t leaf_polygons) {
     return options;
 }
 
-Solid solid_in_cells(const Body& body, std::uint32_t leaf_polygons) {
-    std::vector<Solid> solids;
-    for (const auto& operand : body.operands) solids.push_back(engines::solid(operand));
-    return evaluate(engines::formula(body.formula, solids), in_cells_of(leaf_polygons));
-}
-
 using ContactKind = std::tuple<int, int, int, bool>;
 
 std::set<ContactKind> contact_kinds(const std::vector<Contact>& contacts) {
@@ -99,10 +93,16 @@ Relation seen_from_b(Relation r) {
 
 }  // namespace
 
+Solid solid_of(const Body& body, std::uint32_t leaf_polygons) {
+    std::vector<Solid> solids;
+    for (const auto& operand : body.operands) solids.push_back(engines::solid(operand));
+    return evaluate(engines::formula(body.formula, solids), in_cells_of(leaf_polygons));
+}
+
 std::string difference_of_solids(const Scene& scene, std::uint32_t leaf_polygons,
                                  Relation* relation) {
-    const Solid a = solid_in_cells(scene.a, leaf_polygons);
-    const Solid b = solid_in_cells(scene.b, leaf_polygons);
+    const Solid a = solid_of(scene.a, leaf_polygons);
+    const Solid b = solid_of(scene.b, leaf_polygons);
     const InterferenceModel model_a(a);
     const InterferenceModel model_b(b);
     const auto expected =
@@ -122,8 +122,8 @@ std::string difference_of_solids(const Scene& scene, std::uint32_t leaf_polygons
 
 std::string difference_along_cuts(const Scene& scene, std::uint32_t leaf_polygons,
                                   reference::Random& random, int cuts) {
-    Solid a = solid_in_cells(scene.a, leaf_polygons);
-    const Solid b = solid_in_cells(scene.b, leaf_polygons);
+    Solid a = solid_of(scene.a, leaf_polygons);
+    const Solid b = solid_of(scene.b, leaf_polygons);
     if (a.is_empty() || b.is_empty()) return {};
     const InterferenceModel model_b(b);
     trisect::InterferenceQuery query(a, b);

@@ -7,10 +7,14 @@
 #include <string>
 
 #include <trisect/bsp/interference/interference.h>
+#include <trisect/bsp/solid.h>
 
 #include "interference_oracle.h"
 
 namespace brute {
+
+/// A body, evaluated in cells of so few polygons.
+[[nodiscard]] trisect::Solid solid_of(const Body& body, std::uint32_t leaf_polygons);
 
 /// What differs between interfere() of the solids, evaluated in cells of so few polygons, and of
 /// their models; empty when nothing does. Relations both ways, with contacts and without, and the
