@@ -15,15 +15,17 @@
 class ChainCuts {
 public:
     /// A stock of 20 · 4^level triangles. `path`: cuts follow each other along a spiral instead of
-    /// lying all over the stock.
-    ChainCuts(int level, bool path)
-        : path_(path), radius_(std::sqrt(300.0 / (5 * std::pow(4, level)))), level_(level) {}
+    /// lying all over the stock. `small_holder`: the holder is as large as a ball, so that it is
+    /// near to as many facets whatever their number; else it has a quarter of the stock's radius.
+    ChainCuts(int level, bool path, bool small_holder = false)
+        : path_(path), small_holder_(small_holder), radius_(std::sqrt(300.0 / (5 * std::pow(4, level)))), level_(level) {}
 
     [[nodiscard]] trisect::PolygonMesh stock() const { return on_grid(shapes::icosphere(level_)); }
     /// About the origin, beside the stock once it is moved.
-    [[nodiscard]] static trisect::PolygonMesh holder() {
-        return on_grid(scaled(shapes::icosphere(4), 0.25));
+    [[nodiscard]] trisect::PolygonMesh holder() const {
+        return on_grid(scaled(shapes::icosphere(4), holder_radius()));
     }
+    [[nodiscard]] double holder_radius() const { return small_holder_ ? radius_ : 0.25; }
     [[nodiscard]] trisect::PolygonMesh ball_at(const trisect::Point3d& at) const {
         return on_grid(shapes::moved(scaled(ball_, radius_), at));
     }
@@ -68,6 +70,7 @@ private:
     }
 
     bool path_;
+    bool small_holder_;
     double radius_;
     int level_;
     shapes::Random random_{1};

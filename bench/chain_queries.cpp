@@ -4,13 +4,14 @@
 // results. A cut costs what changes; this is about whether queries do, too.
 //
 //     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
-//                   [--rebuild N] [--models] [--bytes] [--count N]
+//                   [--small-holder] [--rebuild N] [--models] [--bytes] [--count N]
 //
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
 // points, one by one and as a batch, and a fresh index beside.
 // --interference: a holder above each cut, by the solids themselves: first placed anew each time,
 // then by a query that goes on. Above the cut its whole rim is equally near, beside it is not.
+// --small-holder: as large as the ball that cuts, so as many facets are near whatever their number.
 // --rebuild: after every so many cuts also what making everything anew takes, CGAL and FCL beside
 // it; with --models an InterferenceModel, too.
 // --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
@@ -61,6 +62,7 @@ struct Options {
     bool interference = false;
     bool models = false;
     bool bytes = false;
+    bool small_holder = false;
 };
 
 Options parsed(int argc, char** argv) {
@@ -88,6 +90,8 @@ Options parsed(int argc, char** argv) {
             o.models = true;
         } else if (arg == "--bytes") {
             o.bytes = true;
+        } else if (arg == "--small-holder") {
+            o.small_holder = true;
         } else {
             throw std::runtime_error("unknown option " + arg);
         }
@@ -113,10 +117,10 @@ class Chain {
 public:
     explicit Chain(const Options& o)
         : options_(o),
-          cuts_(o.level, o.path),
+          cuts_(o.level, o.path, o.small_holder),
           stock_(solid_of(cuts_.stock())),
-          holder_(solid_of(ChainCuts::holder())),
-          rebuild_(ChainCuts::holder(), o.models) {
+          holder_(solid_of(cuts_.holder())),
+          rebuild_(cuts_.holder(), o.models) {
         if (o.refined) stock_.refine();
         (void)BrepIndex(stock_);
         if (o.interference) query_.emplace(stock_, holder_);
@@ -149,18 +153,19 @@ private:
     // little off the stock.
     [[nodiscard]] ChainQuestions questions_at(const Point3d& at) const {
         const double r = cuts_.radius();
+        const double h = cuts_.holder_radius();
         // Turned about the axis that is most across it, by four radii of the cut.
         std::size_t axis = 0;
         for (std::size_t k = 1; k < 3; ++k)
             if (std::fabs(at[k]) < std::fabs(at[axis])) axis = k;
         const std::size_t u = (axis + 1) % 3;
         const std::size_t v = (axis + 2) % 3;
-        Point3d aside = ChainCuts::times(at, 1.25 + 0.1 * r);
+        Point3d aside = ChainCuts::times(at, 1 + h + 0.1 * r);
         const double x = aside[u];
         aside[u] = std::cos(4 * r) * x - std::sin(4 * r) * aside[v];
         aside[v] = std::sin(4 * r) * x + std::cos(4 * r) * aside[v];
         return {ChainCuts::times(at, 1 - 0.9 * r), ChainCuts::times(at, 3),
-                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1.25 + 0.1 * r), aside};
+                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1 + h + 0.1 * r), aside};
     }
 
     void step(int i) {

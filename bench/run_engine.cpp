@@ -10,7 +10,7 @@
 //
 // Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
 // the tools' import is import, and all steps together are the evaluation. --limit ends a chain
-// after so much time: `steps` then says how far it came. --profile also times making the B-rep.
+// after so much time: `steps` then says how far it came; and after so much time no run begins. --profile also times making the B-rep.
 // --write leaves the result's triangles as OFF.
 //
 // With --serve the program waits for a line on its standard input before every run and prints one
@@ -381,10 +381,15 @@ int run(Options options) {
     }
     const auto engine = bench::make_engine(options.engine);
     Job job(options, *engine, std::move(scene));
-    if (options.serve)
+    if (options.serve) {
         serve(job);
-    else
-        for (int i = 0; i < options.runs; ++i) job.run();
+    } else {
+        const Stopwatch whole(CLOCK_MONOTONIC);
+        for (int i = 0; i < options.runs; ++i) {
+            job.run();
+            if (options.limit > 0 && whole.milliseconds() > 1000 * options.limit) break;
+        }
+    }
     std::cout << job.summary() << std::endl;
     return 0;
 }

@@ -13,6 +13,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/kernel/error.h>
 
+#include "cliff_scenes.h"
 #include "shapes.h"
 
 namespace bench {
@@ -319,6 +320,7 @@ Scene hard_scene(const std::string& scene, const std::string& word) {
 
 Scene scene_of(const std::string& name) {
     const std::vector<std::string> words = words_of(name);
+    if (words[0] == "cliff") return cliff_scene(words);
     if (words.size() < 2 || words.size() > 3) unknown(name);
     if (words[0] == "c") return small_cut_scene(name, words);
     if (words[0] == "e") return milling_scene(name, words);
