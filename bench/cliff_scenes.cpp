@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
@@ -37,14 +38,16 @@ constexpr double pi = std::numbers::pi;
     throw trisect::UsageError("no such scene: " + name);
 }
 
+// Also where faces are not convex.
 PolygonMesh in_triangles(const PolygonMesh& mesh) {
+    const trisect::ImportedMesh imported = trisect::import_mesh(mesh);
     PolygonMesh out;
-    out.points = mesh.points;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const auto loop = mesh.face(f);
-        for (std::size_t i = 2; i < loop.size(); ++i)
-            out.add_triangle(loop[0], loop[i - 1], loop[i]);
+    const double unit = std::ldexp(1.0, imported.mesh.lattice.exponent);
+    for (const trisect::LatticePoint& p : imported.mesh.points) {
+        const Point3d c = p.doubles();
+        out.points.push_back({c[0] * unit, c[1] * unit, c[2] * unit});
     }
+    for (const auto& t : imported.mesh.triangles) out.add_triangle(t[0], t[1], t[2]);
     return out;
 }
 
