@@ -33,6 +33,17 @@ namespace detail {
 inline constinit thread_local StopScope* stop_scope_of_thread = nullptr;
 }
 
+/// Asked now and then whether to go on, by the thread that began the scope, from within what takes
+/// long. For programs whose events only that thread may look at: interpreters, user interfaces.
+class StopAttendant {
+public:
+    virtual ~StopAttendant() = default;
+    /// False stops as a flag does. Asked at every eighth look of the thread, which may be some
+    /// hundred nanoseconds or some milliseconds later. Work on other threads goes on meanwhile: set
+    /// a flag as well to stop that soon.
+    [[nodiscard]] virtual bool goes_on() noexcept = 0;
+};
+
 struct StopLimits {
     /// Set by another thread to stop; may be null.
     const std::atomic<bool>* cancel = nullptr;
@@ -42,6 +53,7 @@ struct StopLimits {
     /// Bytes that lists and results of one evaluate() may hold at once, operands and scratch memory
     /// not counted; 0: no limit. Several threads hold more at once than one.
     std::uint64_t max_memory = 0;
+    StopAttendant* attendant = nullptr;  ///< may be null
 };
 
 /// Scopes nest: what stops the outer one stops the inner one too, work counts in both, and the
@@ -56,7 +68,8 @@ public:
         detail::stop_scope_of_thread = this;
     }
     /// \param cancel set by another thread to stop; may be null
-    explicit StopScope(const std::atomic<bool>* cancel) : StopScope(StopLimits{cancel, 0, 0}) {}
+    explicit StopScope(const std::atomic<bool>* cancel)
+        : StopScope(StopLimits{cancel, 0, 0, nullptr}) {}
     StopScope(const StopScope&) = delete;
     StopScope& operator=(const StopScope&) = delete;
     ~StopScope() { detail::stop_scope_of_thread = outer_; }
@@ -72,16 +85,17 @@ public:
     void add(std::uint64_t units) {
         count(units);
         for (const StopScope* s = this; s != nullptr; s = s->outer_) {
-            if (s->is_flag_set()) throw CancelledError();
+            if (s->is_stopped()) throw CancelledError();
             if (s->limits_.max_work != 0 && s->work_ > s->limits_.max_work)
                 throw_spent(s->limits_.max_work);
         }
     }
-    /// Looks at the flags of this scope and those around it; other threads may call it, too.
+    /// Looks at the flags of this scope and those around it; other threads may call it, too, and
+    /// ask no attendant.
     /// \throw CancelledError
     void check_flags() const {
         for (const StopScope* s = this; s != nullptr; s = s->outer_)
-            if (s->is_flag_set()) throw CancelledError();
+            if (s->is_stopped()) throw CancelledError();
     }
 
     /// What this scope and those around it have left.
@@ -114,13 +128,22 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_flag_set() const {
-        return limits_.cancel != nullptr && limits_.cancel->load(std::memory_order_relaxed);
+    [[nodiscard]] bool is_stopped() const {
+        if (limits_.cancel != nullptr && limits_.cancel->load(std::memory_order_relaxed))
+            return true;
+        return limits_.attendant != nullptr && !attendant_goes_on();
+    }
+    [[nodiscard]] bool attendant_goes_on() const {
+        if (owner_ != &detail::stop_scope_of_thread) return true;  // another thread
+        return ++looks_ % 8 != 0 || limits_.attendant->goes_on();
     }
 
     StopScope* outer_;
     StopLimits limits_;
-    mutable std::uint64_t work_ = 0;  // also of scopes that are constants
+    /// The variable of the thread that began this; its address stands for the thread.
+    StopScope* const* owner_ = &detail::stop_scope_of_thread;
+    mutable std::uint32_t looks_ = 0;  // of the owner only
+    mutable std::uint64_t work_ = 0;   // also of scopes that are constants
 };
 
 namespace detail {

@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <thread>
 
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/read_mesh.h>
@@ -184,6 +186,53 @@ TEST(Stop, OuterScopesStopInnerOnes) {
     EXPECT_THROW(trisect::detail::check_stop(), trisect::LimitError);
     EXPECT_EQ(inner.work(), 11U);
     EXPECT_EQ(outer.work(), 11U);
+}
+
+// Goes on so many times.
+class Patience final : public trisect::StopAttendant {
+public:
+    explicit Patience(std::uint64_t times) : left_(times) {}
+    [[nodiscard]] bool goes_on() noexcept override {
+        ++asked_;
+        return left_ != 0 && left_-- != 0;
+    }
+    [[nodiscard]] std::uint64_t asked() const { return asked_; }
+
+private:
+    std::uint64_t left_;
+    std::uint64_t asked_ = 0;
+};
+
+TEST(Stop, AnAttendantIsAskedAtEveryEighthLook) {
+    Patience patience(3);
+    const StopScope scope({.attendant = &patience});
+    for (int i = 0; i < 31; ++i) trisect::detail::check_stop();
+    EXPECT_EQ(patience.asked(), 3U);
+    EXPECT_THROW(trisect::detail::check_stop(), trisect::CancelledError);
+    EXPECT_EQ(patience.asked(), 4U);
+}
+
+TEST(Stop, AnAttendantStopsEvaluation) {
+    const Solid ball = Solid::from_mesh(trisect::make_icosphere(1, 4));
+    const Solid part = cut_ball();
+    Patience endless(~std::uint64_t{0});
+    {
+        const StopScope scope({.attendant = &endless});
+        EXPECT_FALSE(evaluate(ball - part).to_mesh(1).points.empty());
+    }
+    EXPECT_GT(endless.asked(), 1U);
+    Patience patience(endless.asked() / 2);
+    const StopScope scope({.attendant = &patience});
+    EXPECT_THROW((void)evaluate(ball - cut_ball()).to_mesh(1), trisect::CancelledError);
+}
+
+TEST(Stop, OtherThreadsAskNoAttendant) {
+    Patience patience(0);
+    const StopScope scope({.attendant = &patience});
+    std::thread([&] {
+        for (int i = 0; i < 100; ++i) scope.check_flags();
+    }).join();
+    EXPECT_EQ(patience.asked(), 0U);
 }
 
 TEST(Stop, NothingIsCountedOutsideOfAScope) {
