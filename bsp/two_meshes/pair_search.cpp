@@ -280,12 +280,14 @@ void PairFinder::look_at_plane(const FacetCorners& first, bool is_above, bool sa
     const auto& operands = search_.operands.operands;
     const bool same_way = operands[0].inside_above == operands[1].inside_above;
     const bool wants_above = operands[0].is_open_below();
-    if (is_above == wants_above) return;
     std::array<int, 3> direction = normal_signs(first);
     if (!wants_above)
         for (int& d : direction) d = -d;
-    auto& list = same_way == same_side ? directions_.wished : directions_.wanted;
+    const bool one_does = same_way == same_side;
+    auto& list = one_does ? directions_.wished : directions_.wanted;
     if (std::ranges::find(list, direction) == list.end()) list.push_back(direction);
+    bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
+    is_so = is_so && is_above == wants_above;
 }
 
 }  // namespace
@@ -306,6 +308,8 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
         const Outcome& found = f.directions();
         out.wanted.insert(out.wanted.end(), found.wanted.begin(), found.wanted.end());
         out.wished.insert(out.wished.end(), found.wished.begin(), found.wished.end());
+        out.is_as_wanted = out.is_as_wanted && found.is_as_wanted;
+        out.is_as_wished = out.is_as_wished && found.is_as_wished;
     });
     return out;
 }

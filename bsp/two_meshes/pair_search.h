@@ -25,11 +25,14 @@ public:
     struct Outcome {
         bool has_equal = false;  ///< some facet has an equal; all else is left out then
         bool is_certain = true;  ///< all pairs were decided
-        /// Directions, by their signs, in which the second mesh was not moved and must be: else
-        /// both meshes bound the result where they have a part of a plane in common.
+        /// Directions, by their signs, in which the second mesh must be moved: else both meshes
+        /// bound the result where they have a part of a plane in common. They do not depend on how
+        /// it was moved.
         std::vector<std::array<int, 3>> wanted;
         /// The same where only one does, and the first one had better.
         std::vector<std::array<int, 3>> wished;
+        bool is_as_wanted = true;  ///< it was moved so
+        bool is_as_wished = true;
     };
 
     /// `nodes` list the two meshes. Where `decides`, pairs that doubles leave open are decided.

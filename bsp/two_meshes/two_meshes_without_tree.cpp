@@ -143,13 +143,11 @@ public:
 
     [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
         FoundPairs out;
-        std::vector<std::array<int, 3>> wanted;
-        std::vector<std::array<int, 3>> all;  // and wished
         InfinitesimalShift shift = first_shift();
         search_.recognises_equal = recognises_equal;
         search_.parts = {near_};
-        // Every turn but the last one has found equal facets, or another direction.
-        for (int turn = 0; turn < most_turns; ++turn) {
+        // One finds equal facets, one another direction, which is as wanted.
+        for (int turn = 0; turn < 3; ++turn) {
             out.crossings = operands_;
             out.crossings.shift = shift;
             EvaluateStats found;
@@ -159,17 +157,15 @@ public:
                 continue;
             }
             if (!outcome.is_certain) return std::nullopt;
-            wanted.insert(wanted.end(), outcome.wanted.begin(), outcome.wanted.end());
-            all.insert(all.end(), outcome.wanted.begin(), outcome.wanted.end());
+            std::vector<std::array<int, 3>> all = outcome.wanted;
             all.insert(all.end(), outcome.wished.begin(), outcome.wished.end());
             auto next = shift_along(all);
-            if (!next && !outcome.wanted.empty()) next = shift_along(wanted);
-            if ((outcome.wanted.empty() && outcome.wished.empty()) ||
-                (outcome.wanted.empty() && !next)) {
+            if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) {
                 stats += found;
                 finish(out);
                 return out;
             }
+            if (!next) next = shift_along(outcome.wanted);
             if (!next) return std::nullopt;
             shift = *next;
         }
@@ -177,8 +173,6 @@ public:
     }
 
 private:
-    static constexpr int most_turns = 6;
-
     // Where one mesh stands on the other, the direction that will be wanted.
     [[nodiscard]] InfinitesimalShift first_shift() const {
         const bool wants_above = operands_.operands[0].is_open_below();

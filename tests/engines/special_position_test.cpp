@@ -128,10 +128,11 @@ TEST(SpecialPosition, AMeshTurnedAboutItsOwnAxis) {
 // mesh, which no shift makes good: they are for the tree.
 TEST(SpecialPosition, AMeshMovedByTheSmallestStep) {
     const double step = std::ldexp(1.0, -40);
+    std::uint64_t doubtful = 0;
     for (const std::array<double, 3> by : {std::array{step, 0.0, 0.0}, {step, step, -step}})
-        EXPECT_GT(expect_as_divided(solid(sphere()), solid(moved(sphere(), by)),
-                                    Formulas::NoDifferences),
-                  1000U);
+        doubtful += expect_as_divided(solid(sphere()), solid(moved(sphere(), by)),
+                                      Formulas::NoDifferences);
+    EXPECT_GT(doubtful, 1000U);
 }
 
 // Not the same arrays, which would be one solid.
