@@ -91,6 +91,7 @@ public:
                 {"listed_polygons", counters_.listed_polygons},
                 {"pairs_boxes", counters_.pairs_boxes},
                 {"pairs_cutting", counters_.pairs_cutting},
+                {"doubtful_pairs", counters_.doubtful_pairs},
                 {"pieces", counters_.pieces},
                 {"traces", counters_.traces},
                 {"traces_retried", counters_.traces_retried},

@@ -15,6 +15,7 @@
 #include <trisect/kernel/error.h>
 
 #include "cliff_scenes.h"
+#include "degenerate_scenes.h"
 #include "shapes.h"
 
 namespace bench {
@@ -423,6 +424,9 @@ Scene scene_of(const std::string& name) {
     if (words[0] == "b") return spheres_scene(name, words[1]);
     if (words[0] == "d") return many_scene(name, words[1]);
     if (words[0] == "f") return hard_scene(name, words[1]);
+    if (words[0] == "g")
+        if (auto operands = degenerate_pair(words[1]))
+            return pair(std::move(operands->first), std::move(operands->second));
     unknown(name);
 }
 

@@ -76,6 +76,14 @@ struct Scene {
 ///                                   half-spaces; across z, or across (1,2,3)
 ///     i:slabs:boxes                 the same slabs across z, by wide boxes; i:slabs:boxes:oblique
 ///     i:bores i:bores:10k           a plate less 400 bores of 32 sides, turned each; or 10,000
+///     g:x g:y g:z                   as b:82k, but moved along an axis: edges meet edges;
+///                                   g:general is b:82k
+///     g:mirror g:turn90 g:turn180   an egg of 82k and its image about axes beside its middle
+///     g:ballturn90                  a sphere of 82k and itself turned by 90 degrees
+///     g:self g:ulp                  a sphere of 82k and itself; with all coordinates one double up
+///     g:halves g:stack              two halves of a ball, cans of the same facets one on the other
+///     g:tiles                       pieces of terrain side by side
+///     g:boss g:slab                 a can under a terrain, on a plate: on the middle of a face
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);

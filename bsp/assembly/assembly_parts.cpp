@@ -72,9 +72,12 @@ public:
           threads_(threads),
           splitter_(out.bench, out.facets) {}
 
-    void run() {
+    /// False where only the tree of the solid tells enough.
+    [[nodiscard]] bool run() {
         std::visit([&](const auto& form) { gather(form); }, solid_.form);
+        if (needs_tree_) return false;
         finish();
+        return true;
     }
 
 private:
@@ -89,6 +92,7 @@ private:
     void mark_facets(const AssembledLeaf& leaf);
     void mark_leaves();
     void mark_crossed(const Crossings& crossings);
+    void mark_special(const Crossings& crossings);
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
     [[nodiscard]] bool needs_parts(const AssembledLeaf& leaf, const OccupancyGrid& occupancy) const;
     void note_list(const AssembledLeaf& leaf, const PolygonList& polygons, std::size_t table);
@@ -109,6 +113,11 @@ private:
     void add_planes_through(PointId value);
     [[nodiscard]] bool is_same(PointId value, PointId name);
     void conform_edges(std::size_t traced, std::size_t of_leaves);
+    void conform_traced(std::span<const BoundaryEdge> edges);
+    void split_special(std::span<BoundaryEdge> edges, std::span<PointId> vertices);
+    [[nodiscard]] double along(PointId p, std::size_t axis) const {
+        return out_.bench.approximation(p).c[axis];
+    }
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -117,6 +126,9 @@ private:
     bool by_planes_;
     std::uint32_t threads_;
     std::span<const FacetName> incomplete_;  // of a tree
+    bool needs_tree_ = false;
+    std::uint64_t first_serial_ = 0;  // of the mesh that stands for both where they have facets in
+                                      // common; these may pass through
     bool defers_ = false;  // crossings of all leaves in general position are known
     std::vector<AssembledLeaf> leaves_;
     std::vector<ListPart> lists_;
@@ -146,13 +158,18 @@ void Gatherer::gather(const CellTree& tree) {
     if (defers_) trace_facets(*tree.crossings, out_, edges_);
 }
 
-// Facets whose outlines doubles do not decide are left to the parts of the tree.
+// Facets whose outlines doubles do not decide are left to the parts of the tree; all of them where
+// some are in special position, since vertices of others may lie inside their edges.
 void Gatherer::gather(const UndividedMeshes& meshes) {
+    first_serial_ = meshes.crossings->operands[0].serial;
     mark_uncrossed(meshes.uncrossed);
     mark_crossed(*meshes.crossings);
+    mark_special(*meshes.crossings);
     number_facets();
     trace_facets(*meshes.crossings, out_, edges_);
     if (out_.stats.traced_facets == out_.facets.size()) return;
+    needs_tree_ = !meshes.crossings->special.empty();
+    if (needs_tree_) return;
     const CellTree& tree = meshes.tree->cut()->tree();
     defers_ = tree.crossings != nullptr;
     list_leaves(*tree.root.node, tree.root.complemented, Cell{});
@@ -269,6 +286,19 @@ void Gatherer::mark_crossed(const Crossings& crossings) {
             marks->set_present(*facet - o.first, o.inside_above);
             marks->set_worked(*facet - o.first, o.inside_above);
         }
+    }
+}
+
+// Vertices of others may lie inside their edges.
+void Gatherer::mark_special(const Crossings& crossings) {
+    for (const std::uint32_t number : crossings.special) {
+        const Crossings::Operand& o = crossings.operands[crossings.operand_of(number)];
+        const auto marks =
+            std::ranges::find(out_.sources, o.serial,
+                              [](const FacetMarks& m) { return m.source()->serial(); });
+        const std::uint32_t facet = number - o.first;
+        if (marks != out_.sources.end() && marks->is_present(facet, o.inside_above))
+            marks->set_worked(facet, o.inside_above);
     }
 }
 
@@ -622,8 +652,12 @@ void Gatherer::merge_equal_points() {
     same_.resize(bench.point_count());
     std::iota(same_.begin(), same_.end(), 0);
     if (axis_faces_->takes_all()) return;
+    const auto rank = [&](PointId p) {
+        if (!bench.is_corner(p)) return 0;
+        return bench.corner_name(p).first->serial() == first_serial_ ? 2 : 1;
+    };
     const auto better = [&](PointId a, PointId b) {
-        return bench.is_corner(a) != bench.is_corner(b) ? bench.is_corner(a) : a < b;
+        return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
     };
     std::vector<PointId> values;
     for_each_near_group(bench, [&](std::span<const PointId> group) {
@@ -675,8 +709,83 @@ bool Gatherer::is_same(PointId value, PointId name) {
     });
 }
 
-// Edges of traced facets, which come first, and of axis-perpendicular planes, which come last, have
-// all their vertices.
+// Where a facet is in special position, what its outline encloses may have no width, as far as the
+// shift of a mesh goes: edges have no length or lie in each other. With all vertices inside them
+// inserted, what is too much cancels.
+void Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
+    std::vector<BoundaryEdge> special;
+    std::vector<PointId> vertices;
+    for (const BoundaryEdge& e : edges) {
+        if (!out_.facets[as_index(e.facet)].is_special) {
+            out_.edges.push_back(e);
+        } else if (e.from != e.to) {
+            special.push_back(e);
+            vertices.insert(vertices.end(), {e.from, e.to});
+        }
+    }
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    split_special(special, vertices);
+}
+
+// Many edges are divided by planes across axes: those on one side of a plane have only vertices of
+// that side inside them. An edge across the plane looks at all vertices.
+void Gatherer::split_special(std::span<BoundaryEdge> edges, std::span<PointId> vertices) {
+    constexpr std::size_t few = 512;
+    const auto split = [&](std::span<const BoundaryEdge> part) {
+        if (part.empty()) return;
+        splitter_.clear();
+        for (const PointId p : vertices) splitter_.add_candidate(p);
+        splitter_.split(part, out_.edges);
+    };
+    if (edges.size() <= few || vertices.size() <= few) return split(edges);
+    std::size_t axis = 0;
+    double longest = -1;
+    double error = 0;
+    for (const PointId p : vertices) error = std::max(error, out_.bench.approximation(p).error);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::ranges::minmax(
+            vertices, {}, [&](PointId p) { return along(p, k); });
+        const double extent = along(high, k) - along(low, k);
+        if (extent > longest) {
+            longest = extent;
+            axis = k;
+        }
+    }
+    const auto middle = vertices.begin() + static_cast<std::ptrdiff_t>(vertices.size() / 2);
+    std::ranges::nth_element(vertices, middle, {}, [&](PointId p) { return along(p, axis); });
+    const double wall = along(*middle, axis);
+    // So far from the wall nothing is on its other side.
+    const double clear = 4 * error_slack * error;
+    const auto side = [&](const BoundaryEdge& e) {
+        const double a = along(e.from, axis) - wall;
+        const double b = along(e.to, axis) - wall;
+        return std::max(a, b) < -clear ? -1 : (std::min(a, b) > clear ? 1 : 0);
+    };
+    const auto across = std::partition(edges.begin(), edges.end(),
+                                       [&](const BoundaryEdge& e) { return side(e) < 0; });
+    const auto above = std::partition(across, edges.end(),
+                                      [&](const BoundaryEdge& e) { return side(e) == 0; });
+    split({across, above});
+    const std::span<BoundaryEdge> lower(edges.begin(), across);
+    const std::span<BoundaryEdge> upper(above, edges.end());
+    if (lower.size() + upper.size() < edges.size() / 4) {  // walls do not part them
+        split(lower);
+        split(upper);
+        return;
+    }
+    const auto recurse = [&](std::span<BoundaryEdge> part, double sign) {
+        std::vector<PointId> own;
+        for (const PointId p : vertices)
+            if (sign * (along(p, axis) - wall) > 0) own.push_back(p);
+        with_enough_stack([&] { split_special(part, own); });
+    };
+    recurse(lower, -1);
+    recurse(upper, 1);
+}
+
+// Edges of traced facets in general position, and of axis-perpendicular planes, which come last,
+// have all their vertices.
 void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (axis_faces_->takes_all()) {
         out_.edges = std::move(edges_);
@@ -687,7 +796,7 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
         e.to = same_[as_index(e.to)];
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
-    out_.edges.assign(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(traced));
+    conform_traced(std::span(edges_).first(traced));
     out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
                       edges_.end());
     for (const AssembledLeaf& leaf : leaves_) {
@@ -710,7 +819,10 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
 
 void gather_parts(const SolidState& solid, BoundaryParts& parts, bool by_planes,
                   std::uint32_t threads) {
-    Gatherer(solid, parts, by_planes, threads).run();
+    if (Gatherer(solid, parts, by_planes, threads).run()) return;
+    parts = BoundaryParts();
+    [[maybe_unused]] const bool is_enough =
+        Gatherer(*solid.lazy_tree()->cut(), parts, by_planes, threads).run();
 }
 
 }  // namespace trisect::detail

@@ -114,6 +114,7 @@ void Crossings::append(const Crossings& part) {
     pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
     uncertain.insert(uncertain.end(), part.uncertain.begin(), part.uncertain.end());
     containments.insert(containments.end(), part.containments.begin(), part.containments.end());
+    special.insert(special.end(), part.special.begin(), part.special.end());
 }
 
 void Crossings::arrange() {
@@ -123,6 +124,7 @@ void Crossings::arrange() {
     };
     make_unique(uncertain);
     make_unique(hidden);
+    make_unique(special);
     const std::uint64_t count = operands.size();
     radix_sort(containments, [count](const Containment& c) { return c.facet * count + c.operand; });
     containments.erase(std::unique(containments.begin(), containments.end()), containments.end());

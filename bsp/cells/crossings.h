@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/bsp/cells/infinitesimal_shift.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/kernel/predicates.h>
 
@@ -26,6 +27,7 @@ struct FacetCrossing {
         Approximation at;        ///< in lattice units
         bool of_second = false;  ///< whose edge it is
         std::int8_t edge = 0;    ///< from that corner to the next one
+        std::int8_t corner = -1;  ///< of the edge's facet, where the end is just there
     };
     std::array<std::uint32_t, 2> facets{};  ///< numbers of Crossings, ascending
     std::array<End, 2> ends;
@@ -64,6 +66,16 @@ struct Crossings {
     /// but hidden ones and those that lie within an operand that does not cross them.
     std::vector<std::uint32_t> by_second;
     std::vector<std::uint32_t> shown;
+    /// Of two meshes of which pairs were decided as if the second one were moved (shifted_pairs.h):
+    /// facets that a facet of the other mesh touches otherwise than by an edge through the interior
+    /// of one of the two, or crosses there. Sorted; some are here in vain. Empty where all are in
+    /// general position.
+    std::vector<std::uint32_t> special;
+    InfinitesimalShift shift;
+    /// By shown facet, where there are special ones: whether the other mesh leaves open its first
+    /// corner.
+    enum class Corner : std::uint8_t { Unknown, Open, Contained };
+    std::vector<Corner> first_corners;
 
     [[nodiscard]] std::uint32_t number_of(std::size_t slot, std::uint32_t facet) const {
         return operands[slot].first + facet;

@@ -40,6 +40,7 @@ constexpr std::array counter_members{
     &Counters::pairs_boxes,
     &Counters::pairs_touching,
     &Counters::pairs_cutting,
+    &Counters::doubtful_pairs,
     &Counters::untouched_polygons,
     &Counters::pieces,
     &Counters::linked,

@@ -14,15 +14,19 @@
 #include <memory>
 #include <numeric>
 
+#include <trisect/bsp/cells/shifted_pairs.h>
+
 namespace trisect::detail {
 
 FacetSides::FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
-                       const CubeSet& other, std::span<const std::uint32_t> near)
+                       const CubeSet& other, std::span<const std::uint32_t> near,
+                       std::span<const EqualFacets::Fate> fates)
     : grid_(grid),
       mesh_(mesh),
       cubes_(cubes),
       other_(other),
       near_(near),
+      fates_(fates),
       is_crossed_(near.size()),
       nodes_(mesh.points.size()) {
     list_runs();
@@ -108,12 +112,19 @@ void FacetSides::mark_crossed(const Crossings& crossings, std::size_t operand) {
 
 void FacetSides::join_uncrossed() {
     for (std::size_t i = 0; i < near_.size(); ++i) {
-        if (is_crossed_[i] != 0) continue;
+        if (is_crossed_[i] != 0 || has_equal(i)) continue;
         const auto& t = mesh_.triangles[near_[i]];
         const std::uint32_t a = node_of(t[0]);
         join(a, node_of(t[1]));
         join(a, node_of(t[2]));
     }
+}
+
+// Of a facet with an equal one only some crossings are.
+bool FacetSides::are_pierces_known(std::uint32_t facet) const {
+    if (fates_.empty()) return true;
+    const auto at = std::ranges::lower_bound(near_, facet);
+    return !has_equal(static_cast<std::size_t>(at - near_.begin()));
 }
 
 // Such a run ends nowhere, and the other mesh does.
@@ -145,6 +156,7 @@ bool FacetSides::look_at_pierced_edges(const Crossings& crossings, std::size_t o
     };
     const auto look_at = [&](std::uint32_t facet, const std::array<Pierced, 3>& edges) {
         const auto& t = mesh_.triangles[facet - first];
+        if (!are_pierces_known(facet - first)) return true;
         for (std::size_t e = 0; e < 3; ++e) {
             if (edges[e].often != 1) continue;
             const std::uint32_t below = node_of(t[edges[e].up ? e : (e + 1) % 3]);
@@ -174,15 +186,86 @@ bool FacetSides::look_at_pierced_edges(const Crossings& crossings, std::size_t o
     return true;
 }
 
+// The first and the last one of the facets that pierce an edge tell the sides of its ends.
+bool FacetSides::look_at_often_pierced_edges(const Crossings& crossings, std::size_t operand,
+                                             const LatticeMesh& other) {
+    struct Pierce {
+        std::size_t edge = 0;
+        bool up = false;
+        std::uint32_t cutter = 0;
+    };
+    const std::uint32_t first = crossings.operands[operand].first;
+    const std::uint32_t first_cutter = crossings.operands[1 - operand].first;
+    const auto corners_of = [&](std::uint32_t cutter) -> FacetCorners {
+        const auto& t = other.triangles[cutter - first_cutter];
+        return {&other.points[t[0]], &other.points[t[1]], &other.points[t[2]]};
+    };
+    std::vector<Pierce> pierces;
+    const auto look_at = [&](std::uint32_t facet) {
+        const auto& t = mesh_.triangles[facet - first];
+        for (std::size_t e = 0; e < 3; ++e) {
+            const std::uint32_t from = t[e];
+            const std::uint32_t to = t[(e + 1) % 3];
+            const Pierce* low = nullptr;
+            const Pierce* high = nullptr;
+            const auto is_before = [&](const Pierce& p, const Pierce& q) {
+                return order_along_shifted(mesh_.points[from], mesh_.points[to], operand == 1,
+                                           corners_of(p.cutter), corners_of(q.cutter),
+                                           crossings.shift) < 0;
+            };
+            for (const Pierce& p : pierces) {
+                if (p.edge != e) continue;
+                if (low == nullptr || is_before(p, *low)) low = &p;
+                if (high == nullptr || is_before(*high, p)) high = &p;
+            }
+            if (low == nullptr) continue;
+            const std::uint32_t a = node_of(from);
+            const std::uint32_t b = node_of(to);
+            sides_.resize(parents_.size(), Side::Unknown);
+            if (!set_side(a, low->up ? Side::Below : Side::Above) ||
+                !set_side(b, high->up ? Side::Above : Side::Below))
+                return false;
+        }
+        return true;
+    };
+    const auto& pairs = crossings.pairs;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto pair = [&](std::size_t k) -> const FacetCrossing& {
+            return operand == 0 ? pairs[k] : pairs[crossings.by_second[k]];
+        };
+        const FacetCrossing& c = pair(i);
+        for (std::size_t k = 0; k < 2; ++k)
+            if (c.ends[k].of_second == (operand == 1))
+                pierces.push_back({static_cast<std::size_t>(c.ends[k].edge),
+                                   (k == 0) == (operand == 0), c.facets[1 - operand]});
+        if (i + 1 < pairs.size() && pair(i + 1).facets[operand] == c.facets[operand]) continue;
+        if (!are_pierces_known(c.facets[operand] - first)) {
+            pierces.clear();
+            continue;
+        }
+        if (!look_at(c.facets[operand])) return false;
+        pierces.clear();
+    }
+    return true;
+}
+
 std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings& crossings,
                                                                 std::size_t operand,
-                                                                bool outer_below, bool below) {
+                                                                bool outer_below, bool below,
+                                                                const LatticeMesh* other) {
     mark_crossed(crossings, operand);
     join_uncrossed();
     sides_.assign(parents_.size(), Side::Unknown);
     if (!look_at_outer_runs(outer_below ? Side::Below : Side::Above) ||
         !look_at_pierced_edges(crossings, operand))
         return std::nullopt;
+    auto facets = list_uncrossed(below);
+    if (facets || other == nullptr) return facets;
+    if (!look_at_often_pierced_edges(crossings, operand, *other)) return std::nullopt;
+    return list_uncrossed(below);
+}
+
+std::optional<std::vector<std::uint32_t>> FacetSides::list_uncrossed(bool below) {
     CubeSet wanted(std::vector<std::uint64_t>(grid_.row_count()));
     CubeSet unknown(std::vector<std::uint64_t>(grid_.row_count()));
     const Side side = below ? Side::Below : Side::Above;
@@ -210,6 +293,10 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     for (std::size_t i = 0; i < near_.size(); ++i) {
         add_far(next, near_[i]);
         next = near_[i] + 1;
+        if (has_equal(i)) {
+            if (fates_[i] == EqualFacets::Fate::Kept) *end++ = near_[i];
+            continue;
+        }
         if (is_crossed_[i] != 0) continue;
         const Side known = sides_[root(node_of(mesh_.triangles[near_[i]][0]))];
         if (known == side) *end++ = near_[i];
@@ -218,6 +305,21 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     add_far(next, static_cast<std::uint32_t>(mesh_.triangles.size()));
     if (!is_known) return std::nullopt;
     return std::vector<std::uint32_t>(facets.get(), end);
+}
+
+std::vector<Crossings::Corner> FacetSides::first_corners(bool below) {
+    std::vector<Crossings::Corner> out;
+    const Side open = below ? Side::Below : Side::Above;
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        if (is_crossed_[i] == 0) continue;
+        const std::uint32_t node = node_of(mesh_.triangles[near_[i]][0]);
+        sides_.resize(parents_.size(), Side::Unknown);
+        const Side side = sides_[root(node)];
+        out.push_back(side == Side::Unknown ? Crossings::Corner::Unknown
+                      : side == open        ? Crossings::Corner::Open
+                                            : Crossings::Corner::Contained);
+    }
+    return out;
 }
 
 }  // namespace trisect::detail

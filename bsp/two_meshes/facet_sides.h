@@ -13,6 +13,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/two_meshes/cube_grid.h>
+#include <trisect/bsp/two_meshes/equal_facets.h>
 
 namespace trisect::detail {
 
@@ -21,17 +22,24 @@ namespace trisect::detail {
 class FacetSides {
 public:
     /// `cubes` are those of the mesh, `other` the occupied ones of the other mesh, `near` the
-    /// facets whose boxes meet these, in order.
+    /// facets whose boxes meet these, in order. `fates`: of these, where some have an equal; their
+    /// crossings are not known, and they are listed by their fates.
     FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
-               const CubeSet& other, std::span<const std::uint32_t> near);
+               const CubeSet& other, std::span<const std::uint32_t> near,
+               std::span<const EqualFacets::Fate> fates);
 
     /// The facets that nothing crosses and that lie below the other mesh's facets, where `below`,
     /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
     /// one is below the other mesh's facets. Nothing when the side of a facet is not known: where
-    /// no edge of a part of the mesh, or of space, is pierced just once.
+    /// no edge of a part of the mesh, or of space, is pierced just once; or at all, where the other
+    /// mesh is there to tell in what order, both being of whole coordinates.
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> uncrossed(const Crossings& crossings,
                                                                       std::size_t operand,
-                                                                      bool outer_below, bool below);
+                                                                      bool outer_below, bool below,
+                                                                      const LatticeMesh* other);
+    /// Of the facets that are crossed and have no equal, in order: whether their first corners lie
+    /// below the other mesh's facets, where `below`, or above them. \pre uncrossed()
+    [[nodiscard]] std::vector<Crossings::Corner> first_corners(bool below);
 
 private:
     enum class Side : std::uint8_t { Unknown, Above, Below };
@@ -47,16 +55,24 @@ private:
     [[nodiscard]] std::uint32_t root(std::uint32_t node);
     void join(std::uint32_t a, std::uint32_t b);
     [[nodiscard]] bool set_side(std::uint32_t node, Side side);
+    [[nodiscard]] bool has_equal(std::size_t near) const {
+        return !fates_.empty() && fates_[near] != EqualFacets::Fate::Own;
+    }
+    [[nodiscard]] bool are_pierces_known(std::uint32_t facet) const;
     void mark_crossed(const Crossings& crossings, std::size_t operand);
     void join_uncrossed();
     [[nodiscard]] bool look_at_outer_runs(Side side);
     [[nodiscard]] bool look_at_pierced_edges(const Crossings& crossings, std::size_t operand);
+    [[nodiscard]] bool look_at_often_pierced_edges(const Crossings& crossings, std::size_t operand,
+                                                   const LatticeMesh& other);
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> list_uncrossed(bool below);
 
     const CubeGrid& grid_;
     const LatticeMesh& mesh_;
     const OccupiedCubes& cubes_;
     const CubeSet& other_;
     std::span<const std::uint32_t> near_;
+    std::span<const EqualFacets::Fate> fates_;
     std::vector<std::uint8_t> is_crossed_;  // of the near facets
     std::vector<Run> runs_;
     std::vector<std::uint32_t> first_run_;  // by row

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -27,213 +26,17 @@
 
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
-#include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/work_budget.h>
-#include <trisect/bsp/divide/cell_task.h>
-#include <trisect/bsp/divide/choose_splitting_plane.h>
-#include <trisect/bsp/divide/partition.h>
 #include <trisect/bsp/divide/reference_points.h>
-#include <trisect/bsp/leaf/doubles/filtered_facets.h>
-#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/two_meshes/cube_grid.h>
+#include <trisect/bsp/two_meshes/equal_facets.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
-#include <trisect/kernel/support/deep_recursion.h>
+#include <trisect/bsp/two_meshes/pair_search.h>
 #include <trisect/kernel/support/parallel_parts.h>
-#include <trisect/kernel/support/per_thread.h>
-#include <trisect/kernel/support/stack_arena.h>
 
 namespace trisect::detail {
 
 namespace {
-
-using TwoLists = std::array<std::vector<std::uint32_t>, 2>;
-
-// Cells with fewer facets are not worth a task of their own.
-constexpr std::uint64_t parallel_facets = 4096;
-
-class PairFinder;
-
-// What the threads of one search share.
-struct SharedSearch {
-    const EvaluateSettings& options;
-    const Crossings& operands;  // without pairs
-    MemoryBudget& memory;
-    bool parallel = false;
-    std::atomic<bool> in_doubt{false};  // all may stop
-    PerThread<PairFinder> finders = {};
-
-    PairFinder& finder();
-};
-
-// Compares facets of two meshes, some of each.
-class PairFinder {
-public:
-    explicit PairFinder(SharedSearch& search) : search_(search) {
-        crossings_.operands = search.operands.operands;
-    }
-
-    /// False when doubles cannot decide some pair.
-    [[nodiscard]] bool run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
-        CellTask task;
-        Box all;
-        for (const CellNode* m : meshes) all.add(m->polygons().whole_source()->box());
-        task.frame = Frame::covering(all);
-        task.has_frame = true;
-        std::array<CellOperand, 2> operands;
-        const auto held =
-            search_.memory.hold((facets[0].size() + facets[1].size()) * sizeof(PackedBox));
-        for (std::size_t i = 0; i < 2; ++i) {
-            CellOperand& o = operands[i];
-            o.slot = static_cast<std::int32_t>(i);
-            o.embedded = o.is_list = true;
-            o.node = meshes[i];
-            o.count = static_cast<std::uint32_t>(facets[i].size());
-            o.entries =
-                boxes_of(meshes[i]->polygons().whole_source()->mesh(), facets[i], task.frame);
-            o.box = box_of(o.entries, o.count);
-        }
-        task.operands = operands;
-        return solve(task);
-    }
-    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
-    [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
-
-private:
-    [[nodiscard]] PackedBox* boxes_of(const LatticeMesh& mesh,
-                                      std::span<const std::uint32_t> facets, Frame frame);
-    [[nodiscard]] bool solve(CellTask& task);
-    [[nodiscard]] bool divide(const CellTask& task, const SplittingPlane& splitter);
-    [[nodiscard]] bool compare(const CellTask& task);
-    [[nodiscard]] bool leave_out(CellTask& task);
-
-    [[nodiscard]] bool solve_both(std::array<CellTask, 2>& children);
-
-    SharedSearch& search_;
-    EvaluateStats stats_;
-    Crossings crossings_;
-    StackArena arena_;
-    FilteredFacets facets_;
-    FilteredPairs pairs_;
-    std::vector<PolygonRef> polygons_;
-};
-
-PairFinder& SharedSearch::finder() {
-    return finders.local([&] { return std::make_unique<PairFinder>(*this); });
-}
-
-PackedBox* PairFinder::boxes_of(const LatticeMesh& mesh, std::span<const std::uint32_t> facets,
-                                Frame frame) {
-    auto* const entries = arena_.take<PackedBox>(facets.size());
-    PackedBox* out = entries;
-    for (const std::uint32_t f : facets) {
-        const auto& t = mesh.triangles[f];
-        *out = box_of_three(packed_point(frame, mesh.points[t[0]]),
-                            packed_point(frame, mesh.points[t[1]]),
-                            packed_point(frame, mesh.points[t[2]]));
-        out++->id = f;
-    }
-    return entries;
-}
-
-// Takes out what does not meet the box of the other mesh's facets; false when nothing is left.
-bool PairFinder::leave_out(CellTask& task) {
-    for (std::size_t i = 0; i < 2; ++i) {
-        CellOperand& o = task.operands[i];
-        const PackedBox& other = task.operands[1 - i].box;
-        if (o.count == 0 || other.is_empty() || o.box.intersected(other).is_empty()) return false;
-        if (other.contains(o.box)) continue;
-        const PackedReach reach(other);
-        auto* const entries = arena_.take<PackedBox>(o.count + 1);
-        PackedBox* end = entries;
-        for (const PackedBox& e : o.list()) {
-            copy(e, end);
-            end += reach.meets(e) ? 1 : 0;
-        }
-        o.entries = entries;
-        o.count = static_cast<std::uint32_t>(end - entries);
-        o.box = box_of(entries, o.count).intersected(packed_cell(task.frame, task.cell));
-    }
-    return std::ranges::none_of(task.operands, [](const CellOperand& o) { return o.count == 0; });
-}
-
-bool PairFinder::solve(CellTask& task) {
-    if (search_.in_doubt.load(std::memory_order_relaxed)) return false;
-    const auto mark = arena_.mark();
-    ++stats_.cells;
-    check_budget(search_.options, stats_);
-    stats_.depth = std::max(stats_.depth, task.depth);
-    bool known = true;
-    if (leave_out(task)) {
-        stats_.listed_polygons += task.size();
-        const bool large = task.size() > search_.options.leaf_polygons && task.stalled < 4;
-        const auto splitter =
-            large ? choose_splitting_plane(task, search_.options.splitting_offset) : std::nullopt;
-        known = splitter ? divide(task, *splitter) : compare(task);
-    }
-    arena_.release(mark);
-    return known;
-}
-
-bool PairFinder::divide(const CellTask& task, const SplittingPlane& splitter) {
-    std::array<CellTask, 2> children;
-    for (std::size_t i = 0; i < 2; ++i) {
-        CellTask& c = children[i];
-        c.cell = i == 0 ? task.cell.below(splitter.axis, splitter.position)
-                        : task.cell.above(splitter.axis, splitter.position);
-        c.frame = task.frame;
-        c.has_frame = true;
-        c.depth = task.depth + 1;
-        c.operands = {arena_.take<CellOperand>(2), 2};
-        for (std::size_t n = 0; n < 2; ++n) ::new (&c.operands[n]) CellOperand(task.operands[n]);
-    }
-    partition(task, splitter, {children[0].cell, children[1].cell}, arena_, 1,
-              {children[0].operands, children[1].operands});
-    const auto held =
-        search_.memory.hold((children[0].size() + children[1].size()) * sizeof(PackedBox));
-    const std::uint64_t largest = std::max(children[0].size(), children[1].size());
-    for (CellTask& c : children) c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
-    return solve_both(children);
-}
-
-// The lists of both lie in the arena of this thread, which waits for the other one.
-bool PairFinder::solve_both(std::array<CellTask, 2>& children) {
-    std::array<bool, 2> known{};
-    if (search_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_facets) {
-        both_at_once([&] { known[1] = search_.finder().solve(children[1]); },
-                     [&] { known[0] = with_enough_stack([&] { return solve(children[0]); }); });
-    } else {
-        for (std::size_t i = 0; i < 2; ++i)
-            known[i] = with_enough_stack([&] { return solve(children[i]); });
-    }
-    return known[0] && known[1];
-}
-
-bool PairFinder::compare(const CellTask& task) {
-    polygons_.clear();
-    for (const CellOperand& o : task.operands)
-        for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
-    std::array<LeafOperand, 2> operands;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const CellOperand& o = task.operands[i];
-        operands[i] = {o.slot, std::span(polygons_).subspan(first, o.count), false, true, 0};
-        first += o.count;
-    }
-    FinePoint near;
-    const PolygonRef& any = polygons_.front();
-    const LatticePoint& corner = any.source->corner(any.facet, 0);
-    for (std::size_t k = 0; k < 3; ++k)
-        near.c[k] = position_of(corner[static_cast<int>(k)]) * splitting_scale;
-    ++stats_.mixed_leaves;
-    ++stats_.filtered_leaves;
-    const LeafProblem problem{task.cell, near, operands, nullptr, &search_.options};
-    if (!facets_.list(problem) || !pairs_.relate_all(facets_, true, stats_)) {
-        search_.in_doubt.store(true, std::memory_order_relaxed);
-        return false;
-    }
-    pairs_.add_to(crossings_, facets_);
-    return true;
-}
 
 // About a facet in each cube that the surface meets.
 int slabs_for(std::size_t facets) {
@@ -295,17 +98,146 @@ struct TwoMeshes {
     }
 };
 
-// All pairs of facets that cross, arranged; false when doubles cannot decide one.
-bool find_pairs(const TwoMeshes& two, const TwoLists& near, const EvaluateSettings& options,
-                MemoryBudget& memory, bool parallel, Crossings& crossings, EvaluateStats& stats) {
-    SharedSearch search{options, crossings, memory, parallel};
-    if (!search.finder().run(two.nodes, near)) return false;
-    search.finders.for_each([&](const PairFinder& f) {
-        crossings.append(f.crossings());
-        stats += f.stats();
-    });
-    crossings.arrange();
-    return true;
+// A direction that has a positive product with all wanted ones, of which the first sign that is
+// not 0 counts; nothing where there is none.
+std::optional<InfinitesimalShift> shift_along(std::span<const std::array<int, 3>> wanted) {
+    InfinitesimalShift shift;
+    do {
+        for (unsigned signs = 0; signs < 8; ++signs) {
+            for (std::size_t k = 0; k < 3; ++k)
+                shift.signs[k] = static_cast<std::int8_t>((signs >> k & 1U) != 0 ? -1 : 1);
+            if (std::ranges::all_of(wanted, [&](const auto& w) { return shift.along(w) > 0; }))
+                return shift;
+        }
+    } while (std::ranges::next_permutation(shift.axes).found);
+    return std::nullopt;
+}
+
+using Fate = EqualFacets::Fate;
+
+// What has been found out about two meshes.
+struct FoundPairs {
+    Crossings crossings;
+    std::optional<EqualFacets> equal;
+};
+
+// Those with an equal facet, or those without.
+TwoLists select(const TwoLists& near, const EqualFacets& equal, std::array<bool, 2> with) {
+    TwoLists out;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 0; k < near[i].size(); ++k)
+            if ((equal.fates[i][k] != Fate::Own) == with[i]) out[i].push_back(near[i][k]);
+    return out;
+}
+
+// All pairs of facets that cross, arranged. Nothing when one cannot be decided.
+class PairsOfMeshes {
+public:
+    PairsOfMeshes(const TwoMeshes& two, const TwoLists& near, const EvaluateSettings& options,
+                  MemoryBudget& memory, bool parallel, const Crossings& operands)
+        : two_(two),
+          near_(near),
+          operands_(operands),
+          search_(two.nodes, options, memory, parallel,
+                  two.source(0).is_whole() && two.source(1).is_whole()) {}
+
+    [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
+        FoundPairs out;
+        InfinitesimalShift shift = first_shift();
+        search_.recognises_equal = recognises_equal;
+        search_.parts = {near_};
+        // One finds equal facets, one another direction, which is as wanted.
+        for (int turn = 0; turn < 3; ++turn) {
+            out.crossings = operands_;
+            out.crossings.shift = shift;
+            EvaluateStats found;
+            const PairSearch::Outcome outcome = search_.run(out.crossings, found);
+            if (outcome.has_equal) {
+                leave_out_equal(out);
+                continue;
+            }
+            if (!outcome.is_certain) return std::nullopt;
+            std::vector<std::array<int, 3>> all = outcome.wanted;
+            all.insert(all.end(), outcome.wished.begin(), outcome.wished.end());
+            auto next = shift_along(all);
+            if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) {
+                stats += found;
+                finish(out);
+                return out;
+            }
+            if (!next) next = shift_along(outcome.wanted);
+            if (!next) return std::nullopt;
+            shift = *next;
+        }
+        return std::nullopt;
+    }
+
+private:
+    // Where one mesh stands on the other, the direction that will be wanted.
+    [[nodiscard]] InfinitesimalShift first_shift() const {
+        const bool wants_above = operands_.operands[0].is_open_below();
+        std::vector<std::array<int, 3>> directions;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Box& a = two_.source(0).box();
+            const Box& b = two_.source(1).box();
+            const int up = b.lo[k] == a.hi[k] ? 1 : (b.hi[k] == a.lo[k] ? -1 : 0);
+            if (up == 0) continue;
+            directions.emplace_back()[k] = wants_above ? up : -up;
+        }
+        return shift_along(directions).value_or(InfinitesimalShift());
+    }
+
+    void leave_out_equal(FoundPairs& out) {
+        out.equal.emplace(two_.meshes, near_,
+                          std::array{operands_.operands[0], operands_.operands[1]});
+        search_.recognises_equal = false;
+        search_.parts = {select(near_, *out.equal, {false, false}),
+                         select(near_, *out.equal, {false, true}),
+                         select(near_, *out.equal, {true, false})};
+    }
+
+    void finish(FoundPairs& out) const {
+        for (std::size_t i = 0; out.equal && i < 2; ++i)
+            for (std::size_t k = 0; k < near_[i].size(); ++k)
+                if (out.equal->fates[i][k] != Fate::Own)
+                    out.crossings.hidden.push_back(out.crossings.number_of(i, near_[i][k]));
+        out.crossings.arrange();
+    }
+
+    const TwoMeshes& two_;
+    const TwoLists& near_;
+    const Crossings& operands_;
+    PairSearch search_;
+};
+
+// What bounds the result and is not crossed, of either mesh, and the first corners of all others in
+// special position; nothing when that is not known.
+std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid,
+                                      const std::array<std::optional<OccupiedCubes>, 2>& cubes,
+                                      const TwoLists& near, const SolidStates& solids,
+                                      bool parallel, FoundPairs& found) {
+    Crossings& crossings = found.crossings;
+    // Meshes apart, or one in the other, are for the tree.
+    if (crossings.pairs.empty() && crossings.special.empty() && !found.equal) return std::nullopt;
+    std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
+    std::array<std::vector<Crossings::Corner>, 2> corners;
+    const bool whole = two.source(0).is_whole() && two.source(1).is_whole();
+    const auto find = [&](std::size_t i) {
+        const Crossings::Operand& other = crossings.operands[1 - i];
+        const std::span<const Fate> fates =
+            found.equal ? std::span<const Fate>(found.equal->fates[i]) : std::span<const Fate>();
+        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i], fates);
+        facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
+                                    other.is_open_below(), whole ? two.meshes[1 - i] : nullptr);
+        if (facets[i] && !crossings.special.empty())
+            corners[i] = sides.first_corners(other.is_open_below());
+    };
+    do_both(
+        parallel, [&] { find(0); }, [&] { find(1); });
+    if (!facets[0] || !facets[1]) return std::nullopt;
+    for (const auto& c : corners)
+        crossings.first_corners.insert(crossings.first_corners.end(), c.begin(), c.end());
+    return TwoLists{*std::move(facets[0]), *std::move(facets[1])};
 }
 
 // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
@@ -328,27 +260,28 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
         [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes()); });
     if (near[0].empty() || near[1].empty()) return std::nullopt;
     const auto of_near = memory.hold((near[0].size() + near[1].size()) * sizeof(std::uint32_t));
-    if (!find_pairs(two, near, options, memory, parallel, crossings, stats) ||
-        crossings.pairs.empty())
-        return std::nullopt;
-    std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
-    const auto find = [&](std::size_t i) {
-        const Crossings::Operand& other = crossings.operands[1 - i];
-        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i]);
-        facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
-                                    other.is_open_below());
-    };
-    do_both(
-        parallel, [&] { find(0); }, [&] { find(1); });
-    if (!facets[0] || !facets[1]) return std::nullopt;
-    std::vector<UncrossedFacets> out;
-    for (std::size_t i = 0; i < 2; ++i) {
-        stats.untouched_polygons += facets[i]->size();
-        memory.keep(facets[i]->size() * sizeof(std::uint32_t));
-        out.push_back({&two.source(i), crossings.operands[i].inside_above, *std::move(facets[i])});
+    PairsOfMeshes pairs(two, near, options, memory, parallel, crossings);
+    for (const bool recognises_equal : {true, false}) {
+        EvaluateStats found;
+        std::optional<FoundPairs> of_pairs = pairs.find(recognises_equal, found);
+        if (!of_pairs) return std::nullopt;
+        auto facets = facets_beside(two, grid, cubes, near, solids, parallel, *of_pairs);
+        // Where equal facets are all around others, nothing says on which side these are.
+        if (!facets && of_pairs->equal) continue;
+        if (!facets) return std::nullopt;
+        stats += found;
+        crossings = std::move(of_pairs->crossings);
+        std::vector<UncrossedFacets> out;
+        for (std::size_t i = 0; i < 2; ++i) {
+            std::vector<std::uint32_t>& list = (*facets)[i];
+            stats.untouched_polygons += list.size();
+            memory.keep(list.size() * sizeof(std::uint32_t));
+            out.push_back({&two.source(i), crossings.operands[i].inside_above, std::move(list)});
+        }
+        stats.memory = memory.peak();
+        return out;
     }
-    stats.memory = memory.peak();
-    return out;
+    return std::nullopt;
 }
 
 }  // namespace

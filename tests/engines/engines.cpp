@@ -231,8 +231,33 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
         const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
         return trisect::evaluate(expression, options);
     };
-    const auto expected = mesh_of(*trisect::detail::state_of(evaluated_by_cells()));
-    if (!are_equal(mesh_of(*state), expected)) return "another mesh";
+    const trisect::Solid cells = evaluated_by_cells();
+    const auto expected = mesh_of(*trisect::detail::state_of(cells));
+    const auto mesh = mesh_of(*state);
+    const auto& found = *std::get<UndividedMeshes>(state->form).crossings;
+    // Where facets coincide, which of them stands for both may differ, and so may triangles.
+    const bool may_coincide = stats.doubtful_pairs != 0 || found.pairs.empty();
+    if (may_coincide && mesh && expected) {
+        if (std::string why = open_edge(*mesh); !why.empty()) return "open: " + why;
+        if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";
+        if (state->lattice.exponent >= 0) {
+            const auto boundary = reference::canonical_boundary(polygons(cells.to_brep()));
+            if (std::string why = difference(assemble_brep(*state, {}), boundary); !why.empty())
+                return "another boundary: " + why;
+        }
+        if (state->lazy_tree()->is_cut()) return "a tree was made for a boundary";
+        if (found.shown.empty()) return std::string();
+        const auto uncertain_mesh = [&] {
+            SolidState uncertain = *state;
+            auto crossings = std::make_shared<Crossings>(found);
+            crossings->uncertain.push_back(crossings->shown.front());
+            std::get<UndividedMeshes>(uncertain.form).crossings = crossings;
+            return mesh_of(uncertain);
+        };
+        if (!are_equal(uncertain_mesh(), expected)) return "another mesh out of a tree";
+        return std::string();
+    }
+    if (!are_equal(mesh, expected)) return "another mesh";
     if (!expected) return std::string();
     if (state->lazy_tree()->is_cut()) return "a tree was made for a mesh";
     // Where an outline is in doubt a tree is made after all.

@@ -39,9 +39,10 @@ namespace trisect::detail {
 namespace {}  // namespace
 
 bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
-                         std::span<const OutlineSegment> segments) {
+                         std::span<const OutlineSegment> segments, const ExactOutline* exact) {
     corners_ = corners;
     segments_ = segments;
+    exact_ = exact;
     edges_.clear();
     has_projection_ = false;
     cutters_ = 0;
@@ -146,12 +147,24 @@ bool FacetOutline::sort_stops_on(std::size_t edge) {
         s.along = way > 0 ? at.c[axis] : -at.c[axis];
         s.error = at.error;
     }
-    std::ranges::sort(stops, {}, &Stop::along);
-    for (std::size_t i = 1; i < stops.size(); ++i)
-        if (!(stops[i].along - stops[i - 1].along >
-              bound_slack * (stops[i - 1].error + stops[i].error)))
-            return false;
-    return true;
+    const auto is_clear = [](const Stop& a, const Stop& b) {
+        return std::fabs(b.along - a.along) > bound_slack * (a.error + b.error);
+    };
+    if (exact_ == nullptr) {
+        std::ranges::sort(stops, {}, &Stop::along);
+        for (std::size_t i = 1; i < stops.size(); ++i)
+            if (!is_clear(stops[i - 1], stops[i])) return false;
+        return true;
+    }
+    bool known = true;
+    std::ranges::sort(stops, [&](const Stop& a, const Stop& b) {
+        if (a.segment == b.segment) return false;
+        if (is_clear(a, b)) return a.along < b.along;
+        const int order = exact_->order_on(edge, a.segment, b.segment);
+        known = known && order != 0;
+        return order < 0;
+    });
+    return known;
 }
 
 bool FacetOutline::find_containments_at_corner() {
@@ -195,8 +208,13 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
         // The sum so far is rounded as well.
         error += 0x1p-49 * (std::fabs(p) + std::fabs(q) + std::fabs(area)) + 2 * e * (size + e);
     }
-    open = area < 0;
-    return std::fabs(area) > error;
+    if (std::fabs(area) > error || exact_ == nullptr || cutters_ != 1) {
+        open = area < 0;
+        return std::fabs(area) > error;
+    }
+    // Paths around nothing, but for the shift.
+    open = exact_->first_corner() == Crossings::Corner::Open;
+    return exact_->first_corner() != Crossings::Corner::Unknown;
 }
 
 // Where no cutter contains it, the outline bounds the open part.

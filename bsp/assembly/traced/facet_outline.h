@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/traced/outline_meetings.h>
+#include <trisect/bsp/cells/crossings.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
@@ -37,15 +38,33 @@ struct TracedEdge {
     std::uint32_t segment = 0;  ///< which one
 };
 
+/// What is known besides of a facet in special position, where points may coincide without the
+/// shift of one mesh (Crossings::special).
+class ExactOutline {
+public:
+    ExactOutline() = default;
+    ExactOutline(const ExactOutline&) = delete;
+    ExactOutline& operator=(const ExactOutline&) = delete;
+    virtual ~ExactOutline() = default;
+    /// -1, 1: the order of the ends of two segments on an edge of the facet, along the edge; 0 when
+    /// it is not known.
+    [[nodiscard]] virtual int order_on(std::size_t edge, std::uint32_t a,
+                                       std::uint32_t b) const = 0;
+    /// Of the only cutter, whether it leaves the first corner open.
+    [[nodiscard]] virtual Crossings::Corner first_corner() const = 0;
+};
+
 /// Traces facets that others cross in general position; keeps its memory.
 class FacetOutline {
 public:
     static constexpr std::size_t max_cutters = 64;
 
-    /// False when doubles cannot decide, more than max_cutters operands cross the facet, or the
-    /// segments are not what closed boundaries leave. O(n^2) for n segments.
+    /// False when doubles cannot decide, nor `exact` where there is one, more than max_cutters
+    /// operands cross the facet, or the segments are not what closed boundaries leave. O(n^2) for n
+    /// segments.
     [[nodiscard]] bool trace(const std::array<const LatticePoint*, 3>& corners,
-                             std::span<const OutlineSegment> segments);
+                             std::span<const OutlineSegment> segments,
+                             const ExactOutline* exact = nullptr);
     /// The same for a whole plane that one operand crosses and contains far out: all paths are
     /// closed. O(n log n).
     [[nodiscard]] bool trace_section(const Plane& plane, std::span<const OutlineSegment> segments);
@@ -99,6 +118,7 @@ private:
     }
     std::array<const LatticePoint*, 3> corners_{};
     std::span<const OutlineSegment> segments_;
+    const ExactOutline* exact_ = nullptr;
     std::size_t cutters_ = 0;
     std::vector<TracedEdge> edges_;
     std::vector<Start> starts_;

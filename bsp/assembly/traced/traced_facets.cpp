@@ -21,6 +21,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/traced/facet_outline.h>
+#include <trisect/bsp/cells/shifted_pairs.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -56,7 +57,7 @@ private:
     unsigned shift_ = 0;
 };
 
-class Tracer {
+class Tracer final : ExactOutline {
 public:
     Tracer(const Crossings& crossings, BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
         : crossings_(crossings), operand_of_(crossings.operands), parts_(parts), edges_(edges) {}
@@ -82,6 +83,8 @@ public:
             while (uncertain != crossings_.uncertain.end() && *uncertain < facet) ++uncertain;
             if (uncertain == crossings_.uncertain.end() || *uncertain != facet) look_at(facet);
         }
+        for (const std::uint32_t facet : crossings_.special)
+            if (!std::ranges::binary_search(crossings_.shown, facet)) add_whole(facet);
     }
 
 private:
@@ -111,6 +114,7 @@ private:
             marks->is_worked(facet, !o.inside_above))
             return;
         const Source* const source = marks->source();
+        special_ = std::ranges::binary_search(crossings_.special, number) ? number : none;
         if (!list_segments() || !trace(*source, facet)) return;
         add_edges(*marks, facet, o.inside_above);
         marks->set_traced(facet);
@@ -120,7 +124,54 @@ private:
     // Of a half-space the facet is the whole plane.
     bool trace(const Source& source, std::uint32_t facet) {
         return source.is_half_space() ? outline_.trace_section(source.support(facet), segments_)
-                                      : outline_.trace(corners_of(source, facet), segments_);
+                                      : outline_.trace(corners_of(source, facet), segments_,
+                                                       special_ != none ? this : nullptr);
+    }
+    // A facet that something touches and nothing crosses.
+    void add_whole(std::uint32_t number) {
+        const std::size_t operand = operand_of_(number);
+        const Crossings::Operand& o = crossings_.operands[operand];
+        FacetMarks* const marks = marks_[operand];
+        const std::uint32_t facet = number - o.first;
+        if (marks == nullptr || !marks->takes_part(facet, o.inside_above)) return;
+        const Source* const source = marks->source();
+        const std::int32_t worked = marks->number_of_worked(facet, o.inside_above);
+        const PlaneId edge = parts_.bench.plane(PlaneName::edge(source, facet, 0));
+        BoundaryFacet& f = parts_.facets[as_index(worked)];
+        f.support = parts_.bench.support_of(edge);
+        f.parts = 2;
+        f.is_special = true;
+        std::array<PointId, 3> points{};
+        for (int i = 0; i < 3; ++i) points[as_index(i)] = parts_.bench.corner(source, facet, i);
+        for (int k = 0; k < 3; ++k) {
+            const int i = o.inside_above ? 2 - k : k;
+            PointId from = points[as_index(i)];
+            PointId to = points[as_index((i + 1) % 3)];
+            if (o.inside_above) std::swap(from, to);
+            edges_.push_back({from, to, worked, {edge + i, false}});
+        }
+        marks->set_traced(facet);
+        ++parts_.stats.traced_facets;
+    }
+
+    [[nodiscard]] int order_on(std::size_t edge, std::uint32_t a, std::uint32_t b) const override {
+        const std::size_t operand = operand_of_(special_);
+        const Source& own = *marks_[operand]->source();
+        const std::uint32_t facet = special_ - crossings_.operands[operand].first;
+        const auto start = static_cast<int>(edge);
+        return order_along_shifted(own.corner(facet, start), own.corner(facet, (start + 1) % 3),
+                                   operand == 1, cutter_corners(a), cutter_corners(b),
+                                   crossings_.shift);
+    }
+    [[nodiscard]] Crossings::Corner first_corner() const override {
+        const auto at = std::ranges::lower_bound(crossings_.shown, special_);
+        return crossings_.first_corners[static_cast<std::size_t>(at - crossings_.shown.begin())];
+    }
+    [[nodiscard]] FacetCorners cutter_corners(std::uint32_t segment) const {
+        const Side& s = sides_[segment];
+        const std::uint32_t number = crossings_.pairs[s.pair].facets[1 - s.side];
+        const std::size_t operand = operand_of_(number);
+        return corners_of(*marks_[operand]->source(), number - crossings_.operands[operand].first);
     }
 
     static std::array<const LatticePoint*, 3> corners_of(const Source& source,
@@ -196,7 +247,8 @@ private:
         }
         BoundaryFacet& f = parts_.facets[as_index(number)];
         f.support = own_support_;
-        f.parts = 1;
+        f.is_special = special_ != none;
+        f.parts = f.is_special ? 2 : 1;
     }
 
     WorkEdge line_of(const TracedEdge& e) {
@@ -257,6 +309,7 @@ private:
         const PolygonRef ref{marks_[operand]->source(), nullptr,
                              c.facets[side] - crossings_.operands[operand].first, false, false};
         Workbench& bench = parts_.bench;
+        if (c.ends[k].corner >= 0) return bench.corner(ref.source, ref.facet, c.ends[k].corner);
         const PlaneId first = edge_of(pair, side);
         return bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
                             support_of(pair, 1 - side), c.ends[k].at);
@@ -278,10 +331,10 @@ private:
         const Crossings::Operand& o = crossings_.operands[operand];
         const FacetMarks& marks = *marks_[operand];
         const std::uint32_t facet = number - o.first;
-        PlaneId none = -1;
+        PlaneId unnumbered = -1;
         PlaneId& known = marks.takes_part(facet, o.inside_above)
                              ? planes_[as_index(marks.number_of_worked(facet, o.inside_above))]
-                             : none;
+                             : unnumbered;
         if (known < 0)
             known = parts_.bench.plane(marks.source()->is_half_space()
                                            ? PlaneName::support(marks.source(), facet)
@@ -297,7 +350,9 @@ private:
     std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
     std::vector<PlaneId> planes_;                   // the same by number of the facet
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
     // Of one facet:
+    std::uint32_t special_ = none;  // its number if it is in special position
     std::vector<Side> sides_;
     std::vector<OutlineSegment> segments_;
     FacetOutline outline_;

@@ -64,7 +64,16 @@ public:
     [[nodiscard]] bool relate_all(FilteredFacets& facets, bool edges_apart, EvaluateStats& stats) {
         return relate(facets, {}, edges_apart, stats);
     }
-    /// The same, with `edges_apart`, for pairs with at least one marked facet.
+    /// The pairs that doubles cannot decide, with `edges_apart`: the others are related as above. The
+    /// item of the first operand comes first. \pre two operands
+    using Doubtful = std::vector<std::array<LeafIndex, 2>>;
+    void relate_all_but(Doubtful& doubtful, FilteredFacets& facets, EvaluateStats& stats) {
+        doubtful.clear();
+        doubtful_ = &doubtful;
+        static_cast<void>(relate(facets, {}, true, stats));
+        doubtful_ = nullptr;
+    }
+    /// relate_all(), with `edges_apart`, for pairs with at least one marked facet.
     [[nodiscard]] bool relate_marked(FilteredFacets& facets, std::span<const std::uint8_t> marks,
                                      EvaluateStats& stats) {
         return relate(facets, marks, true, stats);
@@ -127,6 +136,7 @@ private:
     void list_contacts(LeafIndex count);
 
     bool edges_apart_ = false;
+    Doubtful* doubtful_ = nullptr;  // where such pairs are taken out
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
     std::vector<std::uint8_t> has_partner_;   // by item

@@ -66,7 +66,7 @@ bool PrismFacets::list(const LeafProblem& problem) {
                                                      may_be_of_prism(o.polygons.back()))))
             return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!list_along(problem, axis)) continue;
+        if (!may_end_at_caps(problem, axis) || !list_along(problem, axis)) continue;
         // Where everything is axis-perpendicular other ways are shorter, whatever the axis.
         if (is_grid()) return false;
         if (!join_halves() || !find_layers()) continue;
@@ -74,6 +74,47 @@ bool PrismFacets::list(const LeafProblem& problem) {
         return true;
     }
     return false;
+}
+
+// Of large meshes: whether the first side faces end at caps. Straight walls of several rings of
+// facets do not, and to list them takes much longer.
+bool PrismFacets::may_end_at_caps(const LeafProblem& problem, std::size_t axis) {
+    constexpr std::size_t large = 16384;
+    constexpr std::size_t few = 64;
+    std::size_t size = 0;
+    for (const LeafOperand& o : problem.operands) size += o.polygons.size();
+    if (size < large) return true;
+    axis_ = axis;
+    const auto heights = [&](const PolygonRef& ref) {
+        std::array<Coordinate, 3> out;
+        for (int i = 0; i < 3; ++i)
+            out[as_index(i)] = coordinate(ref.source->corner(ref.facet, i), axis_);
+        return out;
+    };
+    const auto is_flat = [](const std::array<Coordinate, 3>& h) {
+        return h[0] == h[1] && h[0] == h[2];
+    };
+    const auto has_upright_edge = [&](const PolygonRef& ref) {
+        const auto corner = [&](int i) { return flat(ref.source->corner(ref.facet, i)); };
+        return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
+    };
+    std::vector<Coordinate> ends;
+    for (const LeafOperand& o : problem.operands)
+        for (const PolygonRef& ref : o.polygons.first(std::min(few, o.polygons.size()))) {
+            const auto h = heights(ref);
+            if (is_flat(h)) continue;
+            if (!has_upright_edge(ref)) return false;
+            ends.insert(ends.end(), h.begin(), h.end());
+        }
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    for (const LeafOperand& o : problem.operands)
+        for (const PolygonRef& ref : o.polygons) {
+            if (ends.empty()) return true;
+            const auto h = heights(ref);
+            if (is_flat(h)) std::erase(ends, h[0]);
+        }
+    return ends.empty();
 }
 
 bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {

@@ -78,6 +78,7 @@ public:
     [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }
 
 private:
+    [[nodiscard]] bool may_end_at_caps(const LeafProblem& problem, std::size_t axis);
     [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis);
     [[nodiscard]] bool add(const PolygonRef& ref, LeafIndex operand, bool flipped);
     [[nodiscard]] bool is_grid() const;

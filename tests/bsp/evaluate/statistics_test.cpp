@@ -56,6 +56,7 @@ TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
     (void)evaluate(a | b, {}, &stats);
     (void)divided(a | b, &by_cells);
     EXPECT_GT(stats.pairs_cutting, 0U);
+    EXPECT_EQ(stats.doubtful_pairs, 0U);
     EXPECT_LE(stats.pairs_cutting, by_cells.pairs_cutting);  // some count in several cells
     EXPECT_LT(2 * stats.listed_polygons, by_cells.listed_polygons);
     EXPECT_EQ(stats.traces, 0U);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// InfinitesimalShift: a direction in which one of two meshes is moved by less than any number.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace trisect::detail {
+
+/// The second one of two meshes is moved by e along the first of these axes, e² along the second
+/// one and e³ along the third one, with these signs.
+struct InfinitesimalShift {
+    std::array<std::uint8_t, 3> axes{0, 1, 2};
+    std::array<std::int8_t, 3> signs{1, 1, 1};  ///< in the order of `axes`
+
+    /// The sign of its product with a vector, by the signs of the vector's components; 0 for 0.
+    [[nodiscard]] int along(const std::array<int, 3>& components) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const int c = components[axes[k]]; c != 0) return c * signs[k];
+        return 0;
+    }
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Facets of a mesh that is moved by less than any number (shifted_pairs.h), against the same facets
+// on a grid that is so fine that it can be moved by a little.
+
+#include <trisect/bsp/cells/shifted_pairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using trisect::LatticePoint;
+using trisect::detail::coplanar_overlap;
+using trisect::detail::FacetCorners;
+using trisect::detail::InfinitesimalShift;
+using trisect::detail::order_along_shifted;
+using trisect::detail::Overlap;
+using trisect::detail::relate_shifted;
+using trisect::detail::ShiftedPair;
+
+using Corner = std::array<std::int64_t, 3>;
+using Triangle = std::array<Corner, 3>;
+
+// Determinants of the small grid are below 2^11; so one of three corners changes less by a shift
+// along one axis than by the smallest one along the axis before it, and by none as much as from one
+// number to the next.
+constexpr std::int64_t scale = std::int64_t{1} << 45;
+constexpr std::array<std::int64_t, 3> steps{std::int64_t{1} << 30, std::int64_t{1} << 15, 1};
+
+FacetCorners corners(const std::array<LatticePoint, 3>& points) {
+    return {&points[0], &points[1], &points[2]};
+}
+
+std::array<LatticePoint, 3> points_of(const Triangle& t) {
+    std::array<LatticePoint, 3> out;
+    for (std::size_t i = 0; i < 3; ++i) out[i] = {t[i][0], t[i][1], t[i][2]};
+    return out;
+}
+
+Triangle fine(Triangle t, const InfinitesimalShift* shift) {
+    for (Corner& c : t) {
+        for (std::int64_t& x : c) x *= scale;
+        for (std::size_t k = 0; shift != nullptr && k < 3; ++k)
+            c[shift->axes[k]] += shift->signs[k] * steps[k];
+    }
+    return t;
+}
+
+bool has_area(const Triangle& t) {
+    Corner u;
+    Corner v;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = t[1][k] - t[0][k];
+        v[k] = t[2][k] - t[0][k];
+    }
+    return u[1] * v[2] != u[2] * v[1] || u[2] * v[0] != u[0] * v[2] || u[0] * v[1] != u[1] * v[0];
+}
+
+class Triangles {
+public:
+    explicit Triangles(std::uint32_t seed) : random_(seed) {}
+    Triangle next(std::int64_t size) {
+        while (true) {
+            Triangle t;
+            for (Corner& c : t)
+                for (std::int64_t& x : c)
+                    x = static_cast<std::int64_t>(random_() % static_cast<std::uint32_t>(size));
+            if (has_area(t)) return t;
+        }
+    }
+    InfinitesimalShift shift() {
+        InfinitesimalShift s;
+        std::shuffle(s.axes.begin(), s.axes.end(), random_);
+        for (std::int8_t& sign : s.signs) sign = random_() % 2 == 0 ? 1 : -1;
+        return s;
+    }
+
+private:
+    std::mt19937 random_;
+};
+
+TEST(ShiftedPairs, AreRelatedAsThoseThatAreMoved) {
+    std::array<int, 4> kinds{};
+    int touching = 0;
+    for (std::uint32_t seed = 0; seed < 20000; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Triangles random(seed);
+        const std::int64_t size = 2 + seed % 4;
+        const Triangle a = random.next(size);
+        const Triangle b = random.next(size);
+        const InfinitesimalShift shift = random.shift();
+        const auto at_a = points_of(a);
+        const auto at_b = points_of(b);
+        const ShiftedPair pair = relate_shifted(corners(at_a), corners(at_b), shift);
+        ++kinds[static_cast<std::size_t>(pair.kind)];
+        touching += pair.touches ? 1 : 0;
+        const auto fine_a = points_of(fine(a, nullptr));
+        const auto fine_b = points_of(fine(b, &shift));
+        const ShiftedPair moved = relate_shifted(corners(fine_a), corners(fine_b), shift);
+        EXPECT_FALSE(moved.touches);
+        const bool crosses = pair.kind == ShiftedPair::Kind::Crossing;
+        ASSERT_EQ(moved.kind,
+                  crosses ? ShiftedPair::Kind::Crossing : ShiftedPair::Kind::Apart);
+        for (std::size_t k = 0; crosses && k < 2; ++k) {
+            EXPECT_EQ(pair.ends[k].of_second, moved.ends[k].of_second);
+            EXPECT_EQ(pair.ends[k].edge, moved.ends[k].edge);
+            for (std::size_t i = 0; i < 3; ++i)
+                EXPECT_NEAR(pair.ends[k].at.c[i] * static_cast<double>(scale),
+                            moved.ends[k].at.c[i], 0x1p42);
+            if (pair.ends[k].corner < 0) continue;
+            const auto& own = pair.ends[k].of_second ? at_b : at_a;
+            const LatticePoint& corner = own[static_cast<std::size_t>(pair.ends[k].corner)];
+            EXPECT_EQ(pair.ends[k].at.c, corner.doubles());
+        }
+    }
+    EXPECT_GT(*std::ranges::min_element(kinds), 10);
+    EXPECT_GT(touching, 1000);
+}
+
+// Where an edge goes through two facets that have a point of it in common.
+TEST(ShiftedPairs, EdgesGoThroughFacetsInTheOrderOfThoseThatAreMoved) {
+    int equal = 0;
+    int compared = 0;
+    for (std::uint32_t seed = 0; seed < 200000 && compared < 2000; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Triangles random(seed);
+        const Triangle f = random.next(3);
+        const std::array<Triangle, 2> others{random.next(3), random.next(3)};
+        const InfinitesimalShift shift = random.shift();
+        const bool is_second = seed % 2 == 0;
+        const auto own = points_of(f);
+        const std::array cutters{points_of(others[0]), points_of(others[1])};
+        // Both cross the facet with an end on its first edge.
+        bool both = true;
+        for (const auto& c : cutters) {
+            const ShiftedPair pair = is_second
+                                         ? relate_shifted(corners(c), corners(own), shift)
+                                         : relate_shifted(corners(own), corners(c), shift);
+            const auto is_on_first = [&](const auto& end) {
+                return end.of_second == is_second && end.edge == 0;
+            };
+            both = both && pair.kind == ShiftedPair::Kind::Crossing &&
+                   std::ranges::any_of(pair.ends, is_on_first);
+        }
+        if (!both) continue;
+        ++compared;
+        const int order = order_along_shifted(own[0], own[1], is_second, corners(cutters[0]),
+                                              corners(cutters[1]), shift);
+        const auto fine_own = points_of(fine(f, is_second ? &shift : nullptr));
+        const std::array fine_cutters{points_of(fine(others[0], is_second ? nullptr : &shift)),
+                                      points_of(fine(others[1], is_second ? nullptr : &shift))};
+        EXPECT_EQ(order, order_along_shifted(fine_own[0], fine_own[1], is_second,
+                                             corners(fine_cutters[0]), corners(fine_cutters[1]),
+                                             InfinitesimalShift{}));
+        equal += order == 0 ? 1 : 0;
+    }
+    EXPECT_GT(compared, 500);
+    EXPECT_GT(equal, 0);  // facets of one plane
+}
+
+TEST(ShiftedPairs, CoplanarFacetsOverlapOrHaveOnlyOutlinesInCommon) {
+    const auto square = points_of({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}});
+    const auto beside = points_of({{{2, 0, 0}, {2, 2, 0}, {0, 2, 0}}});
+    const auto over = points_of({{{1, 0, 0}, {2, 2, 0}, {0, 2, 0}}});
+    const auto within = points_of({{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}});
+    const auto apart = points_of({{{3, 0, 0}, {3, 2, 0}, {2, 2, 0}}});
+    const auto overlap = [](const auto& a, const auto& b) {
+        EXPECT_EQ(coplanar_overlap(corners(a), corners(b)), coplanar_overlap(corners(b), corners(a)));
+        return coplanar_overlap(corners(a), corners(b));
+    };
+    EXPECT_EQ(overlap(square, apart), Overlap::None);
+    EXPECT_EQ(overlap(square, beside), Overlap::Outlines);
+    EXPECT_EQ(overlap(square, over), Overlap::Insides);
+    EXPECT_EQ(overlap(square, within), Overlap::Insides);
+}
+
+}  // namespace

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Large meshes whose edges meet edges, whose corners lie on each other, or which have facets in
+// common: they are not divided, and the result is that of the cells.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/stop_scope.h>
+
+#include "engines.h"
+#include "evaluate_stats.h"
+
+namespace special_position_test {
+namespace {
+
+using trisect::Expression;
+using trisect::PolygonMesh;
+using trisect::Solid;
+using trisect::test::EvaluateStats;
+
+Solid solid(const PolygonMesh& mesh) {
+    trisect::SolidOptions import;
+    import.import.lattice = trisect::Lattice{-40};
+    import.embedding = trisect::Embedding::Assume;
+    return Solid::from_mesh(mesh, import);
+}
+
+// By cells: a limit of work is counted by them.
+Solid divided(const Expression& expression) {
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
+    return trisect::evaluate(expression);
+}
+
+using Triangle = std::array<trisect::Point3d, 3>;
+
+// By their places, whatever the corners are called: those of two meshes may have one place.
+std::vector<Triangle> triangles_of(const PolygonMesh& mesh) {
+    std::vector<Triangle> out;
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
+        Triangle t;
+        for (std::size_t k = 0; k < 3; ++k) t[k] = mesh.points[mesh.corners[i + k]];
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        out.push_back(t);
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
+enum class Formulas { All, NoDifferences };
+
+// All operations on two meshes. Returns how many pairs took integers.
+std::uint64_t expect_as_divided(const Solid& a, const Solid& b, Formulas which = Formulas::All) {
+    std::uint64_t doubtful = 0;
+    const Expression p = a;
+    const Expression q = b;
+    std::vector<Expression> formulas{p | q, p & q, q | p};
+    if (which == Formulas::All) formulas.insert(formulas.end(), {p - q, q - p});
+    for (const Expression& e : formulas) {
+        const Solid cells = divided(e);
+        const PolygonMesh expected = engines::boundary_mesh(cells);
+        PolygonMesh first;
+        for (const std::uint32_t threads : {1U, 4U}) {
+            trisect::EvaluateOptions options;
+            options.threads = threads;
+            EvaluateStats stats;
+            const Solid result = evaluate(e, options, &stats);
+            const auto tree = trisect::detail::state_of(result)->lazy_tree();
+            EXPECT_NE(tree, nullptr);
+            if (tree == nullptr) return 0;
+            const PolygonMesh mesh = engines::boundary_mesh(result);
+            EXPECT_FALSE(tree->is_cut());
+            EXPECT_EQ(engines::open_edge(mesh), "");
+            if (threads == 1) first = mesh;
+            EXPECT_EQ(mesh.corners, first.corners);
+            EXPECT_TRUE(mesh.points == first.points);
+            EXPECT_EQ(triangles_of(mesh), triangles_of(expected));
+            EXPECT_EQ(result.to_brep().counts(), cells.to_brep().counts());
+            doubtful += stats.doubtful_pairs;
+        }
+    }
+    return doubtful;
+}
+
+PolygonMesh sphere() { return trisect::make_icosphere(1, 4); }
+
+PolygonMesh moved(PolygonMesh mesh, const std::array<double, 3>& by) {
+    for (auto& p : mesh.points)
+        for (std::size_t k = 0; k < 3; ++k) p[k] += by[k];
+    return mesh;
+}
+
+TEST(SpecialPosition, AMeshMovedAlongAnAxis) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        SCOPED_TRACE("axis " + std::to_string(k));
+        std::array<double, 3> by{};
+        by[k] = 0.5;
+        EXPECT_GT(expect_as_divided(solid(sphere()), solid(moved(sphere(), by))), 100U);
+    }
+}
+
+TEST(SpecialPosition, AMeshTurnedAboutItsOwnAxis) {
+    PolygonMesh turned = sphere();
+    for (auto& p : turned.points) p = {-p[1], p[0], p[2]};
+    PolygonMesh egg = sphere();
+    for (auto& p : egg.points) {
+        p[2] *= 0.5;
+        p[0] += 0.25 * p[1] + 0.25;
+    }
+    PolygonMesh turned_egg = egg;
+    for (auto& p : turned_egg.points) p = {-p[0], -p[1], p[2]};
+    (void)expect_as_divided(solid(egg), solid(turned_egg));
+    EXPECT_GT(expect_as_divided(solid(sphere()), solid(turned), Formulas::NoDifferences), 0U);
+}
+
+// A lattice point up. Differences have no thickness in planes along the step on either side of the
+// mesh, which no shift makes good: they are for the tree.
+TEST(SpecialPosition, AMeshMovedByTheSmallestStep) {
+    const double step = std::ldexp(1.0, -40);
+    std::uint64_t doubtful = 0;
+    for (const std::array<double, 3> by : {std::array{step, 0.0, 0.0}, {step, step, -step}})
+        doubtful += expect_as_divided(solid(sphere()), solid(moved(sphere(), by)),
+                                      Formulas::NoDifferences);
+    EXPECT_GT(doubtful, 1000U);
+}
+
+// Not the same arrays, which would be one solid.
+TEST(SpecialPosition, AMeshWithItself) {
+    PolygonMesh again = sphere();
+    std::ranges::rotate(again.corners, again.corners.begin() + 300);
+    EXPECT_EQ(expect_as_divided(solid(sphere()), solid(again)), 0U);
+}
+
+// All facets but a few around one corner are the same.
+TEST(SpecialPosition, AMeshWithADent) {
+    PolygonMesh dented = sphere();
+    for (double& x : dented.points[100]) x *= 0.75;
+    EXPECT_GT(expect_as_divided(solid(sphere()), solid(dented), Formulas::NoDifferences), 0U);
+    PolygonMesh bulged = sphere();
+    for (double& x : bulged.points[100]) x *= 1.25;
+    EXPECT_GT(expect_as_divided(solid(dented), solid(bulged)), 0U);
+    EXPECT_GT(expect_as_divided(solid(sphere()), solid(bulged)), 0U);
+}
+
+// The halves of a sphere, as a fan on both sides or on one side otherwise.
+PolygonMesh half_ball(bool upper, std::uint32_t middle) {
+    constexpr std::uint32_t n = 40;
+    constexpr std::uint32_t rings = 20;
+    PolygonMesh mesh;
+    for (std::uint32_t r = 0; r < rings; ++r)
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const double up = 1.5 * r / rings;
+            const double around = 6.283185307179586 * i / n;
+            mesh.points.push_back({std::cos(up) * std::cos(around), std::cos(up) * std::sin(around),
+                                   upper ? std::sin(up) : -std::sin(up)});
+        }
+    const std::uint32_t top = n * rings;
+    mesh.points.push_back({0, 0, upper ? 1.0 : -1.0});
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (upper) {
+            mesh.add_triangle(a, b, c);
+        } else {
+            mesh.add_triangle(a, c, b);
+        }
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+            add(n * r + i, n * r + j, n * (r + 1) + j);
+            add(n * r + i, n * (r + 1) + j, n * (r + 1) + i);
+        }
+        add(n * (rings - 1) + i, n * (rings - 1) + j, top);
+        // The cut: a fan about one of its corners.
+        if (i != middle && j != middle) add(middle, j, i);
+    }
+    return mesh;
+}
+
+TEST(SpecialPosition, HalvesOfACutReunited) {
+    (void)expect_as_divided(solid(half_ball(true, 0)), solid(half_ball(false, 0)));
+    (void)expect_as_divided(solid(half_ball(true, 0)), solid(half_ball(false, 7)));
+}
+
+}  // namespace
+}  // namespace special_position_test
