@@ -34,6 +34,7 @@ constexpr std::array counter_members{
     &Counters::filtered_fragments,
     &Counters::prism_leaves,
     &Counters::exact_leaves,
+    &Counters::halved_cells,
     &Counters::divided_cells,
     &Counters::listed_polygons,
     &Counters::pairs_boxes,
