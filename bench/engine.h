@@ -37,8 +37,9 @@ public:
     [[nodiscard]] virtual Body import(const trisect::PolygonMesh& mesh) = 0;
     /// Does for a solid, once, what would otherwise be left to the first operations with it.
     virtual void index(const Body& /*body*/) {}
-    /// The union of `first`, combined with the union of `second` unless that is empty; computed
-    /// when this returns. May use its operands up. \pre `first` is not empty.
+    /// The union of `first`, combined with the union of `second`; all of `first` combined where
+    /// that is empty, in a difference the first one with the union of the others. Computed when
+    /// this returns. May use its operands up. \pre `first` is not empty.
     [[nodiscard]] virtual Body evaluate(std::span<const Body> first, std::span<const Body> second,
                                         Operation operation) = 0;
     /// What of a solid lies below all planes, a x + b y + c z + d <= 0; computed when this returns.

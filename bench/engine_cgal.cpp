@@ -25,8 +25,13 @@ public:
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
+        if (second.empty()) {
+            const auto type = type_of(operation);
+            if (operation != Operation::Difference || first.size() == 1)
+                return combined(first, type);
+            return corefinement::combine(*united(first.first(1)), *united(first.subspan(1)), type);
+        }
         const Handle a = united(first);
-        if (second.empty()) return a;
         return corefinement::combine(*a, *united(second), type_of(operation));
     }
 
@@ -42,11 +47,14 @@ private:
     }
 
     static Handle united(std::span<const Body> bodies) {
+        return combined(bodies, corefinement::Operation::Union);
+    }
+    static Handle combined(std::span<const Body> bodies, corefinement::Operation type) {
         if (bodies.size() == 1) return std::any_cast<const Handle&>(bodies[0]);
         const std::size_t half = bodies.size() / 2;
-        const Handle a = united(bodies.first(half));
-        const Handle b = united(bodies.subspan(half));
-        return corefinement::combine(*a, *b, corefinement::Operation::Union);
+        const Handle a = combined(bodies.first(half), type);
+        const Handle b = combined(bodies.subspan(half), type);
+        return corefinement::combine(*a, *b, type);
     }
 };
 

@@ -65,8 +65,8 @@ public:
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
+        if (second.empty()) return evaluated(combined(first, type_of(operation)));
         const Manifold a = united(first);
-        if (second.empty()) return evaluated(a);
         return evaluated(a.Boolean(united(second), type_of(operation)));
     }
 
@@ -118,12 +118,13 @@ private:
         return operation == Operation::Intersection ? OpType::Intersect : OpType::Subtract;
     }
 
-    static Manifold united(std::span<const Body> bodies) {
+    static Manifold united(std::span<const Body> bodies) { return combined(bodies, OpType::Add); }
+    static Manifold combined(std::span<const Body> bodies, OpType type) {
         if (bodies.size() == 1) return std::any_cast<const Manifold&>(bodies[0]);
         std::vector<Manifold> all;
         all.reserve(bodies.size());
         for (const Body& b : bodies) all.push_back(std::any_cast<const Manifold&>(b));
-        return Manifold::BatchBoolean(all, OpType::Add);
+        return Manifold::BatchBoolean(all, type);
     }
 
 #ifdef TRISECT_BENCH_MANIFOLD_PARALLEL

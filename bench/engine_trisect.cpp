@@ -88,6 +88,8 @@ public:
                 {"constant_cells", counters_.constant_cells},
                 {"mixed_leaves", counters_.mixed_leaves},
                 {"filtered_leaves", counters_.filtered_leaves},
+                {"exact_leaves", counters_.exact_leaves},
+                {"halved_cells", counters_.halved_cells},
                 {"listed_polygons", counters_.listed_polygons},
                 {"pairs_boxes", counters_.pairs_boxes},
                 {"pairs_cutting", counters_.pairs_cutting},
@@ -102,18 +104,27 @@ public:
 private:
     static const Solid& solid(const Body& body) { return *std::any_cast<Solid>(&body); }
 
-    static Expression any_of(std::span<const Body> bodies) {
-        if (bodies.size() == 1) return solid(bodies[0]);
+    static std::vector<Expression> terms_of(std::span<const Body> bodies) {
         std::vector<Expression> terms;
         terms.reserve(bodies.size());
         for (const Body& b : bodies) terms.emplace_back(solid(b));
-        return Expression::any_of(terms);
+        return terms;
+    }
+    static Expression any_of(std::span<const Body> bodies) {
+        return Expression::any_of(terms_of(bodies));
+    }
+    static Expression all_of(std::span<const Body> bodies) {
+        return Expression::all_of(terms_of(bodies));
     }
 
     static Expression expression(std::span<const Body> first, std::span<const Body> second,
                                  Operation operation) {
+        if (second.empty()) {
+            if (operation == Operation::Intersection) return all_of(first);
+            if (operation == Operation::Union || first.size() == 1) return any_of(first);
+            return any_of(first.first(1)) - any_of(first.subspan(1));
+        }
         const Expression a = any_of(first);
-        if (second.empty()) return a;
         const Expression b = any_of(second);
         if (operation == Operation::Union) return a | b;
         if (operation == Operation::Intersection) return a & b;

@@ -16,6 +16,7 @@
 
 #include "cliff_scenes.h"
 #include "degenerate_scenes.h"
+#include "dense_operands.h"
 #include "shapes.h"
 
 namespace bench {
@@ -85,6 +86,39 @@ Scene one_union(std::vector<PolygonMesh> operands) {
     s.first_group = operands.size();
     s.operands = std::move(operands);
     s.operations = {Operation::Union};
+    return s;
+}
+
+/// The word behind a prefix as a number of operands.
+std::size_t count_of(const std::string& scene, const std::string& word, const char* prefix) {
+    const std::string digits = word.substr(std::string_view(prefix).size());
+    if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos)
+        unknown(scene);
+    const std::size_t n = std::strtoul(digits.c_str(), nullptr, 10);
+    if (n < 2 || n > 10'000) unknown(scene);
+    return n;
+}
+
+/// All operands combined by each operation; a difference is the first one less all others.
+Scene dense_scene(const std::string& scene, const std::string& word) {
+    if (word.starts_with("path")) {
+        Scene s = one_union(plate_and_path(count_of(scene, word, "path")));
+        s.operations = {Operation::Difference};
+        return s;
+    }
+    Scene s;
+    if (word.starts_with("dense")) {
+        s = one_union(nearly_equal_solids(count_of(scene, word, "dense")));
+    } else if (word.starts_with("onion")) {
+        s = one_union(nested_solids(count_of(scene, word, "onion")));
+    } else if (word.starts_with("swarm")) {
+        s = one_union(solids_in_one_place(count_of(scene, word, "swarm")));
+    } else if (word.starts_with("cylinders")) {
+        s = one_union(turned_cylinders(count_of(scene, word, "cylinders")));
+    } else {
+        unknown(scene);
+    }
+    s.operations = all_operations;
     return s;
 }
 
@@ -427,6 +461,7 @@ Scene scene_of(const std::string& name) {
     if (words[0] == "g")
         if (auto operands = degenerate_pair(words[1]))
             return pair(std::move(operands->first), std::move(operands->second));
+    if (words[0] == "h") return dense_scene(name, words[1]);
     unknown(name);
 }
 

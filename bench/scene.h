@@ -35,8 +35,9 @@ struct Step {
 /// and becomes a mesh, which counts as its evaluation.
 ///
 /// An expression is the union of the first group of operands, combined with the union of the second
-/// group if there is one. A chain starts with its only operand and is evaluated after every step;
-/// its tools are made when they are due, since there may be a hundred thousand.
+/// group; where there is no second one, all operands are combined, in a difference the first one
+/// with the union of all others. A chain starts with its only operand and is evaluated after every
+/// step; its tools are made when they are due, since there may be a hundred thousand.
 struct Scene {
     std::string name;
     std::vector<trisect::PolygonMesh> operands;
@@ -84,6 +85,12 @@ struct Scene {
 ///     g:halves g:stack              two halves of a ball, cans of the same facets one on the other
 ///     g:tiles                       pieces of terrain side by side
 ///     g:boss g:slab                 a can under a terrain, on a plate: on the middle of a face
+///     h:dense16                     16 nearly equal solids of 800 triangles, turned at random; any
+///                                   other number as well, in the next ones, too
+///     h:onion16                     nested ones
+///     h:swarm16                     with centres at random in a third of their radius
+///     h:cylinders16                 cylinders of 200 sides about one centre, turned at random
+///     h:path200                     a plate less capsules that overlap along a path
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);

@@ -48,6 +48,9 @@ struct CellTask {
     Residual::Ref formula;
     std::span<CellOperand> operands;
     int depth = 0;
+    /// A part of the formula of a cell, whose operands may be results of other parts: they are
+    /// none of the operands that crossings are collected of.
+    bool is_part = false;
     int stalled = 0;  ///< splitting planes in a row that did not separate the polygons
 
     [[nodiscard]] std::uint64_t size() const {

@@ -35,6 +35,7 @@ constexpr std::array counter_members{
     &Counters::prism_leaves,
     &Counters::exact_leaves,
     &Counters::half_space_cuts,
+    &Counters::halved_cells,
     &Counters::divided_cells,
     &Counters::listed_polygons,
     &Counters::pairs_boxes,

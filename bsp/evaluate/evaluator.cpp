@@ -5,7 +5,9 @@
 //   1. operands without boundary in the cell are constant there: replace them by their value;
 //   2. take the first rule of the table (rules.h) that serves: nothing left is a homogeneous cell,
 //      of one operand left the subtree is shared, few polygons are arranged;
-//   3. the last rule cuts the cell. Where an operand already has a tree its plane is taken, so that
+//   3. where many operands fill the cell, halves of the formula are evaluated one after the other,
+//      and then what they leave;
+//   4. the last rule cuts the cell. Where an operand already has a tree its plane is taken, so that
 //      its subtrees can be shared. A large leaf beside small ones is refined by itself, for all its
 //      users. Else the splitting plane that separates the operands soonest.
 //
@@ -46,6 +48,7 @@
 #include <trisect/bsp/divide/slab.h>
 #include <trisect/bsp/evaluate/arranger_pool.h>
 #include <trisect/bsp/evaluate/contained_cells.h>
+#include <trisect/bsp/evaluate/formula_halves.h>
 #include <trisect/bsp/evaluate/root_task.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/leaf/leaf_arrangement.h>
@@ -110,6 +113,9 @@ private:
         bool inside = false;  // the reference point, of the result
     };
 
+    [[nodiscard]] bool collects(const CellTask& task) const {
+        return shared_.crossings != nullptr && !task.is_part;
+    }
     // For ParallelParts: as many as the arena has, or the calling one.
     [[nodiscard]] std::uint32_t threads() const { return shared_.parallel ? 0 : 1; }
 
@@ -117,14 +123,19 @@ private:
     void drop(CellTask& task);
     template <class IsLeft>
     void note_dropped(const CellTask& task, const IsLeft& is_left);
+    void note_listed(const CellTask& task);
     void note_all(std::int32_t slot, const CellNode& node);
 
     [[nodiscard]] std::optional<CellRef> first_of(std::span<const Rule> rules, const CellView& view,
                                                   CellTask& task);
     [[nodiscard]] std::optional<CellRef> make_constant(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> share(CellTask& task) override;
+    [[nodiscard]] std::optional<CellRef> halve(CellTask& task) override;
     [[nodiscard]] std::optional<CellRef> divide(CellTask& task) override;
 
+    [[nodiscard]] bool is_inside_at_reference(const CellTask& task);
+    [[nodiscard]] CellTask part_of(const CellTask& task, const Residual::Ref& part);
+    [[nodiscard]] int value_with(const Residual& formula, const CellOperand& o);
     void list(CellTask& task, Listed& out);
     [[nodiscard]] std::vector<LeafOperand> list_operands(const CellTask& task);
     [[nodiscard]] std::optional<CellRef> arrange(const LeafRule& rule, const CellTask& task,
@@ -181,7 +192,7 @@ void Worker::drop(CellTask& task) {
     const auto is_left = [&](const CellOperand& o) {
         return used_[static_cast<std::size_t>(o.slot)] != 0;
     };
-    if (shared_.crossings != nullptr) note_dropped(task, is_left);
+    if (collects(task)) note_dropped(task, is_left);
     const auto end = std::remove_if(task.operands.begin(), task.operands.end(),
                                     [&](const CellOperand& o) { return !is_left(o); });
     task.operands = {task.operands.data(), static_cast<std::size_t>(end - task.operands.begin())};
@@ -204,6 +215,11 @@ void Worker::note_dropped(const CellTask& task, const IsLeft& is_left) {
         covered_.add(task);
         return;
     }
+    note_listed(task);
+}
+
+// All facets of all operands of a cell.
+void Worker::note_listed(const CellTask& task) {
     for (const CellOperand& o : task.operands) {
         if (o.is_list) {
             for (const PackedBox& e : o.list())
@@ -297,11 +313,17 @@ void Worker::list(CellTask& task, Listed& out) {
     lists_.make_leaves(task);
     out.operands = list_operands(task);
     arrangers_->largest_leaf = std::max(arrangers_->largest_leaf, polygons_.size());
+    out.inside = is_inside_at_reference(task);
+    out.problem = {task.cell,          task.reference, out.operands,
+                   task.formula.get(), &options_,      !task.is_part};
+}
+
+bool Worker::is_inside_at_reference(const CellTask& task) {
     for (const CellOperand& o : task.operands)
         values_[static_cast<std::size_t>(o.slot)] = is_inside(o.winding, options_.winding) ? 1 : 0;
-    out.inside = value_of(*task.formula, values_);
+    const bool inside = value_of(*task.formula, values_);
     for (const CellOperand& o : task.operands) values_[static_cast<std::size_t>(o.slot)] = -1;
-    out.problem = {task.cell, task.reference, out.operands, task.formula.get(), &options_, true};
+    return inside;
 }
 
 std::optional<CellRef> Worker::arrange(const LeafRule& rule, const CellTask& task,
@@ -378,7 +400,70 @@ std::unique_ptr<DeferredLeaf> Worker::problem_of(const CellTask& task) {
     return leaf;
 }
 
-// --- Step 3: divide.
+// --- Step 3: halve the formula.
+
+// The cell with a part of its formula. Its operands are in the arena.
+CellTask Worker::part_of(const CellTask& task, const Residual::Ref& part) {
+    used_.assign(values_.size(), 0);
+    for_each_slot(*part, [&](std::int32_t s) { used_[static_cast<std::size_t>(s)] = 1; });
+    CellTask out = task;
+    out.formula = part;
+    out.is_part = true;
+    auto* const operands = arena_.take<CellOperand>(task.operands.size());
+    std::size_t n = 0;
+    for (const CellOperand& o : task.operands)
+        if (used_[static_cast<std::size_t>(o.slot)] != 0) ::new (&operands[n++]) CellOperand(o);
+    out.operands = {operands, n};
+    return out;
+}
+
+// What one half of the formula makes of the cell is an operand like any other: few polygons are
+// left of it for the other half to be compared with. It gets the slot of its first operand.
+std::optional<CellRef> Worker::halve(CellTask& task) {
+    const std::optional<FormulaHalves> halves = halves_of(*task.formula);
+    if (!halves) return std::nullopt;
+    if (collects(task)) note_listed(task);
+    std::array<CellTask, 2> parts;
+    for (std::size_t i = 0; i < 2; ++i) parts[i] = part_of(task, halves->terms[i]);
+    CellTask whole = task;
+    whole.is_part = true;
+    whole.has_frame = false;
+    whole.stalled = 0;
+    auto* const operands = arena_.take<CellOperand>(2);
+    whole.operands = {operands, 2};
+    whole.formula = halves->joined(parts[0].operands[0].slot, parts[1].operands[0].slot);
+    std::array<CellRef, 2> made;  // lives as long as they are operands
+    for (std::size_t i = 0; i < 2; ++i) {
+        CellOperand& o = *::new (&operands[i]) CellOperand(parts[i].operands[0]);
+        if (parts[i].formula->kind == Residual::Kind::Slot) {
+            whole.has_frame = whole.has_frame || (task.has_frame && o.is_list);
+            continue;
+        }
+        o = {};
+        o.slot = parts[i].operands[0].slot;
+        o.winding = is_inside_at_reference(parts[i]) ? 1 : 0;
+        o.embedded = true;
+        o.has_fractions = std::ranges::any_of(parts[i].operands, &CellOperand::has_fractions);
+        made[i] = deep_solve(parts[i]);
+        o.complemented = made[i].complemented;
+        o.node = unfolded(made[i].node.get());
+        if (i == 0 && o.size() == 0)
+            if (const int value = value_with(*whole.formula, o); value >= 0)
+                return CellRef{CellNode::leaf(PolygonList(), task.reference, value, false), false};
+    }
+    return deep_solve(whole);
+}
+
+// Of a formula where one operand has no polygons; -1 where that does not decide it.
+int Worker::value_with(const Residual& formula, const CellOperand& o) {
+    auto& value = values_[static_cast<std::size_t>(o.slot)];
+    value = is_inside(o.winding, options_.winding) ? 1 : 0;
+    const int decided = bounded_value_of(formula, values_);
+    value = -1;
+    return decided;
+}
+
+// --- Step 4: divide.
 
 std::optional<SplittingPlane> splitter_of_trees(const CellTask& task) {
     const CellOperand* largest = nullptr;
@@ -413,6 +498,7 @@ Worker::Children Worker::children_of(const CellTask& task, const SplittingPlane&
         c.has_frame = task.has_frame;
         c.formula = task.formula;
         c.depth = task.depth + 1;
+        c.is_part = task.is_part;
         c.operands = {arena_.take<CellOperand>(task.operands.size()), task.operands.size()};
     }
     const std::array<Cell, 2> cells{out[0].cell, out[1].cell};
@@ -519,7 +605,7 @@ CellRef Worker::solve(CellTask& task) {
     shared_.failure.check();
     stats.depth = std::max(stats.depth, task.depth);
     prune(task);
-    CellView view{task, options_, values_, findings_.crossings.has_value()};
+    CellView view{task, options_, values_, collects(task)};
     if (auto cell = first_of(constant_rules(), view, task)) return *std::move(cell);
     view.size = task.size();
     for (const CellOperand& o : task.operands)

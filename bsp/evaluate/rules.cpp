@@ -13,6 +13,7 @@
 
 #include <trisect/bsp/cells/axis_polygon.h>
 #include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/divide/crowded_cell.h>
 #include <trisect/bsp/evaluate/evaluator.h>
 #include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/half_spaces/between_half_spaces.h>
@@ -30,6 +31,14 @@ constexpr std::uint32_t grid_leaf = 8;
 constexpr std::uint32_t small_operands_leaf = 8;
 // Operands are small where at least such a part of all their facets is in the cell.
 constexpr std::uint64_t small_operands_part = 8;
+
+// Where so many operands fill a cell, each with half a leaf on average, the formula is halved.
+// Pairs are what a leaf costs, and those of all operands with all others are more than those within
+// both halves and of what is left of these. In smaller cells more polygons would be cut. A union of
+// imported meshes keeps more than an intersection, and its leaves would cut nothing.
+constexpr std::size_t many_operands_in_cell = 6;
+constexpr std::size_t many_operands_of_union = 16;
+constexpr std::uint64_t leaf_of_operands = 2;
 
 // Splitters in a row that do not divide the polygons of a cell, weighted by stalled_after(), and
 // its depth, after which no more are tried.
@@ -76,15 +85,17 @@ bool ends_pass(const CellOperand& o, const Test& test) {
     return test(polygons[0]) && test(polygons[polygons.size() - 1]);
 }
 
-bool may_be_across_axes(const CellView& view) {
+bool are_across_axes_at_ends(const CellView& view) {
     const auto is_across = [](const PolygonRef& r) { return is_axis_polygon(r); };
-    return view.is_small() || std::ranges::all_of(view.task.operands, [&](const CellOperand& o) {
-               return ends_pass(o, is_across);
-           });
+    return std::ranges::all_of(view.task.operands,
+                               [&](const CellOperand& o) { return ends_pass(o, is_across); });
 }
 
-bool may_be_prisms(const CellView& view) {
-    if (view.is_small()) return true;
+bool may_be_across_axes(const CellView& view) {
+    return view.is_small() || are_across_axes_at_ends(view);
+}
+
+bool are_prisms_at_ends(const CellView& view) {
     const auto may_be_of_prism = [&](const PolygonRef& r) {
         return PrismFacets::may_be_of_prism(r) && view.task.cell.contains(r.box());
     };
@@ -94,7 +105,36 @@ bool may_be_prisms(const CellView& view) {
            });
 }
 
+bool may_be_prisms(const CellView& view) { return view.is_small() || are_prisms_at_ends(view); }
+
 bool is_any(const CellView&) { return true; }
+
+// Nothing is dropped in an exclusive or.
+bool drops_nothing(const Residual& operation) {
+    return operation.kind == Residual::Kind::Xor &&
+           std::ranges::all_of(operation.children, [](const Residual::Ref& term) {
+               const bool negated = term->kind == Residual::Kind::Not;
+               return (negated ? *term->children[0] : *term).kind == Residual::Kind::Slot;
+           });
+}
+
+// Grids and prisms are arranged all at once.
+bool are_many_all_over(const CellView& view) {
+    const std::size_t n = view.task.operands.size();
+    if (n < many_operands_in_cell) return false;
+    const Residual& formula = *view.task.formula;
+    const Residual& operation =
+        formula.kind == Residual::Kind::Not ? *formula.children[0] : formula;
+    if (drops_nothing(operation)) return false;
+    if (view.collects && operation.kind == Residual::Kind::Or && n < many_operands_of_union)
+        return false;
+    if (!view.undividable) {
+        const std::uint64_t leaf = view.options.leaf_polygons;
+        if (view.size <= leaf || leaf_of_operands * view.size > n * leaf) return false;
+        if (!is_crowded(view.task)) return false;
+    }
+    return !are_across_axes_at_ends(view) && !are_prisms_at_ends(view);
+}
 
 // A splitter pays where an operand is all on one side of it, and most where it covers the
 // other side. Small operands do not cover much, and splitters cut most of their facets, so
@@ -155,6 +195,11 @@ constexpr std::array all_rules{
     Rule{"grid", "up to 8 leaves; all facets axis-perpendicular",
          "rectangles; of imported meshes an occupancy grid", &Stats::grid_leaves,
          LeafRule{grid_leaf, &may_be_across_axes, &arranger<&LeafArrangers::grid>}},
+    Rule{"halve",
+         "more than a leaf, half a leaf an operand; 6 operands or more, 16 in a union, whose boxes "
+         "mostly overlap",
+         "what the halves of the formula leave, combined", &Stats::halved_cells,
+         CellRule{&are_many_all_over, &CellSteps::halve}},
     Rule{"general position", "one leaf; embedded operands in general position",
          "fragments; of imported meshes uncrossed facets and crossings", &Stats::filtered_leaves,
          by_doubles(usual_leaf, &is_any)},

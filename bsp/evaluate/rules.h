@@ -41,6 +41,7 @@ class CellSteps {
 public:
     [[nodiscard]] virtual std::optional<CellRef> make_constant(CellTask& task) = 0;
     [[nodiscard]] virtual std::optional<CellRef> share(CellTask& task) = 0;
+    [[nodiscard]] virtual std::optional<CellRef> halve(CellTask& task) = 0;
     [[nodiscard]] virtual std::optional<CellRef> divide(CellTask& task) = 0;
 
 protected:

@@ -191,6 +191,10 @@ bool FilteredCutting::clip_at(std::size_t axis, bool high) {
 bool FilteredCutting::clip_to_cell() {
     const FilteredFacet& f = (*facets_)[item_];
     if (f.contained) return true;
+    if (f.is_beyond) {
+        clipped_.size = 0;
+        return true;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
         const unsigned ends = f.splitters >> 2 * k;
         if (clipped_.size != 0 && f.lo[k] < facets_->inner_lo()[k] && (ends & 1U) == 0 &&

@@ -258,6 +258,10 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
                     high[k] = std::max(high[k], hi[k]);
                 }
             if (f.is_whole()) return;
+            if (f.is_beyond) {
+                f.contained = false;
+                return;
+            }
             if (!whole_) f.contained = leaf.cell.contains(f.ref.fragment->box());
             if (!f.contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
             if (f.is_of_half_space()) return;
@@ -399,7 +403,7 @@ void FilteredFacets::add_box(FilteredFacet& f) {
     const Fragment& fragment = *f.ref.fragment;
     ++fragments_;
     f.size = static_cast<std::uint8_t>(fragment.edges().size());
-    f.splitters = splitters_of(fragment);
+    find_splitters(f);
     if (whole_) {
         for (std::size_t k = 0; k < 3; ++k) {
             f.lo[k] = static_cast<double>(fragment.box().lo[k] - whole_origin_[k]);
@@ -451,18 +455,21 @@ void FilteredFacets::add_outline(FilteredFacet& f) {
     }
 }
 
-// At which bounding planes of the cell a fragment ends: with its edge on the splitting plane it is
-// on one side of that.
-std::uint8_t FilteredFacets::splitters_of(const Fragment& fragment) const {
+// At which bounding planes of the cell a fragment ends, or before: with its edge on a splitting
+// plane it is on one side of that. Where that is the other side of a bounding plane, only its box,
+// rounded to positions of the lattice, meets the cell.
+void FilteredFacets::find_splitters(FilteredFacet& f) const {
     const Cell& cell = problem_->cell;
     unsigned splitters = 0;
-    for (const EdgeName& e : fragment.edges()) {
+    for (const EdgeName& e : f.ref.fragment->edges()) {
         if (!e.plane.is_splitter()) continue;
         const std::size_t k = e.plane.facet;
-        if (e.above && e.plane.position() == cell.lo[k]) splitters |= 1U << 2 * k;
-        if (!e.above && e.plane.position() == cell.hi[k]) splitters |= 2U << 2 * k;
+        const std::int64_t at = e.plane.position();
+        if (e.above && at >= cell.lo[k]) splitters |= 1U << 2 * k;
+        if (!e.above && at <= cell.hi[k]) splitters |= 2U << 2 * k;
+        if (e.above ? at >= cell.hi[k] : at <= cell.lo[k]) f.is_beyond = true;
     }
-    return static_cast<std::uint8_t>(splitters);
+    f.splitters = static_cast<std::uint8_t>(splitters);
 }
 
 FilteredPlane FilteredFacets::plane_of(const std::array<Vector3, 3>& corners,

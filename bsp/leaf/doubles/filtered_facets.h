@@ -64,6 +64,7 @@ struct FilteredFacet {
     std::int8_t orientation = 1;
     std::int8_t side_of_reference = 2;  ///< of the support; 0: cannot decide, 2: not computed
     bool contained = false;             ///< lies in the cell
+    bool is_beyond = false;             ///< a fragment that ends, by name, where the cell begins
     std::uint8_t size = 3;              ///< corners of the outline
     std::uint8_t splitters = 0;  ///< of a fragment: bit 2 · axis, + 1 for the upper one, where it
                                  ///< ends at that bounding plane of the cell by name
@@ -218,7 +219,7 @@ private:
     void add_half_space(FilteredFacet& f);
     [[nodiscard]] bool is_contained_but_for_splitters(unsigned splitters, const Vector3& lo,
                                                       const Vector3& hi) const;
-    [[nodiscard]] std::uint8_t splitters_of(const Fragment& fragment) const;
+    void find_splitters(FilteredFacet& f) const;
 
     const LeafProblem* problem_ = nullptr;
     // Of a half-space in the cell.

@@ -250,6 +250,7 @@ bool is_outside_cell(const FilteredFacets& facets, const Approximation& a, const
 }  // namespace
 
 bool FilteredPairs::add_pair(FilteredFacets& facets, LeafIndex s, LeafIndex t) {
+    if (facets[s].is_beyond || facets[t].is_beyond) return true;
     const Relation r = relate(facets, std::min(s, t), std::max(s, t), found_);
     // Outside the cell is as good as nowhere.
     if (r == Relation::Crossing && !is_outside_cell(facets, found_.ends[0].at, found_.ends[1].at))

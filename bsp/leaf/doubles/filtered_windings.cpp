@@ -369,7 +369,7 @@ bool FilteredWindings::add_crossing(LeafIndex i, const Approximation& start,
                                     const Approximation& target, const Vector3& lo,
                                     const Vector3& hi, std::vector<int>& w) {
     FilteredFacet& f = (*facets_)[i];
-    if (!f.meets(lo, hi)) return true;
+    if (f.is_beyond || !f.meets(lo, hi)) return true;
     const FilteredPlane& plane = facets_->plane(i);
     const AtEnds at{plane.value(start.c), plane.error(start), plane.value(target.c),
                     plane.error(target)};

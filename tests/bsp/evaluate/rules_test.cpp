@@ -50,6 +50,7 @@ std::string name_of(std::uint64_t EvaluateCounters::*counter) {
     const std::vector<std::pair<std::uint64_t EvaluateCounters::*, std::string>> names{
         {&EvaluateCounters::constant_cells, "`constant_cells`"},
         {&EvaluateCounters::shared_cells, "`shared_cells`"},
+        {&EvaluateCounters::halved_cells, "`halved_cells`"},
         {&EvaluateCounters::divided_cells, "`divided_cells`"},
         {&EvaluateCounters::grid_leaves, "`grid_leaves`"},
         {&EvaluateCounters::filtered_leaves, "`filtered_leaves`"},

@@ -108,7 +108,7 @@ TEST_F(TwoBalls, CountersOfRulesAddUp) {
         EXPECT_EQ(stats.mixed_leaves, stats.grid_leaves + stats.filtered_leaves +
                                           stats.prism_leaves + stats.exact_leaves);
         EXPECT_EQ(stats.cells, stats.constant_cells + stats.shared_cells + stats.mixed_leaves +
-                                   stats.divided_cells);
+                                   stats.halved_cells + stats.divided_cells);
         EXPECT_GT(stats.divided_cells, 0U);
     }
 }

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dense_operands.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "shapes.h"
+
+namespace bench {
+
+namespace {
+
+using shapes::Matrix;
+using trisect::Point3d;
+using trisect::PolygonMesh;
+
+/// A sphere about the origin of 20 meridians and 20 circles between the poles, 800 triangles.
+/// `bumps`: the largest change of its radius, which is 1.
+PolygonMesh globe(double bumps) {
+    constexpr std::uint32_t around = 20;
+    constexpr std::uint32_t rings = 20;
+    PolygonMesh out;
+    out.points.push_back({0, 0, 1});
+    for (std::uint32_t i = 0; i < rings; ++i)
+        for (std::uint32_t j = 0; j < around; ++j) {
+            const double polar = std::numbers::pi * (i + 1) / (rings + 1);
+            const double angle = 2 * std::numbers::pi * j / around;
+            const double r = 1 + bumps * std::sin(3 * polar) * std::sin(4 * angle + polar);
+            out.points.push_back({r * std::sin(polar) * std::cos(angle),
+                                  r * std::sin(polar) * std::sin(angle), r * std::cos(polar)});
+        }
+    out.points.push_back({0, 0, -1});
+    const std::uint32_t last = around * rings + 1;
+    const auto at = [](std::uint32_t i, std::uint32_t j) { return 1 + around * i + j % around; };
+    for (std::uint32_t j = 0; j < around; ++j) {
+        out.add_triangle(0, at(0, j), at(0, j + 1));
+        out.add_triangle(last, at(rings - 1, j + 1), at(rings - 1, j));
+        for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+            out.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            out.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    }
+    return out;
+}
+
+PolygonMesh placed(const PolygonMesh& mesh, Matrix turn, double radius, const Point3d& centre) {
+    for (Point3d& row : turn)
+        for (double& c : row) c *= radius;
+    return shapes::moved(mesh, turn, centre);
+}
+
+/// Of radius 1, from -2 to 2, with caps of triangles from the middle.
+PolygonMesh cylinder() {
+    constexpr std::uint32_t sides = 200;
+    PolygonMesh out;
+    for (const double z : {-2.0, 2.0})
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double angle = 2 * std::numbers::pi * i / sides;
+            out.points.push_back({std::cos(angle), std::sin(angle), z});
+        }
+    out.points.push_back({0, 0, -2});
+    out.points.push_back({0, 0, 2});
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t j = (i + 1) % sides;
+        out.add_triangle(2 * sides, j, i);
+        out.add_triangle(2 * sides + 1, sides + i, sides + j);
+        out.add_triangle(i, j, sides + j);
+        out.add_triangle(i, sides + j, sides + i);
+    }
+    return out;
+}
+
+/// Of radius 1/10, from height -1 up.
+PolygonMesh capsule(const Point3d& end) {
+    PolygonMesh out = globe(0);
+    for (Point3d& p : out.points) {
+        if (p[2] > 0) p[2] += 10;
+        for (double& c : p) c *= 0.1;
+    }
+    return shapes::moved(out, end);
+}
+
+}  // namespace
+
+std::vector<PolygonMesh> nearly_equal_solids(std::size_t n) {
+    const PolygonMesh mesh = globe(0.02);
+    shapes::Random random(23);
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Matrix turn = random.rotation();
+        out.push_back(placed(mesh, turn, 1 + 0.01 * random.uniform(), {}));
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> nested_solids(std::size_t n) {
+    const PolygonMesh mesh = globe(0);
+    shapes::Random random(23);
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Matrix turn = random.rotation();
+        const double part = static_cast<double>(i) / static_cast<double>(n);
+        out.push_back(placed(mesh, turn, 1 - 0.5 * part, {}));
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> solids_in_one_place(std::size_t n) {
+    const PolygonMesh mesh = globe(0.1);
+    shapes::Random random(23);
+    std::vector<PolygonMesh> out;
+    while (out.size() < n) {
+        const Matrix turn = random.rotation();
+        Point3d centre = random.in_unit_box();
+        double square = 0;
+        for (double& c : centre) {
+            c = (2 * c - 1) / 3;
+            square += c * c;
+        }
+        if (square <= 1.0 / 9) out.push_back(placed(mesh, turn, 1, centre));
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> turned_cylinders(std::size_t n) {
+    const PolygonMesh mesh = cylinder();
+    shapes::Random random(23);
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Matrix turn = random.rotation();
+        out.push_back(placed(mesh, turn, 1, {}));
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> plate_and_path(std::size_t n) {
+    std::vector<PolygonMesh> out{shapes::block({-2, -2, -0.5}, {2, 2, 0.5}, 10)};
+    for (std::size_t i = 0; i < n; ++i) {
+        const double angle = 0.0137 * static_cast<double>(i);
+        const double radius = 1.5 - 0.001 * static_cast<double>(i);
+        out.push_back(capsule({radius * std::cos(angle), radius * std::sin(angle), 0}));
+    }
+    return out;
+}
+
+}  // namespace bench

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Many solids in one place: how much is compared, and that the result is that of a chain.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/brep/brep.h>
+#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include "engines/evaluate_stats.h"
+
+namespace {
+
+using trisect::evaluate;
+using trisect::exact_volume;
+using trisect::Expression;
+using trisect::FaceSource;
+using trisect::Solid;
+using trisect::test::EvaluateStats;
+
+// Spheres of 1,280 triangles about one centre, turned by other angles each, with radii from 1 to
+// 1 + `growth`.
+std::vector<Solid> spheres(int n, double growth) {
+    std::vector<Solid> out;
+    for (int i = 0; i < n; ++i) {
+        const double radius = 1 + growth * (i * 7 % n) / n;
+        trisect::PolygonMesh mesh = trisect::make_icosphere(radius, 3);
+        for (trisect::Point3d& p : mesh.points)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double angle = 0.37 + 1.13 * i + 0.71 * static_cast<double>(axis);
+                double& x = p[axis];
+                double& y = p[(axis + 1) % 3];
+                const double turned = std::cos(angle) * x - std::sin(angle) * y;
+                y = std::sin(angle) * x + std::cos(angle) * y;
+                x = turned;
+            }
+        trisect::SolidOptions options;
+        options.embedding = trisect::Embedding::Assume;
+        out.push_back(Solid::from_mesh(mesh, options));
+    }
+    return out;
+}
+
+std::vector<FaceSource> sources_of(const trisect::Brep& brep) {
+    std::vector<FaceSource> out;
+    for (const trisect::FaceId f : brep.faces()) out.push_back(brep.source(f));
+    std::ranges::sort(out);
+    return out;
+}
+
+// The same faces with the same names, and the same volume.
+void expect_same(const Solid& result, const Solid& chain) {
+    const trisect::Brep a = result.to_brep();
+    const trisect::Brep b = chain.to_brep();
+    EXPECT_EQ(a.counts(), b.counts());
+    EXPECT_EQ(sources_of(a), sources_of(b));
+    EXPECT_EQ(exact_volume(a), exact_volume(b));
+    EXPECT_EQ(evaluate(result ^ chain).to_brep().counts().faces, 0U);
+}
+
+using Combine = Expression (*)(const Expression& a, const Expression& b);
+
+// All solids by one operation: in one pass, and one after the other.
+void expect_same_as_chain(const std::vector<Solid>& solids, Combine combine) {
+    Expression all = solids[0];
+    Solid chain = solids[0];
+    for (std::size_t i = 1; i < solids.size(); ++i) {
+        all = combine(all, solids[i]);
+        chain = evaluate(combine(chain, solids[i]));
+    }
+    EvaluateStats stats;
+    const Solid result = evaluate(all, {}, &stats);
+    EXPECT_GT(stats.halved_cells, 0U);
+    EXPECT_LT(stats.exact_leaves * 20, stats.filtered_leaves);
+    expect_same(result, chain);
+}
+
+TEST(CrowdedScenes, AreWhatAChainMakes) {
+    const std::vector<Solid> solids = spheres(16, 0.02);
+    using E = const Expression&;
+    expect_same_as_chain(solids, [](E a, E b) { return a & b; });
+    expect_same_as_chain(solids, [](E a, E b) { return a | b; });
+    expect_same_as_chain(solids, [](E a, E b) { return a - b; });
+}
+
+TEST(CrowdedScenes, OfNestedFormulas) {
+    const std::vector<Solid> solids = spheres(8, 0.02);
+    const Expression a = (solids[0] ^ solids[1]) | (solids[2] & solids[3]);
+    const Expression b = (solids[4] & solids[5]) - (solids[6] ^ solids[7]);
+    EvaluateStats stats;
+    const Solid result = evaluate(a - b, {}, &stats);
+    EXPECT_GT(stats.halved_cells, 0U);
+    expect_same(result, evaluate(evaluate(a) - evaluate(b)));
+}
+
+// What is compared grows little faster than the operands.
+TEST(CrowdedScenes, PairsAreFew) {
+    std::vector<std::uint64_t> pairs;
+    for (const int n : {8, 32}) {
+        EvaluateStats stats;
+        (void)evaluate(Expression::all_of(spheres(n, 0.02)), {}, &stats);
+        pairs.push_back(stats.pairs_boxes);
+        EXPECT_GT(stats.filtered_fragments, 0U);
+        EXPECT_LT(stats.exact_leaves * 20, stats.filtered_leaves);
+    }
+    EXPECT_LT(pairs[1], 8 * pairs[0]);
+}
+
+TEST(CrowdedScenes, AreTheSameWithAnyNumberOfThreads) {
+    const std::vector<Solid> solids = spheres(18, 0.02);
+    for (const Expression& e : {Expression::all_of(solids), Expression::any_of(solids),
+                                solids[0] - Expression::any_of(std::span(solids).subspan(1))}) {
+        trisect::EvaluateOptions options;
+        options.threads = 1;
+        const trisect::PolygonMesh alone = evaluate(e, options).to_mesh();
+        for (const std::uint32_t threads : {2U, 5U}) {
+            options.threads = threads;
+            const trisect::PolygonMesh mesh = evaluate(e, options).to_mesh();
+            EXPECT_EQ(mesh.corners, alone.corners);
+            EXPECT_TRUE(mesh.points == alone.points);
+        }
+    }
+}
+
+}  // namespace
