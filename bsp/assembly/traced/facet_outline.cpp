@@ -58,6 +58,7 @@ bool FacetOutline::trace_section(const Plane& plane, std::span<const OutlineSegm
     segments_ = segments;
     edges_.clear();
     has_projection_ = false;
+    exact_ = nullptr;
     cutters_ = 1;
     if (segments.empty() ||
         std::ranges::any_of(segments, [](const OutlineSegment& s) { return s.cutter != 0; }))
