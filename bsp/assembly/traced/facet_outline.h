@@ -58,8 +58,9 @@ class FacetOutline {
 public:
     static constexpr std::size_t max_cutters = 64;
 
-    /// False when doubles cannot decide, nor `exact` where there is one, more than max_cutters operands cross the facet, or the
-    /// segments are not what closed boundaries leave. O(n^2) for n segments.
+    /// False when doubles cannot decide, nor `exact` where there is one, more than max_cutters
+    /// operands cross the facet, or the segments are not what closed boundaries leave. O(n^2) for n
+    /// segments.
     [[nodiscard]] bool trace(const std::array<const LatticePoint*, 3>& corners,
                              std::span<const OutlineSegment> segments,
                              const ExactOutline* exact = nullptr);
