@@ -85,8 +85,8 @@ PolygonMesh can(double radius, double low, double high, std::size_t n, std::size
                 double turn = 0) {
     std::vector<std::array<double, 2>> profile;
     for (std::size_t r = 0; r <= rings; ++r)
-        profile.push_back({radius, low + (high - low) * static_cast<double>(r) /
-                                             static_cast<double>(rings)});
+        profile.push_back(
+            {radius, low + (high - low) * static_cast<double>(r) / static_cast<double>(rings)});
     return lathe(n, profile, turn);
 }
 
@@ -153,7 +153,8 @@ std::optional<std::pair<PolygonMesh, PolygonMesh>> degenerate_pair(const std::st
     if (name == "halves") return std::pair(half_ball(true), half_ball(false));
     if (name == "tiles") return std::pair(tile(0), tile(1));
     if (name == "stack") return std::pair(can(1, 0, 1, 400, 99), can(1, 1, 2, 400, 99));
-    if (name == "boss") return std::pair(tile(0), shapes::moved(can(0.25, -2, -1, 400, 99, 0.5), {0.5, 0.5, 0}));
+    if (name == "boss")
+        return std::pair(tile(0), shapes::moved(can(0.25, -2, -1, 400, 99, 0.5), {0.5, 0.5, 0}));
     if (name == "slab")
         return std::pair(shapes::block({0, 0, 0}, {1, 1, 0.25}, 82),
                          shapes::moved(can(0.25, 0.25, 1, 400, 99, 0.5), {0.5, 0.5, 0}));

@@ -13,7 +13,7 @@ namespace bench {
 
 /// The operands of the scenes g:NAME, some 80,000 triangles each (scene.h); nothing for another
 /// name.
-[[nodiscard]] std::optional<std::pair<trisect::PolygonMesh, trisect::PolygonMesh>>
-degenerate_pair(const std::string& name);
+[[nodiscard]] std::optional<std::pair<trisect::PolygonMesh, trisect::PolygonMesh>> degenerate_pair(
+    const std::string& name);
 
 }  // namespace bench

@@ -72,7 +72,7 @@ public:
           threads_(threads),
           splitter_(out.bench, out.facets) {}
 
-    /// False where only the tree of the solid tells enough.
+    /// False where it takes the tree of the solid.
     [[nodiscard]] bool run() {
         std::visit([&](const auto& form) { gather(form); }, solid_.form);
         if (needs_tree_) return false;
@@ -129,7 +129,7 @@ private:
     bool needs_tree_ = false;
     std::uint64_t first_serial_ = 0;  // of the mesh that stands for both where they have facets in
                                       // common; these may pass through
-    bool defers_ = false;  // crossings of all leaves in general position are known
+    bool defers_ = false;             // crossings of all leaves in general position are known
     std::vector<AssembledLeaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
@@ -293,9 +293,8 @@ void Gatherer::mark_crossed(const Crossings& crossings) {
 void Gatherer::mark_special(const Crossings& crossings) {
     for (const std::uint32_t number : crossings.special) {
         const Crossings::Operand& o = crossings.operands[crossings.operand_of(number)];
-        const auto marks =
-            std::ranges::find(out_.sources, o.serial,
-                              [](const FacetMarks& m) { return m.source()->serial(); });
+        const auto marks = std::ranges::find(
+            out_.sources, o.serial, [](const FacetMarks& m) { return m.source()->serial(); });
         const std::uint32_t facet = number - o.first;
         if (marks != out_.sources.end() && marks->is_present(facet, o.inside_above))
             marks->set_worked(facet, o.inside_above);
@@ -744,8 +743,8 @@ void Gatherer::split_special(std::span<BoundaryEdge> edges, std::span<PointId> v
     double error = 0;
     for (const PointId p : vertices) error = std::max(error, out_.bench.approximation(p).error);
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] = std::ranges::minmax(
-            vertices, {}, [&](PointId p) { return along(p, k); });
+        const auto [low, high] =
+            std::ranges::minmax(vertices, {}, [&](PointId p) { return along(p, k); });
         const double extent = along(high, k) - along(low, k);
         if (extent > longest) {
             longest = extent;
@@ -764,8 +763,8 @@ void Gatherer::split_special(std::span<BoundaryEdge> edges, std::span<PointId> v
     };
     const auto across = std::partition(edges.begin(), edges.end(),
                                        [&](const BoundaryEdge& e) { return side(e) < 0; });
-    const auto above = std::partition(across, edges.end(),
-                                      [&](const BoundaryEdge& e) { return side(e) == 0; });
+    const auto above =
+        std::partition(across, edges.end(), [&](const BoundaryEdge& e) { return side(e) == 0; });
     split({across, above});
     const std::span<BoundaryEdge> lower(edges.begin(), across);
     const std::span<BoundaryEdge> upper(above, edges.end());

@@ -24,9 +24,9 @@ struct SolidState;
 /// normals, first × second, as the sources turn them.
 struct FacetCrossing {
     struct End {
-        Approximation at;        ///< in lattice units
-        bool of_second = false;  ///< whose edge it is
-        std::int8_t edge = 0;    ///< from that corner to the next one
+        Approximation at;         ///< in lattice units
+        bool of_second = false;   ///< whose edge it is
+        std::int8_t edge = 0;     ///< from that corner to the next one
         std::int8_t corner = -1;  ///< of the edge's facet, where the end is just there
     };
     std::array<std::uint32_t, 2> facets{};  ///< numbers of Crossings, ascending

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InfinitesimalShift: a direction in which one of two meshes is moved by less than any number.
+// InfinitesimalShift: the direction of an infinitesimal move of one of two meshes.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 namespace trisect::detail {
 

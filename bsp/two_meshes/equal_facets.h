@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/cells/crossings.h>
 #include <trisect/brep/lattice_mesh.h>
+#include <trisect/bsp/cells/crossings.h>
 
 namespace trisect::detail {
 

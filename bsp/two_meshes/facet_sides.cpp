@@ -14,7 +14,7 @@
 #include <memory>
 #include <numeric>
 
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 namespace trisect::detail {
 
@@ -186,7 +186,7 @@ bool FacetSides::look_at_pierced_edges(const Crossings& crossings, std::size_t o
     return true;
 }
 
-// The first and the last one of the facets that pierce an edge tell the sides of its ends.
+// From the first and the last one of the facets that pierce an edge follow the sides of its ends.
 bool FacetSides::look_at_often_pierced_edges(const Crossings& crossings, std::size_t operand,
                                              const LatticeMesh& other) {
     struct Pierce {

@@ -32,7 +32,7 @@ public:
     /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
     /// one is below the other mesh's facets. Nothing when the side of a facet is not known: where
     /// no edge of a part of the mesh, or of space, is pierced just once; or at all, where the other
-    /// mesh is there to tell in what order, both being of whole coordinates.
+    /// mesh is there to decide in what order, both being of whole coordinates.
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> uncrossed(const Crossings& crossings,
                                                                       std::size_t operand,
                                                                       bool outer_below, bool below,

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/leaf_problem.h>
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/choose_splitting_plane.h>
 #include <trisect/bsp/divide/partition.h>
@@ -37,9 +37,9 @@ struct SharedSearch {
     MemoryBudget& memory;
     bool parallel;
     bool recognises_equal;
-    bool decides;  // doubtful pairs
+    bool decides;                           // doubtful pairs
     std::atomic<bool> has_equal{false};     // all may stop
-    std::atomic<bool> is_uncertain{false};  // nobody stops: else it would depend on who is first
+    std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();

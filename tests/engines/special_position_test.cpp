@@ -130,8 +130,8 @@ TEST(SpecialPosition, AMeshMovedByTheSmallestStep) {
     const double step = std::ldexp(1.0, -40);
     std::uint64_t doubtful = 0;
     for (const std::array<double, 3> by : {std::array{step, 0.0, 0.0}, {step, step, -step}})
-        doubtful += expect_as_divided(solid(sphere()), solid(moved(sphere(), by)),
-                                      Formulas::NoDifferences);
+        doubtful +=
+            expect_as_divided(solid(sphere()), solid(moved(sphere(), by)), Formulas::NoDifferences);
     EXPECT_GT(doubtful, 1000U);
 }
 

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/traced/facet_outline.h>
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -129,7 +129,7 @@ private:
     }
     // A facet that something touches and nothing crosses.
     void add_whole(std::uint32_t number) {
-        const std::size_t operand = operand_of_(number);
+        const std::size_t operand = crossings_.operand_of(number);
         const Crossings::Operand& o = crossings_.operands[operand];
         FacetMarks* const marks = marks_[operand];
         const std::uint32_t facet = number - o.first;
@@ -155,7 +155,7 @@ private:
     }
 
     [[nodiscard]] int order_on(std::size_t edge, std::uint32_t a, std::uint32_t b) const override {
-        const std::size_t operand = operand_of_(special_);
+        const std::size_t operand = crossings_.operand_of(special_);
         const Source& own = *marks_[operand]->source();
         const std::uint32_t facet = special_ - crossings_.operands[operand].first;
         const auto start = static_cast<int>(edge);
@@ -170,7 +170,7 @@ private:
     [[nodiscard]] FacetCorners cutter_corners(std::uint32_t segment) const {
         const Side& s = sides_[segment];
         const std::uint32_t number = crossings_.pairs[s.pair].facets[1 - s.side];
-        const std::size_t operand = operand_of_(number);
+        const std::size_t operand = crossings_.operand_of(number);
         return corners_of(*marks_[operand]->source(), number - crossings_.operands[operand].first);
     }
 

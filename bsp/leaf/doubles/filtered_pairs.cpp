@@ -252,7 +252,8 @@ bool FilteredPairs::compare(FilteredFacets& facets, LeafIndex s, LeafIndex t,
     if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
     has_partner_[as_index(s)] = has_partner_[as_index(t)] = 1;
-    if (add_pair(facets, s, t)) return true;
+    if (add_pair(facets, s, t)) [[likely]]
+        return true;
     if (doubtful_ == nullptr) return false;
     doubtful_->push_back({s, t});
     return true;

@@ -64,8 +64,8 @@ public:
     [[nodiscard]] bool relate_all(FilteredFacets& facets, bool edges_apart, EvaluateStats& stats) {
         return relate(facets, {}, edges_apart, stats);
     }
-    /// The pairs that doubles cannot decide, with `edges_apart`: the others are related as above. The
-    /// item of the first operand comes first. \pre two operands
+    /// The pairs that doubles cannot decide, with `edges_apart`: the others are related as above.
+    /// The item of the first operand comes first. \pre two operands
     using Doubtful = std::vector<std::array<LeafIndex, 2>>;
     void relate_all_but(Doubtful& doubtful, FilteredFacets& facets, EvaluateStats& stats) {
         doubtful.clear();

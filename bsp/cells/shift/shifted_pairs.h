@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ShiftedPair: relation of two facets, one of a mesh that is moved by less than any number.
-// So moved, two meshes are in general position: edges pass by edges and corners by planes on a definite side,
-// and every question about pairs of facets has the same kind of answer. Exact.
+// ShiftedPair: relation of two facets under an infinitesimal shift of one mesh.
+// So moved, two meshes are in general position: edges pass by edges and corners by planes on a
+// definite side, and every question about pairs of facets has the same kind of answer. Exact.
 #pragma once
 
 #include <array>

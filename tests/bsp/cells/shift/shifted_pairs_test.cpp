@@ -3,7 +3,7 @@
 // Facets of a mesh that is moved by less than any number (shifted_pairs.h), against the same facets
 // on a grid that is so fine that it can be moved by a little.
 
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 #include <algorithm>
 #include <array>
@@ -106,8 +106,7 @@ TEST(ShiftedPairs, AreRelatedAsThoseThatAreMoved) {
         const ShiftedPair moved = relate_shifted(corners(fine_a), corners(fine_b), shift);
         EXPECT_FALSE(moved.touches);
         const bool crosses = pair.kind == ShiftedPair::Kind::Crossing;
-        ASSERT_EQ(moved.kind,
-                  crosses ? ShiftedPair::Kind::Crossing : ShiftedPair::Kind::Apart);
+        ASSERT_EQ(moved.kind, crosses ? ShiftedPair::Kind::Crossing : ShiftedPair::Kind::Apart);
         for (std::size_t k = 0; crosses && k < 2; ++k) {
             EXPECT_EQ(pair.ends[k].of_second, moved.ends[k].of_second);
             EXPECT_EQ(pair.ends[k].edge, moved.ends[k].edge);
@@ -140,9 +139,8 @@ TEST(ShiftedPairs, EdgesGoThroughFacetsInTheOrderOfThoseThatAreMoved) {
         // Both cross the facet with an end on its first edge.
         bool both = true;
         for (const auto& c : cutters) {
-            const ShiftedPair pair = is_second
-                                         ? relate_shifted(corners(c), corners(own), shift)
-                                         : relate_shifted(corners(own), corners(c), shift);
+            const ShiftedPair pair = is_second ? relate_shifted(corners(c), corners(own), shift)
+                                               : relate_shifted(corners(own), corners(c), shift);
             const auto is_on_first = [&](const auto& end) {
                 return end.of_second == is_second && end.edge == 0;
             };
@@ -156,9 +154,9 @@ TEST(ShiftedPairs, EdgesGoThroughFacetsInTheOrderOfThoseThatAreMoved) {
         const auto fine_own = points_of(fine(f, is_second ? &shift : nullptr));
         const std::array fine_cutters{points_of(fine(others[0], is_second ? nullptr : &shift)),
                                       points_of(fine(others[1], is_second ? nullptr : &shift))};
-        EXPECT_EQ(order, order_along_shifted(fine_own[0], fine_own[1], is_second,
-                                             corners(fine_cutters[0]), corners(fine_cutters[1]),
-                                             InfinitesimalShift{}));
+        EXPECT_EQ(order,
+                  order_along_shifted(fine_own[0], fine_own[1], is_second, corners(fine_cutters[0]),
+                                      corners(fine_cutters[1]), InfinitesimalShift{}));
         equal += order == 0 ? 1 : 0;
     }
     EXPECT_GT(compared, 500);
@@ -172,7 +170,8 @@ TEST(ShiftedPairs, CoplanarFacetsOverlapOrHaveOnlyOutlinesInCommon) {
     const auto within = points_of({{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}});
     const auto apart = points_of({{{3, 0, 0}, {3, 2, 0}, {2, 2, 0}}});
     const auto overlap = [](const auto& a, const auto& b) {
-        EXPECT_EQ(coplanar_overlap(corners(a), corners(b)), coplanar_overlap(corners(b), corners(a)));
+        EXPECT_EQ(coplanar_overlap(corners(a), corners(b)),
+                  coplanar_overlap(corners(b), corners(a)));
         return coplanar_overlap(corners(a), corners(b));
     };
     EXPECT_EQ(overlap(square, apart), Overlap::None);

@@ -12,7 +12,7 @@
 //
 // Differences of coordinates are below 2^54, normals below 2^109, values of planes below 2^165.
 
-#include <trisect/bsp/cells/shifted_pairs.h>
+#include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +33,7 @@ Whole whole(const LatticePoint& p) {
     return {p.x.to_integer(), p.y.to_integer(), p.z.to_integer()};
 }
 
-Whole operator-(const Whole& a, const Whole& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+Whole operator-(const Whole& a, const Whole& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Normal cross(const Whole& u, const Whole& v) {
     Normal n;
@@ -49,8 +47,7 @@ Normal cross(const Whole& u, const Whole& v) {
 
 Value dot(const Normal& n, const Whole& v) {
     Value sum;
-    for (std::size_t k = 0; k < 3; ++k)
-        sum += multiply<3>(WideInt<2>(n[k]), WideInt<1>(v[k]));
+    for (std::size_t k = 0; k < 3; ++k) sum += multiply<3>(WideInt<2>(n[k]), WideInt<1>(v[k]));
     return sum;
 }
 
@@ -267,9 +264,7 @@ Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) 
     return out;
 }
 
-std::array<int, 3> normal_signs(const FacetCorners& facet) {
-    return signs_of(Facet(facet).normal);
-}
+std::array<int, 3> normal_signs(const FacetCorners& facet) { return signs_of(Facet(facet).normal); }
 
 // An edge from p to q goes through the plane of normal n and value v at v(p) / (v(p) - v(q)) of its
 // length. A shift s of the plane takes n·s from v(p), one of the edge adds it, and either leaves
