@@ -5,8 +5,10 @@
 #pragma once
 
 #include <any>
+#include <array>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +18,8 @@
 #include "scene.h"
 
 namespace bench {
+
+enum class Measure { Volume, Area, Bounds };
 
 class Engine {
 public:
@@ -37,10 +41,17 @@ public:
     /// when this returns. May use its operands up. \pre `first` is not empty.
     [[nodiscard]] virtual Body evaluate(std::span<const Body> first, std::span<const Body> second,
                                         Operation operation) = 0;
+    /// What of a solid lies below all planes, a x + b y + c z + d <= 0; computed when this returns.
+    [[nodiscard]] virtual Body trimmed(const Body& /*body*/,
+                                       std::span<const std::array<double, 4>> /*planes*/) {
+        throw std::runtime_error("cuts by no half-spaces");
+    }
     /// Triangles with rounded coordinates.
     [[nodiscard]] virtual trisect::PolygonMesh to_mesh(const Body& body) = 0;
     /// Makes the boundary representation and drops it; false when the engine has none to make.
     virtual bool assemble(const Body& /*body*/) { return false; }
+    /// Measures a solid, one value; false when the engine does not.
+    virtual bool measure(const Body& /*body*/, Measure /*which*/) { return false; }
     /// What the last evaluate() counted.
     [[nodiscard]] virtual nlohmann::json counters() const { return nlohmann::json::object(); }
 };

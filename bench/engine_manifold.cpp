@@ -5,6 +5,8 @@
 #include <manifold/manifold.h>
 #include <manifold/version.h>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -66,6 +68,24 @@ public:
         const Manifold a = united(first);
         if (second.empty()) return evaluated(a);
         return evaluated(a.Boolean(united(second), type_of(operation)));
+    }
+
+    /// What is kept lies on the side that the normal points to, so it is turned.
+    Body trimmed(const Body& body, std::span<const std::array<double, 4>> planes) override {
+        Manifold m = std::any_cast<const Manifold&>(body);
+        for (const auto& p : planes) {
+            const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+            m = m.TrimByPlane({-p[0], -p[1], -p[2]}, p[3] / length);
+        }
+        return evaluated(m);
+    }
+
+    bool measure(const Body& body, Measure which) override {
+        const auto& m = std::any_cast<const Manifold&>(body);
+        if (which == Measure::Volume) static_cast<void>(m.Volume());
+        if (which == Measure::Area) static_cast<void>(m.SurfaceArea());
+        if (which == Measure::Bounds) static_cast<void>(m.BoundingBox());
+        return true;
     }
 
     /// The merge vectors join vertices that are there several times for the sake of properties.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <trisect/brep/brep.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/diagnostics.h>
 
 #include "engine.h"
@@ -52,12 +54,31 @@ public:
         return result;
     }
 
+    Body trimmed(const Body& body, std::span<const std::array<double, 4>> planes) override {
+        Expression all = solid(body);
+        for (const auto& p : planes) all = all & Solid::half_space(p);
+        const trisect::Diagnostics<trisect::EvaluateCounters> diagnostics;
+        trisect::EvaluateReport report;
+        Solid result = trisect::evaluate(all, options_, &report);
+        counters_ = diagnostics.counters();
+        depth_ = report.depth;
+        return result;
+    }
+
     trisect::PolygonMesh to_mesh(const Body& body) override {
         return solid(body).to_mesh(options_.threads);
     }
 
     bool assemble(const Body& body) override {
         const trisect::Brep brep = solid(body).to_brep();
+        return true;
+    }
+
+    bool measure(const Body& body, Measure which) override {
+        const Solid& s = solid(body);
+        if (which == Measure::Volume) static_cast<void>(trisect::volume(s));
+        if (which == Measure::Area) static_cast<void>(trisect::area(s));
+        if (which == Measure::Bounds) static_cast<void>(trisect::bounds(s));
         return true;
     }
 

@@ -2,6 +2,7 @@
 
 #include "scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -96,7 +97,7 @@ Scene short_chain(PolygonMesh stock, std::vector<PolygonMesh> tools) {
     s.operands.resize(1);
     s.operations = {Operation::Difference};
     s.steps = all->size();
-    s.step = [all](std::size_t i) { return Step{Operation::Difference, (*all)[i]}; };
+    s.step = [all](std::size_t i) { return Step{Operation::Difference, (*all)[i], {}}; };
     return s;
 }
 
@@ -195,7 +196,7 @@ Scene milling_scene(const std::string& scene, const std::vector<std::string>& wo
     s.step = [ball](std::size_t i) {
         std::vector<PolygonMesh> tool{shapes::moved(*ball, mill_position(i))};
         shapes::put_on_one_lattice(tool);
-        return Step{Operation::Difference, std::move(tool[0])};
+        return Step{Operation::Difference, std::move(tool[0]), {}};
     };
     return s;
 }
@@ -222,7 +223,7 @@ Scene grid_scene() {
     s.operations = {Operation::Difference};
     s.steps = 1999;
     s.step = [cube](std::size_t i) {
-        return Step{i + 1 < 1000 ? Operation::Union : Operation::Difference, cube(i + 1)};
+        return Step{i + 1 < 1000 ? Operation::Union : Operation::Difference, cube(i + 1), {}};
     };
     return s;
 }
@@ -318,10 +319,103 @@ Scene hard_scene(const std::string& scene, const std::string& word) {
     unknown(scene);
 }
 
+constexpr std::size_t slabs = 51;
+
+/// The bunny between planes of equal distances; the first and the last part are slabs as well.
+Scene slabs_scene(const std::string& scene, const std::vector<std::string>& words) {
+    bool boxes = false;
+    bool oblique = false;
+    for (std::size_t i = 2; i < words.size(); ++i) {
+        if (words[i] != "boxes" && words[i] != "oblique") unknown(scene);
+        (words[i] == "boxes" ? boxes : oblique) = true;
+    }
+    Scene s;
+    s.operands = {model("large/bunny100k.obj")};
+    s.operations = {Operation::Intersection};
+    s.steps = slabs;
+    s.parts = true;
+    const Point3d normal = oblique ? Point3d{1, 2, 3} : Point3d{0, 0, 1};
+    const auto height = [normal](const Point3d& p) {
+        return normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2];
+    };
+    double low = height(s.operands[0].points[0]);
+    double high = low;
+    for (const Point3d& p : s.operands[0].points) {
+        low = std::min(low, height(p));
+        high = std::max(high, height(p));
+    }
+    const auto at = [low, high](std::size_t i) {
+        const double part = static_cast<double>(i) / static_cast<double>(slabs);
+        // Few bits: the same plane for all engines.
+        return std::ldexp(std::round(std::ldexp(low + part * (high - low), 20)), -20);
+    };
+    if (!boxes) {
+        s.step = [at, normal](std::size_t i) {
+            Step step{Operation::Intersection, {}, {}};
+            step.planes = {{normal[0], normal[1], normal[2], -at(i + 1)},
+                           {-normal[0], -normal[1], -normal[2], at(i)}};
+            return step;
+        };
+        return s;
+    }
+    s.step = [at, normal, oblique](std::size_t i) {
+        const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+        PolygonMesh box = shapes::block({-1, -1, at(i)}, {1, 1, at(i + 1)});
+        if (oblique) {
+            // Across (1, 2, 3): (3, 0, -1) and their product.
+            for (Point3d& p : box.points)
+                p = {p[2] / square + 0.3 * p[0] - 0.2 * p[1], 2 * p[2] / square + p[1],
+                     3 * p[2] / square - 0.1 * p[0] - 0.6 * p[1]};
+        }
+        std::vector<PolygonMesh> tool{std::move(box)};
+        return Step{Operation::Intersection, std::move(tool[0]), {}};
+    };
+    return s;
+}
+
+/// A plate less bores on a grid, prisms of 32 sides that reach through it, each turned otherwise.
+Scene bores_scene(int n) {
+    constexpr std::uint32_t sides = 32;
+    PolygonMesh bores;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            PolygonMesh bore;
+            for (const double z : {-0.5, 1.5})
+                for (std::uint32_t k = 0; k < sides; ++k) {
+                    const double angle = 0.3 * i + 0.7 * j + 2 * std::numbers::pi * k / sides;
+                    bore.points.push_back(
+                        {i + 0.5 + 0.35 * std::cos(angle), j + 0.5 + 0.35 * std::sin(angle), z});
+                }
+            for (std::uint32_t k = 0; k < sides; ++k) {
+                const std::uint32_t l = (k + 1) % sides;
+                bore.add_triangle(k, l, l + sides);
+                bore.add_triangle(k, l + sides, k + sides);
+                if (k < 2) continue;
+                bore.add_triangle(0, k, k - 1);
+                bore.add_triangle(sides, sides + k - 1, sides + k);
+            }
+            shapes::append(bores, bore);
+        }
+    const double side = n;
+    Scene s = pair(shapes::block({0, 0, 0}, {side, side, 1}), std::move(bores));
+    s.operations = {Operation::Difference};
+    return s;
+}
+
+Scene following_scene(const std::string& scene, const std::vector<std::string>& words) {
+    if (words[1] == "slabs") return slabs_scene(scene, words);
+    if (words[1] != "bores" || words.size() > 3) unknown(scene);
+    if (words.size() == 2) return bores_scene(20);
+    if (words[2] == "10k") return bores_scene(100);
+    unknown(scene);
+}
+
 Scene scene_of(const std::string& name) {
     const std::vector<std::string> words = words_of(name);
     if (words[0] == "cliff") return cliff_scene(words);
-    if (words.size() < 2 || words.size() > 3) unknown(name);
+    if (words.size() < 2 || words.size() > 4) unknown(name);
+    if (words[0] == "i") return following_scene(name, words);
+    if (words.size() > 3) unknown(name);
     if (words[0] == "c") return small_cut_scene(name, words);
     if (words[0] == "e") return milling_scene(name, words);
     if (words.size() > 2) unknown(name);

@@ -3,6 +3,7 @@
 // Scene: a boolean job that every engine can be given, found by its name.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -23,9 +24,15 @@ enum class Operation { Union, Intersection, Difference };
 struct Step {
     Operation operation = Operation::Difference;
     trisect::PolygonMesh tool;
+    /// Instead of a tool: what lies below all of these planes is kept, the points with
+    /// a x + b y + c z + d <= 0.
+    std::vector<std::array<double, 4>> planes = {};
 };
 
 /// Either one expression or a chain.
+///
+/// A chain whose every step begins with the operand again is a series of parts: each is evaluated
+/// and becomes a mesh, which counts as its evaluation.
 ///
 /// An expression is the union of the first group of operands, combined with the union of the second
 /// group if there is one. A chain starts with its only operand and is evaluated after every step;
@@ -38,6 +45,7 @@ struct Scene {
     std::size_t steps = 0;                  ///< of a chain
     std::size_t untimed = 0;                ///< steps at its start that prepare and do not count
     bool indexed = false;                   ///< a chain whose stock is indexed before, untimed
+    bool parts = false;                     ///< every step begins with the operand again
     std::function<Step(std::size_t)> step;  ///< by its number, from 0
     [[nodiscard]] bool is_chain() const { return steps != 0; }
 };
@@ -64,6 +72,10 @@ struct Scene {
 ///     f:gears                       two fans of 50 cubes each, side by side in the same planes
 ///     f:engrave f:engrave2500       a plate less 10,000 or 2,500 stars, flush with its upper side
 ///     f:touch f:overlap             10³ cubes that touch in faces, or overlap with coplanar faces
+///     i:slabs i:slabs:oblique       51 slabs of the bunny of 100k triangles, each between two
+///                                   half-spaces; across z, or across (1,2,3)
+///     i:slabs:boxes                 the same slabs across z, by wide boxes; i:slabs:boxes:oblique
+///     i:bores i:bores:10k           a plate less 400 bores of 32 sides, turned each; or 10,000
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);

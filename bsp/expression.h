@@ -85,6 +85,7 @@ struct EvaluateCounters {
     std::uint64_t filtered_fragments = 0;  ///< fragments of earlier results in those
     std::uint64_t prism_leaves = 0;     ///< of them, by segments in a plane: prisms along one axis
     std::uint64_t exact_leaves = 0;     ///< of them, by integers: all others
+    std::uint64_t half_space_cuts = 0;  ///< meshes cut as a whole by parallel half-spaces
     std::uint64_t divided_cells = 0;    ///< by a splitter
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves

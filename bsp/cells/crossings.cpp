@@ -73,15 +73,19 @@ bool has_repeated_source(std::span<const Crossings::Operand> operands) {
 }  // namespace
 
 std::optional<Crossings> crossings_of(const Residual& formula,
-                                      std::span<const std::shared_ptr<const SolidState>> states) {
+                                      std::span<const std::shared_ptr<const SolidState>> states,
+                                      CrossingOperands kinds) {
     if (states.size() < 2) return std::nullopt;
     std::uint64_t facets = 0;
     Crossings out;
     for (const auto& state : states) {
         const CellRef& root = state->root();
         const PolygonList* polygons = root.node->is_leaf() ? &root.node->polygons() : nullptr;
-        if (polygons == nullptr || !polygons->has_all_facets() || !state->embedded ||
-            polygons->whole_source()->is_half_space())
+        if (polygons == nullptr || !polygons->has_all_facets() || !state->embedded)
+            return std::nullopt;
+        if (polygons->whole_source()->is_half_space() &&
+            (kinds == CrossingOperands::Meshes || polygons->size() != 1 ||
+             !polygons->whole_source()->is_unbounded()))
             return std::nullopt;
         Crossings::Operand& o = out.operands.emplace_back();
         o.serial = polygons->whole_source()->serial();

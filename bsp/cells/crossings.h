@@ -82,10 +82,17 @@ private:
     void list_shown();
 };
 
+/// What crossings may be of.
+enum class CrossingOperands : std::uint8_t {
+    Meshes,
+    WithHalfSpaces  ///< and half-spaces, each of which has one facet
+};
+
 /// Crossings that an evaluation can collect, with the operands filled in: of different meshes as
 /// they were imported, every one of them once in a union, an intersection or a difference. Nothing
 /// for other formulas.
 [[nodiscard]] std::optional<Crossings> crossings_of(
-    const Residual& formula, std::span<const std::shared_ptr<const SolidState>> states);
+    const Residual& formula, std::span<const std::shared_ptr<const SolidState>> states,
+    CrossingOperands kinds = CrossingOperands::Meshes);
 
 }  // namespace trisect::detail

@@ -47,17 +47,17 @@ struct CellTree {
     bool has_usual_offsets = true;
 };
 
-/// Facets of a mesh that bound a result as they are.
+/// Facets of a source that bound a result as they are.
 struct UncrossedFacets {
     const Source* source = nullptr;
     bool flipped = false;
     std::vector<std::uint32_t> facets;  ///< ascending
 };
 
-/// A set of two meshes by their facets, without a tree: those that nothing crosses, and the
+/// A set of two meshes, or of one and half-spaces, by their facets, without a tree: those that nothing crosses, and the
 /// crossings of all others. Enough for to_mesh() and to_brep().
 struct UndividedMeshes {
-    std::vector<UncrossedFacets> uncrossed;      ///< of each operand
+    std::vector<UncrossedFacets> uncrossed;      ///< of each operand; of a half-space none
     std::shared_ptr<const Crossings> crossings;  ///< not null
     std::shared_ptr<const LazyTree> tree;        ///< not null
 };

@@ -34,6 +34,7 @@ constexpr std::array counter_members{
     &Counters::filtered_fragments,
     &Counters::prism_leaves,
     &Counters::exact_leaves,
+    &Counters::half_space_cuts,
     &Counters::divided_cells,
     &Counters::listed_polygons,
     &Counters::pairs_boxes,

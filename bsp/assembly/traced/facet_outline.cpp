@@ -53,6 +53,25 @@ bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
            find_containments_at_corner() && walk_outline() && walk_paths();
 }
 
+bool FacetOutline::trace_section(const Plane& plane, std::span<const OutlineSegment> segments) {
+    segments_ = segments;
+    edges_.clear();
+    has_projection_ = false;
+    cutters_ = 1;
+    if (segments.empty() ||
+        std::ranges::any_of(segments, [](const OutlineSegment& s) { return s.cutter != 0; }))
+        return false;
+    plane_ = OutlinePlane(plane, segments[0].at[0]->c);
+    bool open = true;
+    if (!link_segments() || !meetings_.find(plane_, segments, cutters_) ||
+        !has_open_outside(0, open) || open)
+        return false;
+    walked_.assign(segments.size(), 0);
+    for (std::uint32_t s = 0; s < segments.size(); ++s)
+        if (walked_[s] == 0 && (next_[s] == none || !walk_path(s, 0))) return false;
+    return true;
+}
+
 // --- Paths.
 
 // Every end inside the facet is one segment's last and another one's first.
@@ -158,8 +177,8 @@ bool FacetOutline::has_open_outside(std::uint32_t cutter, bool& open) {
     if (!set_projection()) return false;
     double area = 0;
     double error = 0;
-    const double u0 = coordinate(*corners_[0], axis_u_).to_double();
-    const double v0 = coordinate(*corners_[0], axis_v_).to_double();
+    const double u0 = plane_.origin[axis_u_];
+    const double v0 = plane_.origin[axis_v_];
     for (const OutlineSegment& s : segments_) {
         if (s.cutter != cutter) continue;
         const Approximation& a = *s.at[0];

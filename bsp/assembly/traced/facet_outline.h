@@ -12,6 +12,7 @@
 
 #include <trisect/bsp/assembly/traced/outline_meetings.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -45,6 +46,9 @@ public:
     /// segments are not what closed boundaries leave. O(n^2) for n segments.
     [[nodiscard]] bool trace(const std::array<const LatticePoint*, 3>& corners,
                              std::span<const OutlineSegment> segments);
+    /// The same for a whole plane that one operand crosses and contains far out: all paths are
+    /// closed. O(n log n).
+    [[nodiscard]] bool trace_section(const Plane& plane, std::span<const OutlineSegment> segments);
     /// Edges of the open part, in no order; none where it is empty.
     [[nodiscard]] std::span<const TracedEdge> edges() const { return edges_; }
     static constexpr std::uint32_t none = ~std::uint32_t{0};

@@ -59,6 +59,13 @@ OutlinePlane::OutlinePlane(const std::array<const LatticePoint*, 3>& corners) {
     }
 }
 
+OutlinePlane::OutlinePlane(const Plane& plane, const std::array<double, 3>& near) : origin(near) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        normal[k] = plane.approx_normal(static_cast<int>(k));
+        minor[k] = std::fabs(normal[k]);
+    }
+}
+
 std::size_t OutlinePlane::dominant_axis() const {
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)

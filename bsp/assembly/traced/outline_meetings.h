@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/support/float4.h>
 
@@ -34,6 +35,8 @@ struct OutlinePlane {
 
     OutlinePlane() = default;
     explicit OutlinePlane(const std::array<const LatticePoint*, 3>& corners);
+    /// Of a plane that has no corners, from some point near it.
+    OutlinePlane(const Plane& plane, const std::array<double, 3>& near);
     /// The axis along which the normal is longest, as far as doubles decide.
     [[nodiscard]] std::size_t dominant_axis() const;
 };

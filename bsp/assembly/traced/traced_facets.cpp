@@ -111,10 +111,16 @@ private:
             marks->is_worked(facet, !o.inside_above))
             return;
         const Source* const source = marks->source();
-        if (!list_segments() || !outline_.trace(corners_of(*source, facet), segments_)) return;
+        if (!list_segments() || !trace(*source, facet)) return;
         add_edges(*marks, facet, o.inside_above);
         marks->set_traced(facet);
         ++parts_.stats.traced_facets;
+    }
+
+    // Of a half-space the facet is the whole plane.
+    bool trace(const Source& source, std::uint32_t facet) {
+        return source.is_half_space() ? outline_.trace_section(source.support(facet), segments_)
+                                      : outline_.trace(corners_of(source, facet), segments_);
     }
 
     static std::array<const LatticePoint*, 3> corners_of(const Source& source,
@@ -174,6 +180,7 @@ private:
         if (outline_.edges().empty()) return;
         ref_ = {marks.source(), nullptr, facet, false, false};
         own_ = edge_of(sides_[0].pair, sides_[0].side);
+        own_support_ = support_of(sides_[0].pair, sides_[0].side);
         corners_ = {-1, -1, -1};
         meetings_.assign(outline_.meetings().size(), -1);
         const std::int32_t number = marks.number_of_worked(facet, flipped);
@@ -188,7 +195,7 @@ private:
             std::reverse(edges_.end() - n, edges_.end());
         }
         BoundaryFacet& f = parts_.facets[as_index(number)];
-        f.support = parts_.bench.support_of(own_);
+        f.support = own_support_;
         f.parts = 1;
     }
 
@@ -215,14 +222,13 @@ private:
     }
 
     PointId meeting(const OutlineMeetings::Point& p) {
-        return parts_.bench.vertex(ref_, parts_.bench.support_of(own_),
-                                   support_of_cutter(p.segments[0]),
+        return parts_.bench.vertex(ref_, own_support_, support_of_cutter(p.segments[0]),
                                    support_of_cutter(p.segments[1]), p.at);
     }
 
     PlaneId support_of_cutter(std::uint32_t segment) {
         const Side& s = sides_[segment];
-        return parts_.bench.support_of(edge_of(s.pair, 1 - s.side));
+        return support_of(s.pair, 1 - s.side);
     }
 
     // Where one segment ends and the next one begins the same edge pierces the facet.
@@ -253,10 +259,17 @@ private:
         Workbench& bench = parts_.bench;
         const PlaneId first = edge_of(pair, side);
         return bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
-                            bench.support_of(edge_of(pair, 1 - side)), c.ends[k].at);
+                            support_of(pair, 1 - side), c.ends[k].at);
     }
 
-    // The plane of the first edge of one of a pair's facets.
+    PlaneId support_of(std::uint32_t pair, std::size_t side) {
+        const PlaneId first = edge_of(pair, side);
+        const PlaneId support = parts_.bench.support_of(first);
+        return support >= 0 ? support : first;
+    }
+
+    // The plane of the first edge of one of a pair's facets; that of a half-space has its support
+    // only.
     PlaneId edge_of(std::uint32_t pair, std::size_t side) {
         PlaneId& plane = edges_of_[pair][side];
         if (plane >= 0) return plane;
@@ -269,7 +282,10 @@ private:
         PlaneId& known = marks.takes_part(facet, o.inside_above)
                              ? planes_[as_index(marks.number_of_worked(facet, o.inside_above))]
                              : none;
-        if (known < 0) known = parts_.bench.plane(PlaneName::edge(marks.source(), facet, 0));
+        if (known < 0)
+            known = parts_.bench.plane(marks.source()->is_half_space()
+                                           ? PlaneName::support(marks.source(), facet)
+                                           : PlaneName::edge(marks.source(), facet, 0));
         return plane = known;
     }
 
@@ -288,7 +304,8 @@ private:
     std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
-    PlaneId own_ = -1;
+    PlaneId own_ = -1;          // of its first edge
+    PlaneId own_support_ = -1;
 };
 
 }  // namespace

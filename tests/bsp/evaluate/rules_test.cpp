@@ -55,6 +55,7 @@ std::string name_of(std::uint64_t EvaluateCounters::*counter) {
         {&EvaluateCounters::filtered_leaves, "`filtered_leaves`"},
         {&EvaluateCounters::prism_leaves, "`prism_leaves`"},
         {&EvaluateCounters::exact_leaves, "`exact_leaves`"},
+        {&EvaluateCounters::half_space_cuts, "`half_space_cuts`"},
     };
     for (const auto& [member, name] : names)
         if (member == counter) return name;
