@@ -10,9 +10,10 @@
 // Where lattice points have bits behind the point the same is done in units of 2^-fraction_limit.
 //
 // Plain doubles lose the last digits in a sum of a million roots. The first attempt takes the roots
-// of lattice faces in pairs of doubles (Dekker 1971): about 100 bits with an error bound, at the
-// cost of a few operations. Plane points, and everything else when the first attempt does not
-// decide the rounding, use integer square roots of more and more bits, which enclose the sum.
+// of lattice faces, and the triangles of an exact mesh with plane points, in pairs of doubles
+// (pair_corners.h): about 100 bits with an error bound, at the cost of a few operations. Faces of a
+// B-rep with plane points, and everything else when the first attempt does not decide the rounding,
+// use integer square roots of more and more bits, which enclose the sum.
 
 #include <trisect/brep/measure.h>
 
@@ -26,6 +27,7 @@
 
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
+#include <trisect/brep/measure/pair_corners.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -34,47 +36,6 @@ namespace trisect {
 namespace {
 
 using namespace detail;
-
-// An unevaluated sum of two doubles, |low| at most half a unit in the last place of high.
-struct DoublePair {
-    double high = 0;
-    double low = 0;
-};
-
-// high + low = a + b exactly.
-DoublePair two_sum(double a, double b) {
-    const double s = a + b;
-    const double t = s - a;
-    return {s, (a - (s - t)) + (b - t)};
-}
-
-// For summands of one sign the relative error is below 2^-103.
-DoublePair add(const DoublePair& a, const DoublePair& b) {
-    const DoublePair s = two_sum(a.high, b.high);
-    return two_sum(s.high, s.low + (a.low + b.low));
-}
-
-template <int N>
-DoublePair to_pair(const WideInt<N>& v) {
-    DoublePair r;
-    for (int i = N - 1; i >= 0; --i) {
-        for (const std::uint64_t part : {v.limb(i) >> 32U, v.limb(i) & 0xffffffffU}) {
-            r = {r.high * 0x1p32, r.low * 0x1p32};
-            r = add(r, {static_cast<double>(part), 0});
-        }
-    }
-    return r;
-}
-
-// One step of Newton's iteration from the rounded root x: (v - x²) / (2x) is small, so computing
-// it in doubles adds an error of a few 2^-105. With half of that of to_pair, which adds 16 times at
-// most: below 2^-99.
-DoublePair root(const DoublePair& v) {
-    const double x = std::sqrt(v.high);
-    const double square = x * x;
-    const double rest = std::fma(x, x, -square);
-    return two_sum(x, (((v.high - square) - rest) + v.low) / (2 * x));
-}
 
 enum class Corners { Whole, Lattice, Others };
 
@@ -219,21 +180,32 @@ public:
         }
     }
 
-    void add(const Point& p, const Point& q, const Point& r) {
-        if (p.is_lattice() && q.is_lattice() && r.is_lattice()) {
-            add(p.lattice(), q.lattice(), r.lattice());
-        } else {
-            faces_.push_back(triangle_area(corner_at(p), corner_at(q), corner_at(r)));
+    /// All triangles of a mesh, which has to stay.
+    void add(const ExactMesh& mesh) {
+        mesh_ = &mesh;
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto& [p, q, r] = mesh.triangles[t];
+            if (is_lattice_face(MeshFaces(mesh), t)) {
+                add(mesh.points[p].lattice(), mesh.points[q].lattice(), mesh.points[r].lattice());
+            } else {
+                triangles_.push_back(t);
+            }
         }
     }
 
-    Area result() const {
+    Area result() {
         Area out;
         if (is_rational()) {
             out.exact = exact();
             out.value = out.exact->to_double();
             return out;
         }
+        if (faces_.empty()) {
+            const Interval areas = plus(quick_roots(), quick_triangles());
+            const double low = in_units(areas.low);
+            if (low == in_units(areas.high)) return {low, {}};
+        }
+        make_faces();
         if (const auto value = rounded(quick_roots(), precisions[0])) return {*value, {}};
         for (const unsigned long bits : precisions) {
             const Interval roots = enclose_roots(bits);
@@ -290,15 +262,31 @@ private:
     }
 
     // Whether every root is a rational; one that is not is usually the first.
-    bool is_rational() const {
+    bool is_rational() {
         const auto is_square = [](const mpz_class& z) {
             return mpz_perfect_square_p(z.get_mpz_t()) != 0;
         };
         const auto is_root = [&](const auto& s) { return is_square(to_integer(s)); };
-        return std::ranges::all_of(squares_, is_root) &&
-               std::ranges::all_of(fine_squares_, is_root) &&
-               std::all_of(faces_.begin(), faces_.end(),
-                           [&](const auto& a) { return is_square(a.radicand); });
+        if (!std::ranges::all_of(squares_, is_root) ||
+            !std::ranges::all_of(fine_squares_, is_root) ||
+            !std::ranges::all_of(faces_, [&](const auto& a) { return is_square(a.radicand); }))
+            return false;
+        for (const std::uint32_t t : triangles_)
+            if (!is_square(area_of(t).radicand)) return false;
+        make_faces();
+        return true;
+    }
+
+    [[nodiscard]] FaceArea area_of(std::uint32_t triangle) const {
+        const auto& [p, q, r] = mesh_->triangles[triangle];
+        return triangle_area(corner_at(mesh_->points[p]), corner_at(mesh_->points[q]),
+                             corner_at(mesh_->points[r]));
+    }
+
+    // Triangles with plane points in integers: only where pairs of doubles do not suffice.
+    void make_faces() {
+        for (const std::uint32_t t : triangles_) faces_.push_back(area_of(t));
+        triangles_.clear();
     }
 
     ExactRational exact() const {
@@ -333,6 +321,23 @@ private:
             0x1p-98 * (static_cast<double>(squares_.size() + fine_squares_.size()) + 1);
         const ExactRational error = ExactRational::from_double(sum.high * relative);
         return with_flat_faces({middle - error, middle + error});
+    }
+
+    // Triangles with plane points, likewise.
+    Interval quick_triangles() const {
+        if (triangles_.empty()) return {};
+        const PairCorners corners = pair_corners(MeshFaces(*mesh_), triangles_);
+        PairSum twice;
+        for (const std::uint32_t t : triangles_) {
+            const auto& [p, q, r] = mesh_->triangles[t];
+            corners.add_area(p, q, r, twice);
+        }
+        const ExactRational error = ExactRational::from_double(twice.error());
+        return {(twice.middle() - error).scaled(-1), (twice.middle() + error).scaled(-1)};
+    }
+
+    static Interval plus(const Interval& a, const Interval& b) {
+        return {a.low + b.low, a.high + b.high};
     }
 
     // The lattice faces by integer roots: floor(sqrt(floor(x))) = floor(sqrt(x)).
@@ -381,6 +386,8 @@ private:
     WideInt<5> fine_flat_;             // the same with bits behind the point
     std::vector<WideInt<8>> fine_squares_;
     std::vector<FaceArea> faces_;  // faces with plane points
+    const ExactMesh* mesh_ = nullptr;
+    std::vector<std::uint32_t> triangles_;  // of the mesh, with plane points: not among faces_ yet
 };
 
 }  // namespace
@@ -399,8 +406,7 @@ Area area(const Brep& brep, FaceId face) {
 
 Area area(const ExactMesh& mesh) {
     AreaSum sum(mesh.lattice);
-    for (const auto& t : mesh.triangles)
-        sum.add(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+    sum.add(mesh);
     return sum.result();
 }
 

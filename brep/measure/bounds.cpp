@@ -3,7 +3,12 @@
 #include <trisect/brep/measure.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
 
 namespace trisect {
 
@@ -33,18 +38,44 @@ private:
     std::optional<Bounds> box_;  // lattice units
 };
 
+// With what sums of a coordinate and this are rounded.
+double error_along(const Approximation& a, std::size_t axis) {
+    return a.error + 0x1p-50 * (std::fabs(a.c[axis]) + a.error);
+}
+
+// Only points that may be extremes are rounded: an end of the box lies at most where some point
+// surely is.
+std::optional<Bounds> bounds_of(std::span<const Point> points, Lattice lattice) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 3> lo{infinity, infinity, infinity};
+    std::array<double, 3> hi{-infinity, -infinity, -infinity};
+    for (const Point& p : points) {
+        const Approximation& a = p.approximation();
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], a.c[k] + error_along(a, k));
+            hi[k] = std::max(hi[k], a.c[k] - error_along(a, k));
+        }
+    }
+    BoundsCollector box;
+    for (const Point& p : points) {
+        const Approximation& a = p.approximation();
+        bool may_be_end = false;
+        for (std::size_t k = 0; k < 3; ++k)
+            may_be_end = may_be_end || a.c[k] - error_along(a, k) <= lo[k] ||
+                         a.c[k] + error_along(a, k) >= hi[k];
+        if (may_be_end) box.add(p.nearest());
+    }
+    return box.in_units_of(lattice);
+}
+
 }  // namespace
 
 std::optional<Bounds> bounds(const Brep& brep) {
-    BoundsCollector box;
-    for (const Point& p : brep.points()) box.add(p.nearest());
-    return box.in_units_of(brep.lattice());
+    return bounds_of(brep.points(), brep.lattice());
 }
 
 std::optional<Bounds> bounds(const ExactMesh& mesh) {
-    BoundsCollector box;
-    for (const Point& p : mesh.points) box.add(p.nearest());
-    return box.in_units_of(mesh.lattice);
+    return bounds_of(mesh.points, mesh.lattice);
 }
 
 std::optional<Bounds> bounds(const PolygonMesh& mesh) {

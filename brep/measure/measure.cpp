@@ -16,7 +16,8 @@
 //
 //  * Doubles (`FixedPointSums`): each term is divided to a fixed number of fractional bits, rounded
 //    down. n terms enclose the sum in [s, s + n] units; where both ends round to the same double
-//    that is the answer, otherwise the precision doubles and finally the exact sum decides.
+//    that is the answer, otherwise the precision doubles and finally the exact sum decides. Before
+//    that the volume is tried in pairs of doubles (pair_corners.h), which have some 100 bits.
 //  * Exact sums (`FractionTree`): det(o, p, q) has the denominator w_o w_p w_q, so the whole sum
 //    has a denominator that contains each w once (more often only where different points have equal
 //    w). A node of a balanced tree keeps the set of the denominators below it; merging two nodes
@@ -34,6 +35,7 @@
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/measure/face_sets.h>
 #include <trisect/brep/measure/fraction_tree.h>
+#include <trisect/brep/measure/pair_corners.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -145,8 +147,7 @@ public:
         : boundary_(boundary),
           want_(want),
           lattice_(want),
-          exact_faces_(faces_with_plane_points()),
-          corners_(boundary_, exact_faces_) {}
+          exact_faces_(faces_with_plane_points()) {}
 
     [[nodiscard]] Lattice lattice() const { return boundary_.lattice(); }
 
@@ -168,6 +169,19 @@ public:
         return r;
     }
     bool is_exact() const { return exact_faces_.empty(); }
+
+    /// What encloses 6 V in pairs of doubles.
+    std::pair<ExactRational, ExactRational> quick_volume6() const {
+        const PairCorners corners = pair_corners(boundary_, exact_faces_);
+        PairSum sum;
+        for (const std::uint32_t f : exact_faces_)
+            boundary_.for_each_triangle(f, [&](std::uint32_t o, std::uint32_t p, std::uint32_t q) {
+                corners.add_determinant(o, p, q, sum);
+            });
+        const ExactRational middle = lattice_.volume6() + sum.middle();
+        const ExactRational error = ExactRational::from_double(sum.error());
+        return {middle - error, middle + error};
+    }
 
     // Enclosures of 6 V and of the 24-fold moments.
     std::pair<Enclosure, std::array<Enclosure, axes>> enclose(unsigned long bits) const {
@@ -193,6 +207,11 @@ public:
     }
 
 private:
+    const ExactCorners& corners() const {
+        if (!corners_) corners_.emplace(boundary_, exact_faces_);
+        return *corners_;
+    }
+
     std::vector<std::uint32_t> faces_with_plane_points() {
         std::vector<std::uint32_t> exact;
         boundary_.for_each_face([&](std::uint32_t f) {
@@ -218,9 +237,9 @@ private:
     template <class Visit>
     void for_each_exact_triangle(std::uint32_t f, const Visit& visit) const {
         boundary_.for_each_triangle(f, [&](std::uint32_t o, std::uint32_t p, std::uint32_t q) {
-            const Corner& a = corners_[o];
-            const Corner& b = corners_[p];
-            const Corner& c = corners_[q];
+            const Corner& a = corners()[o];
+            const Corner& b = corners()[p];
+            const Corner& c = corners()[q];
             visit(determinant(a, b, c), mpz_class(a.w * b.w * c.w), a, b, c);
         });
     }
@@ -232,7 +251,7 @@ private:
     // `degree` is the number of coordinates multiplied in a term.
     template <class Term>
     ExactRational exact_sum(unsigned degree, const Term& term) const {
-        FractionTree tree(corners_);
+        FractionTree tree(corners());
         for (const std::uint32_t f : exact_faces_) {
             mpq_class sum = 0;
             for_each_exact_triangle(
@@ -249,7 +268,7 @@ private:
     Denominators denominators(std::uint32_t f, unsigned degree) const {
         std::vector<std::uint32_t> numbers;
         boundary_.for_each_corner(
-            f, [&](std::uint32_t v) { numbers.push_back(corners_[v].denominator); });
+            f, [&](std::uint32_t v) { numbers.push_back(corners()[v].denominator); });
         std::sort(numbers.begin(), numbers.end());
         Denominators powers;
         for (std::size_t i = 0; i < numbers.size();) {
@@ -268,7 +287,7 @@ private:
     Want want_;
     LatticeSums lattice_;
     std::vector<std::uint32_t> exact_faces_;
-    ExactCorners corners_;
+    mutable std::optional<ExactCorners> corners_;  // made when they are first needed
 };
 
 ExactRational volume_from(const ExactRational& volume6, Lattice lattice) {
@@ -289,6 +308,9 @@ template <class Boundary>
 double rounded_volume(Boundary boundary) {
     const SolidMeasure m(boundary, Want::Volume);
     if (!m.is_exact()) {
+        const auto [least, most] = m.quick_volume6();
+        const double quick = volume_from(least, m.lattice()).to_double();
+        if (quick != 0 && quick == volume_from(most, m.lattice()).to_double()) return quick;
         for (const unsigned long bits : precisions) {
             const Enclosure e = m.enclose(bits).first;
             const double low = volume_from(e.lower_end(), m.lattice()).to_double();
@@ -386,6 +408,8 @@ double volume(const LatticeMesh& mesh) { return exact_volume(mesh).to_double(); 
 int sign_of_volume(const Brep& brep, ShellId shell) {
     const SolidMeasure m(ShellFaces(brep, shell), Want::Volume);
     if (!m.is_exact()) {
+        const auto [least, most] = m.quick_volume6();
+        if (least.sign() != 0 && least.sign() == most.sign()) return least.sign();
         for (const unsigned long bits : precisions) {
             const Enclosure e = m.enclose(bits).first;
             const int sign = e.lower_end().sign();
