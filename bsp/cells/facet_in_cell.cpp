@@ -48,6 +48,25 @@ bool edge_separates(const Pair& p, std::size_t i, std::size_t k, double margin) 
     return std::min(at_edge, at_corner) > radius || std::max(at_edge, at_corner) < -radius;
 }
 
+// A whole plane. Its coefficients are rounded, and so are the value at the box's centre and the
+// reach of the box's corners: all of that is below 2^-50 of the sum of magnitudes.
+bool plane_misses(const Plane& plane, const Box& box) {
+    double at = plane.approx_offset();
+    double radius = 0;
+    double size = std::fabs(at);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double n = plane.approx_normal(static_cast<int>(k));
+        const auto lo = static_cast<double>(box.lo[k]);
+        const auto hi = static_cast<double>(box.hi[k]);
+        const double centre = 0.5 * (lo + hi);
+        const double half = 0.5 * (hi - lo) + 8;
+        at += n * centre;
+        radius += std::fabs(n) * half;
+        size += std::fabs(n) * (std::fabs(centre) + half);
+    }
+    return std::fabs(at) > radius + 0x1p-48 * size;
+}
+
 bool plane_separates(const Pair& p) {
     const Vector3 n = cross(p.edges[0], p.edges[1]);
     double at = 0;
@@ -62,7 +81,7 @@ bool plane_separates(const Pair& p) {
 }  // namespace
 
 bool certainly_misses(const PolygonRef& ref, const Box& box) {
-    if (ref.source->is_half_space()) return false;
+    if (ref.source->is_half_space()) return plane_misses(ref.source->support(ref.facet), box);
     Pair p;
     Vector3 centre{};
     for (std::size_t k = 0; k < 3; ++k) {

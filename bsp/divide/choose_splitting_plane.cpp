@@ -47,6 +47,29 @@ Extents extents(const CellTask& task) {
     return e;
 }
 
+bool has_half_space(const CellTask& task) {
+    return std::ranges::any_of(task.operands, [](const CellOperand& o) { return o.unbounded; });
+}
+
+// A wall beside all that is bounded, where the cell goes on for more than the extent of that.
+std::optional<SplittingPlane> wall_of_bounded(const CellTask& task, const PackedBox& all,
+                                              std::int64_t offset) {
+    std::int64_t extent = 1;
+    for (std::size_t k = 0; k < 3; ++k)
+        extent = std::max(extent, task.frame.last_below(k, all.high(k) + 1) -
+                                      task.frame.last_below(k, all.low(k)));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t low = task.frame.last_below(k, all.low(k));
+        const std::int64_t high = task.frame.last_below(k, all.high(k) + 1);
+        const int axis = static_cast<int>(k);
+        if (low - lattice_below(task.cell.lo[k]) > extent)
+            return SplittingPlane{axis, low * splitting_scale + offset};
+        if (lattice_below(task.cell.hi[k]) - high > extent)
+            return SplittingPlane{axis, high * splitting_scale + offset};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 int contested_extent(const CellTask& task) {
@@ -60,6 +83,8 @@ int contested_extent(const CellTask& task) {
 std::optional<SplittingPlane> choose_splitting_plane(const CellTask& task, std::int64_t offset) {
     const Extents e = extents(task);
     if (e.all.is_empty()) return std::nullopt;
+    if (has_half_space(task))
+        if (const auto wall = wall_of_bounded(task, e.all, offset)) return wall;
     const auto below = [&](std::size_t axis, int q) {
         return SplittingPlane{static_cast<int>(axis),
                               task.frame.last_below(axis, q) * splitting_scale + offset};

@@ -361,6 +361,15 @@ void divide_both(Division& division, const ListToDivide& a, const ListToDivide& 
     if (!done_b) divide(division, b, arena);
 }
 
+// A half-space's plane has no box, so each cell is compared with the plane itself. `list`: a copy
+// of the list that is divided.
+void leave_out_plane(CellOperand& list, const Cell& cell) {
+    if (!certainly_misses(list.polygon(list.entries[0].id), cell.lattice_box())) return;
+    list.count = 0;
+    list.box = PackedBox{};
+    list.unbounded = false;
+}
+
 }  // namespace
 
 void partition(const CellTask& task, const SplittingPlane& splitter,
@@ -372,6 +381,11 @@ void partition(const CellTask& task, const SplittingPlane& splitter,
     for (std::size_t i = 0; i < task.operands.size(); ++i) {
         const CellOperand& o = task.operands[i];
         if (!o.is_list || o.count == 0) continue;
+        if (o.unbounded) {
+            for (std::size_t side = 0; side < 2; ++side)
+                leave_out_plane(out[side][i], cells[side]);
+            continue;
+        }
         const ListToDivide list{&o, {&out[0][i], &out[1][i]}};
         const bool below = division.is_below(o);
         if (below || division.is_above(o)) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include <trisect/kernel/plane.h>
+#include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
 
@@ -39,11 +40,15 @@ FilteredCutting::Planes FilteredCutting::compare_planes(LeafIndex a, LeafIndex b
             if (facets_->plane(a).sign(facets_->corner(g, c)) != 0) return Planes::Apart;
     }
     const Plane p = f.ref.source->support(f.ref.facet);
+    const Plane q = g.ref.source->support(g.ref.facet);
+    if (g.is_of_half_space()) {
+        if (!is_same_plane(p, q)) return Planes::Apart;
+        return same_orientation(p, q) ? Planes::Same : Planes::Opposite;
+    }
     for (std::size_t c = 0; c < 3; ++c)
         if ((!whole || c == apex) &&
             side_of(g.ref.source->corner(g.ref.facet, static_cast<int>(c)), p) != Side::On)
             return Planes::Apart;
-    const Plane q = g.ref.source->support(g.ref.facet);
     return same_orientation(p, q) ? Planes::Same : Planes::Opposite;
 }
 

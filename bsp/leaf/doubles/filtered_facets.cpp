@@ -14,13 +14,25 @@
 // none is more than twice another: a difference of such doubles is exact (Sterbenz). In the second
 // nothing is subtracted, and coordinates are below 2 L: the errors are still those of the leaf's
 // size.
+//
+// Half-spaces. The plane n x + d = 0 has at the leaf's origin the value c, which is computed in
+// integers; in doubles it is the plane through the point -c / n_k on the axis k of its largest
+// component. Rounding of n and of that point, and what evaluation rounds, are below 2^-50 of the
+// sum of |n_i| times the leaf's extent, and of 2 |c|. Corners of outlines may lie far beyond the
+// extent of the leaf's meshes, so their errors have 2^-49 of their distance more: that is what a
+// plane's value there, of any facet, may be off by in relation to its slope.
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include <trisect/bsp/cells/polygon_in_cell.h>
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -35,7 +47,7 @@ constexpr double exact_limit = 0x1p53;
 // points are already there, since all of the leaf's were prefetched first.
 void look_ahead(std::span<const PolygonRef> polygons) {
     constexpr std::size_t near = 6;
-    if (polygons.size() <= near) return;
+    if (polygons.size() <= near || polygons[near].source->is_half_space()) return;
     const LatticeMesh& mesh = polygons[near].source->mesh();
     for (const std::uint32_t v : mesh.triangles[polygons[near].facet])
         __builtin_prefetch(&mesh.points[v]);
@@ -44,6 +56,7 @@ void look_ahead(std::span<const PolygonRef> polygons) {
 struct Polygons {
     std::size_t count = 0;
     bool whole = true;
+    bool unbounded = false;  // some are
 };
 
 // The polygons of a leaf, if all can be held in doubles; prefetches their triangles.
@@ -53,15 +66,30 @@ std::optional<Polygons> filtered_polygons(const LeafProblem& leaf) {
         if (!o.embedded) return std::nullopt;
         found.count += o.polygons.size();
         for (const PolygonRef& r : o.polygons) {
-            if (r.source->is_half_space()) return std::nullopt;
             if (r.fragment != nullptr && r.fragment->edges().size() > FilteredFacet::max_outline)
                 return std::nullopt;
             found.whole = found.whole && r.source->is_whole();
+            if (r.source->is_half_space()) {
+                found.unbounded = found.unbounded || r.fragment == nullptr;
+                continue;
+            }
             __builtin_prefetch(&r.source->mesh().triangles[r.facet]);
         }
     }
     return found;
 }
+
+// Of any facet that has corners.
+const PolygonRef* facet_of_mesh(const LeafProblem& leaf) {
+    for (const LeafOperand& o : leaf.operands)
+        for (const PolygonRef& r : o.polygons)
+            if (!r.source->is_half_space()) return &r;
+    return nullptr;
+}
+
+// How far beyond its meshes, in extents of them, a leaf has to reach for the planes of half-spaces
+// to be listed in pieces.
+constexpr std::int64_t far_beyond = 4;
 
 // The same without a call, which std::floor is on the oldest processors of the family.
 std::int64_t floor_of(double v) {
@@ -131,7 +159,7 @@ Vector3 FilteredFacets::origin_of_fractions() const {
     Vector3 least{infinity, infinity, infinity};
     for (const LeafOperand& o : problem_->operands)
         for (const PolygonRef& r : o.polygons)
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < 3 && !r.source->is_half_space(); ++i) {
                 const Vector3 c = r.source->corner(r.facet, i).doubles();
                 for (std::size_t k = 0; k < 3; ++k) {
                     low[k] = std::min(low[k], c[k]);
@@ -174,12 +202,14 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
     if (!polygons) return false;
     facets_.reserve(polygons->count);
     whole_ = polygons->whole;
-    const auto first = std::ranges::find_if(
-        leaf.operands, [](const LeafOperand& o) { return !o.polygons.empty(); });
+    firsts_.assign(leaf.operands.size() + 1, 0);
     reaches_.assign(leaf.operands.size(), {});
-    if (first == leaf.operands.end()) return true;
-    const PolygonRef& any = first->polygons[0];
-    set_origin(whole_ ? any.source->corner(any.facet, 0).doubles() : origin_of_fractions());
+    if (polygons->count == 0) return true;
+    const PolygonRef* const any = facet_of_mesh(leaf);
+    if (any == nullptr) return false;
+    set_origin(whole_ ? any->source->corner(any->facet, 0).doubles() : origin_of_fractions());
+    pieces_.clear();
+    if (polygons->unbounded) make_pieces();
     // Over all points compared with a plane.
     Vector3 low = reference_.c;
     Vector3 high = reference_.c;
@@ -199,9 +229,7 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
         const Source* source = nullptr;
         LeafIndex surface = -1;
         Reach& reach = reaches_[o];
-        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
-            const PolygonRef& ref = operand.polygons[i];
-            look_ahead(operand.polygons.subspan(i));
+        const auto add_item = [&](const PolygonRef& ref) {
             if (ref.source != source) {
                 source = ref.source;
                 surface = surfaces_
@@ -216,8 +244,6 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
             const Vector3 hi = f.hi;
             bool contained = true;
             for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], lo[k]);
-                high[k] = std::max(high[k], hi[k]);
                 contained &= lo[k] >= inner_lo[k];
                 contained &= hi[k] <= inner_hi[k];
                 f.lo[k] = std::max(lo[k], outer_lo[k]);
@@ -226,9 +252,15 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
                 reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
             }
             f.contained = contained;
-            if (f.is_whole()) continue;
+            if (!f.is_of_half_space())
+                for (std::size_t k = 0; k < 3; ++k) {
+                    low[k] = std::min(low[k], lo[k]);
+                    high[k] = std::max(high[k], hi[k]);
+                }
+            if (f.is_whole()) return;
             if (!whole_) f.contained = leaf.cell.contains(f.ref.fragment->box());
             if (!f.contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
+            if (f.is_of_half_space()) return;
             // Planes are evaluated at points relative to their first corner. What doubles hold of a
             // fragment's facet need not be near the fragment.
             for (std::size_t k = 0; k < 3; ++k) {
@@ -237,8 +269,20 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
                 for (std::size_t c = 1; c < 3; ++c)
                     small = small && std::fabs(f.corners[c][k]) < exact_limit;
             }
+        };
+        firsts_[o] = size();
+        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
+            const PolygonRef& ref = operand.polygons[i];
+            look_ahead(operand.polygons.subspan(i));
+            if (ref.fragment != nullptr || !ref.source->is_half_space()) {
+                add_item(ref);
+                continue;
+            }
+            for (const Piece& p : pieces_)
+                if (p.operand == o && p.ref.source == ref.source) add_item(p.ref);
         }
     }
+    firsts_.back() = size();
     for (std::size_t k = 0; k < 3; ++k) {
         small = small && low[k] > -exact_limit && high[k] < exact_limit;
         extent_[k] = whole_ ? high[k] - low[k] + 1 : (high[k] - low[k]) * slightly_more;
@@ -254,6 +298,10 @@ void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, Leaf
     f.orientation = f.ref.flipped ? -1 : 1;
     f.operand = number;
     f.surface = surface;
+    if (f.is_of_half_space()) {
+        add_half_space(f);
+        return;
+    }
     const LatticeMesh& mesh = ref.source->mesh();
     f.vertices = mesh.triangles[ref.facet];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -267,6 +315,84 @@ void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, Leaf
         f.lo[k] = std::min({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
         f.hi[k] = std::max({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
     }
+}
+
+// Numbers that no vertex of a mesh has, and no corners.
+void FilteredFacets::add_half_space(FilteredFacet& f) {
+    f.vertices.fill(std::numeric_limits<std::uint32_t>::max());
+    for (Vector3& c : f.corners) c = {};
+    add_box(f);
+}
+
+// The planes of half-spaces in the cell, while nothing else is listed.
+void FilteredFacets::make_pieces() {
+    Box meshes;
+    for (const LeafOperand& o : problem_->operands)
+        for (const PolygonRef& r : o.polygons)
+            if (!r.source->is_half_space())
+                meshes.add(r.box().intersected(problem_->cell.lattice_box()));
+    if (bench_ == nullptr) bench_ = std::make_unique<Workbench>();
+    bench_->clear();
+    for (std::size_t o = 0; o < problem_->operands.size(); ++o)
+        for (const PolygonRef& r : problem_->operands[o].polygons)
+            if (r.source->is_half_space() && r.fragment == nullptr) add_pieces(r, o, meshes);
+    std::vector<PolygonRef> refs;
+    refs.reserve(pieces_.size());
+    for (const Piece& p : pieces_) refs.push_back(p.ref);
+    kept_pieces_ = PolygonList(std::move(refs));
+}
+
+// What is far beyond the meshes is cut off, side by side: the corners of a piece in a cell that is
+// as large as space would be of no use for the facets here.
+void FilteredFacets::add_pieces(const PolygonRef& ref, std::size_t operand, const Box& meshes) {
+    const Cell& cell = problem_->cell;
+    const auto add = [&](const WorkPolygon& part) {
+        if (!part.is_empty()) pieces_.push_back({operand, make_fragment(*bench_, ref, part)});
+    };
+    WorkPolygon rest = bench_->clipped(bench_->polygon(ref), ref.box(), cell);
+    std::int64_t extent = 1;
+    for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, meshes.hi[k] - meshes.lo[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        for (const bool high : {false, true}) {
+            if (rest.is_empty()) return;
+            const std::int64_t end = high ? meshes.hi[k] : meshes.lo[k];
+            const std::int64_t wall = high ? lattice_below(cell.hi[k]) : lattice_below(cell.lo[k]);
+            if (std::abs(wall - end) / far_beyond <= extent) continue;
+            const std::int64_t at = (high ? end + extent : end - extent) * splitting_scale +
+                                    problem_->options->splitting_offset;
+            const PlaneId splitter = bench_->plane(PlaneName::splitter(axis, at));
+            add(bench_->clipped(rest, splitter, high ? 1 : -1));
+            rest = bench_->clipped(std::move(rest), splitter, high ? -1 : 1);
+        }
+    }
+    add(rest);
+}
+
+FilteredPlane FilteredFacets::plane_of_half_space(const FilteredFacet& f) const {
+    const Plane support = f.ref.source->support(f.ref.facet);
+    const WideInt<2> unit(Int128{1} << fraction_limit);
+    WideInt<9> value = multiply<9>(support.offset(), unit);
+    FilteredPlane p;
+    double sum = 0;
+    double permanent = 0;
+    std::size_t axis = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int i = static_cast<int>(k);
+        const WideInt<2> at(scaled_integer(Coordinate(origin_[k]), fraction_limit));
+        value += multiply<9>(support.normal(i), at);
+        p.normal[k] = support.approx_normal(i);
+        const double size = std::fabs(p.normal[k]);
+        if (size > std::fabs(p.normal[axis])) axis = k;
+        permanent += size * extent_[k];
+        sum += size;
+    }
+    const double c = std::ldexp(value.to_double(), -fraction_limit - support.approx_shift());
+    p.origin = {};
+    p.origin[axis] = -c / p.normal[axis];
+    p.bound = 0x1p-50 * (permanent + 2 * std::fabs(c));
+    p.slope = bound_slack * sum;
+    return p;
 }
 
 void FilteredFacets::add_box(FilteredFacet& f) {
@@ -319,6 +445,7 @@ void FilteredFacets::add_outline(FilteredFacet& f) {
                 largest = std::max(largest, std::fabs(a.c[k]));
             }
             a.error = bound_slack * a.error + 0x1p-51 * largest;
+            if (f.is_of_half_space()) a.error += 0x1p-49 * largest;
         }
         outlines_.push_back(a);
     }

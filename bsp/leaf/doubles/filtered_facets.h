@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/cells/trace/interpolation.h>
+#include <trisect/bsp/cells/workbench.h>
 #include <trisect/bsp/leaf/leaf_work.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
@@ -46,6 +48,8 @@ struct FilteredPlane {
 /// from an origin of the leaf from which doubles hold them exactly and by which constructed points
 /// have the errors of the leaf's size and not of its place. Those of a fragment's outline are
 /// constructed.
+///
+/// Facets of half-spaces are always fragments here, and have no corners but those of the outline.
 struct FilteredFacet {
     /// Fragments with more corners are left to the exact path.
     static constexpr std::size_t max_outline = 20;
@@ -75,6 +79,7 @@ struct FilteredFacet {
     FilteredPlane plane;
 
     [[nodiscard]] bool is_whole() const { return ref.fragment == nullptr; }
+    [[nodiscard]] bool is_of_half_space() const { return ref.source->is_half_space(); }
     /// The plane of an edge, from a corner of the outline to the next one.
     [[nodiscard]] EdgeName edge(std::size_t e) const {
         if (is_whole()) return {PlaneName::edge(ref.source, ref.facet, static_cast<int>(e)), false};
@@ -109,7 +114,9 @@ struct FilteredFacet {
 class FilteredFacets {
 public:
     /// False when something else than facets of embedded operands and fragments of such is listed,
-    /// or the leaf is too large for doubles.
+    /// nothing but half-spaces is, or the leaf is too large for doubles. Of the plane of a
+    /// half-space the part in the cell is listed, in pieces where the cell is much larger than what
+    /// the leaf has of meshes.
     [[nodiscard]] bool list(const LeafProblem& leaf);
 
     [[nodiscard]] LeafIndex size() const { return static_cast<LeafIndex>(facets_.size()); }
@@ -120,7 +127,7 @@ public:
     [[nodiscard]] const FilteredPlane& plane(LeafIndex i) {
         FilteredFacet& f = facets_[as_index(i)];
         if (f.plane.bound < 0) {
-            f.plane = plane_of(f.corners, extent_);
+            f.plane = f.is_of_half_space() ? plane_of_half_space(f) : plane_of(f.corners, extent_);
             make_outline(i);
         }
         return f.plane;
@@ -147,6 +154,9 @@ public:
     [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
     [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
     [[nodiscard]] std::size_t operand_count() const { return problem_->operands.size(); }
+    /// The first item of an operand, whose items follow each other; of the number of operands: the
+    /// number of items.
+    [[nodiscard]] LeafIndex first_of(std::size_t operand) const { return firsts_[operand]; }
     /// The box of all items of an operand.
     struct Reach {
         static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -202,12 +212,26 @@ private:
              LeafIndex surface);
     void add_box(FilteredFacet& f);
     void add_outline(FilteredFacet& f);
+    [[nodiscard]] FilteredPlane plane_of_half_space(const FilteredFacet& f) const;
+    void make_pieces();
+    void add_pieces(const PolygonRef& ref, std::size_t operand, const Box& meshes);
+    void add_half_space(FilteredFacet& f);
     [[nodiscard]] bool is_contained_but_for_splitters(unsigned splitters, const Vector3& lo,
                                                       const Vector3& hi) const;
     [[nodiscard]] std::uint8_t splitters_of(const Fragment& fragment) const;
 
     const LeafProblem* problem_ = nullptr;
+    // Of a half-space in the cell.
+    struct Piece {
+        std::size_t operand = 0;
+        PolygonRef ref;
+    };
+
     std::vector<FilteredFacet> facets_;
+    std::vector<LeafIndex> firsts_;  // by operand
+    std::vector<Piece> pieces_;
+    PolygonList kept_pieces_;           // owns them
+    std::unique_ptr<Workbench> bench_;  // that cuts them
     std::vector<Approximation> outlines_;  // of fragments, one after the other
     std::vector<Reach> reaches_;           // by operand
     std::size_t fragments_ = 0;

@@ -48,7 +48,7 @@ bool FilteredPairs::relate_two(FilteredFacets& facets, EvaluateStats& stats) {
             is_candidate_[4 * row + i] = static_cast<std::uint8_t>(candidates >> i & 1U);
         if (firsts != 0) rows_of_first_.push_back(row);
     }
-    for (std::size_t i = n - facets.problem().operands[1].polygons.size(); i < n; ++i) {
+    for (std::size_t i = as_index(facets.first_of(1)); i < n; ++i) {
         if (is_candidate_[i] == 0) continue;
         check_budget(*facets.problem().options, stats);
         const BoxRows::Probe probe = boxes_.probe(i);

@@ -98,12 +98,9 @@ void FilteredWindings::start(FilteredFacets& facets, const FilteredPairs& pairs)
     pairs_ = &pairs;
     operands_ = facets.operand_count();
     boxes_.resize(operands_);
-    LeafIndex first = 0;
     for (std::size_t o = 0; o < operands_; ++o) {
-        const auto last =
-            first + static_cast<LeafIndex>(facets.problem().operands[o].polygons.size());
-        boxes_[o].first = first;
-        boxes_[o].last = first = last;
+        boxes_[o].first = facets.first_of(o);
+        boxes_[o].last = facets.first_of(o + 1);
         boxes_[o].made = false;
     }
     has_ways_ = false;
