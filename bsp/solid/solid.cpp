@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/assembly/outline_names.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/refine_leaf.h>
@@ -58,7 +60,18 @@ bool is_unbounded(const Solid& solid) {
 // Outlines of planes are divided into faces by the assembly, but have one name for all.
 bool has_all_of_brep(const SolidState& s, const AssembleOptions& options) {
     const auto* const prisms = std::get_if<detail::PrismOutlines>(&s.form);
-    return prisms == nullptr || (options.maximal_faces && prisms->outlines->names_hold_everywhere);
+    return prisms == nullptr || (options.maximal_faces && prisms->outlines->names_hold_everywhere &&
+                                 prisms->outlines->first_facets.empty());
+}
+
+// The same where names have to be proved, which needs the faces.
+std::optional<Brep> brep_with_proved_names(const SolidState& s, const AssembleOptions& options) {
+    const auto* const prisms = std::get_if<detail::PrismOutlines>(&s.form);
+    if (prisms == nullptr || !options.maximal_faces || !prisms->outlines->names_hold_everywhere)
+        return std::nullopt;
+    Brep brep = detail::assemble_brep(s, options);
+    if (!detail::names_are_proved(brep, *prisms->outlines)) return std::nullopt;
+    return brep;
 }
 
 Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
@@ -169,8 +182,9 @@ std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state
 
 Brep Solid::to_brep(const AssembleOptions& options) const {
     const detail::SolidState& own = *state();
-    return detail::assemble_brep(has_all_of_brep(own, options) ? own : *detail::cut_state(*this),
-                                 options);
+    if (has_all_of_brep(own, options)) return detail::assemble_brep(own, options);
+    if (auto brep = brep_with_proved_names(own, options)) return *std::move(brep);
+    return detail::assemble_brep(*detail::cut_state(*this), options);
 }
 
 namespace {

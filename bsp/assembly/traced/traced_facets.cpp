@@ -304,7 +304,7 @@ private:
     std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
-    PlaneId own_ = -1;          // of its first edge
+    PlaneId own_ = -1;  // of its first edge
     PlaneId own_support_ = -1;
 };
 

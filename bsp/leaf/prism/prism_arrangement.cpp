@@ -520,14 +520,21 @@ bool are_of_one_face(const PolygonRef& a, const PolygonRef& b) {
 void PrismArrangement::finish_caps() {
     constexpr std::size_t none = ~std::size_t{0};
     std::vector<std::size_t> first(facets_.positions().size(), none);  // that is not whole
+    std::vector<std::uint8_t> several(first.size(), 0);                // faces that are not whole
+    std::vector<const Source*> source(first.size(), nullptr);          // of some cap
+    std::vector<std::uint8_t> mixed(first.size(), 0);                  // caps of several sources
     const auto caps = facets_.caps();
     for (std::size_t c = 0; c < caps.size(); ++c) {
         const PrismComponents::Component& component = components_[components_.of_cap(c)];
+        const Source*& here = source[component.position];
+        if (here != nullptr && here != caps[c].ref.source) mixed[component.position] = 1;
+        here = caps[c].ref.source;
         if (!component.whole) {
             std::size_t& named = first[component.position];
             named = std::min(named, c);
-            if (!are_of_one_face(caps[named].ref, caps[c].ref))
-                outlines_.names_hold_everywhere = false;
+            if (are_of_one_face(caps[named].ref, caps[c].ref)) continue;
+            several[component.position] = 1;
+            if (caps[named].ref.facet > caps[c].ref.facet) mixed[component.position] = 1;
             continue;
         }
         PolygonRef ref = caps[c].ref;
@@ -548,6 +555,16 @@ void PrismArrangement::finish_caps() {
         }
         outlines_.edges.push_back(c.edge);
         outlines_.edges.back().face = static_cast<std::uint32_t>(face);
+    }
+    for (std::size_t position = 0; position < first.size(); ++position) {
+        const bool is_outlined = faces[2 * position] >= 0 || faces[2 * position + 1] >= 0;
+        if (several[position] == 0 || !is_outlined) continue;
+        if (mixed[position] != 0) {
+            outlines_.names_hold_everywhere = false;
+            continue;
+        }
+        const PolygonRef& ref = caps[first[position]].ref;
+        outlines_.first_facets.push_back({ref.source, ref.facet, false});
     }
 }
 

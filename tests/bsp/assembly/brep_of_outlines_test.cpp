@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +17,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -139,6 +141,57 @@ TEST(BrepOfOutlines, SeveralCapsInOnePlane) {
     add_prism(mesh, star(16, 2, {6, 0.5, 0}, 5), 0, 4);
     const Solid b = prism(star(24, 4, {0, 0.25, 0}, 6.5), 1, 6);
     EXPECT_EQ(expect_for_all_operations(Solid::from_mesh(mesh), b, outlined()), 3);
+}
+
+bool is_cut(const Solid& solid) { return trisect::detail::state_of(solid)->lazy_tree()->is_cut(); }
+
+// A block of triangles: every one of them is a face of its own.
+Solid block_of_triangles() {
+    const PolygonMesh box = trisect::make_box({0, 0, 0}, {8, 8, 1});
+    PolygonMesh mesh;
+    mesh.points = box.points;
+    for (std::size_t f = 0; f < box.face_count(); ++f) {
+        const auto loop = box.face(f);
+        for (std::size_t i = 2; i < loop.size(); ++i)
+            mesh.add_triangle(loop[0], loop[i - 1], loop[i]);
+    }
+    return Solid::from_mesh(mesh);
+}
+
+// The sides of the plate are two faces each, and what is left of a side has the name of the first
+// one: that is proved, and no tree is made for it.
+TEST(BrepOfOutlines, BoresInAPlateOfTriangles) {
+    PolygonMesh bores;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            add_prism(bores, star(12, 0.75, {2 * i + 1.0, 2 * j + 1.0, 0}, 0.5), -1, 2);
+    const Solid plate = evaluate(block_of_triangles() - Solid::from_mesh(bores), outlined());
+    ASSERT_NE(trisect::detail::state_of(plate)->lazy_tree(), nullptr);
+    EXPECT_EQ(plate.to_brep().counts().faces, 6U + 16 * 12);
+    EXPECT_FALSE(is_cut(plate));
+    expect_what_the_tree_gives(plate);
+}
+
+// One triangle of a side is all but gone, or gone as a whole; then the other one gives the name.
+TEST(BrepOfOutlines, TrianglesThatLittleIsLeftOf) {
+    int proved = 0;
+    for (const double reach : {0.0, 0.25, 0.4375, 0.5, 0.53125})
+        for (const bool turned : {false, true}) {
+            PolygonMesh tool;
+            const double r = reach;
+            std::vector<std::array<double, 2>> outline{
+                {-1, -1 - r}, {9 + r, 9}, {9 + r, 10}, {-2, 10}, {-2, -1 - r}};
+            if (turned)
+                for (auto& p : outline) p = {p[1], p[0]};
+            if (turned) std::reverse(outline.begin(), outline.end());
+            add_prism(tool, outline, -1, 2);
+            const Solid rest = evaluate(block_of_triangles() - Solid::from_mesh(tool), outlined());
+            if (trisect::detail::state_of(rest)->lazy_tree() == nullptr) continue;
+            static_cast<void>(rest.to_brep());
+            proved += is_cut(rest) ? 0 : 1;
+            expect_what_the_tree_gives(rest);
+        }
+    EXPECT_GT(proved, 0);
 }
 
 TEST(BrepOfOutlines, FlushCaps) {
