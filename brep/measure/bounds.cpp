@@ -70,13 +70,9 @@ std::optional<Bounds> bounds_of(std::span<const Point> points, Lattice lattice) 
 
 }  // namespace
 
-std::optional<Bounds> bounds(const Brep& brep) {
-    return bounds_of(brep.points(), brep.lattice());
-}
+std::optional<Bounds> bounds(const Brep& brep) { return bounds_of(brep.points(), brep.lattice()); }
 
-std::optional<Bounds> bounds(const ExactMesh& mesh) {
-    return bounds_of(mesh.points, mesh.lattice);
-}
+std::optional<Bounds> bounds(const ExactMesh& mesh) { return bounds_of(mesh.points, mesh.lattice); }
 
 std::optional<Bounds> bounds(const PolygonMesh& mesh) {
     BoundsCollector box;

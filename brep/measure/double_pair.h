@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DoublePair: a number of some 100 bits as a sum of two doubles (Dekker 1971).
+// DoublePair: numbers of some 100 bits as sums of two doubles.
 //
-// The operations keep less than the formulas of the literature could: what they are off by is
-// stated in multiples of 2^-100, which leaves room for the sums of several. u = 2^-53.
+// The operations (Dekker 1971) keep less than the formulas of the literature could: what they are
+// off by is stated in multiples of 2^-100, which leaves room for the sums of several. u = 2^-53.
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PairCorners: points of a boundary to some 100 bits, and sums over its triangles.
+// PairCorners: points of a boundary to some 100 bits.
 //
 // A coordinate X / W is off by less than 2^-97 of itself: 2^-100 for either number and for the
 // quotient. Let M bound all coordinates, so that each is off by at most e = 2^-97 M.
@@ -72,8 +72,7 @@ public:
     void add_determinant(std::uint32_t o, std::uint32_t p, std::uint32_t q, PairSum& sum) const {
         const Product c = product(o, p, q);
         DoublePair det;
-        for (std::size_t k = 0; k < 3; ++k)
-            det = add(det, multiply(points_[o][k], c.at[k]));
+        for (std::size_t k = 0; k < 3; ++k) det = add(det, multiply(points_[o][k], c.at[k]));
         sum.add(det, 4 * reach_ * c.error + 0x1p-94 * reach_ * c.size);
     }
     /// Adds twice the triangle's area.

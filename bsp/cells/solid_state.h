@@ -54,8 +54,8 @@ struct UncrossedFacets {
     std::vector<std::uint32_t> facets;  ///< ascending
 };
 
-/// A set of two meshes, or of one and half-spaces, by their facets, without a tree: those that nothing crosses, and the
-/// crossings of all others. Enough for to_mesh() and to_brep().
+/// A set of two meshes, or of one and half-spaces, by their facets, without a tree: those that
+/// nothing crosses, and the crossings of all others. Enough for to_mesh() and to_brep().
 struct UndividedMeshes {
     std::vector<UncrossedFacets> uncrossed;      ///< of each operand; of a half-space none
     std::shared_ptr<const Crossings> crossings;  ///< not null

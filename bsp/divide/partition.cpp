@@ -382,8 +382,7 @@ void partition(const CellTask& task, const SplittingPlane& splitter,
         const CellOperand& o = task.operands[i];
         if (!o.is_list || o.count == 0) continue;
         if (o.unbounded) {
-            for (std::size_t side = 0; side < 2; ++side)
-                leave_out_plane(out[side][i], cells[side]);
+            for (std::size_t side = 0; side < 2; ++side) leave_out_plane(out[side][i], cells[side]);
             continue;
         }
         const ListToDivide list{&o, {&out[0][i], &out[1][i]}};

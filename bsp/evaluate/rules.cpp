@@ -274,7 +274,8 @@ bool splitters_have_failed(const CellTask& task) {
 // splitters around the corner cut off small cells at little cost. Splitters that make more pairs
 // than there were never pay: a pair costs a few nanoseconds.
 int stalled_after(const CellTask& task, std::uint64_t first, std::uint64_t second) {
-    // What is cut off beside all but planes of half-spaces is large, however little is listed there.
+    // What is cut off beside all but planes of half-spaces is large, however little is listed
+    // there.
     const auto planes = static_cast<std::uint64_t>(
         std::ranges::count_if(task.operands, [](const CellOperand& o) { return o.unbounded; }));
     if (planes > 0 && std::min(first, second) <= planes) return task.stalled;

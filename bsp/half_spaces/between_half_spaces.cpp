@@ -197,8 +197,7 @@ private:
     [[nodiscard]] Approximation pierced(std::uint32_t facet, int edge,
                                         const CuttingPlane& plane) const {
         const int next = edge == 2 ? 0 : edge + 1;
-        const bool turned =
-            source_.corner_index(facet, edge) > source_.corner_index(facet, next);
+        const bool turned = source_.corner_index(facet, edge) > source_.corner_index(facet, next);
         const LatticePoint& from = source_.corner(facet, turned ? next : edge);
         const LatticePoint& to = source_.corner(facet, turned ? edge : next);
         Approximation at;

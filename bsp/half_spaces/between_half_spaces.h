@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mesh cut by parallel half-spaces of which only triangles may be wanted.
+// Cuts of a mesh by parallel half-spaces, without a tree.
 #pragma once
 
 #include <memory>

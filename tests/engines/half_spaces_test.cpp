@@ -38,9 +38,9 @@ struct HalfSpace {
     [[nodiscard]] trisect::Solid solid() const {
         std::int64_t offset = 0;
         for (std::size_t k = 0; k < 3; ++k) offset -= normal[k] * through[k];
-        return trisect::Solid::half_space(trisect::Plane(normal[0], normal[1], normal[2],
-                                                         trisect::Plane::Coefficient(offset)),
-                                          {});
+        return trisect::Solid::half_space(
+            trisect::Plane(normal[0], normal[1], normal[2], trisect::Plane::Coefficient(offset)),
+            {});
     }
     [[nodiscard]] Operand pyramid() const {
         constexpr std::int64_t far = 100'000;
@@ -105,7 +105,8 @@ struct Counts {
 };
 
 // Evaluates a formula as it comes, and by cells of several sizes.
-void expect_agreement(const std::vector<Operand>& operands, const std::vector<trisect::Solid>& solids,
+void expect_agreement(const std::vector<Operand>& operands,
+                      const std::vector<trisect::Solid>& solids,
                       const reference::Expression& formula, Counts& counts) {
     const auto expected =
         reference::canonical_boundary(reference::evaluate(operands, formula).cells);

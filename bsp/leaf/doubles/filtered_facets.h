@@ -230,8 +230,8 @@ private:
     std::vector<FilteredFacet> facets_;
     std::vector<LeafIndex> firsts_;  // by operand
     std::vector<Piece> pieces_;
-    PolygonList kept_pieces_;           // owns them
-    std::unique_ptr<Workbench> bench_;  // that cuts them
+    PolygonList kept_pieces_;              // owns them
+    std::unique_ptr<Workbench> bench_;     // that cuts them
     std::vector<Approximation> outlines_;  // of fragments, one after the other
     std::vector<Reach> reaches_;           // by operand
     std::size_t fragments_ = 0;

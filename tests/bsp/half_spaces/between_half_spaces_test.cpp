@@ -138,15 +138,15 @@ TEST(BetweenHalfSpaces, LeftToTheTree) {
     const Solid other = below(1, 2, -3, -0.4);
     const Solid cube = Solid::from_mesh(trisect::make_box({0, 0, 0}, {4, 4, 4}));
     EXPECT_EQ(cuts_of(s & h), 1U);
-    EXPECT_EQ(cuts_of(s & h & other), 0U);                 // not parallel
-    EXPECT_EQ(cuts_of(s & h & below(2, 4, 6, -0.8)), 0U);  // the same plane
+    EXPECT_EQ(cuts_of(s & h & other), 0U);                   // not parallel
+    EXPECT_EQ(cuts_of(s & h & below(2, 4, 6, -0.8)), 0U);    // the same plane
     EXPECT_EQ(cuts_of(s & h & below(-1, -2, -3, 0.8)), 0U);  // nothing between
     EXPECT_EQ(cuts_of(s | h), 0U);                           // unbounded
     EXPECT_EQ(cuts_of(h - s), 0U);
     EXPECT_EQ(cuts_of(s ^ h), 0U);
-    EXPECT_EQ(cuts_of(s & below(1, 2, 3, -40)), 0U);      // beside it
-    EXPECT_EQ(cuts_of(cube & below(1, 1, 1, -4)), 0U);    // through corners
-    EXPECT_EQ(cuts_of(cube & below(1, -1, 0, 0)), 0U);    // through edges
+    EXPECT_EQ(cuts_of(s & below(1, 2, 3, -40)), 0U);                // beside it
+    EXPECT_EQ(cuts_of(cube & below(1, 1, 1, -4)), 0U);              // through corners
+    EXPECT_EQ(cuts_of(cube & below(1, -1, 0, 0)), 0U);              // through edges
     EXPECT_EQ(cuts_of(evaluate(s & h) & below(1, 2, 3, 0.4)), 0U);  // a result
     EXPECT_EQ(cuts_of(s & cube & h), 0U);
     EXPECT_EQ(cuts_of(h & other), 0U);

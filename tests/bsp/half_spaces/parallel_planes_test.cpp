@@ -52,8 +52,9 @@ TEST(ParallelPlanes, TheSamePlaneOrOthers) {
 
 // The products have some 490 bits.
 TEST(ParallelPlanes, LongCoefficients) {
-    const Plane::Coefficient large = trisect::multiply<6>(
-        trisect::WideInt<3>(trisect::Int128{1} << 120), trisect::WideInt<3>(trisect::Int128{3} << 120));
+    const Plane::Coefficient large =
+        trisect::multiply<6>(trisect::WideInt<3>(trisect::Int128{1} << 120),
+                             trisect::WideInt<3>(trisect::Int128{3} << 120));
     const auto below = [&](std::int64_t offset) {
         return PlaneSide{Plane(large, -large, large, large + Plane::Coefficient(offset)), true};
     };
