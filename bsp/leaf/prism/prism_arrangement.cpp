@@ -511,6 +511,15 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
 
 namespace {
 
+// The caps in one plane.
+struct CapPlane {
+    static constexpr std::size_t none = ~std::size_t{0};
+    std::size_t any = none;    // the last one that was looked at
+    std::size_t first = none;  // that is not whole
+    bool several = false;      // faces of operands that are not whole
+    bool mixed = false;        // sources, or the first one is not the first of its source
+};
+
 bool are_of_one_face(const PolygonRef& a, const PolygonRef& b) {
     return a.source == b.source && a.source->face_of(a.facet) == b.source->face_of(b.facet);
 }
@@ -518,37 +527,32 @@ bool are_of_one_face(const PolygonRef& a, const PolygonRef& b) {
 }  // namespace
 
 void PrismArrangement::finish_caps() {
-    constexpr std::size_t none = ~std::size_t{0};
-    std::vector<std::size_t> first(facets_.positions().size(), none);  // that is not whole
-    std::vector<std::uint8_t> several(first.size(), 0);                // faces that are not whole
-    std::vector<const Source*> source(first.size(), nullptr);          // of some cap
-    std::vector<std::uint8_t> mixed(first.size(), 0);                  // caps of several sources
+    std::vector<CapPlane> planes(facets_.positions().size());
     const auto caps = facets_.caps();
     for (std::size_t c = 0; c < caps.size(); ++c) {
         const PrismComponents::Component& component = components_[components_.of_cap(c)];
-        const Source*& here = source[component.position];
-        if (here != nullptr && here != caps[c].ref.source) mixed[component.position] = 1;
-        here = caps[c].ref.source;
+        CapPlane& plane = planes[component.position];
+        plane.mixed = plane.mixed || caps[c].ref.source != caps[std::min(plane.any, c)].ref.source;
+        plane.any = c;
         if (!component.whole) {
-            std::size_t& named = first[component.position];
-            named = std::min(named, c);
-            if (are_of_one_face(caps[named].ref, caps[c].ref)) continue;
-            several[component.position] = 1;
-            if (caps[named].ref.facet > caps[c].ref.facet) mixed[component.position] = 1;
+            plane.first = std::min(plane.first, c);
+            const PolygonRef& first = caps[plane.first].ref;
+            plane.several = plane.several || !are_of_one_face(first, caps[c].ref);
+            plane.mixed = plane.mixed || first.facet > caps[c].ref.facet;
             continue;
         }
         PolygonRef ref = caps[c].ref;
         ref.flipped = (component.bounds > 0) != facets_.faces_up(ref);
         out_.push_back(ref);
     }
-    std::vector<std::int32_t> faces(2 * first.size(), -1);
+    std::vector<std::int32_t> faces(2 * planes.size(), -1);
     for (const CapEdge& c : cap_edges_) {
         if (c.component >= 0 && components_[c.component].whole) continue;
         std::int32_t& face = faces[c.edge.face];
         if (face < 0) {
-            TRISECT_EXPECTS(first[c.edge.face / 2] != none,
-                            "an outline where all components are whole");
-            const PolygonRef& ref = caps[first[c.edge.face / 2]].ref;
+            const std::size_t first = planes[c.edge.face / 2].first;
+            TRISECT_EXPECTS(first != CapPlane::none, "an outline where all components are whole");
+            const PolygonRef& ref = caps[first].ref;
             const bool up = c.edge.face % 2 == 1;
             face = static_cast<std::int32_t>(outlines_.faces.size());
             outlines_.faces.push_back({ref.source, ref.facet, up != facets_.faces_up(ref)});
@@ -556,15 +560,15 @@ void PrismArrangement::finish_caps() {
         outlines_.edges.push_back(c.edge);
         outlines_.edges.back().face = static_cast<std::uint32_t>(face);
     }
-    for (std::size_t position = 0; position < first.size(); ++position) {
-        const bool is_outlined = faces[2 * position] >= 0 || faces[2 * position + 1] >= 0;
-        if (several[position] == 0 || !is_outlined) continue;
-        if (mixed[position] != 0) {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const bool is_outlined = faces[2 * i] >= 0 || faces[2 * i + 1] >= 0;
+        if (!planes[i].several || !is_outlined) continue;
+        const PolygonRef& ref = caps[planes[i].first].ref;
+        if (planes[i].mixed) {
             outlines_.names_hold_everywhere = false;
-            continue;
+        } else {
+            outlines_.first_facets.push_back({ref.source, ref.facet, false});
         }
-        const PolygonRef& ref = caps[first[position]].ref;
-        outlines_.first_facets.push_back({ref.source, ref.facet, false});
     }
 }
 
