@@ -358,12 +358,9 @@ constexpr std::size_t slabs = 51;
 
 /// The bunny between planes of equal distances; the first and the last part are slabs as well.
 Scene slabs_scene(const std::string& scene, const std::vector<std::string>& words) {
-    bool boxes = false;
-    bool oblique = false;
-    for (std::size_t i = 2; i < words.size(); ++i) {
-        if (words[i] != "boxes" && words[i] != "oblique") unknown(scene);
-        (words[i] == "boxes" ? boxes : oblique) = true;
-    }
+    const bool boxes = words.size() == 3 && words[2] == "boxes";
+    const bool oblique = words.size() == 3 && words[2] == "oblique";
+    if (words.size() > 2 && !boxes && !oblique) unknown(scene);
     Scene s;
     s.operands = {model("large/bunny100k.obj")};
     s.operations = {Operation::Intersection};
@@ -393,17 +390,8 @@ Scene slabs_scene(const std::string& scene, const std::vector<std::string>& word
         };
         return s;
     }
-    s.step = [at, normal, oblique](std::size_t i) {
-        const double square = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        PolygonMesh box = shapes::block({-1, -1, at(i)}, {1, 1, at(i + 1)});
-        if (oblique) {
-            // Across (1, 2, 3): (3, 0, -1) and their product.
-            for (Point3d& p : box.points)
-                p = {p[2] / square + 0.3 * p[0] - 0.2 * p[1], 2 * p[2] / square + p[1],
-                     3 * p[2] / square - 0.1 * p[0] - 0.6 * p[1]};
-        }
-        std::vector<PolygonMesh> tool{std::move(box)};
-        return Step{Operation::Intersection, std::move(tool[0]), {}};
+    s.step = [at](std::size_t i) {
+        return Step{Operation::Intersection, shapes::block({-1, -1, at(i)}, {1, 1, at(i + 1)}), {}};
     };
     return s;
 }
@@ -439,7 +427,7 @@ Scene bores_scene(int n) {
 
 Scene following_scene(const std::string& scene, const std::vector<std::string>& words) {
     if (words[1] == "slabs") return slabs_scene(scene, words);
-    if (words[1] != "bores" || words.size() > 3) unknown(scene);
+    if (words[1] != "bores") unknown(scene);
     if (words.size() == 2) return bores_scene(20);
     if (words[2] == "10k") return bores_scene(100);
     unknown(scene);
@@ -448,9 +436,8 @@ Scene following_scene(const std::string& scene, const std::vector<std::string>& 
 Scene scene_of(const std::string& name) {
     const std::vector<std::string> words = words_of(name);
     if (words[0] == "cliff") return cliff_scene(words);
-    if (words.size() < 2 || words.size() > 4) unknown(name);
+    if (words.size() < 2 || words.size() > 3) unknown(name);
     if (words[0] == "i") return following_scene(name, words);
-    if (words.size() > 3) unknown(name);
     if (words[0] == "c") return small_cut_scene(name, words);
     if (words[0] == "e") return milling_scene(name, words);
     if (words.size() > 2) unknown(name);

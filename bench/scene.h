@@ -75,7 +75,7 @@ struct Scene {
 ///     f:touch f:overlap             10³ cubes that touch in faces, or overlap with coplanar faces
 ///     i:slabs i:slabs:oblique       51 slabs of the bunny of 100k triangles, each between two
 ///                                   half-spaces; across z, or across (1,2,3)
-///     i:slabs:boxes                 the same slabs across z, by wide boxes; i:slabs:boxes:oblique
+///     i:slabs:boxes                 the same slabs across z, by wide boxes
 ///     i:bores i:bores:10k           a plate less 400 bores of 32 sides, turned each; or 10,000
 ///     g:x g:y g:z                   as b:82k, but moved along an axis: edges meet edges;
 ///                                   g:general is b:82k

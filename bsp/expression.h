@@ -117,9 +117,10 @@ struct EvaluateReport {
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
-/// Of two large meshes, and of prisms along one axis, only what a mesh of the result needs is found
-/// out; the first call that needs its cells (a query, to_brep(), another operation) divides space
-/// then, which takes up to twice as long as this call. Solid::refine() does so ahead.
+/// Of two large meshes, of a mesh between parallel half-spaces, and of prisms along one axis, only
+/// what a mesh of the result needs is found out; the first call that needs its cells (a query,
+/// another operation) divides space then, which may take longer than this call. Solid::refine()
+/// does so ahead.
 /// Operands of different lattices are moved to the finest one on which all of them fit. That is
 /// exact, except for operands of very different size: see EvaluateOptions::lattices and
 /// EvaluateReport::lattice. Counts in EvaluateCounters.
