@@ -36,7 +36,7 @@ Whole whole(const LatticePoint& p) {
 Whole operator-(const Whole& a, const Whole& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 Normal cross(const Whole& u, const Whole& v) {
-    Normal n;
+    Normal n{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
@@ -58,8 +58,8 @@ std::array<int, 3> signs_of(const Normal& n) {
 }
 
 struct Facet {
-    std::array<Whole, 3> corners;
-    Normal normal;
+    std::array<Whole, 3> corners{};
+    Normal normal{};
 
     explicit Facet(const FacetCorners& points) {
         for (std::size_t i = 0; i < 3; ++i) corners[i] = whole(*points[i]);
@@ -241,7 +241,7 @@ Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) 
     const std::array<Facet, 2> facets{Facet(first), Facet(second)};
     Overlap out = Overlap::Insides;
     std::size_t axis = 0;
-    while (facets[0].normal[axis] == 0) ++axis;
+    while (axis < 2 && facets[0].normal[axis] == 0) ++axis;
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     for (std::size_t side = 0; side < 2; ++side) {
