@@ -10,6 +10,7 @@
 
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/triangle_view.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/kernel/lattice.h>
 
@@ -78,5 +79,8 @@ struct ImportedMesh {
 /// leave the lattice, InvalidSolid as the options say, UnsupportedError for a face that Refit
 /// cannot make planar.
 [[nodiscard]] ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options = {});
+/// The same. Nothing is copied before it is rounded and connected where all sides cancel by name.
+/// \throw as above, and LimitError for more than 2^32 - 1 corners
+[[nodiscard]] ImportedMesh import_mesh(const TriangleView& mesh, const ImportOptions& options = {});
 
 }  // namespace trisect

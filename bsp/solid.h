@@ -14,6 +14,7 @@
 #include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/triangle_view.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
 
@@ -81,6 +82,10 @@ public:
     /// \throw InvalidSolid when the mesh is not closed and oriented; Error InvalidSolid when it is
     /// inside out, unless the options accept that.
     [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
+    /// The same of triangles in somebody else's memory: for most meshes nothing is copied before it
+    /// is rounded and connected. \throw as above, LimitError for more than 2^32 - 1 corners
+    [[nodiscard]] static Solid from_triangles(const TriangleView& mesh,
+                                              const SolidOptions& options = {});
     /// Of an exact boundary, to the last bit: one that to_brep() or read_exact() returned. Where
     /// all corners are lattice points it becomes a mesh of triangles; other corners stay what they
     /// are, points that planes have in common, and faces are divided along planes of their

@@ -22,6 +22,7 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/brep/transform.h>
+#include <trisect/brep/triangle_view.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/brep/winding_number.h>
 #include <trisect/bsp/brep_index.h>

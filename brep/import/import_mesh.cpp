@@ -213,6 +213,19 @@ private:
     ImportedMesh out_;
 };
 
+// A copy, for the way of all other meshes.
+PolygonMesh polygons_of(const TriangleView& mesh) {
+    constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
+    if (mesh.triangles.size() > limit / 3 || mesh.points.size() > limit)
+        throw LimitError("a mesh of more than 2^32 - 1 corners or points");
+    PolygonMesh copy;
+    copy.points.assign(mesh.points.begin(), mesh.points.end());
+    copy.corners.reserve(3 * mesh.triangles.size());
+    copy.face_begin.reserve(mesh.triangles.size() + 1);
+    for (const auto& t : mesh.triangles) copy.add_triangle(t[0], t[1], t[2]);
+    return copy;
+}
+
 }  // namespace
 
 namespace detail {
@@ -238,6 +251,14 @@ ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options,
 }
 
 }  // namespace detail
+
+ImportedMesh import_mesh(const TriangleView& mesh, const ImportOptions& options) {
+    if (auto imported = detail::import_triangles(mesh, options)) {
+        ++detail::import_counters().triangles;
+        return *std::move(imported);
+    }
+    return import_mesh(polygons_of(mesh), options);
+}
 
 // What only rounding closes is rounded: files whose points repeat with noise in the last bits.
 ImportedMesh import_mesh(const PolygonMesh& mesh, const ImportOptions& options) {

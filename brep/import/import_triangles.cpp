@@ -65,23 +65,41 @@ struct Sharing {
     }
 };
 
-bool is_triangle_mesh(const PolygonMesh& mesh, const Sharing& sharing) {
+// Whether face f begins at corner 3 f.
+bool begins_by_threes(const PolygonMesh& mesh, const Sharing& sharing) {
     const std::vector<std::uint32_t>& begin = mesh.face_begin;
-    const std::size_t n = mesh.points.size();
     if (begin.empty() || mesh.corners.size() != 3 * (begin.size() - 1)) return false;
-    if (begin.size() > (std::size_t{1} << 30) || n >= (std::size_t{1} << 32)) return false;
-    if (begin.back() != mesh.corners.size()) return false;
-    std::atomic<bool> is_one{true};
+    if (begin.size() > (std::size_t{1} << 30) || begin.back() != mesh.corners.size()) return false;
+    std::atomic<bool> is_so{true};
     sharing.parts(begin.size() - 1).for_each([&](std::size_t, std::size_t first, std::size_t end) {
         std::uint32_t wrong = 0;
         for (std::size_t f = first; f < end; ++f)
             wrong |= begin[f] ^ static_cast<std::uint32_t>(3 * f);
-        std::uint32_t largest = 0;
-        for (const std::uint32_t c : std::span(mesh.corners).subspan(3 * first, 3 * (end - first)))
-            largest = std::max(largest, c);
-        if (wrong != 0 || (first != end && largest >= n)) is_one = false;
+        if (wrong != 0) is_so = false;
     });
-    return is_one;
+    return is_so;
+}
+
+bool has_corners_in_range(const TriangleView& mesh, const Sharing& sharing) {
+    const std::size_t n = mesh.points.size();
+    if (mesh.triangles.size() >= (std::size_t{1} << 30) || n >= (std::size_t{1} << 32))
+        return false;
+    std::atomic<bool> is_so{true};
+    sharing.parts(mesh.triangles.size())
+        .for_each([&](std::size_t, std::size_t first, std::size_t end) {
+            std::uint32_t largest = 0;
+            for (const Triangle& t : mesh.triangles.subspan(first, end - first))
+                largest = std::max({largest, t[0], t[1], t[2]});
+            if (first != end && largest >= n) is_so = false;
+        });
+    return is_so;
+}
+
+// The corners three by three, as they lie in memory.
+TriangleView view_of(const PolygonMesh& mesh) {
+    static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+    return {mesh.points,
+            {reinterpret_cast<const Triangle*>(mesh.corners.data()), mesh.face_count()}};
 }
 
 struct CoordinateBox {
@@ -122,7 +140,7 @@ Point3d extents(std::span<const LatticePoint> points, const Sharing& sharing) {
 
 class TriangleImporter {
 public:
-    TriangleImporter(const PolygonMesh& mesh, const ImportOptions& options, Fractions fractions,
+    TriangleImporter(const TriangleView& mesh, const ImportOptions& options, Fractions fractions,
                      const Sharing& sharing)
         : input_(mesh), options_(options), fractions_(fractions), sharing_(sharing) {}
 
@@ -131,7 +149,7 @@ public:
         points() = points_on_lattice(input_.points, options_.lattice, fractions_,
                                      out_.report.lattice, sharing_.threads);
         out_.mesh.lattice = out_.report.lattice.lattice;
-        check_stop(input_.face_count());
+        check_stop(input_.triangles.size());
         const SideBalance sides = connect();
         check_stop();
         if (!sides.cancel) return std::nullopt;
@@ -150,15 +168,15 @@ private:
     SideBalance connect() {
         const std::size_t n = points().size();
         // Where each triangle has points of its own their names say nothing.
-        const bool shared = n <= input_.face_count();
-        const ParallelParts parts = sharing_.parts(input_.face_count());
+        const bool shared = n <= input_.triangles.size();
+        const ParallelParts parts = sharing_.parts(input_.triangles.size());
         if (parts.count() == 1 || !shared) {
             weld();
             look_at_triangles();
             return balance_sides(points().size(), triangles());
         }
         SideBalance sides;
-        both_at_once([&] { sides = balance_sides(n, input_.corners); },
+        both_at_once([&] { sides = balance_sides(n, input_.triangles); },
                      [&] {
                          weld();
                          look_at_triangles();
@@ -170,7 +188,8 @@ private:
 
     void weld() {
         // A closed surface has half as many points as triangles, give or take.
-        names_ = weld_in_place(points(), input_.face_count() / 2 + input_.face_count() / 16);
+        names_ =
+            weld_in_place(points(), input_.triangles.size() / 2 + input_.triangles.size() / 16);
         out_.report.welded_points = input_.points.size() - points().size();
     }
 
@@ -182,7 +201,7 @@ private:
     };
 
     void look_at_triangles() {
-        resize_on_threads(triangles(), input_.face_count(), sharing_.threads);
+        resize_on_threads(triangles(), input_.triangles.size(), sharing_.threads);
         set_bounds();
         const ParallelParts parts = sharing_.parts(triangles().size());
         std::vector<Found> found(parts.count());
@@ -209,13 +228,13 @@ private:
         const LatticePoint* const point = points().data();
         const double clear = clear_;
         const double z0 = points().empty() ? 0 : points()[0].z.to_double();
-        const std::uint32_t* corner = input_.corners.data() + 3 * begin;
+        const Triangle* corners = input_.triangles.data() + begin;
         Triangle* const triangle = triangles().data();
         double sum = 0;
-        for (std::size_t f = begin; f < end; ++f, corner += 3) {
-            const std::uint32_t i = name(corner[0]);
-            const std::uint32_t j = name(corner[1]);
-            const std::uint32_t k = name(corner[2]);
+        for (std::size_t f = begin; f < end; ++f, ++corners) {
+            const std::uint32_t i = name((*corners)[0]);
+            const std::uint32_t j = name((*corners)[1]);
+            const std::uint32_t k = name((*corners)[2]);
             triangle[f] = {i, j, k};
             const Point3d a = point[i].doubles();
             const Point3d b = point[j].doubles();
@@ -260,7 +279,8 @@ private:
 
     [[nodiscard]] bool rounding_flips(std::uint32_t f) const {
         return is_flipped(
-            input_.face(f), [&](std::uint32_t c) { return input_.points[c]; },
+            std::span<const std::uint32_t>(input_.triangles[f]),
+            [&](std::uint32_t c) { return input_.points[c]; },
             [&](std::uint32_t c) {
                 return out_.mesh.points[names_.empty() ? c : names_[c]].doubles();
             });
@@ -307,7 +327,7 @@ private:
         for (Triangle& t : triangles()) t = {name[t[0]], name[t[1]], name[t[2]]};
     }
 
-    const PolygonMesh& input_;
+    TriangleView input_;
     const ImportOptions& options_;
     Fractions fractions_;
     Sharing sharing_;
@@ -323,15 +343,37 @@ private:
 
 }  // namespace
 
+namespace {
+
+// How many of the threads that are wanted are worth it.
+std::uint32_t threads_for(std::size_t size, std::uint32_t wanted, std::size_t least_part) {
+    return size < 2 * least_part ? 1 : wanted;
+}
+
+}  // namespace
+
 std::optional<ImportedMesh> import_triangles(const PolygonMesh& mesh, const ImportOptions& options,
                                              Fractions fractions, std::size_t least_part) {
-    const bool small = std::max(mesh.points.size(), mesh.face_count()) < 2 * least_part;
-    const std::uint32_t wanted = small ? 1 : options.threads;
-    return on_threads(wanted, [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
-        const Sharing sharing{threads, least_part};
-        if (!is_triangle_mesh(mesh, sharing)) return std::nullopt;
-        return TriangleImporter(mesh, options, fractions, sharing).run();
-    });
+    const std::size_t size = std::max(mesh.points.size(), mesh.face_count());
+    return on_threads(threads_for(size, options.threads, least_part),
+                      [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
+                          const Sharing sharing{threads, least_part};
+                          if (!begins_by_threes(mesh, sharing)) return std::nullopt;
+                          const TriangleView view = view_of(mesh);
+                          if (!has_corners_in_range(view, sharing)) return std::nullopt;
+                          return TriangleImporter(view, options, fractions, sharing).run();
+                      });
+}
+
+std::optional<ImportedMesh> import_triangles(const TriangleView& mesh, const ImportOptions& options,
+                                             Fractions fractions, std::size_t least_part) {
+    const std::size_t size = std::max(mesh.points.size(), mesh.triangles.size());
+    return on_threads(threads_for(size, options.threads, least_part),
+                      [&](std::uint32_t threads) -> std::optional<ImportedMesh> {
+                          const Sharing sharing{threads, least_part};
+                          if (!has_corners_in_range(mesh, sharing)) return std::nullopt;
+                          return TriangleImporter(mesh, options, fractions, sharing).run();
+                      });
 }
 
 }  // namespace trisect::detail

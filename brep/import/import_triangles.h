@@ -21,6 +21,11 @@ namespace trisect::detail {
                                                            const ImportOptions& options,
                                                            Fractions fractions = Fractions::Kept,
                                                            std::size_t least_part = 16384);
+/// The same for triangles in somebody else's memory.
+[[nodiscard]] std::optional<ImportedMesh> import_triangles(const TriangleView& mesh,
+                                                           const ImportOptions& options,
+                                                           Fractions fractions = Fractions::Kept,
+                                                           std::size_t least_part = 16384);
 
 /// The general path: for every mesh.
 /// \throw as import_mesh.

@@ -154,6 +154,13 @@ Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {
                      import.threads);
 }
 
+Solid Solid::from_triangles(const TriangleView& mesh, const SolidOptions& options) {
+    ImportOptions import = options.import;
+    import.require_closed = true;
+    return of_import(import_mesh(mesh, import), options.embedding, options.inside_out,
+                     import.threads);
+}
+
 Solid Solid::from_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out) {
     return of_import(std::move(imported), embedding, inside_out, 1);
 }
