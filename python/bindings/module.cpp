@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bind.h"
+
+PYBIND11_MODULE(_trisect, m) {
+    using namespace trisect::python;
+    m.doc() = "Exact solid modelling: the compiled part of the package trisect.";
+    m.attr("__version__") = TRISECT_VERSION;
+    // Signatures with C++ types in them say nothing to a Python user; the docstrings have their
+    // own.
+    pybind11::options options;
+    options.disable_function_signatures();
+    bind_errors(m);
+    bind_limits(m);
+    bind_check(m);
+    bind_pose(m);
+    bind_solid_type(m);
+    bind_formula(m);
+    bind_measures(m);
+    bind_transforms(m);
+    bind_primitives(m);
+    bind_files(m);
+    bind_queries(m);
+    bind_interference(m);
+    bind_motion(m);
+    bind_scene(m);
+    bind_verify(m);
+}

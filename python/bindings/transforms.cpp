@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Moved solids, and solids in two parts.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include <trisect/brep/transform.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid_transform.h>
+
+#include "arrays.h"
+#include "bind.h"
+#include "poses.h"
+#include "run.h"
+#include "solids.h"
+
+namespace trisect::python {
+
+namespace {
+
+int axis_of(const py::object& axis) {
+    if (py::isinstance<py::str>(axis)) {
+        const auto word = axis.cast<std::string>();
+        if (word == "x" || word == "y" || word == "z") return word[0] - 'x';
+    } else if (py::isinstance<py::int_>(axis)) {
+        const auto number = axis.cast<long>();
+        if (number >= 0 && number <= 2) return static_cast<int>(number);
+    }
+    throw UsageError("axis: must be 'x', 'y' or 'z'");
+}
+
+Point3d direction_of(const py::object& axis) {
+    if (!py::isinstance<py::str>(axis)) return point_of(axis, "axis");
+    Point3d direction{};
+    direction[static_cast<std::size_t>(axis_of(axis))] = 1;
+    return direction;
+}
+
+Solid moved(const Solid& s, const AffineMap& map) {
+    return run([&] { return transformed(s, map); });
+}
+
+void bind_rounding(py::module_& m) {
+    py::class_<LatticeReport>(m, "Rounding", "What a transform rounded.")
+        .def_readonly("lossless", &LatticeReport::lossless, "Whether nothing moved.")
+        .def_readonly("moved", &LatticeReport::moved, "Vertices with a rounded coordinate.")
+        .def_readonly("max_move", &LatticeReport::max_move, "The largest change of a coordinate.")
+        .def_readonly("flipped_faces", &LatticeReport::flipped_faces,
+                      "Faces that were turned over or became flat.")
+        .def("__repr__", [](const LatticeReport& r) {
+            if (r.lossless) return std::string("<Rounding: none>");
+            return "<Rounding: " + std::to_string(r.moved) + " vertices moved>";
+        });
+}
+
+void bind_maps(py::class_<Solid>& c) {
+    c.def(
+        "translate",
+        [](const Solid& s, const py::object& by) {
+            return moved(s, AffineMap::translation(point_of(by, "by")));
+        },
+        py::arg("by"), R"(The solid moved by a vector.
+
+Exact where the vector is a multiple of the unit of coordinates or the unit can become finer;
+otherwise the vector as a whole is rounded, by less than half a unit.
+)");
+    c.def(
+        "rotate",
+        [](const Solid& s, const py::object& axis, double degrees) {
+            return moved(s, AffineMap::rotation(direction_of(axis), degrees));
+        },
+        py::arg("axis"), py::arg("degrees"), R"(The solid turned about an axis through the origin.
+
+Quarter turns about coordinate axes are exact; otherwise each vertex is rounded once.
+
+Parameters
+----------
+axis : {'x', 'y', 'z'} or array_like, shape (3,)
+degrees : float
+    Counter-clockwise seen from the tip of the axis.
+)");
+    c.def(
+        "scale",
+        [](const Solid& s, const py::object& factor) {
+            const bool is_number =
+                py::isinstance<py::float_>(factor) || py::isinstance<py::int_>(factor);
+            Point3d factors{};
+            if (is_number) {
+                factors.fill(factor.cast<double>());
+            } else {
+                factors = point_of(factor, "factor");
+            }
+            return moved(s, AffineMap::scaling(factors));
+        },
+        py::arg("factor"), R"(The solid scaled from the origin.
+
+Parameters
+----------
+factor : float or array_like, shape (3,)
+)");
+    c.def(
+        "mirror",
+        [](const Solid& s, const py::object& axis) {
+            return moved(s, AffineMap::mirror(axis_of(axis)));
+        },
+        py::arg("axis"),
+        "The solid mirrored in the coordinate plane perpendicular to 'x', 'y' or 'z'. Exact.");
+    c.def(
+        "transform",
+        [](const Solid& s, const py::object& map, bool report) -> py::object {
+            LatticeReport rounding;
+            Solid result = py::isinstance<Pose>(map) ? run([&, &pose = map.cast<const Pose&>()] {
+                return transformed(s, pose, &rounding);
+            })
+                                                     : run([&, m = affine_map_of(map, "map")] {
+                                                           return transformed(s, m, &rounding);
+                                                       });
+            if (!report) return py::cast(std::move(result));
+            return py::make_tuple(std::move(result), rounding);
+        },
+        py::arg("map"), py::kw_only(), py::arg("report") = false,
+        R"(The solid under an affine map.
+
+Maps that keep the lattice (quarter turns, mirrors, translations by its unit) are exact; of
+others each vertex is rounded once. To compare moving solids use `interfere` with poses: there
+nothing is rounded.
+
+Parameters
+----------
+map : Pose or array_like, shape (3, 3), (3, 4) or (4, 4)
+report : bool
+    Also return what was rounded, a `Rounding`.
+
+Raises
+------
+UsageError
+    For a singular matrix.
+)");
+}
+
+// The parts of a solid inside and outside of another set.
+std::pair<Solid, Solid> parts(const Solid& s, const Solid& cutter) {
+    return {evaluated(s & cutter), evaluated(s - cutter)};
+}
+
+void bind_split(py::class_<Solid>& c) {
+    c.def(
+        "split",
+        [](const Solid& s, const py::object& cutter) {
+            if (py::isinstance<Solid>(cutter)) return parts(s, cutter.cast<const Solid&>());
+            const std::vector<double> v = numbers_of(cutter, 4, "cutter");
+            return parts(s, Solid::half_space({v[0], v[1], v[2], v[3]}));
+        },
+        py::arg("cutter"), R"(Two parts: inside and outside of a solid, or below and above a plane.
+
+Parameters
+----------
+cutter : Solid or array_like, shape (4,)
+    Coefficients of the plane a x + b y + c z + d = 0; below is where this is negative.
+
+Returns
+-------
+tuple of Solid
+    Their union is this solid and they share no volume.
+)");
+}
+
+}  // namespace
+
+void bind_transforms(py::module_& m) {
+    bind_rounding(m);
+    py::class_<Solid> c = solid_class(m);
+    bind_maps(c);
+    bind_split(c);
+}
+
+}  // namespace trisect::python
